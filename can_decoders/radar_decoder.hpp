@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "can_decoders/can_frame.hpp"
+#include "can_decoders/detection.hpp"
+
+namespace cremed {
+
+using Payload = std::array<std::uint8_t, 8>;
+
+/// What one frame adds to a scan. A target always comes as two messages (ARS408: general and
+/// quality; GPR: A and B); they are kept as bytes and become a Detection when both are there.
+struct ScanPart {
+  enum class Kind : std::uint8_t {
+    none,    ///< The frame is not part of a scan: another id, a state report, or rejected.
+    header,  ///< A new scan begins: `counter` and `target_count` are set.
+    first,   ///< First message of target `slot`.
+    second,  ///< Second message of target `slot`.
+  };
+  Kind kind = Kind::none;
+  std::uint8_t slot = 0;
+  std::uint16_t counter = 0;
+  std::uint16_t target_count = 0;
+  std::int64_t stamp_us = 0;
+  Payload payload{};
+};
+
+/// Both messages of one target.
+struct TargetPayload {
+  Payload first{};
+  Payload second{};
+};
+
+/// How a radar family frames its scans.
+struct ScanFraming {
+  bool has_header = true;              ///< false: every part carries the counter instead.
+  std::uint32_t counter_modulus = 65536;
+  std::uint16_t slot_count = 256;      ///< Without header: targets in every scan.
+};
+
+/// Why frames did not become parts of a scan. Frames of other ids are not counted here.
+struct DecoderCounters {
+  std::uint64_t frames = 0;            ///< Frames with an id of this radar.
+  std::uint64_t state_frames = 0;      ///< Well-formed frames that report state, not targets.
+  std::uint64_t wrong_length = 0;      ///< Shorter than the message needs.
+  std::uint64_t wrong_kind = 0;        ///< Remote, FD frame on one of this radar's ids.
+  std::uint64_t wrong_mode = 0;        ///< Cluster frames for an object radar or the reverse.
+  std::uint64_t wrong_slot = 0;        ///< Target number or A/B flag contradicts the identifier.
+  std::uint64_t crc_errors = 0;        ///< Wrong checksum, counted under policies count and enforce.
+  std::uint64_t counter_errors = 0;    ///< A message's own rolling counter skipped or repeated.
+};
+
+/// Turns the frames of one radar into parts of scans. Never throws, allocates or reads past the
+/// frame's length; bad input is counted.
+class RadarDecoder {
+ public:
+  virtual ~RadarDecoder() = default;
+
+  /// What the frame adds to a scan; Kind::none for everything else.
+  virtual ScanPart decode(const CanFrame& frame) = 0;
+
+  /// The target that two messages of this radar describe.
+  [[nodiscard]] virtual Detection detection(const TargetPayload& target) const = 0;
+
+  [[nodiscard]] virtual ScanFraming framing() const = 0;
+  [[nodiscard]] const DecoderCounters& counters() const { return counters_; }
+
+ protected:
+  RadarDecoder() = default;
+  RadarDecoder(const RadarDecoder&) = default;
+  RadarDecoder& operator=(const RadarDecoder&) = default;
+
+  DecoderCounters counters_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "can_decoders/ars408.hpp"
+#include "can_decoders/bosch_gpr.hpp"
+#include "estimator/ego_motion_options.hpp"
+
+namespace cremed {
+
+/// One [[radar]] table.
+struct RadarConfiguration {
+  std::string name;            ///< Unique; letters, digits, '_' and '-', at most 15 characters.
+  std::string interface;       ///< CAN interface as in the log or on the computer, e.g. "can0".
+  std::variant<Ars408Options, BoschGprOptions> decoder;
+  double scan_timeout_s = 0.05;  ///< An open scan with no new part for this long is closed.
+  EgoMotionOptions ego_motion;
+};
+
+struct OutputConfiguration {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  ///< "none": no LCM.
+  std::string csv;             ///< Path of the odometry CSV; empty: none.
+  std::string tum;             ///< Path of the trajectory; empty: none. One radar: see tum_source.
+  std::string tum_source;      ///< Radar whose motion the trajectory follows; empty: the first.
+  bool publish_scans = false;  ///< radar_scan_t on CREMED_SCAN_<RADAR>.
+};
+
+struct LoggingConfiguration {
+  std::string level = "info";  ///< trace, debug, info, warn, error, off.
+};
+
+/// All of one TOML file, validated.
+struct Configuration {
+  std::vector<RadarConfiguration> radars;
+  OutputConfiguration output;
+  LoggingConfiguration logging;
+};
+
+/// what(): "file:line: key: what is wrong, and what would be right".
+class ConfigurationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Parses and validates everything before anything is opened. `file_name` is for messages only.
+Configuration parse_configuration(std::string_view toml, const std::string& file_name);
+
+/// Reads and parses a file; a file that cannot be read is a ConfigurationError too.
+Configuration load_configuration(const std::string& path);
+
+}  // namespace cremed

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "estimator/pose2.hpp"
+#include "estimator/registration_options.hpp"
+
+namespace cremed {
+
+/// Which detections of a radar are used at all; bounds inclusive, in the radar's frame.
+struct DetectionLimits {
+  double min_range_m = 0.2;
+  double max_range_m = 300.0;
+  double max_abs_azimuth_rad = 3.1415926535897932;
+  double min_rcs_dbm2 = -100.0;
+};
+
+/// Settings of one radar's ego-motion.
+struct EgoMotionOptions {
+  Pose2 vehicle_from_radar;          ///< Mount: pose of the radar in the vehicle frame (rear axle).
+  DetectionLimits limits;
+  RegistrationOptions registration;
+  int min_targets = 5;               ///< Fewer usable targets in a scan: too_few_targets.
+  double max_gap_s = 0.5;            ///< Longer time between two scans: gap_too_long.
+  double standstill_mps = 0.1;       ///< Median |Doppler| at or below it: may be standing still.
+  double max_speed_mps = 70.0;       ///< Faster estimates are implausible: no_convergence.
+};
+
+}  // namespace cremed

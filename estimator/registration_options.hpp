@@ -7,20 +7,20 @@ namespace cremed {
 /// Conic ray of Gaussians along the sensor's axis (Sola 2007) that explains targets which were not
 /// in the previous scan.
 struct OutlierRayOptions {
-  double weight = 0.5;               ///< w_o: total weight in the mixture, 0 (no ray) .. < 1.
-  double min_range_m = 0.5;          ///< r_min
-  double max_range_m = 50.0;         ///< r_max
-  double ratio = 0.7;                ///< a: standard deviation over range of a component, 0 < a < 1.
-  double growth = 1.8;               ///< b: range of a component over that of the one before, > 1.
+  double weight = 0.5;        ///< w_o: total weight in the mixture, 0 (no ray) .. < 1.
+  double min_range_m = 0.5;   ///< r_min
+  double max_range_m = 50.0;  ///< r_max
+  double ratio = 0.7;         ///< a: standard deviation over range of a component, 0 < a < 1.
+  double growth = 1.8;        ///< b: range of a component over that of the one before, > 1.
   double field_of_view_rad = 1.3962634015954636;  ///< Full opening angle; 80 deg.
 };
 
 /// How Doppler enters.
 struct DopplerOptions {
   bool enabled = true;
-  double stamp_std_s = 0.005;        ///< s_dt: standard deviation of the time between two scans.
-  double moving_weight = 0.05;       ///< Weight of the component for moving targets, 0..1.
-  double moving_std_mps = 100.0;     ///< Its standard deviation.
+  double stamp_std_s = 0.005;     ///< s_dt: standard deviation of the time between two scans.
+  double moving_weight = 0.05;    ///< Weight of the component for moving targets, 0..1.
+  double moving_std_mps = 100.0;  ///< Its standard deviation.
 };
 
 /// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
@@ -29,7 +29,7 @@ struct RegistrationOptions {
   double start_scale = 5.0;          ///< Factor on standard deviations in the first stage; 1: none.
   double start_doppler_scale = 2.0;  ///< Further factor on the Doppler ones in the first stage.
   int max_start_iterations = 5;      ///< Gauss-Newton steps of the first stage.
-  int max_iterations = 50;           ///< Gauss-Newton steps of the second stage.
+  int max_iterations = 100;          ///< Gauss-Newton steps of the second stage.
   OutlierRayOptions outlier_ray;
   DopplerOptions doppler;
 };

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/ego_motion_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cremed {
+
+std::string_view to_string(MotionStatus status) {
+  static constexpr std::array<std::string_view, kMotionStatusCount> kNames{
+      "ok",           "standing_still",  "no_reference", "incomplete_scan",
+      "gap_too_long", "too_few_targets", "degenerate",   "no_convergence",
+      "non_finite",   "implausible"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+EgoMotionEstimator::EgoMotionEstimator(const EgoMotionOptions& options)
+    : options_(options), registration_(options.registration, options.vehicle_from_radar) {}
+
+EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
+  EgoMotion motion;
+  motion.utime_us = scan.stamp_us;
+  motion.utime_start_us = has_reference_ ? reference_stamp_us_ : scan.stamp_us;
+  motion.status = check(scan);
+  motion.targets = static_cast<int>(targets_.size());
+  if (motion.status != MotionStatus::ok) {
+    return motion;
+  }
+  const double dt_s = static_cast<double>(scan.stamp_us - reference_stamp_us_) * 1e-6;
+  if (!has_reference_) {
+    motion.status = MotionStatus::no_reference;
+  } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {
+    motion.status = MotionStatus::gap_too_long;
+  } else {
+    motion.status = solve(dt_s, motion);
+  }
+  registration_.set_previous(targets_);
+  reference_stamp_us_ = scan.stamp_us;
+  has_reference_ = true;
+  return motion;
+}
+
+/// Selects the targets; ok if the scan can be one end of an estimate.
+MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
+  targets_.clear();
+  if (scan.status != ScanStatus::complete) {
+    return MotionStatus::incomplete_scan;
+  }
+  targets_.assign(scan, options_.vehicle_from_radar, options_.limits, selection_);
+  if (!targets_.is_finite()) {
+    return MotionStatus::non_finite;
+  }
+  // A mixture needs at least one component, whatever the options say.
+  const int needed = std::max(options_.min_targets, 1);
+  return static_cast<int>(targets_.size()) < needed ? MotionStatus::too_few_targets
+                                                    : MotionStatus::ok;
+}
+
+MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
+  const RegistrationResult result = registration_.solve(targets_, dt_s);
+  motion.iterations = result.iterations;
+  const MotionStatus status = judge(result, dt_s);
+  if (status == MotionStatus::ok || status == MotionStatus::standing_still) {
+    motion.motion = result.motion;
+    motion.covariance = result.covariance;
+  }
+  return status;
+}
+
+MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double dt_s) {
+  switch (result.status) {
+    case RegistrationStatus::converged:
+      break;
+    case RegistrationStatus::degenerate:
+      return MotionStatus::degenerate;
+    case RegistrationStatus::no_convergence:
+      return MotionStatus::no_convergence;
+    case RegistrationStatus::non_finite:
+      return MotionStatus::non_finite;
+  }
+  if (!result.motion.allFinite() || !result.covariance.allFinite()) {
+    return MotionStatus::non_finite;
+  }
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  if (sigma.head<2>().maxCoeff() > options_.max_std_m || sigma.z() > options_.max_std_rad) {
+    return MotionStatus::degenerate;
+  }
+  if (result.motion.head<2>().norm() > options_.max_speed_mps * dt_s ||
+      std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
+    return MotionStatus::implausible;
+  }
+  const bool stands = median_abs_doppler_mps() <= options_.standstill_mps &&
+                      std::abs(result.motion.z()) <= 3.0 * sigma.z();
+  return stands ? MotionStatus::standing_still : MotionStatus::ok;
+}
+
+double EgoMotionEstimator::median_abs_doppler_mps() {
+  const auto count = static_cast<std::ptrdiff_t>(targets_.size());
+  std::transform(targets_.begin(), targets_.end(), abs_doppler_mps_.begin(),
+                 [](const Target& target) { return std::abs(target.doppler_mps); });
+  const auto middle = abs_doppler_mps_.begin() + count / 2;
+  std::nth_element(abs_doppler_mps_.begin(), middle, abs_doppler_mps_.begin() + count);
+  return *middle;
+}
+
+}  // namespace cremed

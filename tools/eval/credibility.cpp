@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/credibility.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+namespace cremed {
+namespace {
+
+double mean(double sum, std::size_t count) {
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
+                      const Eigen::Vector3d& truth) {
+  Eigen::Vector3d error = estimate - truth;
+  error.z() = std::remainder(error.z(), 2.0 * std::numbers::pi);
+  ++count_;
+  squared_position_m2_ += error.head<2>().squaredNorm();
+  squared_yaw_rad2_ += error.z() * error.z();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_estimated(axis)) {
+      continue;
+    }
+    const double normalised = error(axis) / std::sqrt(covariance(axis, axis));
+    const auto index = static_cast<std::size_t>(axis);
+    normalised_sum_[index] += normalised;
+    for (std::size_t k = 0; k < 3; ++k) {
+      within_[index][k] += std::abs(normalised) <= static_cast<double>(k + 1) ? 1U : 0U;
+    }
+  }
+  if (degrees_of_freedom_ == 3) {
+    nees_ += error.dot(covariance.ldlt().solve(error)) / 3.0;
+  } else {
+    const std::array<Eigen::Index, 2> states{0, 2};
+    const Eigen::Vector2d free_error = error(states);
+    const Eigen::Matrix2d free_covariance = covariance(states, states);
+    nees_ += free_error.dot(free_covariance.ldlt().solve(free_error)) / 2.0;
+  }
+}
+
+double Credibility::rmse_m() const { return std::sqrt(mean(squared_position_m2_, count_)); }
+
+double Credibility::rmse_deg() const {
+  return std::sqrt(mean(squared_yaw_rad2_, count_)) * 180.0 / std::numbers::pi;
+}
+
+double Credibility::anees() const { return mean(nees_, count_); }
+
+double Credibility::coverage(int axis, int sigmas) const {
+  if (!is_estimated(axis)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return mean(
+      static_cast<double>(
+          within_.at(static_cast<std::size_t>(axis)).at(static_cast<std::size_t>(sigmas - 1))),
+      count_);
+}
+
+double Credibility::normalised_bias(int axis) const {
+  return mean(normalised_sum_.at(static_cast<std::size_t>(axis)), count_);
+}
+
+std::string to_line(const Credibility& credibility) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%zu %.5f %.5f %.4f", credibility.count(),
+                credibility.rmse_m(), credibility.rmse_deg(), credibility.anees());
+  std::string line = text.data();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int sigmas = 1; sigmas <= 3; ++sigmas) {
+      std::snprintf(text.data(), text.size(), " %.3f", credibility.coverage(axis, sigmas));
+      line += text.data();
+    }
+  }
+  return line;
+}
+
+}  // namespace cremed

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/profile.hpp"
+
+namespace cremed {
+
+std::optional<RegistrationOptions> profile(std::string_view name, bool doppler) {
+  RegistrationOptions options;
+  options.doppler.enabled = doppler;
+  if (name == "psr") {
+    options.degrees_of_freedom = 3;
+    options.outlier_ray.weight = 0.0;
+    options.start_scale = 1.0;
+    return options;
+  }
+  if (name == "sim") {
+    options.outlier_ray.weight = 0.2;
+    options.start_scale = 6.0;
+    options.start_doppler_scale = 1.0;
+    options.doppler.stamp_std_s = 0.0;
+    return options;
+  }
+  if (name == "nuscenes") {
+    return options;  // the defaults are the paper's settings for the ARS408
+  }
+  return std::nullopt;
+}
+
+}  // namespace cremed

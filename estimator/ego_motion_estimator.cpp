@@ -86,12 +86,16 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
   if (sigma.head<2>().maxCoeff() > options_.max_std_m || sigma.z() > options_.max_std_rad) {
     return MotionStatus::degenerate;
   }
-  if (result.motion.head<2>().norm() > options_.max_speed_mps * dt_s ||
+  const double speed_mps = result.motion.head<2>().norm() / dt_s;
+  if (speed_mps > options_.max_speed_mps ||
       std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
     return MotionStatus::implausible;
   }
-  const bool stands = median_abs_doppler_mps() <= options_.standstill_mps &&
-                      std::abs(result.motion.z()) <= 3.0 * sigma.z();
+  // Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
+  // none while the vehicle moves.
+  const bool stands = speed_mps <= options_.standstill_mps &&
+                      std::abs(result.motion.z()) <= 3.0 * sigma.z() &&
+                      median_abs_doppler_mps() <= options_.standstill_mps;
   return stands ? MotionStatus::standing_still : MotionStatus::ok;
 }
 

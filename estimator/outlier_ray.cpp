@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/outlier_ray.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cremed {
@@ -11,7 +10,9 @@ std::size_t ray_component_count(const OutlierRayOptions& options) {
   const double a = options.ratio;
   const double span = (1.0 - a) / (1.0 + a) * options.max_range_m / options.min_range_m;
   const double count = 1.0 + std::ceil(std::log(span) / std::log(options.growth));
-  return static_cast<std::size_t>(std::clamp(count, 1.0, static_cast<double>(kMaxRayComponents)));
+  // fmax, unlike clamp, also ends NaN: the logarithm of impossible options.
+  return static_cast<std::size_t>(
+      std::fmin(std::fmax(count, 1.0), static_cast<double>(kMaxRayComponents)));
 }
 
 OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_from_radar) {

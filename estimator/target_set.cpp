@@ -82,7 +82,8 @@ void TargetSet::add(const Detection& detection, const Pose2& vehicle_from_radar)
 void TargetSet::assign(const RadarScan& scan, const Pose2& vehicle_from_radar,
                        const DetectionLimits& limits, SelectionCounters& counters) {
   clear();
-  for (std::size_t i = 0; i < scan.count; ++i) {
+  const std::size_t count = std::min<std::size_t>(scan.count, scan.detections.size());
+  for (std::size_t i = 0; i < count; ++i) {
     if (is_selected(scan.detections[i], limits, counters)) {
       add(scan.detections[i], vehicle_from_radar);
     }

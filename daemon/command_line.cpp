@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/version.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr int kBadUsage = 2;
+
+/// "max" or a factor > 0; throws CLI::ValidationError.
+double parse_speed(const std::string& text) {
+  if (text == "max") {
+    return 0.0;
+  }
+  double factor = 0.0;
+  if (!CLI::detail::lexical_cast(text, factor) || !(factor > 0.0) || factor > 1e6) {
+    throw CLI::ValidationError("--speed", "'" + text + "' is neither max nor a factor > 0");
+  }
+  return factor;
+}
+
+void check(const CommandLine& c) {
+  const long standard_inputs = std::count(c.replay.begin(), c.replay.end(), "-");
+  if (standard_inputs > 1) {
+    throw CLI::ValidationError("--replay", "standard input (-) can be read only once");
+  }
+  if (c.replay.empty() && c.check_config.empty()) {
+    throw CLI::ValidationError(
+        "--replay",
+        "reading a CAN interface directly is not built in yet: give a candump log with --replay, "
+        "or follow a live bus with `candump -L can0 | cremed --replay -`");
+  }
+}
+
+}  // namespace
+
+CommandLineResult parse_command_line(int argc, const char* const* argv) {
+  CommandLine c;
+  std::string speed = "max";
+  CLI::App app{"cremed: radar ego-motion with a covariance that can be believed", "cremed"};
+  app.set_version_flag("--version", "cremed " CREMED_VERSION);
+  app.add_option("--config", c.config,
+                 "Configuration (default: /etc/cremed/cremed.toml, then the installed one)");
+  app.add_option("--check-config", c.check_config, "Check a configuration and exit");
+  app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--speed", speed, "Speed of the replay: max, or a factor of real time")
+      ->capture_default_str();
+  app.add_option("--output-csv", c.output_csv, "Write odometry as CSV");
+  app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
+  app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");
+  app.add_flag("--timing", c.timing,
+               "Measure solve_us in a replay (output is then no longer byte-identical)");
+  try {
+    app.parse(argc, argv);
+    c.speed = parse_speed(speed);
+    check(c);
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? 0 : kBadUsage};
+  }
+  return {c, 0};
+}
+
+}  // namespace cremed

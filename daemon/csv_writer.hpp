@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/odometry_sink.hpp"
+#include "daemon/output_file.hpp"
+
+namespace cremed {
+
+/// Odometry as CSV, one row a scan of each radar; a row without estimate has nan for the motion.
+class CsvWriter final : public OdometrySink {
+ public:
+  static constexpr const char* kHeader =
+      "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
+      "status,targets,iterations,solve_us\n";
+
+  /// `sources`: names of the radars. Throws std::runtime_error if the file cannot be made.
+  CsvWriter(const std::string& path, std::vector<std::string> sources);
+
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
+
+ private:
+  OutputFile file_;
+  std::vector<std::string> sources_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/lcm_publisher.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+/// lcm_create prints a riddle and leaks a descriptor where no route leads to the group, so we look
+/// before. Empty if all is well.
+std::string multicast_problem(const std::string& url) {
+  constexpr std::string_view kScheme = "udpm://";
+  if (!url.starts_with(kScheme)) {
+    return {};
+  }
+  const std::string group =
+      url.substr(kScheme.size(), url.find_first_of(":?", kScheme.size()) - kScheme.size());
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(7667);
+  if (::inet_pton(AF_INET, group.empty() ? "239.255.76.67" : group.c_str(), &address.sin_addr) !=
+      1) {
+    return "'" + group + "' is no IPv4 multicast address";
+  }
+  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) {
+    return std::strerror(errno);
+  }
+  sockaddr generic{};
+  std::memcpy(&generic, &address, sizeof(generic));
+  const int result = ::connect(descriptor, &generic, sizeof(address));
+  const int error = errno;
+  ::close(descriptor);
+  return result == 0 ? std::string() : std::string(std::strerror(error));
+}
+
+lcm_t* create_lcm(const std::string& url) {
+  const std::string problem = multicast_problem(url);
+  if (!problem.empty()) {
+    throw std::runtime_error("LCM at " + url + ": " + problem +
+                             ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or "
+                             "use --lcm-url none");
+  }
+  lcm_t* lcm = lcm_create(url.c_str());
+  if (lcm == nullptr) {
+    throw std::runtime_error("LCM at " + url +
+                             ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0");
+  }
+  return lcm;
+}
+
+void reserve(radar_scan_t& scan) {
+  scan.id.reserve(kMaxDetections);
+  scan.validity.reserve(kMaxDetections);
+  for (auto* values : {&scan.range_m, &scan.azimuth_rad, &scan.doppler_mps, &scan.range_std_m,
+                       &scan.azimuth_std_rad, &scan.doppler_std_mps, &scan.rcs_dbm2}) {
+    values->reserve(kMaxDetections);
+  }
+}
+
+void clear(radar_scan_t& scan) {
+  scan.id.clear();
+  scan.validity.clear();
+  for (auto* values : {&scan.range_m, &scan.azimuth_rad, &scan.doppler_mps, &scan.range_std_m,
+                       &scan.azimuth_std_rad, &scan.doppler_std_mps, &scan.rcs_dbm2}) {
+    values->clear();
+  }
+}
+
+void append(const Detection& detection, radar_scan_t& scan) {
+  scan.id.push_back(static_cast<std::int16_t>(detection.id));
+  scan.validity.push_back(static_cast<std::int8_t>(detection.validity));
+  scan.range_m.push_back(static_cast<float>(detection.range_m));
+  scan.azimuth_rad.push_back(static_cast<float>(detection.azimuth_rad));
+  scan.doppler_mps.push_back(static_cast<float>(detection.doppler_mps));
+  scan.range_std_m.push_back(static_cast<float>(detection.range_std_m));
+  scan.azimuth_std_rad.push_back(static_cast<float>(detection.azimuth_std_rad));
+  scan.doppler_std_mps.push_back(static_cast<float>(detection.doppler_std_mps));
+  scan.rcs_dbm2.push_back(static_cast<float>(detection.rcs_dbm2));
+}
+
+std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+}  // namespace
+
+std::string scan_channel(const std::string& radar_name) {
+  std::string channel = "CREMED_SCAN_" + radar_name;
+  std::transform(channel.begin(), channel.end(), channel.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return channel;
+}
+
+LcmPublisher::LcmPublisher(const std::string& url, const Configuration& configuration)
+    : lcm_(create_lcm(url)),
+      publish_scans_(configuration.output.publish_scans),
+      messages_(configuration.radars.size()) {
+  for (std::size_t i = 0; i < messages_.size(); ++i) {
+    const std::string& name = configuration.radars[i].name;
+    Messages& messages = messages_[i];
+    messages.motion.source = messages.scan.source = messages.status.source = name;
+    messages.motion.seq = messages.scan.seq = messages.status.seq = 0;
+    messages.scan_channel = scan_channel(name);
+    reserve(messages.scan);
+  }
+}
+
+template <typename Message>
+void LcmPublisher::publish(const char* channel, const Message& message) {
+  const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
+  if (size < 0 ||
+      lcm_publish(lcm_.get(), channel, buffer_.data(), static_cast<unsigned int>(size)) != 0) {
+    ++failures_;
+  }
+}
+
+void LcmPublisher::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
+  ego_motion_t& message = messages_[radar].motion;
+  message.utime = motion.utime_us;
+  message.utime_start = motion.utime_start_us;
+  message.status = static_cast<std::int8_t>(motion.status);
+  message.x_in_start_frame_m = motion.motion.x();
+  message.y_in_start_frame_m = motion.motion.y();
+  message.yaw_in_start_frame_rad = motion.motion.z();
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      message.covariance_x_y_yaw_m_rad[3 * row + column] = motion.covariance(row, column);
+    }
+  }
+  message.num_targets = motion.targets;
+  message.num_iterations = motion.iterations;
+  message.solve_us = solve_us;
+  publish("CREMED_EGO_MOTION", message);
+  ++message.seq;
+}
+
+void LcmPublisher::on_scan(std::size_t radar, const RadarScan& scan) {
+  if (!publish_scans_) {
+    return;
+  }
+  radar_scan_t& message = messages_[radar].scan;
+  message.utime = scan.stamp_us;
+  message.status = static_cast<std::int8_t>(scan.status);
+  message.counter = scan.counter;
+  message.num_announced = scan.announced;
+  message.num_detections = scan.count;
+  clear(message);
+  for (std::size_t i = 0; i < scan.count; ++i) {
+    append(scan.detections[i], message);
+  }
+  publish(messages_[radar].scan_channel.c_str(), message);
+  ++message.seq;
+}
+
+void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
+  status_t& m = messages_[radar].status;
+  m.utime = status.utime_us;
+  m.last_motion_status = static_cast<std::int8_t>(status.last_motion_status);
+  m.utime_last_estimate = status.utime_last_estimate_us;
+
+  m.frames_read = count(status.source.frames);
+  m.frames_of_other_interfaces = count(status.source.other_interface_frames);
+  m.frames_lost_before_us = count(status.source.lost_frames);
+  m.malformed_lines = count(status.source.malformed_lines);
+
+  m.frames_of_this_radar = count(status.decoder.frames);
+  m.frames_state = count(status.decoder.state_frames);
+  m.frames_wrong_length = count(status.decoder.wrong_length);
+  m.frames_wrong_kind = count(status.decoder.wrong_kind);
+  m.frames_wrong_mode = count(status.decoder.wrong_mode);
+  m.frames_wrong_slot = count(status.decoder.wrong_slot);
+  m.crc_errors = count(status.decoder.crc_errors);
+  m.counter_errors = count(status.decoder.counter_errors);
+
+  m.scans = count(status.assembler.scans);
+  m.scans_incomplete = count(status.assembler.incomplete_scans);
+  m.scans_empty = count(status.assembler.empty_scans);
+  m.scans_timed_out = count(status.assembler.timeouts);
+  m.scans_repeated = count(status.assembler.repeated_scans);
+  m.scans_missed = count(status.assembler.missed_scans);
+  m.parts_missing = count(status.assembler.missing_parts);
+  m.parts_duplicate = count(status.assembler.duplicate_parts);
+  m.parts_conflicting = count(status.assembler.conflicting_parts);
+  m.parts_reordered = count(status.assembler.reordered_parts);
+  m.parts_excess = count(status.assembler.excess_parts);
+  m.parts_orphan = count(status.assembler.orphan_parts);
+  m.stamps_backwards = count(status.assembler.stamps_backwards);
+
+  m.detections_used = count(status.selection.used);
+  m.detections_no_noise = count(status.selection.no_noise);
+  m.detections_invalid_state = count(status.selection.invalid_state);
+  m.detections_moving = count(status.selection.moving);
+  m.detections_low_existence = count(status.selection.low_existence);
+  m.detections_no_position = count(status.selection.no_position);
+  m.detections_outside_limits = count(status.selection.outside_limits);
+
+  for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
+    m.motions_by_status[i] = count(status.motions_by_status[i]);
+  }
+  publish("CREMED_STATUS", m);
+  ++m.seq;
+}
+
+}  // namespace cremed

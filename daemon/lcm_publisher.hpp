@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <cremed/ego_motion_t.hpp>
+#include <cremed/radar_scan_t.hpp>
+#include <cremed/status_t.hpp>
+#include <lcm/lcm.h>
+
+#include "daemon/configuration.hpp"
+#include "daemon/odometry_sink.hpp"
+
+namespace cremed {
+
+/// Publishes over LCM: ego_motion_t, status_t and, if configured, radar_scan_t. Messages are
+/// encoded into a member buffer and handed to lcm_publish: no allocation.
+class LcmPublisher final : public OdometrySink {
+ public:
+  /// Throws std::runtime_error that says how to mend it if LCM cannot be set up at `url`.
+  LcmPublisher(const std::string& url, const Configuration& configuration);
+
+  void on_scan(std::size_t radar, const RadarScan& scan) override;
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_status(std::size_t radar, const RadarStatus& status) override;
+  [[nodiscard]] std::uint64_t failures() const override { return failures_; }
+
+  /// For subscribing in the same process (memq://, tests).
+  [[nodiscard]] lcm_t* handle() { return lcm_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
+  };
+  /// One radar's messages; strings and arrays are given their room once.
+  struct Messages {
+    ego_motion_t motion;
+    radar_scan_t scan;
+    status_t status;
+    std::string scan_channel;
+  };
+  template <typename Message>
+  void publish(const char* channel, const Message& message);
+
+  std::unique_ptr<lcm_t, Destroy> lcm_;
+  bool publish_scans_;
+  std::vector<Messages> messages_;
+  std::array<std::uint8_t, 16384> buffer_{};
+  std::uint64_t failures_ = 0;
+};
+
+/// "CREMED_SCAN_" and the radar's name in upper case.
+std::string scan_channel(const std::string& radar_name);
+
+}  // namespace cremed

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "can_decoders/radar_scan.hpp"
+#include "daemon/radar_status.hpp"
+#include "estimator/ego_motion_estimator.hpp"
+
+namespace cremed {
+
+/// Where results go. `radar` is the index of the radar in the configuration. Called on the hot
+/// path: an implementation must not allocate or log; what it cannot deliver it counts.
+class OdometrySink {
+ public:
+  virtual ~OdometrySink() = default;
+
+  virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
+  virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
+  virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
+
+  /// Results that could not be delivered.
+  [[nodiscard]] virtual std::uint64_t failures() const = 0;
+
+ protected:
+  OdometrySink() = default;
+  OdometrySink(const OdometrySink&) = default;
+  OdometrySink& operator=(const OdometrySink&) = default;
+};
+
+}  // namespace cremed

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/pipeline.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kStatusPeriodUs = 1'000'000;
+
+}  // namespace
+
+Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
+                   std::vector<OdometrySink*> sinks, NowFunction now)
+    : source_(source), sinks_(std::move(sinks)), now_(now) {
+  const std::vector<std::string> names = interface_names(configuration);
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const RadarConfiguration& radar = configuration.radars[i];
+    const auto name = std::find(names.begin(), names.end(), radar.interface);
+    radars_.push_back(
+        std::make_unique<RadarChannel>(radar, i, static_cast<std::uint8_t>(name - names.begin())));
+  }
+}
+
+void Pipeline::on_frame(const CanFrame& frame) {
+  on_time(frame.stamp_us);
+  for (const auto& radar : radars_) {
+    if (radar->interface == frame.interface) {
+      const ScanPart part = radar->decoder->decode(frame);
+      radar->assembler.add(part);
+      publish_motions(*radar);
+    }
+  }
+}
+
+void Pipeline::publish_motions(RadarChannel& radar) {
+  while (const RadarScan* scan = radar.assembler.next()) {
+    const std::int64_t begin_us = now_();
+    const EgoMotion motion = radar.estimator.update(*scan);
+    const auto solve_us = static_cast<std::int32_t>(now_() - begin_us);
+    radar.count(motion);
+    for (OdometrySink* sink : sinks_) {
+      sink->on_scan(radar.index, *scan);
+      sink->on_motion(radar.index, motion, solve_us);
+    }
+  }
+}
+
+void Pipeline::on_time(std::int64_t now_us) {
+  for (const auto& radar : radars_) {
+    radar->assembler.expire(now_us);
+    publish_motions(*radar);
+  }
+  const bool backwards = now_us < time_us_;
+  time_us_ = now_us;
+  // A clock set back must not silence the status until it has caught up.
+  if (backwards || now_us >= last_status_us_ + kStatusPeriodUs) {
+    publish_status();
+  }
+}
+
+void Pipeline::publish_status() {
+  last_status_us_ = time_us_;
+  for (const auto& radar : radars_) {
+    const RadarStatus& status = radar->status(time_us_, source_.counters());
+    for (OdometrySink* sink : sinks_) {
+      sink->on_status(radar->index, status);
+    }
+  }
+}
+
+void Pipeline::on_dropped(std::uint8_t interface) {
+  for (const auto& radar : radars_) {
+    if (radar->interface == interface) {
+      radar->assembler.mark_dropped();
+    }
+  }
+}
+
+void Pipeline::finish() {
+  for (const auto& radar : radars_) {
+    radar->assembler.finish();
+    publish_motions(*radar);
+  }
+  publish_status();
+}
+
+}  // namespace cremed

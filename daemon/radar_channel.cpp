@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/radar_channel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace cremed {
+namespace {
+
+struct MakeDecoder {
+  std::unique_ptr<RadarDecoder> operator()(const Ars408Options& options) const {
+    return std::make_unique<Ars408Decoder>(options);
+  }
+  std::unique_ptr<RadarDecoder> operator()(const BoschGprOptions& options) const {
+    return std::make_unique<BoschGprDecoder>(options);
+  }
+};
+
+}  // namespace
+
+RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t radar_index,
+                           std::uint8_t interface_index)
+    : index(radar_index),
+      interface(interface_index),
+      decoder(std::visit(MakeDecoder{}, configuration.decoder)),
+      assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6)),
+      estimator(configuration.ego_motion) {}
+
+void RadarChannel::count(const EgoMotion& motion) {
+  status_.last_motion_status = motion.status;
+  ++status_.motions_by_status[static_cast<std::size_t>(motion.status)];
+  if (motion.has_estimate()) {
+    status_.utime_last_estimate_us = motion.utime_us;
+  }
+}
+
+const RadarStatus& RadarChannel::status(std::int64_t utime_us, const SourceCounters& source) {
+  status_.utime_us = utime_us;
+  status_.source = source;
+  status_.decoder = decoder->counters();
+  status_.assembler = assembler.counters();
+  status_.selection = estimator.selection();
+  return status_;
+}
+
+std::vector<std::string> interface_names(const Configuration& configuration) {
+  std::vector<std::string> names;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    if (std::find(names.begin(), names.end(), radar.interface) == names.end()) {
+      names.push_back(radar.interface);
+    }
+  }
+  return names;
+}
+
+}  // namespace cremed

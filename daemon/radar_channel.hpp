@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "can_decoders/radar_decoder.hpp"
+#include "can_decoders/scan_assembler.hpp"
+#include "daemon/configuration.hpp"
+#include "daemon/radar_status.hpp"
+#include "estimator/ego_motion_estimator.hpp"
+
+namespace cremed {
+
+/// One radar's stages. Neither copied nor moved: the assembler refers to the decoder.
+struct RadarChannel {
+  RadarChannel(const RadarConfiguration& configuration, std::size_t radar_index,
+               std::uint8_t interface_index);
+  RadarChannel(const RadarChannel&) = delete;
+  RadarChannel& operator=(const RadarChannel&) = delete;
+
+  /// Notes an estimate in the status.
+  void count(const EgoMotion& motion);
+  /// The status with all stages' counters as of now.
+  const RadarStatus& status(std::int64_t utime_us, const SourceCounters& source);
+
+  std::size_t index;
+  std::uint8_t interface;
+  std::unique_ptr<RadarDecoder> decoder;
+  ScanAssembler assembler;
+  EgoMotionEstimator estimator;
+
+ private:
+  RadarStatus status_;
+};
+
+/// Index of each radar's interface in the list of distinct names, in order of first mention.
+std::vector<std::string> interface_names(const Configuration& configuration);
+
+}  // namespace cremed

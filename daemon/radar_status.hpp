@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "can_decoders/radar_decoder.hpp"
+#include "can_decoders/scan_assembler.hpp"
+#include "daemon/frame_source.hpp"
+#include "estimator/ego_motion_estimator.hpp"
+
+namespace cremed {
+
+/// Everything countable about one radar's way through the pipeline.
+struct RadarStatus {
+  std::int64_t utime_us = 0;
+  MotionStatus last_motion_status = MotionStatus::no_reference;
+  std::int64_t utime_last_estimate_us = 0;  ///< 0: none yet.
+  SourceCounters source;
+  DecoderCounters decoder;
+  AssemblerCounters assembler;
+  SelectionCounters selection;
+  std::array<std::uint64_t, kMotionStatusCount> motions_by_status{};
+};
+
+}  // namespace cremed

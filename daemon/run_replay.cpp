@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/run_replay.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "daemon/csv_writer.hpp"
+#include "daemon/lcm_publisher.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/replay.hpp"
+#include "daemon/report.hpp"
+#include "daemon/tum_writer.hpp"
+
+namespace cremed {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void request_stop(int /*signal*/) { stop_requested = 1; }
+
+/// Without SA_RESTART: a read or sleep in progress ends at once.
+void handle_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+std::vector<std::string> radar_names(const Configuration& configuration) {
+  std::vector<std::string> names;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    names.push_back(radar.name);
+  }
+  return names;
+}
+
+std::size_t tum_radar(const Configuration& configuration) {
+  const std::vector<std::string> names = radar_names(configuration);
+  const auto found = std::find(names.begin(), names.end(), configuration.output.tum_source);
+  return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin());
+}
+
+struct Sinks {
+  std::vector<std::unique_ptr<OdometrySink>> owned;
+  const TumWriter* tum = nullptr;
+
+  [[nodiscard]] std::vector<OdometrySink*> pointers() const {
+    std::vector<OdometrySink*> result;
+    for (const auto& sink : owned) {
+      result.push_back(sink.get());
+    }
+    return result;
+  }
+};
+
+Sinks open_sinks(const CommandLine& command_line, const Configuration& configuration) {
+  const OutputConfiguration& output = configuration.output;
+  const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
+  const std::string csv = command_line.output_csv.value_or(output.csv);
+  const std::string tum = command_line.output_tum.value_or(output.tum);
+  Sinks sinks;
+  if (lcm_url != "none") {
+    sinks.owned.push_back(std::make_unique<LcmPublisher>(lcm_url, configuration));
+  }
+  if (!csv.empty()) {
+    sinks.owned.push_back(std::make_unique<CsvWriter>(csv, radar_names(configuration)));
+  }
+  if (!tum.empty()) {
+    auto writer = std::make_unique<TumWriter>(tum, tum_radar(configuration));
+    sinks.tum = writer.get();
+    sinks.owned.push_back(std::move(writer));
+  }
+  return sinks;
+}
+
+std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
+                                  const Configuration& configuration) {
+  std::vector<std::unique_ptr<CandumpLog>> logs;
+  for (const std::string& path : command_line.replay) {
+    logs.push_back(
+        std::make_unique<CandumpLog>(path, interface_names(configuration), &stop_requested));
+  }
+  return std::make_unique<Replay>(std::move(logs), command_line.speed, &stop_requested);
+}
+
+/// Frame in, message out: the loop of the daemon.
+void run(FrameSource& source, Pipeline& pipeline) {
+  CanFrame frame;
+  for (SourceEvent event = source.next(frame); event != SourceEvent::end;
+       event = source.next(frame)) {
+    if (event == SourceEvent::frame) {
+      pipeline.on_frame(frame);
+    } else {
+      pipeline.on_dropped(frame.interface);
+    }
+  }
+  pipeline.finish();
+}
+
+void log_report(const Configuration& configuration, const Pipeline& pipeline,
+                const SourceCounters& source) {
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const RadarReport result = report(configuration.radars[i], *pipeline.radars()[i], source);
+    spdlog::info("{}: {}", configuration.radars[i].name, result.summary);
+    for (const std::string& hint : result.hints) {
+      spdlog::warn("{}: {}", configuration.radars[i].name, hint);
+    }
+  }
+}
+
+/// Logs what was wrong with the logs; false if one could not be read to its end.
+bool report_logs(const Replay& replay) {
+  bool good = true;
+  for (const auto& log : replay.logs()) {
+    if (log->complaint().line_number != 0) {
+      spdlog::warn("{}:{}: {} ({} such lines)", log->path(), log->complaint().line_number,
+                   log->complaint().reason, log->counters().malformed_lines);
+    }
+    if (log->read_error() != 0) {
+      spdlog::error("{}: {}", log->path(), std::strerror(log->read_error()));
+      good = false;
+    }
+  }
+  const SourceCounters& counters = replay.counters();
+  if (counters.lost_frames != 0) {
+    spdlog::warn("{} frames were lost before they were logged", counters.lost_frames);
+  }
+  if (counters.frames + counters.other_interface_frames == 0) {
+    spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
+    good = false;
+  }
+  return good;
+}
+
+bool report_sinks(const Sinks& sinks) {
+  std::uint64_t failures = 0;
+  for (const auto& sink : sinks.owned) {
+    failures += sink->failures();
+  }
+  if (failures != 0) {
+    spdlog::error("{} results could not be written or published", failures);
+  }
+  if (sinks.tum != nullptr && sinks.tum->gaps() != 0) {
+    spdlog::warn("the trajectory has {} gaps, over which it stands still", sinks.tum->gaps());
+  }
+  return failures == 0;
+}
+
+}  // namespace
+
+int run_replay(const CommandLine& command_line, const Configuration& configuration) {
+  handle_stop_signals();
+  const std::unique_ptr<Replay> replay = open_logs(command_line, configuration);
+  const Sinks sinks = open_sinks(command_line, configuration);
+  const NowFunction no_clock = [] { return std::int64_t{0}; };
+  Pipeline pipeline(configuration, *replay, sinks.pointers(),
+                    command_line.timing ? &monotonic_us : no_clock);
+
+  const std::int64_t begin_us = monotonic_us();
+  run(*replay, pipeline);
+  const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
+
+  const double log_s =
+      static_cast<double>(replay->last_stamp_us() - replay->first_stamp_us()) * 1e-6;
+  spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
+               replay->counters().frames, log_s, wall_s, log_s / wall_s);
+  log_report(configuration, pipeline, replay->counters());
+  const bool input_good = report_logs(*replay);
+  const bool output_good = report_sinks(sinks);
+  return input_good && output_good ? 0 : 1;
+}
+
+}  // namespace cremed

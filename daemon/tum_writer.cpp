@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/tum_writer.hpp"
+
+#include <cmath>
+
+#include "daemon/text_line.hpp"
+
+namespace cremed {
+
+void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
+  if (radar != radar_ || !motion.has_estimate()) {
+    return;
+  }
+  if (!has_begun_) {
+    has_begun_ = true;
+    write_pose(motion.utime_start_us);
+  } else if (motion.utime_start_us != utime_us_) {
+    ++gaps_;
+  }
+  Pose2& pose = start_from_vehicle_;
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
+  pose.x_m += c * motion.motion.x() - s * motion.motion.y();
+  pose.y_m += s * motion.motion.x() + c * motion.motion.y();
+  pose.yaw_rad += motion.motion.z();
+  utime_us_ = motion.utime_us;
+  write_pose(utime_us_);
+}
+
+void TumWriter::write_pose(std::int64_t utime_us) {
+  const Pose2& pose = start_from_vehicle_;
+  TextLine line;
+  line.fixed(static_cast<double>(utime_us) * 1e-6, 6);
+  line.text(" ").fixed(pose.x_m, 6).text(" ").fixed(pose.y_m, 6).text(" 0 0 0 ");
+  line.fixed(std::sin(pose.yaw_rad / 2.0), 9).text(" ").fixed(std::cos(pose.yaw_rad / 2.0), 9);
+  line.text("\n");
+  file_.write(line.view());
+}
+
+}  // namespace cremed

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "daemon/odometry_sink.hpp"
+#include "daemon/output_file.hpp"
+#include "estimator/pose2.hpp"
+
+namespace cremed {
+
+/// Trajectory of one radar's ego-motion in TUM format: `seconds x y z qx qy qz qw`, beginning at
+/// the origin. Where estimates do not join (a gap), the trajectory goes on from its last pose as if
+/// the vehicle had not moved; gaps() counts these places.
+class TumWriter final : public OdometrySink {
+ public:
+  /// Follows the radar with index `radar`. Throws std::runtime_error if the file cannot be made.
+  TumWriter(const std::string& path, std::size_t radar) : file_(path), radar_(radar) {}
+
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
+  [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
+
+ private:
+  void write_pose(std::int64_t utime_us);
+
+  OutputFile file_;
+  std::size_t radar_;
+  Pose2 start_from_vehicle_;
+  std::int64_t utime_us_ = 0;
+  bool has_begun_ = false;
+  std::uint64_t gaps_ = 0;
+};
+
+}  // namespace cremed

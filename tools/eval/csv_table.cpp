@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/csv_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+namespace cremed {
+namespace {
+
+std::vector<std::string> split(std::string_view line) {
+  if (line.ends_with('\r')) {
+    line.remove_suffix(1);
+  }
+  std::vector<std::string> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    cells.emplace_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return cells;
+}
+
+}  // namespace
+
+CsvTable::CsvTable(std::istream& input) {
+  std::string line;
+  if (!std::getline(input, line)) {
+    throw std::runtime_error("line 1: no header");
+  }
+  header_ = split(line);
+  for (std::size_t number = 2; std::getline(input, line); ++number) {
+    if (line.empty() || line.front() == '#') {
+      continue;
+    }
+    rows_.push_back(split(line));
+    if (rows_.back().size() != header_.size()) {
+      throw std::runtime_error("line " + std::to_string(number) + ": " +
+                               std::to_string(rows_.back().size()) + " cells, the header has " +
+                               std::to_string(header_.size()));
+    }
+  }
+}
+
+std::size_t CsvTable::column(std::string_view name) const {
+  const auto found = std::find(header_.begin(), header_.end(), name);
+  if (found == header_.end()) {
+    throw std::runtime_error("no column " + std::string(name));
+  }
+  return static_cast<std::size_t>(found - header_.begin());
+}
+
+template <typename Number>
+Number CsvTable::parse(std::size_t row, std::size_t column) const {
+  const std::string& cell = text(row, column);
+  Number value{};
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) {
+    throw std::runtime_error("row " + std::to_string(row + 1) + ", " + header_[column] + ": '" +
+                             cell + "' is no number");
+  }
+  return value;
+}
+
+double CsvTable::number(std::size_t row, std::size_t column) const {
+  return parse<double>(row, column);
+}
+
+long long CsvTable::integer(std::size_t row, std::size_t column) const {
+  return parse<long long>(row, column);
+}
+
+}  // namespace cremed

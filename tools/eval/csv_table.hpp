@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cremed {
+
+/// A CSV file with a header line, as text cells. Throws std::runtime_error "line N: ...".
+class CsvTable {
+ public:
+  explicit CsvTable(std::istream& input);
+
+  /// Index of a column; throws std::runtime_error that names it if there is none.
+  [[nodiscard]] std::size_t column(std::string_view name) const;
+  [[nodiscard]] std::size_t rows() const { return rows_.size(); }
+  [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const {
+    return rows_[row][column];
+  }
+  /// A cell as a number ("nan" is one); throws std::runtime_error.
+  [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  /// A cell as an integer, for time stamps; throws std::runtime_error.
+  [[nodiscard]] long long integer(std::size_t row, std::size_t column) const;
+
+ private:
+  template <typename Number>
+  [[nodiscard]] Number parse(std::size_t row, std::size_t column) const;
+
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/true_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "tools/eval/csv_table.hpp"
+
+namespace cremed {
+namespace {
+
+double wrap(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+}  // namespace
+
+TrueTrajectory::TrueTrajectory(std::istream& input) {
+  const CsvTable table(input);
+  const std::size_t utime = table.column("utime");
+  const std::size_t x = table.column("x_m");
+  const std::size_t y = table.column("y_m");
+  const std::size_t yaw = table.column("yaw_rad");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    utime_us_.push_back(table.integer(row, utime));
+    poses_.push_back({table.number(row, x), table.number(row, y), table.number(row, yaw)});
+    if (row > 0 && utime_us_[row] <= utime_us_[row - 1]) {
+      throw std::runtime_error("row " + std::to_string(row + 1) + ": utime does not increase");
+    }
+  }
+}
+
+std::optional<Pose2> TrueTrajectory::at(std::int64_t utime_us) const {
+  const auto after = std::lower_bound(utime_us_.begin(), utime_us_.end(), utime_us);
+  if (after == utime_us_.end() || (after == utime_us_.begin() && *after != utime_us)) {
+    return std::nullopt;
+  }
+  const auto right = static_cast<std::size_t>(after - utime_us_.begin());
+  if (utime_us_[right] == utime_us) {
+    return poses_[right];
+  }
+  const std::size_t left = right - 1;
+  const double share = static_cast<double>(utime_us - utime_us_[left]) /
+                       static_cast<double>(utime_us_[right] - utime_us_[left]);
+  const Pose2& a = poses_[left];
+  const Pose2& b = poses_[right];
+  return Pose2{a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
+               a.yaw_rad + share * wrap(b.yaw_rad - a.yaw_rad)};
+}
+
+std::optional<Eigen::Vector3d> TrueTrajectory::motion(std::int64_t start_us,
+                                                      std::int64_t end_us) const {
+  const auto start = at(start_us);
+  const auto end = at(end_us);
+  if (!start || !end) {
+    return std::nullopt;
+  }
+  const double c = std::cos(start->yaw_rad);
+  const double s = std::sin(start->yaw_rad);
+  const double dx = end->x_m - start->x_m;
+  const double dy = end->y_m - start->y_m;
+  return Eigen::Vector3d(c * dx + s * dy, -s * dx + c * dy, wrap(end->yaw_rad - start->yaw_rad));
+}
+
+}  // namespace cremed

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimator/pose2.hpp"
+
+namespace cremed {
+
+/// True poses of the vehicle over time, interpolated linearly.
+class TrueTrajectory {
+ public:
+  /// Reads CSV with the columns utime (us), x_m, y_m, yaw_rad; throws std::runtime_error, also if
+  /// the times do not increase.
+  explicit TrueTrajectory(std::istream& input);
+
+  /// Pose at a time, nothing outside of the recorded time.
+  [[nodiscard]] std::optional<Pose2> at(std::int64_t utime_us) const;
+  /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
+  [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
+                                                      std::int64_t end_us) const;
+
+ private:
+  std::vector<std::int64_t> utime_us_;
+  std::vector<Pose2> poses_;
+};
+
+}  // namespace cremed

@@ -6,6 +6,17 @@
 #include <cmath>
 
 namespace cremed {
+namespace {
+
+/// Reorders the range, which must not be empty.
+template <typename Iterator>
+double median(Iterator first, Iterator last) {
+  const Iterator middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last);
+  return *middle;
+}
+
+}  // namespace
 
 std::string_view to_string(MotionStatus status) {
   static constexpr std::array<std::string_view, kMotionStatusCount> kNames{
@@ -58,12 +69,15 @@ MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
 }
 
 MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
-  const RegistrationResult result = registration_.solve(targets_, dt_s);
+  const std::array<Eigen::Vector3d, 3> starts{
+      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {doppler_speed_mps() * dt_s, 0.0, 0.0}};
+  const RegistrationResult result = registration_.solve(targets_, dt_s, starts);
   motion.iterations = result.iterations;
   const MotionStatus status = judge(result, dt_s);
   if (status == MotionStatus::ok || status == MotionStatus::standing_still) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
+    last_velocity_ = result.motion / dt_s;
   }
   return status;
 }
@@ -100,12 +114,22 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
 }
 
 double EgoMotionEstimator::median_abs_doppler_mps() {
-  const auto count = static_cast<std::ptrdiff_t>(targets_.size());
-  std::transform(targets_.begin(), targets_.end(), abs_doppler_mps_.begin(),
-                 [](const Target& target) { return std::abs(target.doppler_mps); });
-  const auto middle = abs_doppler_mps_.begin() + count / 2;
-  std::nth_element(abs_doppler_mps_.begin(), middle, abs_doppler_mps_.begin() + count);
-  return *middle;
+  const auto last = std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
+                                   [](const Target& t) { return std::abs(t.doppler_mps); });
+  return median(scratch_.begin(), last);
+}
+
+/// Speed along x that most targets agree on if they stand still and the vehicle does not turn:
+/// v = -doppler / cos(bearing). Targets abeam say nothing about it.
+double EgoMotionEstimator::doppler_speed_mps() {
+  auto last = scratch_.begin();
+  for (const Target& target : targets_) {
+    const double along = std::cos(target.bearing_rad);
+    if (std::abs(along) > 0.5) {
+      *last++ = -target.doppler_mps / along;
+    }
+  }
+  return last == scratch_.begin() ? 0.0 : median(scratch_.begin(), last);
 }
 
 }  // namespace cremed

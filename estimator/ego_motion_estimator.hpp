@@ -69,12 +69,14 @@ class EgoMotionEstimator {
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
   double median_abs_doppler_mps();
+  double doppler_speed_mps();
 
   EgoMotionOptions options_;
   Registration registration_;
   TargetSet targets_;
   SelectionCounters selection_;
-  std::array<double, kMaxDetections> abs_doppler_mps_{};
+  std::array<double, kMaxDetections> scratch_{};
+  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
   bool has_reference_ = false;
 };

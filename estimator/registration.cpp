@@ -3,6 +3,7 @@
 #include "estimator/registration.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -130,15 +131,36 @@ RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s
   return RegistrationStatus::no_convergence;
 }
 
+Eigen::Vector3d Registration::best_start(const TargetSet& current, double dt_s, const Stage& stage,
+                                         std::span<const Eigen::Vector3d> starts) {
+  Eigen::Vector3d best = starts.front();
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < starts.size() && starts.size() > 1; ++i) {
+    const double cost = linearise(current, dt_s, starts[i], stage.scale, stage.doppler_scale).cost;
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = starts[i];
+    }
+  }
+  return best;
+}
+
 RegistrationResult Registration::solve(const TargetSet& current, double dt_s) {
+  const std::array<Eigen::Vector3d, 1> zero{Eigen::Vector3d::Zero()};
+  return solve(current, dt_s, zero);
+}
+
+RegistrationResult Registration::solve(const TargetSet& current, double dt_s,
+                                       std::span<const Eigen::Vector3d> starts) {
+  const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
+                   options_.max_start_iterations, kStartStepTolerance};
+  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
   RegistrationResult result;
   NormalEquations equations;
+  result.motion = best_start(current, dt_s, wide, starts);
   if (options_.start_scale > 1.0) {
-    const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
-                     options_.max_start_iterations, kStartStepTolerance};
     run_stage(current, dt_s, wide, result, equations);
   }
-  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
   result.status = run_stage(current, dt_s, exact, result, equations);
   result.cost = equations.cost;
   const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);

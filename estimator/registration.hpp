@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -59,8 +60,12 @@ class Registration {
   /// The scan that the motion starts at; must hold at least one target.
   void set_previous(const TargetSet& targets);
 
-  /// The motion to the current scan, `dt_s` later.
+  /// The motion to the current scan, `dt_s` later; starts at zero as the paper does.
   RegistrationResult solve(const TargetSet& current, double dt_s);
+
+  /// The same, started where the cost of the first stage is lowest among `starts` (not empty).
+  RegistrationResult solve(const TargetSet& current, double dt_s,
+                           std::span<const Eigen::Vector3d> starts);
 
   /// Cost and normal equations at a given motion, with true standard deviations (scale 1) or those
   /// of the first stage.
@@ -74,6 +79,8 @@ class Registration {
     int max_iterations;
     double step_tolerance;
   };
+  Eigen::Vector3d best_start(const TargetSet& current, double dt_s, const Stage& stage,
+                             std::span<const Eigen::Vector3d> starts);
   RegistrationStatus run_stage(const TargetSet& current, double dt_s, const Stage& stage,
                                RegistrationResult& result, NormalEquations& equations);
 

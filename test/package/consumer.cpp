@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "can_decoders/ars408.hpp"
+#include "can_decoders/scan_assembler.hpp"
+#include "estimator/ego_motion_estimator.hpp"
+
+// Succeeds if a whole, empty scan goes through all stages.
+int main() {
+  cremed::Ars408Decoder decoder{cremed::Ars408Options{}};
+  cremed::ScanAssembler assembler(decoder, 50'000);
+  cremed::EgoMotionEstimator estimator{cremed::EgoMotionOptions{}};
+  cremed::CanFrame header;
+  header.id = 0x600;
+  header.length = 5;
+  assembler.add(decoder.decode(header));
+  const cremed::RadarScan* scan = assembler.next();
+  return scan != nullptr &&
+                 estimator.update(*scan).status == cremed::MotionStatus::too_few_targets
+             ? 0
+             : 1;
+}

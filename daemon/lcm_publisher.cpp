@@ -111,6 +111,10 @@ LcmPublisher::LcmPublisher(const std::string& url, const Configuration& configur
     messages.motion.seq = messages.scan.seq = messages.status.seq = 0;
     messages.scan_channel = scan_channel(name);
     reserve(messages.scan);
+    on_status(i, RadarStatus{});
+  }
+  if (failures_ != 0) {
+    throw std::runtime_error("LCM at " + url + ": cannot publish");
   }
 }
 

@@ -22,7 +22,9 @@ namespace cremed {
 /// encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
-  /// Throws std::runtime_error that says how to mend it if LCM cannot be set up at `url`.
+  /// Publishes a first status_t of each radar, all zero: watchers see the radars before the first
+  /// frame, LCM allocates what it makes at first use, and what cannot work is found now. Throws
+  /// std::runtime_error that says how to mend it.
   LcmPublisher(const std::string& url, const Configuration& configuration);
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;

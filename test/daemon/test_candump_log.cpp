@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/candump_log.hpp"
+#include "test/daemon/temporary_file.hpp"
+
+using namespace cremed;
+
+namespace {
+
+volatile std::sig_atomic_t no_stop = 0;
+
+}  // namespace
+
+TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
+  const TemporaryFile file(
+      "# a comment\n"
+      "(1.000000) can1 600#0000000010\n"
+      "(1.000100) vcan9 123#00\n"
+      "(1.000200) can0 nonsense\n"
+      "DROPCOUNT: dropped 12 CAN frames on 'can0' socket (total drops 12)\n"
+      "DROPCOUNT: dropped 3 CAN frames on 'vcan9' socket (total drops 3)\n"
+      "(1.000300) can0 701#0011223344556677\n");
+  CandumpLog log(file.path(), {"can0", "can1"}, &no_stop);
+  CanFrame frame;
+
+  REQUIRE(log.next(frame) == SourceEvent::frame);
+  CHECK(frame.id == 0x600);
+  CHECK(frame.interface == 1);
+  CHECK(frame.stamp_us == 1'000'000);
+  REQUIRE(log.next(frame) == SourceEvent::dropped);
+  CHECK(frame.interface == 0);
+  REQUIRE(log.next(frame) == SourceEvent::frame);
+  CHECK(frame.id == 0x701);
+  CHECK(frame.interface == 0);
+  CHECK(log.next(frame) == SourceEvent::end);
+
+  CHECK(log.counters().frames == 2);
+  CHECK(log.counters().other_interface_frames == 1);
+  CHECK(log.counters().lost_frames == 15);
+  CHECK(log.counters().malformed_lines == 1);
+  CHECK(log.complaint().line_number == 4);
+  CHECK_FALSE(log.complaint().reason.empty());
+}
+
+TEST_CASE("A request to stop ends the log") {
+  const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000000) can0 600#0000000010\n");
+  volatile std::sig_atomic_t stop = 0;
+  CandumpLog log(file.path(), {"can0"}, &stop);
+  CanFrame frame;
+  REQUIRE(log.next(frame) == SourceEvent::frame);
+  stop = 1;
+  CHECK(log.next(frame) == SourceEvent::end);
+}

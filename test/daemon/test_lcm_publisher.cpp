@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/lcm_publisher.hpp"
+
+using namespace cremed;
+
+namespace {
+
+Configuration two_radars() {
+  Configuration configuration;
+  configuration.radars.resize(2);
+  configuration.radars[0].name = "front";
+  configuration.radars[1].name = "rear-left_2";
+  configuration.output.publish_scans = true;
+  return configuration;
+}
+
+struct Received {
+  std::string channel;
+  std::vector<std::uint8_t> data;
+};
+
+void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
+  const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
+  static_cast<std::vector<Received>*>(user)->push_back(
+      {channel, {bytes, bytes + buffer->data_size}});
+}
+
+/// Everything published while `publish` runs, through LCM's in-process transport.
+std::vector<Received> receive(LcmPublisher& publisher, const std::function<void()>& publish) {
+  std::vector<Received> received;
+  lcm_subscription_t* all = lcm_subscribe(publisher.handle(), ".*", on_message, &received);
+  publish();
+  while (lcm_handle_timeout(publisher.handle(), 20) > 0) {
+  }
+  lcm_unsubscribe(publisher.handle(), all);
+  return received;
+}
+
+template <typename Message>
+Message decode(const Received& received) {
+  Message message;
+  REQUIRE(message.decode(received.data.data(), 0, static_cast<int>(received.data.size())) ==
+          static_cast<int>(received.data.size()));
+  return message;
+}
+
+EgoMotion turning() {
+  EgoMotion motion;
+  motion.utime_start_us = 5'000'000;
+  motion.utime_us = 5'075'000;
+  motion.status = MotionStatus::ok;
+  motion.motion << 0.7, -0.01, 0.02;
+  motion.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
+  motion.targets = 88;
+  motion.iterations = 7;
+  return motion;
+}
+
+constexpr std::size_t kOneDatagram = 1472 - 8;  // LCM's own header takes 8 bytes
+
+}  // namespace
+
+TEST_CASE("ego_motion_t carries every field, numbered for each source on its own") {
+  LcmPublisher publisher("memq://", two_radars());
+  const auto received = receive(publisher, [&] {
+    publisher.on_motion(1, turning(), 450);
+    publisher.on_motion(0, turning(), 0);
+    publisher.on_motion(1, turning(), 0);
+  });
+  REQUIRE(received.size() == 3);
+  const auto first = decode<ego_motion_t>(received[0]);
+  CHECK(received[0].channel == "CREMED_EGO_MOTION");
+  CHECK(received[0].channel.size() + 1 + received[0].data.size() <= kOneDatagram);
+  CHECK(first.source == "rear-left_2");
+  CHECK(first.utime == 5'075'000);
+  CHECK(first.utime_start == 5'000'000);
+  CHECK(first.status == ego_motion_t::STATUS_OK);
+  CHECK(first.x_in_start_frame_m == 0.7);
+  CHECK(first.y_in_start_frame_m == -0.01);
+  CHECK(first.yaw_in_start_frame_rad == 0.02);
+  const double expected[9] = {1, 2, 3, 2, 5, 6, 3, 6, 9};
+  CHECK(std::memcmp(first.covariance_x_y_yaw_m_rad, expected, sizeof(expected)) == 0);
+  CHECK(first.num_targets == 88);
+  CHECK(first.num_iterations == 7);
+  CHECK(first.solve_us == 450);
+  CHECK(first.seq == 0);
+  CHECK(decode<ego_motion_t>(received[1]).seq == 0);
+  CHECK(decode<ego_motion_t>(received[1]).source == "front");
+  CHECK(decode<ego_motion_t>(received[2]).seq == 1);
+  CHECK(publisher.failures() == 0);
+}
+
+TEST_CASE("Without an estimate the message holds NaN, not zero") {
+  LcmPublisher publisher("memq://", two_radars());
+  EgoMotion nothing;
+  nothing.status = MotionStatus::degenerate;
+  const auto received = receive(publisher, [&] { publisher.on_motion(0, nothing, 0); });
+  REQUIRE(received.size() == 1);
+  const auto message = decode<ego_motion_t>(received[0]);
+  CHECK(message.status == ego_motion_t::STATUS_DEGENERATE);
+  CHECK(std::isnan(message.x_in_start_frame_m));
+  CHECK(std::isnan(message.covariance_x_y_yaw_m_rad[8]));
+}
+
+TEST_CASE("The statuses of the message are those of the estimator") {
+  CHECK(ego_motion_t::STATUS_STANDING_STILL == static_cast<int>(MotionStatus::standing_still));
+  CHECK(ego_motion_t::STATUS_NO_REFERENCE == static_cast<int>(MotionStatus::no_reference));
+  CHECK(ego_motion_t::STATUS_INCOMPLETE_SCAN == static_cast<int>(MotionStatus::incomplete_scan));
+  CHECK(ego_motion_t::STATUS_GAP_TOO_LONG == static_cast<int>(MotionStatus::gap_too_long));
+  CHECK(ego_motion_t::STATUS_TOO_FEW_TARGETS == static_cast<int>(MotionStatus::too_few_targets));
+  CHECK(ego_motion_t::STATUS_NO_CONVERGENCE == static_cast<int>(MotionStatus::no_convergence));
+  CHECK(ego_motion_t::STATUS_NON_FINITE == static_cast<int>(MotionStatus::non_finite));
+  CHECK(ego_motion_t::STATUS_IMPLAUSIBLE == static_cast<int>(MotionStatus::implausible));
+  CHECK(radar_scan_t::SCAN_DROPPED_FRAMES == static_cast<int>(ScanStatus::dropped_frames));
+  CHECK(radar_scan_t::DETECTION_NO_POSITION == static_cast<int>(Validity::no_position));
+  CHECK(sizeof(status_t{}.motions_by_status) / sizeof(std::int64_t) == kMotionStatusCount);
+}
+
+TEST_CASE("A full scan and then an empty one go out on the radar's own channel") {
+  LcmPublisher publisher("memq://", two_radars());
+  RadarScan full;
+  full.stamp_us = 7;
+  full.counter = 65535;
+  full.announced = full.count = kMaxDetections;
+  for (std::size_t i = 0; i < kMaxDetections; ++i) {
+    full.detections[i].id = static_cast<std::uint16_t>(i);
+    full.detections[i].range_m = static_cast<double>(i) + 0.5;
+    full.detections[i].validity = Validity::moving;
+  }
+  const auto received = receive(publisher, [&] {
+    publisher.on_scan(1, full);
+    publisher.on_scan(1, RadarScan{});
+  });
+  REQUIRE(received.size() == 2);
+  CHECK(received[0].channel == "CREMED_SCAN_REAR-LEFT_2");
+  const auto message = decode<radar_scan_t>(received[0]);
+  REQUIRE(message.num_detections == kMaxDetections);
+  CHECK(message.range_m[255] == 255.5F);
+  CHECK(message.id[200] == 200);
+  CHECK(message.validity[0] == radar_scan_t::DETECTION_MOVING);
+  CHECK(message.counter == 65535);
+  CHECK(decode<radar_scan_t>(received[1]).num_detections == 0);
+}
+
+TEST_CASE("Scans stay at home unless asked for") {
+  Configuration configuration = two_radars();
+  configuration.output.publish_scans = false;
+  LcmPublisher publisher("memq://", configuration);
+  CHECK(receive(publisher, [&] { publisher.on_scan(0, RadarScan{}); }).empty());
+}
+
+TEST_CASE("status_t holds every counter and fits one datagram") {
+  LcmPublisher publisher("memq://", two_radars());
+  RadarStatus status;
+  status.utime_us = 99;
+  status.utime_last_estimate_us = 98;
+  status.last_motion_status = MotionStatus::gap_too_long;
+  status.source = {1, 2, 3, 4};
+  status.decoder = {5, 6, 7, 8, 9, 10, 11, 12};
+  status.assembler = {13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25};
+  status.selection = {26, 27, 28, 29, 30, 31, 32};
+  for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
+    status.motions_by_status[i] = 33 + i;
+  }
+  const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
+  REQUIRE(received.size() == 1);
+  CHECK(received[0].channel == "CREMED_STATUS");
+  CHECK(received[0].channel.size() + 1 + received[0].data.size() <= kOneDatagram);
+  const auto m = decode<status_t>(received[0]);
+  CHECK(m.utime == 99);
+  CHECK(m.utime_last_estimate == 98);
+  CHECK(m.last_motion_status == ego_motion_t::STATUS_GAP_TOO_LONG);
+  // Every counter was given another number: all of 1..42 must come out, none twice.
+  std::vector<std::int64_t> values{m.frames_read,
+                                   m.frames_of_other_interfaces,
+                                   m.frames_lost_before_us,
+                                   m.malformed_lines,
+                                   m.frames_of_this_radar,
+                                   m.frames_state,
+                                   m.frames_wrong_length,
+                                   m.frames_wrong_kind,
+                                   m.frames_wrong_mode,
+                                   m.frames_wrong_slot,
+                                   m.crc_errors,
+                                   m.counter_errors,
+                                   m.scans,
+                                   m.scans_incomplete,
+                                   m.scans_empty,
+                                   m.scans_timed_out,
+                                   m.parts_missing,
+                                   m.parts_duplicate,
+                                   m.parts_conflicting,
+                                   m.parts_reordered,
+                                   m.parts_excess,
+                                   m.parts_orphan,
+                                   m.scans_repeated,
+                                   m.scans_missed,
+                                   m.stamps_backwards,
+                                   m.detections_used,
+                                   m.detections_no_noise,
+                                   m.detections_invalid_state,
+                                   m.detections_moving,
+                                   m.detections_low_existence,
+                                   m.detections_no_position,
+                                   m.detections_outside_limits};
+  values.insert(values.end(), m.motions_by_status, m.motions_by_status + kMotionStatusCount);
+  REQUIRE(values.size() == 42);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    CHECK(values[i] == static_cast<std::int64_t>(i + 1));
+  }
+}
+
+TEST_CASE("A URL that cannot work is refused with what would be right") {
+  CHECK_THROWS_WITH(LcmPublisher("udpm://nowhere:7667?ttl=0", two_radars()),
+                    Catch::Contains("no IPv4 multicast address"));
+  CHECK_THROWS_WITH(LcmPublisher("carrier-pigeon://", two_radars()),
+                    Catch::Contains("udpm://239.255.76.67:7667"));
+}

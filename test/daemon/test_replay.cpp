@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
+#include <memory>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/replay.hpp"
+#include "test/daemon/temporary_file.hpp"
+
+using namespace cremed;
+
+namespace {
+
+volatile std::sig_atomic_t no_stop = 0;
+
+std::unique_ptr<CandumpLog> open(const TemporaryFile& file) {
+  return std::make_unique<CandumpLog>(file.path(), std::vector<std::string>{"can0", "can1"},
+                                      &no_stop);
+}
+
+Replay replay_of(const std::vector<const TemporaryFile*>& files, double speed = 0.0) {
+  std::vector<std::unique_ptr<CandumpLog>> logs;
+  for (const TemporaryFile* file : files) {
+    logs.push_back(open(*file));
+  }
+  return {std::move(logs), speed, &no_stop};
+}
+
+std::vector<std::uint32_t> ids(Replay& replay) {
+  std::vector<std::uint32_t> result;
+  CanFrame frame;
+  for (auto event = replay.next(frame); event != SourceEvent::end; event = replay.next(frame)) {
+    result.push_back(event == SourceEvent::dropped ? 0U : frame.id);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Several logs are merged by time, the first named first where stamps are equal") {
+  const TemporaryFile a("(1.000000) can0 001#\n(3.000000) can0 003#\n(4.000000) can0 004#\n");
+  const TemporaryFile b("(2.000000) can1 002#\n(3.000000) can1 103#\n(9.000000) can1 009#\n");
+  Replay forward = replay_of({&a, &b});
+  CHECK(ids(forward) == std::vector<std::uint32_t>{1, 2, 3, 0x103, 4, 9});
+  CHECK(forward.first_stamp_us() == 1'000'000);
+  CHECK(forward.last_stamp_us() == 9'000'000);
+  CHECK(forward.counters().frames == 6);
+  Replay swapped = replay_of({&b, &a});
+  CHECK(ids(swapped) == std::vector<std::uint32_t>{1, 2, 0x103, 3, 4, 9});
+}
+
+TEST_CASE("A report of lost frames comes before the frame behind it") {
+  const TemporaryFile a(
+      "(1.000000) can0 001#\nDROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n"
+      "(5.000000) can0 005#\n");
+  const TemporaryFile b("(2.000000) can1 002#\n");
+  Replay replay = replay_of({&a, &b});
+  CHECK(ids(replay) == std::vector<std::uint32_t>{1, 0, 2, 5});
+}
+
+TEST_CASE("A log whose clock runs back keeps its own order") {
+  const TemporaryFile file("(5.000000) can0 005#\n(1.000000) can0 001#\n(6.000000) can0 006#\n");
+  Replay replay = replay_of({&file});
+  CHECK(ids(replay) == std::vector<std::uint32_t>{5, 1, 6});
+}
+
+TEST_CASE("At a finite speed a frame is not early") {
+  const TemporaryFile file("(1.000000) can0 001#\n(1.200000) can0 002#\n");
+  Replay replay = replay_of({&file}, 4.0);
+  CanFrame frame;
+  REQUIRE(replay.next(frame) == SourceEvent::frame);
+  const std::int64_t begin_us = monotonic_us();
+  REQUIRE(replay.next(frame) == SourceEvent::frame);
+  CHECK(monotonic_us() - begin_us >= 45'000);  // 0.2 s at fourfold speed, less what next() took
+}

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A simulated drive through the whole pipeline, in memory.
+
+#include <array>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "daemon/pipeline.hpp"
+#include "test/tools/simulated_drive.hpp"
+#include "tools/eval/credibility.hpp"
+#include "tools/eval/true_trajectory.hpp"
+
+namespace cremed::test {
+
+/// Keeps everything that comes out.
+class RecordingSink final : public OdometrySink {
+ public:
+  explicit RecordingSink(std::size_t radars) : motions(radars), statuses(radars), scans(radars) {}
+
+  void on_scan(std::size_t radar, const RadarScan& scan) override { scans[radar].push_back(scan); }
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
+    motions[radar].push_back(motion);
+  }
+  void on_status(std::size_t radar, const RadarStatus& status) override {
+    statuses[radar].push_back(status);
+  }
+  [[nodiscard]] std::uint64_t failures() const override { return 0; }
+
+  std::vector<std::vector<EgoMotion>> motions;
+  std::vector<std::vector<RadarStatus>> statuses;
+  std::vector<std::vector<RadarScan>> scans;
+};
+
+class NoSource final : public FrameSource {
+ public:
+  SourceEvent next(CanFrame&) override { return SourceEvent::end; }
+};
+
+struct Outcome {
+  RecordingSink sink;
+  TrueTrajectory truth;
+};
+
+inline std::int64_t no_clock() { return 0; }
+
+inline Configuration configuration_of(const std::vector<RadarConfiguration>& radars) {
+  Configuration configuration;
+  configuration.radars = radars;
+  return configuration;
+}
+
+inline RecordingSink run_pipeline(const std::vector<RadarConfiguration>& radars,
+                                  const std::vector<CanFrame>& frames) {
+  RecordingSink sink(radars.size());
+  const NoSource source;
+  Pipeline pipeline(configuration_of(radars), source, {&sink}, &no_clock);
+  for (const CanFrame& frame : frames) {
+    pipeline.on_frame(frame);
+  }
+  pipeline.finish();
+  return sink;
+}
+
+inline TrueTrajectory truth_of(const Drive& drive) {
+  std::istringstream csv(drive.truth_csv);
+  return TrueTrajectory(csv);
+}
+
+/// Compares estimates with truth, 2 DoF.
+inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
+                                  const TrueTrajectory& truth) {
+  Credibility credibility(2);
+  for (const EgoMotion& motion : motions) {
+    const auto true_motion = truth.motion(motion.utime_start_us, motion.utime_us);
+    if (motion.has_estimate() && true_motion) {
+      credibility.add(motion.motion, motion.covariance, *true_motion);
+    }
+  }
+  return credibility;
+}
+
+inline std::size_t count_status(const std::vector<EgoMotion>& motions, MotionStatus status) {
+  return static_cast<std::size_t>(
+      std::count_if(motions.begin(), motions.end(),
+                    [&](const EgoMotion& motion) { return motion.status == status; }));
+}
+
+}  // namespace cremed::test

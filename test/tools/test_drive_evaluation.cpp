@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tools/eval/drive_evaluation.hpp"
+
+using namespace cremed;
+
+namespace {
+
+constexpr const char* kHeader =
+    "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
+    "status,targets,iterations,solve_us\n";
+
+/// Drives 10 m/s to the north-east, turning left by 0.1 rad/s (numbers, not a real arc).
+TrueTrajectory truth() {
+  std::istringstream csv(
+      "utime,x_m,y_m,yaw_rad\n"
+      "1000000,100,200,0.785398163397448\n"
+      "2000000,107.0710678,207.0710678,0.885398163397448\n");
+  return TrueTrajectory(csv);
+}
+
+std::vector<SourceEvaluation> evaluate(const std::string& rows) {
+  std::istringstream csv(kHeader + rows);
+  return evaluate_drive(csv, truth());
+}
+
+}  // namespace
+
+TEST_CASE("Truth is interpolated and turned into the start's frame") {
+  const auto pose = truth().at(1'250'000);
+  REQUIRE(pose);
+  CHECK(pose->x_m == Approx(101.76776695));
+  CHECK(pose->yaw_rad == Approx(0.810398163397448));
+  const auto motion = truth().motion(1'000'000, 1'100'000);
+  REQUIRE(motion);
+  CHECK(motion->x() == Approx(1.0));
+  CHECK(motion->y() == Approx(0.0).margin(1e-6));
+  CHECK(motion->z() == Approx(0.01));
+  CHECK_FALSE(truth().at(999'999));
+  CHECK(truth().at(2'000'000));
+  CHECK_FALSE(truth().at(2'000'001));
+}
+
+TEST_CASE("Yaw is interpolated the short way round") {
+  std::istringstream csv("utime,x_m,y_m,yaw_rad\n0,0,0,3.1\n1000000,0,0,-3.1\n");
+  const TrueTrajectory trajectory(csv);
+  const auto motion = trajectory.motion(0, 500'000);
+  REQUIRE(motion);
+  CHECK(motion->z() == Approx(2.0 * 3.14159265358979 - 6.2).epsilon(1e-9).margin(0.05));
+  CHECK(std::abs(motion->z()) < 0.05);
+}
+
+TEST_CASE("Sources are told apart; rows without estimate and outside of truth are counted") {
+  const auto sources = evaluate(
+      "1000000,1100000,front,1.1,0,0.01,0.01,0,0,0,0,0.0001,ok,50,6,0\n"
+      "1000000,1000000,rear,nan,nan,nan,nan,nan,nan,nan,nan,nan,no_reference,50,0,0\n"
+      "1100000,1200000,front,1.0,0,0.01,0.01,0,0,0,0,0.0001,standing_still,50,6,0\n"
+      "1900000,2100000,front,2.0,0,0.02,0.01,0,0,0,0,0.0001,ok,50,6,0\n");
+  REQUIRE(sources.size() == 2);
+  CHECK(sources[0].source == "front");
+  CHECK(sources[0].credibility.count() == 2);
+  CHECK(sources[0].outside_truth == 1);
+  // Errors of one sigma in x once: NEES of 2 DoF 1/2 and 0.
+  CHECK(sources[0].credibility.anees() == Approx(0.25).margin(1e-6));
+  // The second motion's truth is seen from a vehicle turned by 0.01 rad: 0.01 m to the right.
+  CHECK(sources[0].credibility.rmse_m() == Approx(std::sqrt((0.01 + 0.0001) / 2.0)).epsilon(1e-4));
+  CHECK(sources[1].credibility.count() == 0);
+  CHECK(sources[1].without_estimate == 1);
+}
+
+TEST_CASE("A covariance with y is evaluated in three degrees of freedom") {
+  const auto sources =
+      evaluate("1000000,1100000,front,1.0,0.2,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n");
+  CHECK(sources[0].credibility.anees() == Approx(1.0 / 3.0).margin(1e-6));
+}
+
+TEST_CASE("What is no odometry or no truth is refused with the place") {
+  CHECK_THROWS_WITH(evaluate("1,2,3\n"), Catch::Contains("line 2"));
+  CHECK_THROWS_WITH(evaluate("1000000,1100000,front,x,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n"),
+                    Catch::Contains("row 1, x_m: 'x' is no number"));
+  CHECK_THROWS_WITH(evaluate("1000000,1100000,front,nan,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n"),
+                    Catch::Contains("not finite"));
+  std::istringstream unsorted("utime,x_m,y_m,yaw_rad\n5,0,0,0\n5,0,0,0\n");
+  CHECK_THROWS_WITH(TrueTrajectory(unsorted), Catch::Contains("row 2: utime does not increase"));
+  std::istringstream incomplete("utime,x_m,y_m\n5,0,0\n");
+  CHECK_THROWS_WITH(TrueTrajectory(incomplete), Catch::Contains("no column yaw_rad"));
+}

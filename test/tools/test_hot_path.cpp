@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <net/if.h>
+#include <net/route.h>
+#include <netinet/in.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "daemon/candump.hpp"
+#include "daemon/csv_writer.hpp"
+#include "daemon/lcm_publisher.hpp"
+#include "daemon/tum_writer.hpp"
+#include "test/estimator/allocation_guard.hpp"
+#include "test/tools/pipeline_bench.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+/// Puts this process into a network of its own, where only lo exists and multicast goes there;
+/// false if the system does not let us.
+bool enter_own_network() {
+  if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) {
+    return false;
+  }
+  const int descriptor = ::socket(AF_INET, SOCK_DGRAM, 0);
+  ifreq interface {};
+  std::string_view("lo").copy(interface.ifr_name, IFNAMSIZ - 1);
+  interface.ifr_flags = IFF_UP;
+  rtentry route{};
+  char device[] = "lo";
+  const auto address = [](sockaddr& target, in_addr_t value) {
+    sockaddr_in in{};
+    in.sin_family = AF_INET;
+    in.sin_addr.s_addr = htonl(value);
+    static_assert(sizeof(in) == sizeof(target));
+    std::memcpy(&target, &in, sizeof(in));
+  };
+  address(route.rt_dst, 0xE0000000);      // 224.0.0.0
+  address(route.rt_genmask, 0xF0000000);  // /4
+  route.rt_flags = RTF_UP;
+  route.rt_dev = device;
+  const bool good = ::ioctl(descriptor, SIOCSIFFLAGS, &interface) == 0 &&
+                    ::ioctl(descriptor, SIOCADDRT, &route) == 0;
+  ::close(descriptor);
+  return good;
+}
+
+std::vector<RadarConfiguration> radars() {
+  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
+          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
+}
+
+Drive simulate() {
+  SimulationOptions options;
+  options.duration_s = 6.0;
+  return drive(scenario("lossy"), radars(), options);
+}
+
+/// Text in, messages out, without an allocation: every line of the log is parsed and goes through
+/// both radars' stages into the sinks. Returns the number of allocations.
+long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks) {
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, sinks, &no_clock);
+  std::string_view rest = simulated.log;
+  const AllocationGuard guard;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    CandumpLine line = parse_candump_line(rest.substr(0, end));
+    line.frame.interface = line.interface_name == "can0" ? 0 : 1;
+    pipeline.on_frame(line.frame);
+    rest.remove_prefix(end + 1);
+  }
+  pipeline.finish();
+  return AllocationGuard::stop();
+}
+
+/// A sink that does what no sink may.
+class AllocatingSink final : public OdometrySink {
+ public:
+  void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {
+    kept_.push_back(std::vector<double>(3));
+  }
+  [[nodiscard]] std::uint64_t failures() const override { return 0; }
+  [[nodiscard]] std::size_t calls() const { return kept_.size(); }
+
+ private:
+  std::vector<std::vector<double>> kept_;
+};
+
+}  // namespace
+
+TEST_CASE("The guard fires: a sink that allocates is caught in the pipeline") {
+  const Drive simulated = simulate();
+  AllocatingSink sink;
+  const long allocations = allocations_of_replay(simulated, {&sink});
+  CHECK(sink.calls() > 100);
+  CHECK(allocations >= static_cast<long>(sink.calls()));
+}
+
+TEST_CASE("From a line of text to CSV and trajectory, nothing allocates") {
+  const Drive simulated = simulate();
+  CsvWriter csv("/dev/null", {"front", "rear"});
+  TumWriter tum("/dev/null", 0);
+  CHECK(allocations_of_replay(simulated, {&csv, &tum}) == 0);
+}
+
+TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates") {
+  const Drive simulated = simulate();
+  if (!enter_own_network()) {
+    WARN("skipped: this system lets us have no network namespace of our own");
+    return;
+  }
+  Configuration configuration = configuration_of(radars());
+  configuration.output.publish_scans = true;
+  LcmPublisher publisher("udpm://239.255.76.67:7667?ttl=0", configuration);
+  CHECK(allocations_of_replay(simulated, {&publisher}) == 0);
+  CHECK(publisher.failures() == 0);
+}

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/pipeline_bench.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+std::vector<RadarConfiguration> front_and_rear() {
+  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
+          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
+}
+
+SimulationOptions options(std::uint64_t seed, double duration_s) {
+  SimulationOptions result;
+  result.seed = seed;
+  result.duration_s = duration_s;
+  return result;
+}
+
+/// What a drive must look like whatever happens in it.
+void check_invariants(const RecordingSink& sink) {
+  for (std::size_t radar = 0; radar < sink.motions.size(); ++radar) {
+    REQUIRE(sink.motions[radar].size() == sink.scans[radar].size());
+    for (std::size_t i = 0; i < sink.motions[radar].size(); ++i) {
+      const EgoMotion& motion = sink.motions[radar][i];
+      CHECK(motion.utime_us == sink.scans[radar][i].stamp_us);
+      CHECK(motion.has_estimate() == motion.motion.allFinite());
+      CHECK(motion.has_estimate() == motion.covariance.allFinite());
+      if (sink.scans[radar][i].status != ScanStatus::complete) {
+        CHECK(motion.status == MotionStatus::incomplete_scan);
+      }
+      if (motion.has_estimate()) {
+        CHECK(motion.utime_start_us < motion.utime_us);
+        CHECK(motion.utime_us - motion.utime_start_us <= 500'000);
+        CHECK(motion.covariance(0, 0) > 0.0);
+        CHECK(motion.covariance(2, 2) > 0.0);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accurate") {
+  // Bounds hold for any seed: ANEES of n = 300 estimates lies within 1 +- 0.12 if all errors are
+  // Gaussian; the rest is room for what the model leaves out (acceleration within a cycle).
+  struct Row {
+    const char* scenario;
+    double max_rmse_m;
+    double max_rmse_deg;
+  };
+  const auto row =
+      GENERATE(Row{"straight", 0.01, 0.35}, Row{"bends", 0.02, 0.35}, Row{"stop-and-go", 0.01, 0.3},
+               Row{"standing", 0.006, 0.25}, Row{"city", 0.012, 0.35});
+  CAPTURE(row.scenario);
+  const Drive simulated = drive(scenario(row.scenario), front_and_rear(), options(7, 25.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  check_invariants(sink);
+
+  const Credibility front = credibility_of(sink.motions[0], truth_of(simulated));
+  CHECK(front.count() >= 300);
+  CHECK(front.rmse_m() < row.max_rmse_m);
+  CHECK(front.rmse_deg() < row.max_rmse_deg);
+  CHECK(front.anees() > 0.5);
+  CHECK(front.anees() < 1.7);
+  const Credibility rear = credibility_of(sink.motions[1], truth_of(simulated));
+  CHECK(rear.count() >= 230);
+  CHECK(rear.rmse_m() < 0.03);
+  CHECK(rear.rmse_deg() < 0.5);
+}
+
+TEST_CASE("A standing vehicle is told from a driving one") {
+  const Drive standing = drive(scenario("standing"), front_and_rear(), options(3, 10.0));
+  const auto standing_motions = run_pipeline(standing.radars, standing.frames).motions;
+  for (const auto& motions : standing_motions) {
+    for (const EgoMotion& motion : motions) {
+      if (motion.has_estimate()) {
+        CHECK(std::abs(motion.motion.x()) < 0.03);
+        CHECK(std::abs(motion.motion.z()) < 0.02);
+      }
+    }
+  }
+  CHECK(count_status(standing_motions[1], MotionStatus::standing_still) > 20);
+
+  const Drive driving = drive(scenario("straight"), front_and_rear(), options(3, 10.0));
+  for (const auto& motions : run_pipeline(driving.radars, driving.frames).motions) {
+    CHECK(count_status(motions, MotionStatus::standing_still) == 0);
+  }
+}
+
+TEST_CASE("The same frames give the same bits") {
+  const Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
+  const RecordingSink a = run_pipeline(simulated.radars, simulated.frames);
+  const RecordingSink b = run_pipeline(simulated.radars, simulated.frames);
+  REQUIRE(a.motions[0].size() == b.motions[0].size());
+  for (std::size_t i = 1; i < a.motions[0].size(); ++i) {
+    CHECK(a.motions[0][i].motion == b.motions[0][i].motion);
+    CHECK(a.motions[0][i].covariance == b.motions[0][i].covariance);
+  }
+}
+
+TEST_CASE("Each radar's result does not depend on the other radars of the vehicle") {
+  const Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
+  const RecordingSink both = run_pipeline(simulated.radars, simulated.frames);
+  std::vector<CanFrame> rear_frames;
+  for (CanFrame frame : simulated.frames) {
+    if (frame.interface == 1) {
+      frame.interface = 0;
+      rear_frames.push_back(frame);
+    }
+  }
+  const RecordingSink alone = run_pipeline({simulated.radars[1]}, rear_frames);
+  REQUIRE(alone.motions[0].size() == both.motions[1].size());
+  REQUIRE(alone.motions[0].size() > 40);
+  for (std::size_t i = 1; i < alone.motions[0].size(); ++i) {
+    CHECK(alone.motions[0][i].motion == both.motions[1][i].motion);
+  }
+}
+
+TEST_CASE("Lost frames cost their scans and nothing else") {
+  const Drive simulated = drive(scenario("lossy"), front_and_rear(), options(5, 30.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  check_invariants(sink);
+  for (const auto& motions : sink.motions) {
+    CHECK(count_status(motions, MotionStatus::incomplete_scan) > 5);
+  }
+  // The estimate after a lost scan starts at the last whole one: no motion is missing.
+  const auto& motions = sink.motions[0];
+  std::int64_t reached_us = 0;
+  for (const EgoMotion& motion : motions) {
+    if (motion.has_estimate()) {
+      CHECK((reached_us == 0 || motion.utime_start_us == reached_us));
+      reached_us = motion.utime_us;
+    }
+  }
+  const Credibility front = credibility_of(motions, truth_of(simulated));
+  CHECK(front.rmse_m() < 0.05);
+}
+
+TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
+  const Drive simulated = drive(scenario("straight"), front_and_rear(), options(5, 2.0));
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, &no_clock);
+  for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
+    if (i == simulated.frames.size() / 2) {
+      pipeline.on_dropped(0);
+    }
+    pipeline.on_frame(simulated.frames[i]);
+  }
+  pipeline.finish();
+  const auto is_dropped = [](const RadarScan& scan) {
+    return scan.status == ScanStatus::dropped_frames;
+  };
+  CHECK(std::count_if(sink.scans[0].begin(), sink.scans[0].end(), is_dropped) == 1);
+  CHECK(std::count_if(sink.scans[1].begin(), sink.scans[1].end(), is_dropped) == 0);
+}
+
+TEST_CASE("Silence is a gap, not a standing vehicle") {
+  const Drive simulated = drive(scenario("silent"), front_and_rear(), options(5, 45.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  check_invariants(sink);
+  for (const auto& motions : sink.motions) {
+    CHECK(count_status(motions, MotionStatus::gap_too_long) == 2);
+  }
+}
+
+TEST_CASE("A clock that is set back costs one estimate and then goes on") {
+  Drive simulated = drive(scenario("straight"), front_and_rear(), options(9, 6.0));
+  for (std::size_t i = simulated.frames.size() / 2; i < simulated.frames.size(); ++i) {
+    simulated.frames[i].stamp_us -= 3'600'000'000;
+  }
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  check_invariants(sink);
+  for (const auto& motions : sink.motions) {
+    CHECK(count_status(motions, MotionStatus::gap_too_long) <= 1);
+    CHECK(motions.back().has_estimate());
+    CHECK(motions.back().utime_us < simulated.frames.front().stamp_us);
+  }
+  // The status goes on at 1 Hz of the new time.
+  CHECK(sink.statuses[0].size() >= 6);
+}
+
+TEST_CASE("Status at 1 Hz, and its counters add up") {
+  const Drive simulated = drive(scenario("city"), front_and_rear(), options(2, 20.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  for (std::size_t radar = 0; radar < 2; ++radar) {
+    REQUIRE(sink.statuses[radar].size() >= 20);
+    CHECK(sink.statuses[radar].size() <= 22);
+    const RadarStatus& last = sink.statuses[radar].back();
+    std::uint64_t motions = 0;
+    for (const std::uint64_t count : last.motions_by_status) {
+      motions += count;
+    }
+    CHECK(motions == last.assembler.scans);
+    CHECK(motions == sink.motions[radar].size());
+    std::uint64_t used = 0;
+    for (const EgoMotion& motion : sink.motions[radar]) {
+      used += static_cast<std::uint64_t>(motion.targets);
+    }
+    CHECK(used == last.selection.used);
+    CHECK(last.decoder.frames == static_cast<std::uint64_t>(std::count_if(
+                                     simulated.frames.begin(), simulated.frames.end(),
+                                     [&](const CanFrame& f) { return f.interface == radar; })));
+  }
+}

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/ars408_sender.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "tools/simulate/ars408_encoder.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kDegreeRad = std::numbers::pi / 180.0;
+
+/// Beam and resolution from the data sheet, near scan; far targets are as well resolved here.
+constexpr RadarCharacter kCharacter{
+    .zones = {{{9.0 * kDegreeRad, 200.0}, {45.0 * kDegreeRad, 90.0}, {60.0 * kDegreeRad, 20.0}}},
+    .least_range_m = 1.0,
+    .range_resolution_m = 0.42,
+    .azimuth_resolution_rad = 3.2 * kDegreeRad,
+    .doppler_resolution_mps = 0.12,
+    .mean_ghosts = 4};
+
+constexpr ScanCycle kCycle{72'000, 75'000};
+constexpr std::uint32_t kCounterStep = 2;
+constexpr std::uint8_t kInterfaceVersion = 1;
+constexpr double kNearScanM = 70.0;
+
+// Accuracy of the radar before its standard deviations become codes, which round them up.
+constexpr double kRangeStdM = 0.2;
+constexpr double kRangeStdPerMetre = 0.003;
+constexpr double kAzimuthStdRad = 0.014;
+constexpr double kDopplerStdMps = 0.28;
+constexpr double kObjectVyStdMps = 0.45;
+
+/// Below this the grid of 0.2 m would no longer be hidden in the noise: targets that move little
+/// would keep the same rounding error from scan to scan.
+constexpr double kLeastPositionStdM = 0.135;
+
+/// The hardware reports one and the same lateral code for all clusters: 0.011 m/s.
+constexpr std::uint8_t kClusterVyCode = 3;
+
+/// What a radar has against clusters, about as frequent as on the road.
+using State = Ars408InvalidState;
+constexpr std::array<State, 7> kDoubts{State::low_rcs,
+                                       State::low_rcs,
+                                       State::no_local_maximum,
+                                       State::no_local_maximum,
+                                       State::high_child_probability,
+                                       State::high_child_probability,
+                                       State::high_multi_target_probability};
+constexpr double kDoubtShare = 0.35;
+
+/// A slower target counts as standing, as far as Doppler can tell.
+constexpr double kStandingDopplerMps = 0.5;
+
+double square(double value) { return value * value; }
+
+/// Variance that a code of table R stands for.
+double variance(std::uint8_t code) { return square(ars408_rms(code).value_or(0.0)); }
+
+double rounding_variance(double step) { return step * step / 12.0; }
+
+std::uint8_t position_code(double std_m) {
+  return ars408_rms_code(std::max(std_m, kLeastPositionStdM));
+}
+
+Ars408RmsCodes rms_codes(const RadarView& view, bool object) {
+  const double cos_azimuth = std::cos(view.azimuth_rad);
+  const double sin_azimuth = std::sin(view.azimuth_rad);
+  const double along_m = std::hypot(kRangeStdM, kRangeStdPerMetre * view.range_m);
+  const double across_m = view.range_m * kAzimuthStdRad;
+  Ars408RmsCodes codes;
+  codes.x = position_code(std::hypot(cos_azimuth * along_m, sin_azimuth * across_m));
+  codes.y = position_code(std::hypot(sin_azimuth * along_m, cos_azimuth * across_m));
+  // All of a cluster's Doppler accuracy is reported in x, as the hardware does.
+  codes.vx = ars408_rms_code(object ? kDopplerStdMps : kDopplerStdMps / cos_azimuth);
+  codes.vy = object ? ars408_rms_code(kObjectVyStdMps) : kClusterVyCode;
+  return codes;
+}
+
+/// A speed error that has the reported standard deviation once it is rounded to the grid.
+double speed_noise_std(std::uint8_t code) {
+  return std::sqrt(variance(code) - rounding_variance(kArs408SpeedStepMps));
+}
+
+}  // namespace
+
+Ars408Sender::Ars408Sender(const Ars408Options& options, const Scene& scene,
+                           const SenderSetup& setup)
+    : RadarSender(kCharacter, kCycle,
+                  options.output == Ars408Output::objects
+                      ? encode_ars408(options.sensor_id, Ars408ObjectStatus{})
+                      : encode_ars408(options.sensor_id, Ars408ClusterStatus{}),
+                  scene, setup),
+      options_(options) {}
+
+/// The rounding of x and y to their grid adds the same variance along and across the line of
+/// sight, that of both velocities adds its own to Doppler: what is drawn leaves room for it.
+PolarStd Ars408Sender::noise(const RadarView& view) const {
+  const Ars408RmsCodes codes = rms_codes(view, sends_objects());
+  const double cos_2 = square(std::cos(view.azimuth_rad));
+  const double sin_2 = square(std::sin(view.azimuth_rad));
+  const double x_2 = variance(codes.x);
+  const double y_2 = variance(codes.y);
+  const double position_rounding = rounding_variance(kArs408DistanceStepM);
+  const double doppler_2 = cos_2 * variance(codes.vx) + sin_2 * variance(codes.vy);
+  PolarStd std;
+  std.range_m = std::sqrt(cos_2 * x_2 + sin_2 * y_2 - position_rounding);
+  std.azimuth_rad = std::sqrt(sin_2 * x_2 + cos_2 * y_2 - position_rounding) / view.range_m;
+  std.doppler_mps = std::sqrt(doppler_2 - rounding_variance(kArs408SpeedStepMps));
+  return std;
+}
+
+void Ars408Sender::encode(const std::vector<Measurement>& targets, std::uint32_t cycle,
+                          std::vector<CanFrame>& list) {
+  const auto counter = static_cast<std::uint16_t>(kCounterStep * cycle);
+  if (sends_objects()) {
+    encode_objects(targets, counter, list);
+  } else {
+    encode_clusters(targets, counter, list);
+  }
+}
+
+void Ars408Sender::encode_clusters(const std::vector<Measurement>& targets, std::uint16_t counter,
+                                   std::vector<CanFrame>& list) {
+  const auto near_count =
+      std::count_if(targets.begin(), targets.end(),
+                    [](const Measurement& target) { return target.range_m < kNearScanM; });
+  Ars408ClusterStatus status;
+  status.near_count = static_cast<std::uint8_t>(near_count);
+  status.far_count = static_cast<std::uint8_t>(targets.size() - status.near_count);
+  status.counter = counter;
+  status.interface_version = kInterfaceVersion;
+  list.push_back(encode_ars408(options_.sensor_id, status));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Ars408General general = cluster(targets[i]);
+    general.id = static_cast<std::uint8_t>(i);
+    list.push_back(encode_ars408_cluster(options_.sensor_id, general));
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Ars408ClusterQuality quality = cluster_quality(rms_codes(targets[i].echo.view, false));
+    quality.id = static_cast<std::uint8_t>(i);
+    list.push_back(encode_ars408(options_.sensor_id, quality));
+  }
+}
+
+void Ars408Sender::encode_objects(const std::vector<Measurement>& targets, std::uint16_t counter,
+                                  std::vector<CanFrame>& list) {
+  Ars408ObjectStatus status;
+  status.count = static_cast<std::uint8_t>(targets.size());
+  status.counter = counter;
+  status.interface_version = kInterfaceVersion;
+  list.push_back(encode_ars408(options_.sensor_id, status));
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Ars408General general = object(targets[i], rms_codes(targets[i].echo.view, true));
+    general.id = static_cast<std::uint8_t>(i);
+    list.push_back(encode_ars408_object(options_.sensor_id, general));
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Ars408ObjectQuality quality;
+    quality.id = static_cast<std::uint8_t>(i);
+    quality.rms = rms_codes(targets[i].echo.view, true);
+    quality.existence_code = targets[i].echo.kind == EchoKind::ghost ? 3 : 7;
+    quality.measurement_state = Ars408MeasurementState::measured;
+    list.push_back(encode_ars408(options_.sensor_id, quality));
+  }
+}
+
+/// A cluster's velocity is its Doppler along the measured line of sight.
+Ars408General Ars408Sender::cluster(const Measurement& measurement) {
+  Ars408General target;
+  target.x_m = measurement.range_m * std::cos(measurement.azimuth_rad);
+  target.y_m = measurement.range_m * std::sin(measurement.azimuth_rad);
+  target.vx_mps = measurement.doppler_mps * std::cos(measurement.azimuth_rad);
+  target.vy_mps = measurement.doppler_mps * std::sin(measurement.azimuth_rad);
+  target.rcs_dbm2 = measurement.echo.rcs_dbm2;
+  target.dyn_prop = dyn_prop(measurement.echo);
+  return target;
+}
+
+/// An object's velocity is a vector; the error of each part is drawn from its own code.
+Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408RmsCodes& rms) {
+  Ars408General target = cluster(measurement);
+  const RadarView& view = measurement.echo.view;
+  target.vx_mps = view.x_mps + speed_noise_std(rms.vx) * random().normal() +
+                  shared_doppler_mps() * std::cos(view.azimuth_rad);
+  target.vy_mps = view.y_mps + speed_noise_std(rms.vy) * random().normal() +
+                  shared_doppler_mps() * std::sin(view.azimuth_rad);
+  return target;
+}
+
+/// Ghosts are not given away.
+Ars408ClusterQuality Ars408Sender::cluster_quality(const Ars408RmsCodes& rms) {
+  Ars408ClusterQuality quality;
+  quality.rms = rms;
+  if (random().chance(kDoubtShare)) quality.invalid_state = kDoubts[random().index(kDoubts.size())];
+  quality.false_alarm_code = random().chance(0.65) ? 1 : 3;
+  quality.ambiguity = Ars408Ambiguity::unambiguous;
+  return quality;
+}
+
+/// Doppler is all that tells a moving target: one that moves across looks as if it stood.
+Ars408DynProp Ars408Sender::dyn_prop(const Echo& echo) {
+  const double doppler_mps = echo.view.ground_doppler_mps;
+  if (doppler_mps < -kStandingDopplerMps) return Ars408DynProp::oncoming;
+  if (doppler_mps > kStandingDopplerMps) return Ars408DynProp::moving;
+  const Ars408DynProp standing =
+      echo.kind == EchoKind::vehicle ? Ars408DynProp::stopped : Ars408DynProp::stationary;
+  return random().chance(0.55) ? standing : Ars408DynProp::stationary_candidate;
+}
+
+}  // namespace cremed

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "estimator/pose2.hpp"
+#include "tools/simulate/radar_view.hpp"
+#include "tools/simulate/random.hpp"
+#include "tools/simulate/scene.hpp"
+
+namespace cremed {
+
+/// Seen up to `range_m` by a beam that opens `half_angle_rad` to both sides.
+struct BeamZone {
+  double half_angle_rad;
+  double range_m;
+};
+
+/// What one radar family can see and tell apart.
+struct RadarCharacter {
+  std::array<BeamZone, 3> zones;  ///< Narrow and far first.
+  double least_range_m;
+  double range_resolution_m;  ///< Two targets nearer than all three resolutions are one.
+  double azimuth_resolution_rad;
+  double doppler_resolution_mps;
+  std::size_t mean_ghosts;  ///< False alarms for each scan, each in one scan only.
+};
+
+enum class EchoKind : std::uint8_t { fixed, vehicle, ghost };
+
+/// One target of a scan, before the radar's measurement errors.
+struct Echo {
+  EchoKind kind = EchoKind::fixed;
+  RadarView view;
+  double rcs_dbm2 = 0.0;
+  double x_m = 0.0;  ///< Place in the world; not set for a ghost.
+  double y_m = 0.0;
+};
+
+/// Which targets one radar detects: those in its beam that it can resolve, by chance.
+class RadarModel {
+ public:
+  RadarModel(const RadarCharacter& character, const Pose2& vehicle_from_radar, const Scene& scene,
+             Random random);
+
+  /// In no particular order. Valid until the next call.
+  const std::vector<Echo>& observe(std::int64_t stamp_us);
+
+ private:
+  [[nodiscard]] double greatest_range_m(double azimuth_rad) const;
+  void detect(EchoKind kind, const WorldPoint& point, double rcs_dbm2, double probability);
+  void detect_fixed();
+  void detect_vehicles(double time_s);
+  void add_ghosts();
+  [[nodiscard]] bool same_cell(const RadarView& a, const RadarView& b) const;
+  void merge_unresolved();
+
+  RadarCharacter character_;
+  Pose2 vehicle_from_radar_;
+  const Scene& scene_;
+  Random random_;
+  RadarState radar_;
+  std::vector<Echo> echoes_;
+  std::vector<MovingReflector> moving_;
+};
+
+}  // namespace cremed

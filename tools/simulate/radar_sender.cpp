@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/radar_sender.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cremed {
+namespace {
+
+/// Two streams for each radar, apart from those of the scene.
+constexpr std::uint64_t kFirstStream = 16;
+
+/// No measured range is smaller: an azimuth must stay defined.
+constexpr double kLeastMeasuredM = 0.3;
+
+/// Correlation of the shared Doppler error from scan to scan; real drives show 0.4 to 0.8.
+constexpr double kSharedCorrelation = 0.6;
+
+/// Power-on is so many cycles before the start: the counters do not begin at 0.
+constexpr std::size_t kGreatestFirstCycle = 65536;
+
+}  // namespace
+
+RadarSender::RadarSender(const RadarCharacter& character, const ScanCycle& cycle,
+                         const CanFrame& first_frame, const Scene& scene, const SenderSetup& setup)
+    : cycle_(cycle),
+      first_frame_(first_frame),
+      scene_(scene),
+      setup_(setup),
+      random_(setup.seed, kFirstStream + 2 * setup.radar),
+      model_(character, setup.vehicle_from_radar, scene,
+             Random(setup.seed, kFirstStream + 2 * setup.radar + 1)) {
+  cycle_count_ = static_cast<std::uint32_t>(random_.index(kGreatestFirstCycle));
+  const double phase = random_.uniform();
+  next_scan_us_ = scene.start_us() + std::llround(phase * static_cast<double>(cycle_.least_us));
+  shared_doppler_mps_ = setup_.shared_doppler_std_mps * random_.normal();
+  if (silent(next_scan_us_)) schedule_next();
+}
+
+FrameRequest RadarSender::request() const {
+  if (sent_ < list_.size()) return {scan_stamp_us_, list_[sent_].id, list_[sent_].length};
+  // The frame must be complete, so its measurement done, before the end.
+  if (next_scan_us_ + 10 * frame_time_us(8) > scene_.end_us()) return {};
+  return {next_scan_us_, first_frame_.id, first_frame_.length};
+}
+
+CanFrame RadarSender::send(std::int64_t stamp_us) {
+  if (sent_ == list_.size()) start_scan(stamp_us);
+  CanFrame& frame = list_[sent_++];
+  finish(frame, stamp_us - scan_stamp_us_);
+  return frame;
+}
+
+void RadarSender::finish(CanFrame& /*frame*/, std::int64_t /*age_us*/) {}
+
+void RadarSender::start_scan(std::int64_t stamp_us) {
+  scan_stamp_us_ = stamp_us;
+  measure(model_.observe(stamp_us));
+  list_.clear();
+  sent_ = 0;
+  encode(targets_, cycle_count_, list_);
+  report_truth();
+  schedule_next();
+}
+
+void RadarSender::measure(const std::vector<Echo>& echoes) {
+  shared_doppler_mps_ = kSharedCorrelation * shared_doppler_mps_ +
+                        std::sqrt(1.0 - kSharedCorrelation * kSharedCorrelation) *
+                            setup_.shared_doppler_std_mps * random_.normal();
+  targets_.clear();
+  for (const Echo& echo : echoes) {
+    const PolarStd std = noise(echo.view);
+    Measurement target{echo, echo.view.range_m, echo.view.azimuth_rad, echo.view.doppler_mps};
+    target.range_m = std::max(kLeastMeasuredM, target.range_m + std.range_m * random_.normal());
+    target.azimuth_rad += std.azimuth_rad * random_.normal();
+    target.doppler_mps += std.doppler_mps * random_.normal() + shared_doppler_mps_;
+    targets_.push_back(target);
+  }
+  std::stable_sort(targets_.begin(), targets_.end(),
+                   [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
+  targets_.resize(std::min(targets_.size(), setup_.max_targets));
+}
+
+void RadarSender::schedule_next() {
+  do {
+    const auto span_us = static_cast<double>(cycle_.greatest_us - cycle_.least_us);
+    next_scan_us_ += cycle_.least_us + std::llround(span_us * random_.uniform());
+    ++cycle_count_;
+  } while (silent(next_scan_us_) && next_scan_us_ < scene_.end_us());
+}
+
+/// The silence is at the end of each period, so that a drive begins with scans.
+bool RadarSender::silent(std::int64_t stamp_us) const {
+  const FaultOptions& faults = setup_.faults;
+  if (faults.silence_period_s <= 0.0) return false;
+  return std::fmod(scene_.seconds(stamp_us), faults.silence_period_s) >=
+         faults.silence_period_s - faults.silence_s;
+}
+
+void RadarSender::report_truth() const {
+  if (!setup_.observer) return;
+  ScanTruth truth{setup_.radar, scan_stamp_us_, {}};
+  for (const Measurement& target : targets_) truth.echoes.push_back(target.echo);
+  setup_.observer(truth);
+}
+
+}  // namespace cremed

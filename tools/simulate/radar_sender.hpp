@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "can_decoders/can_frame.hpp"
+#include "tools/simulate/can_bus.hpp"
+#include "tools/simulate/radar_model.hpp"
+#include "tools/simulate/random.hpp"
+#include "tools/simulate/scenario.hpp"
+#include "tools/simulate/scene.hpp"
+
+namespace cremed {
+
+/// What a radar really saw: the truth behind the detections of one scan, in their order.
+struct ScanTruth {
+  std::size_t radar = 0;  ///< Index in the list of radars.
+  std::int64_t stamp_us = 0;
+  std::vector<Echo> echoes;
+};
+
+using ScanObserver = std::function<void(const ScanTruth&)>;
+
+/// All that is common to the radars of a simulation.
+struct SenderSetup {
+  std::size_t radar = 0;
+  Pose2 vehicle_from_radar;
+  std::uint64_t seed = 1;
+  std::size_t max_targets = 0;
+  double shared_doppler_std_mps = 0.0;  ///< An error that all targets of a scan share.
+  FaultOptions faults;
+  ScanObserver observer;  ///< May be empty.
+};
+
+/// Standard deviations of a measurement's errors, which are independent of each other.
+struct PolarStd {
+  double range_m = 0.0;
+  double azimuth_rad = 0.0;
+  double doppler_mps = 0.0;
+};
+
+/// One target as the radar measured it, not yet rounded to what a frame can carry.
+struct Measurement {
+  Echo echo;
+  double range_m = 0.0;
+  double azimuth_rad = 0.0;
+  double doppler_mps = 0.0;
+};
+
+/// Shortest and longest time between two scans.
+struct ScanCycle {
+  std::int64_t least_us = 0;
+  std::int64_t greatest_us = 0;
+};
+
+/// A radar on the bus: measures once a cycle, at the moment that the first frame of the list is
+/// complete, and sends the list.
+class RadarSender : public BusSender {
+ public:
+  [[nodiscard]] FrameRequest request() const override;
+  CanFrame send(std::int64_t stamp_us) override;
+
+ protected:
+  /// `first_frame`: identifier and length of the first frame of every list.
+  RadarSender(const RadarCharacter& character, const ScanCycle& cycle, const CanFrame& first_frame,
+              const Scene& scene, const SenderSetup& setup);
+
+  /// Errors to draw, so that after rounding they have the reported standard deviations.
+  [[nodiscard]] virtual PolarStd noise(const RadarView& view) const = 0;
+
+  /// Appends all frames of a scan. `cycle` counts the scans since power-on.
+  virtual void encode(const std::vector<Measurement>& targets, std::uint32_t cycle,
+                      std::vector<CanFrame>& list) = 0;
+
+  /// Last changes to a frame when it is sent, `age_us` after the measurement.
+  virtual void finish(CanFrame& frame, std::int64_t age_us);
+
+  [[nodiscard]] Random& random() { return random_; }
+  [[nodiscard]] double shared_doppler_mps() const { return shared_doppler_mps_; }
+
+ private:
+  void start_scan(std::int64_t stamp_us);
+  void measure(const std::vector<Echo>& echoes);
+  void schedule_next();
+  [[nodiscard]] bool silent(std::int64_t stamp_us) const;
+  void report_truth() const;
+
+  ScanCycle cycle_;
+  CanFrame first_frame_;
+  const Scene& scene_;
+  SenderSetup setup_;
+  Random random_;
+  RadarModel model_;
+  std::int64_t next_scan_us_ = 0;
+  std::int64_t scan_stamp_us_ = 0;
+  std::uint32_t cycle_count_ = 0;
+  double shared_doppler_mps_ = 0.0;
+  std::vector<Measurement> targets_;
+  std::vector<CanFrame> list_;
+  std::size_t sent_ = 0;
+};
+
+}  // namespace cremed

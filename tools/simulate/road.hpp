@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "estimator/pose2.hpp"
+#include "tools/simulate/vehicle_course.hpp"
+
+namespace cremed {
+
+/// A point of the road's centre line, which is the path of the vehicle's rear axle.
+struct RoadPoint {
+  Pose2 pose;
+  double curvature_1pm = 0.0;
+};
+
+/// The vehicle's path by its length, straight on before its start and after its end.
+class Road {
+ public:
+  explicit Road(const VehicleCourse& course);
+
+  [[nodiscard]] RoadPoint at(double distance_m) const;
+  [[nodiscard]] double length_m() const { return length_m_; }
+
+ private:
+  double length_m_ = 0.0;
+  std::vector<Pose2> samples_;  ///< One each kSpacingM, from 0 on; the last is the path's end.
+};
+
+/// The point `left_m` to the left of the centre line.
+Pose2 beside(const RoadPoint& point, double left_m);
+
+}  // namespace cremed

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/scene.hpp"
+
+#include <cmath>
+
+#include "tools/simulate/random.hpp"
+
+namespace cremed {
+namespace {
+
+/// The course goes on after the end, for the car ahead of us.
+constexpr double kMarginS = 5.0;
+
+constexpr std::uint64_t kWorldStream = 1;
+constexpr std::uint64_t kTrafficStream = 2;
+
+}  // namespace
+
+Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed)
+    : start_us_(start_us),
+      end_us_(start_us + std::llround(duration_s * 1e6)),
+      course_(scenario.course, duration_s + kMarginS),
+      road_(course_),
+      world_(road_, scenario.world, Random(seed, kWorldStream)),
+      traffic_(course_, road_, scenario.traffic, Random(seed, kTrafficStream)) {}
+
+}  // namespace cremed

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "tools/simulate/road.hpp"
+#include "tools/simulate/scenario.hpp"
+#include "tools/simulate/traffic.hpp"
+#include "tools/simulate/vehicle_course.hpp"
+#include "tools/simulate/world.hpp"
+
+namespace cremed {
+
+/// What is there to be seen, and when: the drive, what stands along it, and the other cars.
+class Scene {
+ public:
+  Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed);
+  Scene(const Scene&) = delete;  // Its parts refer to each other.
+  Scene& operator=(const Scene&) = delete;
+
+  [[nodiscard]] double seconds(std::int64_t stamp_us) const {
+    return static_cast<double>(stamp_us - start_us_) * 1e-6;
+  }
+  [[nodiscard]] std::int64_t start_us() const { return start_us_; }
+  [[nodiscard]] std::int64_t end_us() const { return end_us_; }
+  [[nodiscard]] const VehicleCourse& course() const { return course_; }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const Traffic& traffic() const { return traffic_; }
+
+ private:
+  std::int64_t start_us_;
+  std::int64_t end_us_;
+  VehicleCourse course_;
+  Road road_;
+  World world_;
+  Traffic traffic_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/candump.hpp"
+#include "daemon/configuration.hpp"
+#include "tools/simulate/scenario.hpp"
+#include "tools/simulate/simulation.hpp"
+
+namespace {
+
+constexpr int kRunTimeFailure = 1;
+constexpr int kBadUsage = 2;
+
+/// Wrong arguments; what() says what would be right.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Arguments {
+  std::string scenario;
+  std::string output;
+  std::string truth;
+  std::string config;
+  std::int64_t start_s = 1'700'000'000;
+  cremed::SimulationOptions options;
+};
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' names them all")
+      ->required();
+  app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
+  app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
+  app.add_option("--config", arguments.config,
+                 "Configuration of cremed with the radars to simulate; without it an ARS408 in "
+                 "front on can0 and a Bosch GPR at the rear on can1");
+  app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
+  app.add_option("--duration", arguments.options.duration_s,
+                 "Seconds to drive; without it as long as the scenario")
+      ->check(CLI::Range(0.5, 7200.0));
+  app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
+      ->capture_default_str();
+  app.add_option("--shared-doppler-std", arguments.options.shared_doppler_std_mps,
+                 "Standard deviation in m/s of a slowly varying Doppler error that all targets of "
+                 "a scan share and no radar reports")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+}
+
+void list_scenarios() {
+  for (const cremed::Scenario& scenario : cremed::scenarios()) {
+    std::cout << std::left << std::setw(12) << scenario.name << ' ' << scenario.description << " ("
+              << scenario.duration_s << " s)\n";
+  }
+}
+
+const cremed::Scenario& asked_scenario(const std::string& name) {
+  if (const cremed::Scenario* scenario = cremed::find_scenario(name)) return *scenario;
+  throw UsageError("--scenario: there is no '" + name + "'; '--scenario list' names them all");
+}
+
+std::ofstream opened(const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+  return file;
+}
+
+void write_log(cremed::Simulation& simulation, std::ostream& log, const std::string& path) {
+  std::array<char, cremed::kMaxCandumpLine> line{};
+  while (const auto frame = simulation.next()) {
+    const std::string& interface = simulation.interfaces()[frame->interface];
+    const std::size_t length = cremed::format_candump_line(*frame, interface, line);
+    if (!log.write(line.data(), static_cast<std::streamsize>(length))) break;
+  }
+  if (!log.flush()) throw std::runtime_error(path + ": writing failed");
+}
+
+void write_truth(const cremed::Simulation& simulation, const std::string& path) {
+  std::ofstream file = opened(path);
+  simulation.write_truth(file);
+  if (!file.flush()) throw std::runtime_error(path + ": writing failed");
+}
+
+void simulate(Arguments& arguments) {
+  const cremed::Scenario& scenario = asked_scenario(arguments.scenario);
+  if (arguments.output.empty()) throw UsageError("--output is required, a file or '-'");
+  const auto radars = arguments.config.empty()
+                          ? cremed::default_radars()
+                          : cremed::load_configuration(arguments.config).radars;
+  arguments.options.start_us = arguments.start_s * 1'000'000;
+  cremed::Simulation simulation(scenario, radars, arguments.options);
+  if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
+  if (arguments.output == "-") {
+    write_log(simulation, std::cout, "standard output");
+  } else {
+    std::ofstream log = opened(arguments.output);
+    write_log(simulation, log, arguments.output);
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Simulates a drive as CAN frames of its radars, with truth"};
+  Arguments arguments;
+  add_options(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+  if (arguments.scenario == "list") {
+    list_scenarios();
+    return 0;
+  }
+  simulate(arguments);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    std::cerr << "cremed-simulate: " << error.what() << '\n';
+    return kBadUsage;
+  } catch (const cremed::ConfigurationError& error) {
+    std::cerr << "cremed-simulate: " << error.what() << '\n';
+    return kBadUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "cremed-simulate: " << error.what() << '\n';
+    return kRunTimeFailure;
+  }
+}

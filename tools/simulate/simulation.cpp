@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/simulate/simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <ostream>
+#include <stdexcept>
+
+#include "tools/simulate/ars408_encoder.hpp"
+#include "tools/simulate/ars408_sender.hpp"
+#include "tools/simulate/bosch_gpr_encoder.hpp"
+#include "tools/simulate/bosch_gpr_sender.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::uint64_t kLossStream = 3;
+constexpr double kArs408CycleUs = 72'000.0;
+constexpr double kGprBusShare = 0.24;
+constexpr std::int64_t kStatePeriodUs = 1'000'000;
+
+double asked_duration_s(const Scenario& scenario, const SimulationOptions& options) {
+  return options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
+}
+
+/// A list of an ARS408 takes most of its cycle; radars that share a bus must send less. No source
+/// says how real ones do that; here they share what is left of 90 % of the bus evenly.
+std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
+                           const RadarConfiguration& radar) {
+  double share = 0.9;
+  int sharing = 0;
+  for (const RadarConfiguration& other : radars) {
+    if (other.interface != radar.interface) continue;
+    if (std::holds_alternative<BoschGprOptions>(other.decoder)) {
+      share -= kGprBusShare;
+    } else {
+      ++sharing;
+    }
+  }
+  const auto target_us = static_cast<double>(frame_time_us(8) + frame_time_us(7));
+  const auto room =
+      static_cast<std::size_t>(std::max(0.0, share) * kArs408CycleUs / (sharing * target_us));
+  const bool objects = std::get<Ars408Options>(radar.decoder).output == Ars408Output::objects;
+  return std::min(room, objects ? Ars408Sender::kMaxObjects : Ars408Sender::kMaxClusters);
+}
+
+/// Set up as the daemon needs it, and told the motion of the vehicle.
+Ars408RadarState radar_state(const Ars408Options& options) {
+  Ars408RadarState state;
+  state.nvm_read = true;
+  state.max_distance_m = 200.0;
+  state.sort_code = 1;
+  state.sensor_id = options.sensor_id;
+  state.sends_quality = true;
+  state.output_code = options.output == Ars408Output::objects ? 1 : 2;
+  return state;
+}
+
+RadarConfiguration radar_at(const std::string& name, const std::string& interface,
+                            const Pose2& vehicle_from_radar) {
+  RadarConfiguration radar;
+  radar.name = name;
+  radar.interface = interface;
+  radar.ego_motion.vehicle_from_radar = vehicle_from_radar;
+  return radar;
+}
+
+}  // namespace
+
+std::vector<RadarConfiguration> default_radars() {
+  RadarConfiguration front = radar_at("front", "can0", {3.6, 0.0, 0.0});
+  front.decoder = Ars408Options{};
+  RadarConfiguration rear = radar_at("rear", "can1", {-0.9, 0.0, std::numbers::pi});
+  rear.decoder = BoschGprOptions{};
+  return {front, rear};
+}
+
+Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
+                       const SimulationOptions& options, const ScanObserver& observer)
+    : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed),
+      frame_loss_(scenario.faults.frame_loss),
+      loss_random_(options.seed, kLossStream) {
+  for (std::size_t i = 0; i < radars.size(); ++i) {
+    SenderSetup setup;
+    setup.radar = i;
+    setup.vehicle_from_radar = radars[i].ego_motion.vehicle_from_radar;
+    setup.seed = options.seed;
+    setup.shared_doppler_std_mps = options.shared_doppler_std_mps;
+    setup.faults = scenario.faults;
+    setup.observer = observer;
+    CanBus& bus = bus_of(radars[i].interface);
+    if (const auto* ars408 = std::get_if<Ars408Options>(&radars[i].decoder)) {
+      setup.max_targets = ars408_targets(radars, radars[i]);
+      attach_ars408(*ars408, setup, bus);
+    } else {
+      setup.max_targets = kBoschGprSlots;
+      attach_gpr(std::get<BoschGprOptions>(radars[i].decoder), setup, bus);
+    }
+  }
+}
+
+CanBus& Simulation::bus_of(const std::string& interface) {
+  const auto found = std::find(interfaces_.begin(), interfaces_.end(), interface);
+  if (found != interfaces_.end()) {
+    return buses_[static_cast<std::size_t>(found - interfaces_.begin())];
+  }
+  interfaces_.push_back(interface);
+  return buses_.emplace_back(static_cast<std::uint8_t>(buses_.size()));
+}
+
+void Simulation::attach_ars408(const Ars408Options& options, const SenderSetup& setup,
+                               CanBus& bus) {
+  bus.attach(std::make_unique<Ars408Sender>(options, scene_, setup));
+  attach_state(bus, setup.radar, {encode_ars408(options.sensor_id, radar_state(options))});
+  attach_state(bus, setup.radar, {encode_ars408(options.sensor_id, Ars408Version{4, 30, 2})});
+}
+
+void Simulation::attach_gpr(const BoschGprOptions& options, const SenderSetup& setup, CanBus& bus) {
+  bus.attach(std::make_unique<BoschGprSender>(options, scene_, setup));
+  std::vector<CanFrame> infos;
+  BoschGprInfo info;
+  info.temperature_degc = 40;
+  for (info.counter = 0; info.counter < 4; ++info.counter) {
+    infos.push_back(encode_bosch_gpr_info(options.info_id, info));
+  }
+  attach_state(bus, setup.radar, std::move(infos));
+}
+
+/// Once a second, which is no multiple of a cycle: some state frames fall inside lists.
+void Simulation::attach_state(CanBus& bus, std::size_t radar, std::vector<CanFrame> frames) {
+  const std::int64_t first_us =
+      scene_.start_us() + 130'000 + 137'000 * static_cast<std::int64_t>(radar);
+  bus.attach(std::make_unique<PeriodicSender>(std::move(frames), first_us, kStatePeriodUs,
+                                              scene_.end_us()));
+}
+
+std::optional<CanFrame> Simulation::next() {
+  while (true) {
+    const auto earliest = std::min_element(
+        buses_.begin(), buses_.end(),
+        [](const CanBus& a, const CanBus& b) { return a.next_stamp_us() < b.next_stamp_us(); });
+    if (earliest == buses_.end() || earliest->next_stamp_us() == FrameRequest::kNeverUs) {
+      return std::nullopt;
+    }
+    const CanFrame frame = earliest->transmit();
+    if (!loss_random_.chance(frame_loss_)) return frame;
+  }
+}
+
+void Simulation::write_truth(std::ostream& output) const {
+  output << "utime,x_m,y_m,yaw_rad\n";
+  const std::int64_t step_us = std::llround(VehicleCourse::kStepS * 1e6);
+  std::int64_t stamp_us = scene_.start_us();
+  for (const VehicleState& state : scene_.course().steps()) {
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(), "%lld,%.9f,%.9f,%.12f\n",
+                  static_cast<long long>(stamp_us), state.pose.x_m, state.pose.y_m,
+                  state.pose.yaw_rad);
+    output << line.data();
+    if (stamp_us >= scene_.end_us()) return;
+    stamp_us += step_us;
+  }
+}
+
+}  // namespace cremed

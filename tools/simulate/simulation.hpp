@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "can_decoders/can_frame.hpp"
+#include "daemon/configuration.hpp"
+#include "tools/simulate/can_bus.hpp"
+#include "tools/simulate/radar_sender.hpp"
+#include "tools/simulate/random.hpp"
+#include "tools/simulate/scenario.hpp"
+#include "tools/simulate/scene.hpp"
+
+namespace cremed {
+
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  double duration_s = 0.0;                        ///< 0: that of the scenario.
+  std::int64_t start_us = 1'700'000'000'000'000;  ///< Unix epoch.
+  double shared_doppler_std_mps = 0.0;            ///< See SenderSetup.
+};
+
+/// Those of config/demo.toml: an ARS408 in front on can0, a Bosch GPR that looks back on can1.
+std::vector<RadarConfiguration> default_radars();
+
+/// A drive as the frames of all its buses, in the order of their stamps. The same arguments give
+/// the same frames, on every machine.
+class Simulation {
+ public:
+  Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
+             const SimulationOptions& options, const ScanObserver& observer = {});
+  Simulation(const Simulation&) = delete;  // The radars refer to the scene.
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// The next frame, its interface an index of interfaces(); none when the drive is over.
+  std::optional<CanFrame> next();
+
+  [[nodiscard]] const std::vector<std::string>& interfaces() const { return interfaces_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+
+  /// Pose of the rear axle every 10 ms as CSV: utime,x_m,y_m,yaw_rad.
+  void write_truth(std::ostream& output) const;
+
+ private:
+  CanBus& bus_of(const std::string& interface);
+  void attach_ars408(const Ars408Options& options, const SenderSetup& setup, CanBus& bus);
+  void attach_gpr(const BoschGprOptions& options, const SenderSetup& setup, CanBus& bus);
+  void attach_state(CanBus& bus, std::size_t radar, std::vector<CanFrame> frames);
+
+  Scene scene_;
+  double frame_loss_;
+  Random loss_random_;
+  std::vector<std::string> interfaces_;
+  std::vector<CanBus> buses_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tools/simulate/random.hpp"
+#include "tools/simulate/road.hpp"
+#include "tools/simulate/vehicle_course.hpp"
+
+namespace cremed {
+
+/// A reflector of another vehicle at one moment.
+struct MovingReflector {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double x_mps = 0.0;
+  double y_mps = 0.0;
+  double rcs_dbm2 = 0.0;
+};
+
+struct TrafficOptions {
+  double oncoming_interval_s = 8.0;   ///< Mean time between two oncoming cars; 0: none.
+  double same_way_interval_s = 20.0;  ///< Mean time between two cars beside us; 0: none.
+  bool leader = true;                 ///< A car in front drives as we do, two seconds ahead.
+};
+
+/// Other cars on the road: oncoming and same direction, each at its own constant speed, and one
+/// that we follow.
+class Traffic {
+ public:
+  Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
+          Random random);
+
+  /// All moving reflectors at the time, far away or not. Overwrites `reflectors`.
+  void reflectors_at(double time_s, std::vector<MovingReflector>& reflectors) const;
+
+ private:
+  struct Car {
+    double meeting_s;  ///< When it is beside us.
+    double meeting_m;  ///< Where on the road.
+    double left_m;     ///< Its lane: distance from ours.
+    double speed_mps;  ///< Along the road, negative when oncoming.
+  };
+
+  void add_cars(double mean_interval_s, double left_m, bool oncoming, Random& random);
+  void append(double distance_m, double left_m, double speed_mps,
+              std::vector<MovingReflector>& reflectors) const;
+
+  const VehicleCourse& course_;
+  const Road& road_;
+  bool leader_;
+  std::vector<Car> cars_;
+};
+
+}  // namespace cremed

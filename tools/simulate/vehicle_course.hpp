@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "estimator/pose2.hpp"
+
+namespace cremed {
+
+/// Speed and curvature that the vehicle reaches at the end of a leg, starting smoothly from those
+/// at its beginning.
+struct CourseLeg {
+  double duration_s = 0.0;  ///< A multiple of VehicleCourse::kStepS.
+  double speed_mps = 0.0;
+  double curvature_1pm = 0.0;  ///< Of the rear axle's path, positive to the left.
+};
+
+/// Driven leg after leg, and from the first leg again until the time is over.
+struct CoursePlan {
+  double start_speed_mps = 0.0;
+  double start_curvature_1pm = 0.0;
+  std::vector<CourseLeg> legs;
+};
+
+/// The vehicle at one moment. Its rear axle never slips sideways: speed is along x.
+struct VehicleState {
+  Pose2 pose;  ///< Centre of the rear axle in the world.
+  double speed_mps = 0.0;
+  double yaw_rate_radps = 0.0;
+  double distance_m = 0.0;  ///< Driven since the start.
+};
+
+/// How a car drives a plan, starting at the world's origin along x.
+class VehicleCourse {
+ public:
+  static constexpr double kStepS = 0.01;
+
+  /// Throws std::invalid_argument if the plan has no leg or a leg has no whole number of steps.
+  VehicleCourse(const CoursePlan& plan, double least_duration_s);
+
+  /// Times outside 0 .. duration_s() are moved to its nearer end.
+  [[nodiscard]] VehicleState at(double time_s) const;
+
+  /// The states at 0, kStepS, 2 kStepS ...; the last one is at or after the asked duration.
+  [[nodiscard]] const std::vector<VehicleState>& steps() const { return steps_; }
+  [[nodiscard]] double duration_s() const;
+
+ private:
+  struct Leg {
+    double start_s;
+    double duration_s;
+    double from_speed_mps;
+    double to_speed_mps;
+    double from_curvature_1pm;
+    double to_curvature_1pm;
+  };
+
+  static VehicleState advanced(const Leg& leg, const VehicleState& from, double from_s,
+                               double step_s);
+  void drive_leg(const Leg& leg);
+
+  std::vector<Leg> legs_;
+  std::vector<std::size_t> leg_of_step_;  ///< The leg that follows each of steps_.
+  std::vector<VehicleState> steps_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tools/simulate/random.hpp"
+#include "tools/simulate/road.hpp"
+#include "tools/simulate/spatial_grid.hpp"
+
+namespace cremed {
+
+/// Something that reflects, as a point.
+struct Reflector {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double rcs_dbm2 = 0.0;               ///< Mean; it fluctuates from scan to scan.
+  double detection_probability = 0.0;  ///< In one scan, close to the radar.
+};
+
+struct WorldOptions {
+  double built_share = 0.8;    ///< Share of the roadside that holds walls, rails, cars, trees.
+  double clutter_per_m = 1.2;  ///< Single reflectors for each metre of the road.
+};
+
+/// All that stands still: walls, guard rails, parked cars and trees along the road, and clutter
+/// around it. Nothing stands on the road itself, even where it crosses its own course.
+class World {
+ public:
+  World(const Road& road, const WorldOptions& options, Random random);
+
+  [[nodiscard]] const std::vector<Reflector>& reflectors() const { return reflectors_; }
+  [[nodiscard]] const SpatialGrid& grid() const { return grid_; }
+
+ private:
+  std::vector<Reflector> reflectors_;
+  SpatialGrid grid_;
+};
+
+}  // namespace cremed

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "can_decoders/ars408_messages.hpp"
 #include "can_decoders/radar_decoder.hpp"
 
 namespace cremed {
@@ -20,6 +22,42 @@ struct Ars408Options {
   std::uint8_t keep_dyn_props = (1U << 1U) | (1U << 3U) | (1U << 5U);
   /// Objects with a smaller ProbOfExist code (table P, 0..7) are kept out. Default: 5, >= 90 %.
   std::uint8_t min_existence_code = 5;
+};
+
+/// One Continental ARS408. A scan is its list of clusters (0x600, 0x701, 0x702) or of objects
+/// (0x60A, 0x60B, 0x60C); a target's slot is its id. Everything else the sensor sends, object
+/// messages 0x60D and 0x60E in object mode included, is counted as state and is no scan part.
+///
+/// A frame is judged in this order: identifier (extended and error frames, and those of another
+/// sensor on the bus, are not this radar's and are not counted), kind, length, mode.
+///
+/// A detection is judged in this order, and the first that holds is its validity: no_position,
+/// no_noise, invalid_state, moving, low_existence. An object that the sensor says it has deleted
+/// counts as invalid_state. Four rms codes of 0 are no_noise: recordings hold a 0 only as a group
+/// of four, nearly always on clusters the sensor calls invalid, so it says "no quality", not
+/// "0.005".
+class Ars408Decoder final : public RadarDecoder {
+ public:
+  explicit Ars408Decoder(const Ars408Options& options) : options_(options) {}
+
+  ScanPart decode(const CanFrame& frame) override;
+  [[nodiscard]] Detection detection(const TargetPayload& target) const override;
+  [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256}; }
+
+  /// The latest 0x201 and 0x700, for a status report.
+  [[nodiscard]] const std::optional<Ars408RadarState>& radar_state() const { return radar_state_; }
+  [[nodiscard]] const std::optional<Ars408Version>& version() const { return version_; }
+
+ private:
+  [[nodiscard]] const Ars408MessageRow* find(const CanFrame& frame) const;
+  bool accept(const CanFrame& frame, const Ars408MessageRow& row);
+  void note_state(Ars408Message message, Ars408Bytes bytes);
+  [[nodiscard]] Detection cluster(const TargetPayload& target) const;
+  [[nodiscard]] Detection object(const TargetPayload& target) const;
+
+  Ars408Options options_;
+  std::optional<Ars408RadarState> radar_state_;
+  std::optional<Ars408Version> version_;
 };
 
 }  // namespace cremed

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "can_decoders/radar_decoder.hpp"
 
@@ -15,9 +19,107 @@ struct BoschGprOptions {
   std::uint32_t base_id = 0x200;  ///< Message A of slot k: base + 2 k, B: base + 2 k + 1.
   std::uint32_t info_id = 0x100;
   CrcPolicy crc_policy = CrcPolicy::count;
-  bool invert_azimuth = false;    ///< true: the sensor counts azimuth positive to the right.
-  bool invert_doppler = false;    ///< true: the sensor's radial velocity is positive when closing.
-  double min_existence = 0.0;     ///< Targets with a smaller pExist (0..0.96875) are kept out.
+  bool invert_azimuth = false;  ///< true: the sensor counts azimuth positive to the right.
+  bool invert_doppler = false;  ///< true: the sensor's radial velocity is positive when closing.
+  double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are kept out.
+};
+
+inline constexpr std::uint8_t kBoschGprSlots = 48;
+
+/// Message A: the measurement, with the sensor's own signs.
+struct BoschGprTargetA {
+  bool is_a = false;
+  std::uint8_t id = 0;  ///< 0..47; more hints at a sister product with the same identifiers.
+  double range_m = 0.0;
+  double radial_velocity_mps = 0.0;
+  double power_dbm2 = 0.0;
+  double azimuth_rad = 0.0;
+  bool measured = false;  ///< The slot holds a target in this scan.
+  std::uint8_t counter = 0;
+};
+
+/// Message B: its quality. A standard deviation of 0 means less than half a step.
+struct BoschGprTargetB {
+  bool is_a = false;
+  std::uint8_t id = 0;
+  double azimuth_std_rad = 0.0;
+  double radial_velocity_std_mps = 0.0;
+  double range_std_m = 0.0;
+  double existence = 0.0;  ///< 0..0.96875
+  double age_s = 0.0;      ///< timeSinceMeas
+  std::uint8_t counter = 0;
+};
+
+/// What the sensor says about itself.
+struct BoschGprInfo {
+  std::uint8_t sensor_type = 0;
+  std::int16_t temperature_degc = 0;
+  bool blind = false;
+  bool software_failure = false;
+  bool hardware_failure = false;
+  bool can_failure = false;
+  bool configuration_failure = false;
+  bool diagnostic_mode = false;
+  std::uint32_t trouble_code = 0;  ///< 0: none.
+  std::uint8_t trouble_order = 0;
+  bool not_safe = false;
+  std::uint8_t counter = 0;
+
+  [[nodiscard]] constexpr bool healthy() const {
+    return !blind && !software_failure && !hardware_failure && !can_failure &&
+           !configuration_failure && !not_safe && trouble_code == 0;
+  }
+};
+
+/// Each returns nothing if there are fewer than eight bytes. Flag, id and checksum are not judged.
+std::optional<BoschGprTargetA> decode_bosch_gpr_target_a(std::span<const std::uint8_t> bytes);
+std::optional<BoschGprTargetB> decode_bosch_gpr_target_b(std::span<const std::uint8_t> bytes);
+std::optional<BoschGprInfo> decode_bosch_gpr_info(std::span<const std::uint8_t> bytes);
+
+/// SAE J1850: polynomial 0x1D, start 0xFF, result inverted; "123456789" gives 0x4B. A message
+/// carries it in its last byte, over those before.
+std::uint8_t crc8_j1850(std::span<const std::uint8_t> bytes);
+
+/// One Bosch general purpose radar. A scan is 48 slots of two messages, sent whether or not they
+/// hold a target; each message carries the scan's two-bit counter.
+///
+/// A frame is judged in this order: identifier, kind, length, checksum, slot.
+/// The slot is that of the identifier. A frame whose A flag contradicts its identifier, or whose
+/// own target number no slot has, is not from this sensor: counted as wrong_slot and dropped. A
+/// possible but different target number is counted as wrong_slot and the frame used: at least one
+/// transmitter leaves the number 0 everywhere, and the identifier already tells the slot.
+/// A message whose counter does not follow its last one is counted (counter_errors) and used: one
+/// lost frame must not cost two. After a dropped frame the next counter is taken as it is.
+///
+/// A detection is judged in this order, and the first that holds is its validity: empty,
+/// no_position, low_existence.
+class BoschGprDecoder final : public RadarDecoder {
+ public:
+  explicit BoschGprDecoder(const BoschGprOptions& options);
+
+  ScanPart decode(const CanFrame& frame) override;
+  [[nodiscard]] Detection detection(const TargetPayload& target) const override;
+  [[nodiscard]] ScanFraming framing() const override { return {false, 4, kBoschGprSlots}; }
+
+  /// The latest Info message, for a status report.
+  [[nodiscard]] const std::optional<BoschGprInfo>& info() const { return info_; }
+
+ private:
+  static constexpr std::size_t kTargetMessages = std::size_t{2} * kBoschGprSlots;
+  static constexpr std::size_t kInfoIndex = kTargetMessages;
+  static constexpr std::size_t kForeign = kInfoIndex + 1;
+  static constexpr std::uint8_t kAnyCounter = 0xFF;
+
+  [[nodiscard]] std::size_t index_of(const CanFrame& frame) const;
+  bool accept(const CanFrame& frame);
+  bool trust(const Payload& payload, std::size_t index);
+  bool check_crc(const Payload& payload);
+  bool check_slot(const Payload& payload, std::size_t index);
+  void check_counter(std::uint8_t counter, std::size_t index);
+
+  BoschGprOptions options_;
+  std::optional<BoschGprInfo> info_;
+  std::array<std::uint8_t, kForeign> last_counters_;  ///< By index_of(); or kAnyCounter.
 };
 
 }  // namespace cremed

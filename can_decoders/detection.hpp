@@ -9,12 +9,12 @@ namespace cremed {
 /// May this detection enter an estimate? Everything but `usable` is kept in the scan and counted.
 enum class Validity : std::uint8_t {
   usable,
-  no_noise,        ///< The sensor gave no usable standard deviation (rms index 31, or no quality).
-  invalid_state,   ///< The sensor's own state code is not one of those to keep.
-  moving,          ///< The sensor's own motion class is not one of those to keep.
-  low_existence,   ///< Probability of existence below the limit.
-  no_position,     ///< Range too small to define an azimuth.
-  empty,           ///< The slot holds no target; never stored in a scan.
+  no_noise,       ///< The sensor gave no usable standard deviation (rms index 31, or no quality).
+  invalid_state,  ///< The sensor's own state code is not one of those to keep.
+  moving,         ///< The sensor's own motion class is not one of those to keep.
+  low_existence,  ///< Probability of existence below the limit.
+  no_position,    ///< Range too small to define an azimuth.
+  empty,          ///< The slot holds no target; never stored in a scan.
 };
 
 /// What the sensor says about the target's own motion.

@@ -37,21 +37,21 @@ struct TargetPayload {
 
 /// How a radar family frames its scans.
 struct ScanFraming {
-  bool has_header = true;              ///< false: every part carries the counter instead.
+  bool has_header = true;  ///< false: every part carries the counter instead.
   std::uint32_t counter_modulus = 65536;
-  std::uint16_t slot_count = 256;      ///< Without header: targets in every scan.
+  std::uint16_t slot_count = 256;  ///< Without header: targets in every scan.
 };
 
 /// Why frames did not become parts of a scan. Frames of other ids are not counted here.
 struct DecoderCounters {
-  std::uint64_t frames = 0;            ///< Frames with an id of this radar.
-  std::uint64_t state_frames = 0;      ///< Well-formed frames that report state, not targets.
-  std::uint64_t wrong_length = 0;      ///< Shorter than the message needs.
-  std::uint64_t wrong_kind = 0;        ///< Remote, FD frame on one of this radar's ids.
-  std::uint64_t wrong_mode = 0;        ///< Cluster frames for an object radar or the reverse.
-  std::uint64_t wrong_slot = 0;        ///< Target number or A/B flag contradicts the identifier.
-  std::uint64_t crc_errors = 0;        ///< Wrong checksum, counted under policies count and enforce.
-  std::uint64_t counter_errors = 0;    ///< A message's own rolling counter skipped or repeated.
+  std::uint64_t frames = 0;          ///< Frames with an id of this radar.
+  std::uint64_t state_frames = 0;    ///< Well-formed frames that report state, not targets.
+  std::uint64_t wrong_length = 0;    ///< Shorter than the message needs.
+  std::uint64_t wrong_kind = 0;      ///< Remote, FD frame on one of this radar's ids.
+  std::uint64_t wrong_mode = 0;      ///< Cluster frames for an object radar or the reverse.
+  std::uint64_t wrong_slot = 0;      ///< Target number or A/B flag contradicts the identifier.
+  std::uint64_t crc_errors = 0;      ///< Wrong checksum, counted under policies count and enforce.
+  std::uint64_t counter_errors = 0;  ///< A message's own rolling counter skipped or repeated.
 };
 
 /// Turns the frames of one radar into parts of scans. Never throws, allocates or reads past the

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "can_decoders/radar_decoder.hpp"
 #include "can_decoders/radar_scan.hpp"
@@ -12,19 +14,19 @@
 namespace cremed {
 
 struct AssemblerCounters {
-  std::uint64_t scans = 0;               ///< Closed scans of any status.
-  std::uint64_t incomplete_scans = 0;    ///< Those of them that are not ScanStatus::complete.
-  std::uint64_t empty_scans = 0;         ///< Complete scans with no target.
-  std::uint64_t timeouts = 0;            ///< Scans closed because no part came for too long.
-  std::uint64_t missing_parts = 0;       ///< Announced messages that never came.
-  std::uint64_t duplicate_parts = 0;     ///< Same message, same bytes, again: ignored.
-  std::uint64_t conflicting_parts = 0;   ///< Same message, other bytes: the scan is not whole.
-  std::uint64_t reordered_parts = 0;     ///< Second message of a target before its first: used.
-  std::uint64_t excess_parts = 0;        ///< Targets beyond the announced number: dropped.
-  std::uint64_t orphan_parts = 0;        ///< Parts while no scan is open: dropped.
-  std::uint64_t repeated_scans = 0;      ///< Header with the counter of the last scan: dropped.
-  std::uint64_t missed_scans = 0;        ///< Cycles the counter skipped.
-  std::uint64_t stamps_backwards = 0;    ///< Stamp earlier than the one before it.
+  std::uint64_t scans = 0;              ///< Closed scans of any status.
+  std::uint64_t incomplete_scans = 0;   ///< Those of them that are not ScanStatus::complete.
+  std::uint64_t empty_scans = 0;        ///< Complete scans with no target.
+  std::uint64_t timeouts = 0;           ///< Scans closed because no part came for too long.
+  std::uint64_t missing_parts = 0;      ///< Announced messages that never came.
+  std::uint64_t duplicate_parts = 0;    ///< Same message, same bytes, again: ignored.
+  std::uint64_t conflicting_parts = 0;  ///< Same message, other bytes: the scan is not whole.
+  std::uint64_t reordered_parts = 0;    ///< Second message of a target before its first: used.
+  std::uint64_t excess_parts = 0;       ///< Targets beyond the announced number: dropped.
+  std::uint64_t orphan_parts = 0;       ///< Parts while no scan is open: dropped.
+  std::uint64_t repeated_scans = 0;     ///< Header with the counter of the last scan: dropped.
+  std::uint64_t missed_scans = 0;       ///< Cycles the counter skipped.
+  std::uint64_t stamps_backwards = 0;   ///< Stamp earlier than the one before it.
 };
 
 /// Collects the parts of one radar into scans, closed by count, counter change, next header or
@@ -33,7 +35,24 @@ struct AssemblerCounters {
 ///     assembler.add(decoder.decode(frame));
 ///     while (const RadarScan* scan = assembler.next()) use(*scan);
 ///
-/// At most two scans can be waiting (a header that closes a scan and announces no target).
+/// At most two scans can be waiting (a header that closes a scan and announces no target); a third
+/// would overwrite the oldest.
+///
+/// What makes a scan less than complete has this precedence: dropped_frames, over_capacity,
+/// conflicting_parts, missing_parts. Whatever its status, a scan holds the targets of which both
+/// messages came, in the order in which the first of the two did, but for those whose slot is
+/// empty.
+///
+/// With header: a header of the open scan again is a duplicate (a conflict, if it announces another
+/// number); one of the last closed scan closes the open scan and opens none, so that a repeated
+/// list never looks like a fresh one. Without: a part of the last closed scan within the time-out
+/// after that scan's last part is late and dropped; after more time it opens a new scan.
+///
+/// Counter steps: the smallest step seen is taken for one cycle, and larger ones for gaps. A 16-bit
+/// counter that went back by less than half its range is a restarted sensor and no gap.
+///
+/// Stamps may run backwards. A part counts as in time if it is no further than the time-out from
+/// the last part, either way.
 class ScanAssembler {
  public:
   /// `decoder` must outlive the assembler. An open scan closes as incomplete when `timeout_us`
@@ -56,6 +75,62 @@ class ScanAssembler {
   const RadarScan* next();
 
   [[nodiscard]] const AssemblerCounters& counters() const { return counters_; }
+
+ private:
+  using SlotSet = std::bitset<kMaxDetections>;
+
+  /// What is known of the scan that is being collected.
+  struct OpenScan {
+    std::int64_t stamp_us = 0;
+    std::int64_t last_part_us = 0;
+    std::uint16_t counter = 0;
+    std::uint16_t announced = 0;
+    std::uint16_t known = 0;  ///< Targets of which a part came: valid entries in order_.
+    bool conflicting = false;
+    bool dropped = false;
+    SlotSet has_first{};
+    SlotSet has_second{};
+  };
+
+  void note_stamp(std::int64_t stamp_us);
+  [[nodiscard]] bool in_time(std::int64_t stamp_us, std::int64_t last_part_us) const;
+  void time_out();
+
+  void add_header(const ScanPart& part);
+  void add_repeated_header(const ScanPart& part);
+  void add_announced(const ScanPart& part);
+  void add_unannounced(const ScanPart& part);
+  void store(const ScanPart& part);
+  void compare(const Payload& stored, const Payload& repeated);
+  bool admit(std::uint8_t slot);
+
+  void open(const ScanPart& part, std::uint16_t announced);
+  void note_step(std::uint16_t counter);
+  [[nodiscard]] std::size_t capacity() const;
+  [[nodiscard]] bool is_whole() const;
+  [[nodiscard]] ScanStatus status() const;
+  void close();
+  void fill(RadarScan& scan) const;
+  void count(const RadarScan& scan);
+
+  const RadarDecoder* decoder_;
+  ScanFraming framing_;
+  std::int64_t timeout_us_;
+  AssemblerCounters counters_;
+  std::optional<std::int64_t> last_stamp_us_;
+
+  bool is_open_ = false;
+  OpenScan open_;
+  std::array<TargetPayload, kMaxDetections> targets_{};  ///< By slot.
+  std::array<std::uint8_t, kMaxDetections> order_{};     ///< Slots in order of arrival.
+
+  std::optional<std::uint16_t> closed_counter_;  ///< Of the last closed scan.
+  std::int64_t closed_part_us_ = 0;              ///< Last part of that scan, late ones included.
+  std::uint32_t cycle_step_ = 0;                 ///< Smallest counter step seen; 0: none yet.
+
+  std::array<RadarScan, 2> waiting_{};
+  std::size_t oldest_ = 0;
+  std::size_t waiting_count_ = 0;
 };
 
 }  // namespace cremed

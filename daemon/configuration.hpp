@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -15,10 +16,13 @@
 
 namespace cremed {
 
+/// More is refused: a bus has at most eight ARS408.
+inline constexpr std::size_t kMaxRadars = 16;
+
 /// One [[radar]] table.
 struct RadarConfiguration {
-  std::string name;            ///< Unique; letters, digits, '_' and '-', at most 15 characters.
-  std::string interface;       ///< CAN interface as in the log or on the computer, e.g. "can0".
+  std::string name;       ///< Unique whatever its case; at most 15 of letters, digits, _ and -.
+  std::string interface;  ///< CAN interface as in the log or on the computer, e.g. "can0".
   std::variant<Ars408Options, BoschGprOptions> decoder;
   double scan_timeout_s = 0.05;  ///< An open scan with no new part for this long is closed.
   EgoMotionOptions ego_motion;
@@ -43,7 +47,8 @@ struct Configuration {
   LoggingConfiguration logging;
 };
 
-/// what(): "file:line: key: what is wrong, and what would be right".
+/// what(): "file:line: key: what is wrong; what would be right", a line for each error, in the
+/// order of the file; a file that cannot be read: "file: what is wrong; ...".
 class ConfigurationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -54,5 +59,9 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
 
 /// Reads and parses a file; a file that cannot be read is a ConfigurationError too.
 Configuration load_configuration(const std::string& path);
+
+/// Every key of the file as "table.key", for the test that the manual names them all. Those of
+/// [radar.estimator] are listed under "radar.estimator" too.
+std::set<std::string> known_configuration_keys();
 
 }  // namespace cremed

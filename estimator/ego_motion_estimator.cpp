@@ -38,7 +38,9 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   if (motion.status != MotionStatus::ok) {
     return motion;
   }
-  const double dt_s = static_cast<double>(scan.stamp_us - reference_stamp_us_) * 1e-6;
+  // In double, where no stamp overflows; stamps of this age of the world are exact in it.
+  const double dt_s =
+      (static_cast<double>(scan.stamp_us) - static_cast<double>(reference_stamp_us_)) * 1e-6;
   if (!has_reference_) {
     motion.status = MotionStatus::no_reference;
   } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {

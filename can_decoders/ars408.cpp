@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "can_decoders/ars408.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace cremed {
+namespace {
+
+constexpr std::uint32_t kSensorBits = 0x70;
+constexpr unsigned kSensorShift = 4;
+constexpr double kMinRangeM = 0.01;
+
+/// Standard deviations of a target's position and velocity.
+struct CartesianStd {
+  double x_m;
+  double y_m;
+  double vx_mps;
+  double vy_mps;
+};
+
+std::optional<CartesianStd> cartesian_std(const Ars408RmsCodes& codes) {
+  const auto x = ars408_rms(codes.x);
+  const auto y = ars408_rms(codes.y);
+  const auto vx = ars408_rms(codes.vx);
+  const auto vy = ars408_rms(codes.vy);
+  const bool no_quality = (codes.x | codes.y | codes.vx | codes.vy) == 0;
+  if (no_quality || !x || !y || !vx || !vy) {
+    return std::nullopt;
+  }
+  return CartesianStd{*x, *y, *vx, *vy};
+}
+
+Motion motion_of(Ars408DynProp dyn_prop) {
+  switch (dyn_prop) {
+    case Ars408DynProp::moving:
+    case Ars408DynProp::oncoming:
+    case Ars408DynProp::crossing_moving:
+      return Motion::moving;
+    case Ars408DynProp::stationary:
+    case Ars408DynProp::stationary_candidate:
+    case Ars408DynProp::crossing_stationary:
+    case Ars408DynProp::stopped:
+      return Motion::stationary;
+    case Ars408DynProp::unknown:
+      break;
+  }
+  return Motion::unknown;
+}
+
+/// First order, all four inputs independent.
+void set_noise(Detection& detection, const Ars408General& target, const CartesianStd& std) {
+  const double cosine = target.x_m / detection.range_m;
+  const double sine = target.y_m / detection.range_m;
+  detection.range_std_m = std::hypot(cosine * std.x_m, sine * std.y_m);
+  detection.azimuth_std_rad = std::hypot(sine * std.x_m, cosine * std.y_m) / detection.range_m;
+  // d(doppler)/d(x, y) is the velocity across the line of sight, turned, over the range.
+  const double across_mps = cosine * target.vy_mps - sine * target.vx_mps;
+  const double by_position = across_mps * detection.azimuth_std_rad;
+  const double by_velocity = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
+  detection.doppler_std_mps = std::hypot(by_position, by_velocity);
+}
+
+/// Everything but what the sensor itself says against the target: usable, no_position or no_noise.
+Detection polar(const Ars408General& target, const Ars408RmsCodes& rms) {
+  Detection detection{.rcs_dbm2 = target.rcs_dbm2,
+                      .id = target.id,
+                      .motion = motion_of(target.dyn_prop),
+                      .validity = Validity::no_position};
+  detection.range_m = std::hypot(target.x_m, target.y_m);
+  if (detection.range_m < kMinRangeM) {
+    return detection;
+  }
+  detection.azimuth_rad = std::atan2(target.y_m, target.x_m);
+  detection.doppler_mps =
+      (target.x_m * target.vx_mps + target.y_m * target.vy_mps) / detection.range_m;
+  detection.validity = Validity::no_noise;
+  if (const auto std = cartesian_std(rms)) {
+    set_noise(detection, target, *std);
+    detection.validity = Validity::usable;
+  }
+  return detection;
+}
+
+template <class Code>
+bool keeps(std::uint32_t mask, Code code) {
+  return ((mask >> static_cast<unsigned>(code)) & 1U) != 0;
+}
+
+bool is_deleted(Ars408MeasurementState state) {
+  return state == Ars408MeasurementState::deleted ||
+         state == Ars408MeasurementState::deleted_for_merge;
+}
+
+ScanPart header(std::uint16_t counter, unsigned target_count) {
+  return {.kind = ScanPart::Kind::header,
+          .counter = counter,
+          .target_count = static_cast<std::uint16_t>(target_count)};
+}
+
+// Bytes past the layout mean nothing: the caller leaves them out, so that repeats are comparable.
+ScanPart target_part(ScanPart::Kind kind, Ars408Bytes bytes) {
+  ScanPart part{.kind = kind, .slot = bytes[0]};
+  std::copy(bytes.begin(), bytes.end(), part.payload.begin());
+  return part;
+}
+
+/// `bytes` is at least as long as the row demands.
+ScanPart scan_part(const Ars408MessageRow& row, Ars408Bytes bytes) {
+  switch (row.message) {
+    case Ars408Message::cluster_status: {
+      const auto status = decode_ars408_cluster_status(bytes);
+      return header(status->counter, unsigned{status->near_count} + status->far_count);
+    }
+    case Ars408Message::object_status: {
+      const auto status = decode_ars408_object_status(bytes);
+      return header(status->counter, status->count);
+    }
+    case Ars408Message::cluster_general:
+    case Ars408Message::object_general:
+      return target_part(ScanPart::Kind::first, bytes.first(row.length));
+    case Ars408Message::cluster_quality:
+    case Ars408Message::object_quality:
+      return target_part(ScanPart::Kind::second, bytes.first(row.length));
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+const Ars408MessageRow* Ars408Decoder::find(const CanFrame& frame) const {
+  const std::uint32_t sensor = (frame.id & kSensorBits) >> kSensorShift;
+  if (frame.extended || frame.error || sensor != options_.sensor_id) {
+    return nullptr;
+  }
+  const std::uint32_t base = frame.id & ~kSensorBits;
+  const auto* row = std::find_if(
+      kArs408Messages.begin(), kArs408Messages.end(),
+      [base](const Ars408MessageRow& r) { return static_cast<std::uint32_t>(r.message) == base; });
+  return row == kArs408Messages.end() ? nullptr : row;
+}
+
+bool Ars408Decoder::accept(const CanFrame& frame, const Ars408MessageRow& row) {
+  const auto other_subject =
+      options_.output == Ars408Output::clusters ? Ars408Subject::objects : Ars408Subject::clusters;
+  ++counters_.frames;
+  if (frame.remote || frame.fd) {
+    ++counters_.wrong_kind;
+  } else if (frame.length < row.length) {
+    ++counters_.wrong_length;
+  } else if (row.subject == other_subject) {
+    ++counters_.wrong_mode;
+  } else {
+    return true;
+  }
+  return false;
+}
+
+ScanPart Ars408Decoder::decode(const CanFrame& frame) {
+  const Ars408MessageRow* row = find(frame);
+  if (row == nullptr || !accept(frame, *row)) {
+    return {};
+  }
+  const auto bytes = std::span(frame.data).first(std::min<std::size_t>(frame.length, 8));
+  ScanPart part = scan_part(*row, bytes);
+  part.stamp_us = frame.stamp_us;
+  if (part.kind == ScanPart::Kind::none) {
+    note_state(row->message, bytes);
+  }
+  return part;
+}
+
+void Ars408Decoder::note_state(Ars408Message message, Ars408Bytes bytes) {
+  ++counters_.state_frames;
+  if (message == Ars408Message::radar_state) {
+    radar_state_ = decode_ars408_radar_state(bytes);
+  } else if (message == Ars408Message::version) {
+    version_ = decode_ars408_version(bytes);
+  }
+}
+
+Detection Ars408Decoder::detection(const TargetPayload& target) const {
+  return options_.output == Ars408Output::clusters ? cluster(target) : object(target);
+}
+
+Detection Ars408Decoder::cluster(const TargetPayload& target) const {
+  const auto general = decode_ars408_cluster_general(target.first);
+  const auto quality = decode_ars408_cluster_quality(target.second);
+  Detection detection = polar(*general, quality->rms);
+  if (detection.validity != Validity::usable) {
+    return detection;
+  }
+  if (!keeps(options_.keep_invalid_states, quality->invalid_state)) {
+    detection.validity = Validity::invalid_state;
+  } else if (!keeps(options_.keep_dyn_props, general->dyn_prop)) {
+    detection.validity = Validity::moving;
+  }
+  return detection;
+}
+
+Detection Ars408Decoder::object(const TargetPayload& target) const {
+  const auto general = decode_ars408_object_general(target.first);
+  const auto quality = decode_ars408_object_quality(target.second);
+  Detection detection = polar(*general, quality->rms);
+  if (detection.validity != Validity::usable) {
+    return detection;
+  }
+  if (is_deleted(quality->measurement_state)) {
+    detection.validity = Validity::invalid_state;
+  } else if (!keeps(options_.keep_dyn_props, general->dyn_prop)) {
+    detection.validity = Validity::moving;
+  } else if (quality->existence_code < options_.min_existence_code) {
+    detection.validity = Validity::low_existence;
+  }
+  return detection;
+}
+
+}  // namespace cremed

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "can_decoders/ars408_tables.hpp"
+
+namespace cremed {
+
+/// Every message an ARS408 sends, by its identifier for sensor 0; sensor n adds 0x10 * n.
+enum class Ars408Message : std::uint16_t {
+  radar_state = 0x201,
+  filter_header = 0x203,
+  filter_state = 0x204,
+  region_state = 0x402,
+  collision_state = 0x408,
+  cluster_status = 0x600,
+  object_status = 0x60A,
+  object_general = 0x60B,
+  object_quality = 0x60C,
+  object_extended = 0x60D,
+  object_warning = 0x60E,
+  version = 0x700,
+  cluster_general = 0x701,
+  cluster_quality = 0x702,
+};
+
+/// What a message is about: the sensor itself, or one of the two kinds of target list.
+enum class Ars408Subject : std::uint8_t { sensor, clusters, objects };
+
+struct Ars408MessageRow {
+  Ars408Message message;
+  std::uint8_t length;  ///< Bytes that hold its signals; a frame may be longer.
+  Ars408Subject subject;
+};
+
+inline constexpr std::array<Ars408MessageRow, 14> kArs408Messages{{
+    {Ars408Message::radar_state, 8, Ars408Subject::sensor},
+    {Ars408Message::filter_header, 2, Ars408Subject::sensor},
+    {Ars408Message::filter_state, 5, Ars408Subject::sensor},
+    {Ars408Message::region_state, 8, Ars408Subject::sensor},
+    {Ars408Message::collision_state, 4, Ars408Subject::sensor},
+    {Ars408Message::cluster_status, 5, Ars408Subject::clusters},
+    {Ars408Message::object_status, 4, Ars408Subject::objects},
+    {Ars408Message::object_general, 8, Ars408Subject::objects},
+    {Ars408Message::object_quality, 7, Ars408Subject::objects},
+    {Ars408Message::object_extended, 8, Ars408Subject::objects},
+    {Ars408Message::object_warning, 2, Ars408Subject::objects},  // Sent with 4 bytes.
+    {Ars408Message::version, 3, Ars408Subject::sensor},          // Flags only in a fourth byte.
+    {Ars408Message::cluster_general, 8, Ars408Subject::clusters},
+    {Ars408Message::cluster_quality, 5, Ars408Subject::clusters},
+}};
+
+/// 0x600, header of a cluster list.
+struct Ars408ClusterStatus {
+  std::uint8_t near_count = 0;
+  std::uint8_t far_count = 0;
+  std::uint16_t counter = 0;
+  std::uint8_t interface_version = 0;
+};
+
+/// 0x60A, header of an object list.
+struct Ars408ObjectStatus {
+  std::uint8_t count = 0;
+  std::uint16_t counter = 0;
+  std::uint8_t interface_version = 0;
+};
+
+/// 0x701 and 0x60B: a target relative to the sensor, x forward, y left; negative vx is closing.
+struct Ars408General {
+  std::uint8_t id = 0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double vx_mps = 0.0;
+  double vy_mps = 0.0;
+  Ars408DynProp dyn_prop = Ars408DynProp::unknown;
+  double rcs_dbm2 = 0.0;
+};
+
+/// Indices of table R, to be read with ars408_rms().
+struct Ars408RmsCodes {
+  std::uint8_t x = 0;
+  std::uint8_t y = 0;
+  std::uint8_t vx = 0;
+  std::uint8_t vy = 0;
+};
+
+/// 0x702.
+struct Ars408ClusterQuality {
+  std::uint8_t id = 0;
+  Ars408RmsCodes rms;
+  std::uint8_t false_alarm_code = 0;  ///< Pdh0, table P: high is bad.
+  Ars408InvalidState invalid_state = Ars408InvalidState::valid;
+  Ars408Ambiguity ambiguity = Ars408Ambiguity::invalid;
+};
+
+/// 0x60C.
+struct Ars408ObjectQuality {
+  std::uint8_t id = 0;
+  Ars408RmsCodes rms;
+  std::uint8_t ax_rms_code = 0;           ///< Table R.
+  std::uint8_t ay_rms_code = 0;           ///< Table R.
+  std::uint8_t orientation_rms_code = 0;  ///< Table RA.
+  std::uint8_t existence_code = 0;        ///< Table P: high is good.
+  Ars408MeasurementState measurement_state = Ars408MeasurementState::deleted;
+};
+
+/// 0x60D.
+struct Ars408ObjectExtended {
+  std::uint8_t id = 0;
+  double ax_mps2 = 0.0;
+  double ay_mps2 = 0.0;
+  std::uint8_t object_class = 0;  ///< 0 point, 1 car, 2 truck, 3 pedestrian, 4 motorcycle,
+                                  ///< 5 bicycle, 6 wide, 7 reserved.
+  double orientation_rad = 0.0;
+  double length_m = 0.0;
+  double width_m = 0.0;
+};
+
+/// 0x60E.
+struct Ars408ObjectWarning {
+  std::uint8_t id = 0;
+  std::uint8_t regions = 0;  ///< Bit n: the object is in collision region n.
+};
+
+/// 0x201, once a second: how the sensor is configured and what ails it.
+struct Ars408RadarState {
+  bool nvm_read = false;     ///< Configuration was read at start-up.
+  bool nvm_written = false;  ///< Configuration was stored since one was sent.
+  double max_distance_m = 0.0;
+  bool persistent_error = false;
+  bool interference = false;
+  bool temperature_error = false;
+  bool temporary_error = false;
+  bool voltage_error = false;
+  std::uint8_t power_code = 0;  ///< 0 standard, 1 -3 dB, 2 -6 dB, 3 -9 dB.
+  std::uint8_t sort_code = 0;   ///< 0 none, 1 range, 2 radar cross section.
+  std::uint8_t sensor_id = 0;
+  bool speed_missing = false;     ///< No 0x300 received: DynProp is worthless when driving.
+  bool yaw_rate_missing = false;  ///< No 0x301 received.
+  bool sends_extended = false;    ///< 0x60D.
+  bool sends_quality = false;     ///< 0x702 or 0x60C; without them no scan can be whole.
+  std::uint8_t output_code = 0;   ///< 0 none, 1 objects, 2 clusters.
+  bool relay_control = false;
+  std::uint8_t rcs_threshold_code = 0;  ///< 0 standard, 1 high sensitivity.
+};
+
+/// 0x700.
+struct Ars408Version {
+  std::uint8_t major_release = 0;
+  std::uint8_t minor_release = 0;
+  std::uint8_t patch_level = 0;
+  bool extended_range = false;
+  bool power_restricted = false;  ///< Country code that demands less power.
+};
+
+/// 0x203: how many 0x204 follow.
+struct Ars408FilterHeader {
+  std::uint8_t cluster_filters = 0;
+  std::uint8_t object_filters = 0;
+};
+
+/// What a filter limits, and in which unit. The sources disagree on which of the two crossing
+/// directions 11 and 13 are.
+enum class Ars408Criterion : std::uint8_t {
+  target_count,
+  range_m,
+  azimuth_rad,
+  oncoming_radial_speed_mps,
+  departing_radial_speed_mps,
+  rcs_dbm2,
+  lifetime_s,
+  size_m2,
+  existence_code,
+  y_m,
+  x_m,
+  crossing_speed_a_mps,
+  oncoming_speed_mps,
+  crossing_speed_b_mps,
+  departing_speed_mps,
+  class_bits,
+};
+
+/// 0x204.
+struct Ars408FilterState {
+  bool for_objects = false;
+  bool active = false;
+  Ars408Criterion criterion = Ars408Criterion::target_count;
+  double min = 0.0;  ///< Unit: see the criterion.
+  double max = 0.0;
+};
+
+/// 0x408.
+struct Ars408CollisionState {
+  bool active = false;
+  std::uint8_t regions = 0;
+  double min_detection_time_s = 0.0;
+  std::uint16_t counter = 0;
+};
+
+/// 0x402: one collision region, by two opposite corners.
+struct Ars408RegionState {
+  std::uint8_t region_id = 0;
+  std::uint8_t warning_level = 0;
+  double x1_m = 0.0;
+  double y1_m = 0.0;
+  double x2_m = 0.0;
+  double y2_m = 0.0;
+  std::uint8_t object_count = 0;
+};
+
+/// Each returns nothing if there are fewer bytes than kArs408Messages demands.
+using Ars408Bytes = std::span<const std::uint8_t>;
+std::optional<Ars408ClusterStatus> decode_ars408_cluster_status(Ars408Bytes bytes);
+std::optional<Ars408General> decode_ars408_cluster_general(Ars408Bytes bytes);
+std::optional<Ars408ClusterQuality> decode_ars408_cluster_quality(Ars408Bytes bytes);
+std::optional<Ars408ObjectStatus> decode_ars408_object_status(Ars408Bytes bytes);
+std::optional<Ars408General> decode_ars408_object_general(Ars408Bytes bytes);
+std::optional<Ars408ObjectQuality> decode_ars408_object_quality(Ars408Bytes bytes);
+std::optional<Ars408ObjectExtended> decode_ars408_object_extended(Ars408Bytes bytes);
+std::optional<Ars408ObjectWarning> decode_ars408_object_warning(Ars408Bytes bytes);
+std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes);
+std::optional<Ars408Version> decode_ars408_version(Ars408Bytes bytes);
+std::optional<Ars408FilterHeader> decode_ars408_filter_header(Ars408Bytes bytes);
+std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes);
+std::optional<Ars408CollisionState> decode_ars408_collision_state(Ars408Bytes bytes);
+std::optional<Ars408RegionState> decode_ars408_region_state(Ars408Bytes bytes);
+
+}  // namespace cremed

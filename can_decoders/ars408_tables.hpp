@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace cremed {
+
+// The code tables of the ARS408. A signal may also hold codes that the tables leave out: they are
+// kept as they are, and match no enumerator.
+
+/// Table D: motion of a target, right only while the sensor is told the speed of its vehicle.
+enum class Ars408DynProp : std::uint8_t {
+  moving,
+  stationary,
+  oncoming,
+  stationary_candidate,
+  unknown,
+  crossing_stationary,
+  crossing_moving,
+  stopped,
+};
+
+/// Table M: ambiguity of a cluster's Doppler.
+enum class Ars408Ambiguity : std::uint8_t {
+  invalid,
+  ambiguous,
+  staggered_ramp,
+  unambiguous,
+  stationary_candidate,
+};
+
+/// Table I: what speaks against a cluster. The sensor calls 1, 2, 3, 6, 7 and 14 invalid, the
+/// others valid with a doubt; 5, 13 and from 18 on are not defined.
+enum class Ars408InvalidState : std::uint8_t {
+  valid = 0,
+  invalid_low_rcs = 1,
+  near_field_artefact = 2,
+  far_not_confirmed_near = 3,
+  low_rcs = 4,
+  mirror = 6,
+  outside_field_of_view = 7,
+  azimuth_corrected_for_elevation = 8,
+  high_child_probability = 9,
+  artefact_at_50_deg = 10,
+  no_local_maximum = 11,
+  high_artefact_probability = 12,
+  harmonic = 14,
+  beyond_95_m_in_near_range = 15,
+  high_multi_target_probability = 16,
+  suspicious_angle = 17,
+};
+
+/// MeasState: where an object of this cycle comes from.
+enum class Ars408MeasurementState : std::uint8_t {
+  deleted,
+  created,
+  measured,
+  predicted,
+  deleted_for_merge,
+  created_by_merge,
+};
+
+/// Table R: standard deviation (m, m/s or m/s^2) of an index; nothing for 31, "invalid", and above.
+std::optional<double> ars408_rms(std::uint8_t index);
+
+/// Table RA: standard deviation of an orientation; nothing for 31, "invalid", and above.
+std::optional<double> ars408_orientation_rms_rad(std::uint8_t index);
+
+/// Table P: upper bound of a probability (Pdh0: of a false alarm, ProbOfExist: of existence);
+/// nothing for 0, "invalid", and above 7.
+std::optional<double> ars408_probability(std::uint8_t code);
+
+}  // namespace cremed

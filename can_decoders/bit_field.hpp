@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace cremed {
+
+/// Where a signal lies: the least significant bit (byte * 8 + bit, bit 0 being the lowest of its
+/// byte) and the number of bits, 1..32. The numbers are those of the vendors' tables.
+struct BitField {
+  std::uint8_t start;
+  std::uint8_t length;
+};
+
+/// A payload of up to eight bytes as one word, from which signals are cut. Bytes that are not there
+/// read as zero, so nothing is ever read past the payload.
+class PayloadBits {
+ public:
+  /// Motorola order: a signal grows towards lower byte numbers.
+  static constexpr PayloadBits big_endian(std::span<const std::uint8_t> bytes) {
+    return PayloadBits(bytes, true);
+  }
+  /// Intel order: a signal grows towards higher byte numbers.
+  static constexpr PayloadBits little_endian(std::span<const std::uint8_t> bytes) {
+    return PayloadBits(bytes, false);
+  }
+
+  [[nodiscard]] constexpr std::uint32_t get(BitField field) const {
+    const std::uint64_t mask = (std::uint64_t{1} << field.length) - 1U;
+    return static_cast<std::uint32_t>((word_ >> shift(field)) & mask);
+  }
+  [[nodiscard]] constexpr std::uint8_t get8(BitField field) const {
+    return static_cast<std::uint8_t>(get(field));
+  }
+  [[nodiscard]] constexpr std::uint16_t get16(BitField field) const {
+    return static_cast<std::uint16_t>(get(field));
+  }
+  [[nodiscard]] constexpr bool flag(std::uint8_t bit) const { return get({bit, 1}) != 0; }
+
+  /// The same bits as two's complement.
+  [[nodiscard]] constexpr std::int32_t get_signed(BitField field) const {
+    const std::int64_t sign = std::int64_t{1} << (field.length - 1);
+    return static_cast<std::int32_t>((static_cast<std::int64_t>(get(field)) ^ sign) - sign);
+  }
+
+ private:
+  constexpr PayloadBits(std::span<const std::uint8_t> bytes, bool big) : big_(big) {
+    const std::size_t count = std::min<std::size_t>(bytes.size(), 8);
+    for (std::size_t i = 0; i < count; ++i) {
+      word_ |= std::uint64_t{bytes[i]} << (big ? 56 - 8 * i : 8 * i);
+    }
+  }
+
+  [[nodiscard]] constexpr unsigned shift(BitField field) const {
+    const unsigned byte = field.start / 8U;
+    return big_ ? 56U - 8U * byte + field.start % 8U : field.start;
+  }
+
+  std::uint64_t word_ = 0;
+  bool big_;
+};
+
+/// Physical value of a raw number. Dividing by the steps a unit holds keeps round values round:
+/// 12 / 5 is 2.4, 12 * 0.2 is not.
+struct LinearScale {
+  double zero;            ///< Raw number of the value 0; need not be whole.
+  double steps_per_unit;  ///< 1 / factor.
+
+  [[nodiscard]] constexpr double operator()(double raw) const {
+    return (raw - zero) / steps_per_unit;
+  }
+};
+
+}  // namespace cremed

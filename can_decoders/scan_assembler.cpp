@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "can_decoders/scan_assembler.hpp"
+
+#include <algorithm>
+
+namespace cremed {
+namespace {
+
+/// Stamps come from outside, so their difference may not fit a signed number.
+std::uint64_t distance(std::int64_t a, std::int64_t b) {
+  const auto [low, high] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
+}
+
+}  // namespace
+
+ScanAssembler::ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us)
+    : decoder_(&decoder), framing_(decoder.framing()), timeout_us_(timeout_us) {}
+
+void ScanAssembler::add(const ScanPart& part) {
+  if (part.kind == ScanPart::Kind::none) {
+    return;
+  }
+  note_stamp(part.stamp_us);
+  if (is_open_ && !in_time(part.stamp_us, open_.last_part_us)) {
+    time_out();
+  }
+  if (part.kind == ScanPart::Kind::header) {
+    add_header(part);
+  } else if (framing_.has_header) {
+    add_announced(part);
+  } else {
+    add_unannounced(part);
+  }
+}
+
+void ScanAssembler::expire(std::int64_t now_us) {
+  // A clock that was set back says nothing about how long the scan has been waiting.
+  if (is_open_ && now_us > open_.last_part_us && !in_time(now_us, open_.last_part_us)) {
+    time_out();
+  }
+}
+
+void ScanAssembler::mark_dropped() { open_.dropped = true; }
+
+void ScanAssembler::finish() {
+  if (is_open_) {
+    close();
+  }
+}
+
+const RadarScan* ScanAssembler::next() {
+  if (waiting_count_ == 0) {
+    return nullptr;
+  }
+  const RadarScan* scan = &waiting_[oldest_];
+  oldest_ = (oldest_ + 1) % waiting_.size();
+  --waiting_count_;
+  return scan;
+}
+
+void ScanAssembler::note_stamp(std::int64_t stamp_us) {
+  if (last_stamp_us_ && stamp_us < *last_stamp_us_) {
+    ++counters_.stamps_backwards;
+  }
+  last_stamp_us_ = stamp_us;
+}
+
+bool ScanAssembler::in_time(std::int64_t stamp_us, std::int64_t last_part_us) const {
+  return distance(stamp_us, last_part_us) <=
+         static_cast<std::uint64_t>(std::max<std::int64_t>(timeout_us_, 0));
+}
+
+void ScanAssembler::time_out() {
+  ++counters_.timeouts;
+  close();
+}
+
+void ScanAssembler::add_header(const ScanPart& part) {
+  if (is_open_ && part.counter == open_.counter) {
+    add_repeated_header(part);
+    return;
+  }
+  const bool repeated = part.counter == closed_counter_;
+  if (is_open_) {
+    close();
+  }
+  if (repeated) {
+    ++counters_.repeated_scans;
+  } else {
+    open(part, part.target_count);
+  }
+}
+
+void ScanAssembler::add_repeated_header(const ScanPart& part) {
+  open_.last_part_us = part.stamp_us;
+  if (part.target_count == open_.announced) {
+    ++counters_.duplicate_parts;
+  } else {
+    ++counters_.conflicting_parts;
+    open_.conflicting = true;
+  }
+}
+
+void ScanAssembler::add_announced(const ScanPart& part) {
+  if (is_open_) {
+    store(part);
+  } else {
+    ++counters_.orphan_parts;
+  }
+}
+
+void ScanAssembler::add_unannounced(const ScanPart& part) {
+  const bool of_open = is_open_ && part.counter == open_.counter;
+  if (!of_open && part.counter == closed_counter_ && in_time(part.stamp_us, closed_part_us_)) {
+    ++counters_.orphan_parts;
+    closed_part_us_ = part.stamp_us;
+    return;
+  }
+  if (!of_open) {
+    finish();
+    open(part, framing_.slot_count);
+  }
+  store(part);
+}
+
+void ScanAssembler::store(const ScanPart& part) {
+  open_.last_part_us = part.stamp_us;
+  const bool is_first = part.kind == ScanPart::Kind::first;
+  SlotSet& present = is_first ? open_.has_first : open_.has_second;
+  const SlotSet& other = is_first ? open_.has_second : open_.has_first;
+  Payload& stored = is_first ? targets_[part.slot].first : targets_[part.slot].second;
+  if (present[part.slot]) {
+    compare(stored, part.payload);
+    return;
+  }
+  if (!other[part.slot]) {
+    if (!admit(part.slot)) {
+      return;
+    }
+    counters_.reordered_parts += is_first ? 0 : 1;
+  }
+  stored = part.payload;
+  present.set(part.slot);
+  if (is_whole()) {
+    close();
+  }
+}
+
+void ScanAssembler::compare(const Payload& stored, const Payload& repeated) {
+  if (stored == repeated) {
+    ++counters_.duplicate_parts;
+  } else {
+    ++counters_.conflicting_parts;
+    open_.conflicting = true;
+  }
+}
+
+bool ScanAssembler::admit(std::uint8_t slot) {
+  if (open_.known >= capacity()) {
+    ++counters_.excess_parts;
+    open_.conflicting = true;
+    return false;
+  }
+  order_[open_.known++] = slot;
+  return true;
+}
+
+void ScanAssembler::open(const ScanPart& part, std::uint16_t announced) {
+  note_step(part.counter);
+  open_ = {.stamp_us = part.stamp_us,
+           .last_part_us = part.stamp_us,
+           .counter = part.counter,
+           .announced = announced};
+  is_open_ = true;
+  if (is_whole()) {
+    close();
+  }
+}
+
+void ScanAssembler::note_step(std::uint16_t counter) {
+  if (!closed_counter_) {
+    return;
+  }
+  const std::uint32_t modulus = framing_.counter_modulus;
+  std::uint32_t step = (counter + modulus - *closed_counter_) % modulus;
+  if (framing_.has_header && step > modulus / 2) {
+    return;
+  }
+  step = step == 0 ? modulus : step;
+  cycle_step_ = cycle_step_ == 0 ? step : std::min(cycle_step_, step);
+  counters_.missed_scans += step / cycle_step_ - 1;
+}
+
+std::size_t ScanAssembler::capacity() const {
+  return std::min<std::size_t>(open_.announced, kMaxDetections);
+}
+
+bool ScanAssembler::is_whole() const {
+  return (open_.has_first & open_.has_second).count() == capacity();
+}
+
+ScanStatus ScanAssembler::status() const {
+  if (open_.dropped) {
+    return ScanStatus::dropped_frames;
+  }
+  if (open_.announced > kMaxDetections) {
+    return ScanStatus::over_capacity;
+  }
+  if (open_.conflicting) {
+    return ScanStatus::conflicting_parts;
+  }
+  return is_whole() ? ScanStatus::complete : ScanStatus::missing_parts;
+}
+
+void ScanAssembler::close() {
+  if (waiting_count_ == waiting_.size()) {
+    next();
+  }
+  RadarScan& scan = waiting_[(oldest_ + waiting_count_) % waiting_.size()];
+  ++waiting_count_;
+  fill(scan);
+  count(scan);
+  closed_counter_ = open_.counter;
+  closed_part_us_ = open_.last_part_us;
+  is_open_ = false;
+}
+
+void ScanAssembler::fill(RadarScan& scan) const {
+  scan.stamp_us = open_.stamp_us;
+  scan.counter = open_.counter;
+  scan.status = status();
+  scan.announced = open_.announced;
+  scan.count = 0;
+  for (std::size_t i = 0; i < open_.known; ++i) {
+    const std::uint8_t slot = order_[i];
+    if (!open_.has_first[slot] || !open_.has_second[slot]) {
+      continue;
+    }
+    Detection detection = decoder_->detection(targets_[slot]);
+    if (detection.validity != Validity::empty) {
+      detection.id = slot;  // A GPR may leave its own number 0.
+      scan.detections[scan.count++] = detection;
+    }
+  }
+}
+
+void ScanAssembler::count(const RadarScan& scan) {
+  const bool complete = scan.status == ScanStatus::complete;
+  ++counters_.scans;
+  counters_.incomplete_scans += complete ? 0 : 1;
+  counters_.empty_scans += complete && scan.count == 0 ? 1 : 0;
+  counters_.missing_parts +=
+      std::uint64_t{2} * open_.announced - (open_.has_first.count() + open_.has_second.count());
+}
+
+}  // namespace cremed

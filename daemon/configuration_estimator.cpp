@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration_estimator.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "can_decoders/radar_scan.hpp"
+#include "daemon/message_text.hpp"
+#include "estimator/outlier_ray.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kFullCircleRad = 6.2832;
+
+/// Gaussians that cover the ray; the same formula as the estimator's, but without its cap.
+double gaussians(const OutlierRayOptions& ray) {
+  const double span = (1.0 - ray.ratio) / (1.0 + ray.ratio) * ray.max_range_m / ray.min_range_m;
+  return 1.0 + std::ceil(std::log(span) / std::log(ray.growth));
+}
+
+void check_gaussians(TomlReader& reader, const OutlierRayOptions& ray) {
+  const bool given_here = reader.has("min_range_m") || reader.has("max_range_m") ||
+                          reader.has("ratio") || reader.has("growth");
+  if (reader.clean() && given_here && gaussians(ray) > double{kMaxRayComponents}) {
+    reader.report("growth", concat({"needs ", std::to_string(std::lround(gaussians(ray))),
+                                    " Gaussians to reach max_range_m; must need at most ",
+                                    std::to_string(kMaxRayComponents), ": raise growth or ratio"}));
+  }
+}
+
+void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
+  reader.number("weight", ray.weight, {0.0, 0.99});
+  reader.number("min_range_m", ray.min_range_m, {0.01, 1000.0});
+  reader.number("max_range_m", ray.max_range_m, {0.01, 1000.0});
+  reader.number("ratio", ray.ratio, {0.01, 0.99});
+  reader.number("growth", ray.growth, {1.01, 10.0});
+  reader.number("field_of_view_rad", ray.field_of_view_rad, {0.01, kFullCircleRad});
+  reader.require_less("min_range_m", ray.min_range_m, "max_range_m", ray.max_range_m);
+  check_gaussians(reader, ray);
+  reader.finish();
+}
+
+void read_doppler(TomlReader reader, DopplerOptions& doppler) {
+  reader.boolean("enabled", doppler.enabled);
+  reader.number("stamp_std_s", doppler.stamp_std_s, {0.0, 1.0});
+  reader.number("moving_weight", doppler.moving_weight, {0.0, 0.99});
+  reader.number("moving_std_mps", doppler.moving_std_mps, {0.1, 1000.0});
+  reader.finish();
+}
+
+}  // namespace
+
+void read_estimator(TomlReader reader, EgoMotionOptions& options) {
+  RegistrationOptions& registration = options.registration;
+  reader.integer("degrees_of_freedom", registration.degrees_of_freedom, 2, 3);
+  reader.number("start_scale", registration.start_scale, {1.0, 100.0});
+  reader.number("start_doppler_scale", registration.start_doppler_scale, {1.0, 100.0});
+  reader.integer("max_start_iterations", registration.max_start_iterations, 0, 100);
+  reader.integer("max_iterations", registration.max_iterations, 1, 1000);
+  reader.integer("min_targets", options.min_targets, 2, kMaxDetections);
+  reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
+  reader.number("standstill_mps", options.standstill_mps, {0.0, 1.0});
+  reader.number("max_speed_mps", options.max_speed_mps, {1.0, 150.0});
+  reader.number("max_yaw_rate_radps", options.max_yaw_rate_radps, {0.1, 10.0});
+  reader.number("max_std_m", options.max_std_m, {0.001, 100.0});
+  reader.number("max_std_rad", options.max_std_rad, {0.001, 3.1416});
+  read_outlier_ray(reader.table("outlier_ray"), registration.outlier_ray);
+  read_doppler(reader.table("doppler"), registration.doppler);
+  reader.finish();
+}
+
+}  // namespace cremed

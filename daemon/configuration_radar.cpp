@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration_radar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "daemon/candump.hpp"
+#include "daemon/configuration_estimator.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::array<std::string_view, 2> kTypes = {"ars408", "bosch_gpr"};
+constexpr std::array<std::string_view, 2> kOutputs = {"clusters", "objects"};
+constexpr std::array<std::string_view, 3> kCrcPolicies = {"off", "count", "enforce"};
+constexpr std::size_t kMaxName = 15;
+constexpr double kMaxMountM = 50.0;
+constexpr double kFullCircleRad = 6.2832;
+constexpr double kHalfCircleRad = 3.1416;
+constexpr std::uint32_t kMaxStandardId = 0x7FF;
+
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
+           c == '-';
+  };
+  return !text.empty() && text.size() <= kMaxName && text != "fused" &&
+         std::all_of(text.begin(), text.end(), fits);
+}
+
+bool is_interface(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxInterfaceName && text != "." && text != ".." &&
+         text.find_first_of(" /:") == std::string_view::npos;
+}
+
+constexpr TextRule kName = {
+    is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and not \"fused\""};
+constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
+
+void read_ars408(TomlReader& reader, Ars408Options& options) {
+  reader.integer("sensor_id", options.sensor_id, 0, 7);
+  if (const auto output = reader.choice("output", kOutputs)) {
+    options.output = static_cast<Ars408Output>(*output);
+  }
+  reader.bits("keep_invalid_states", options.keep_invalid_states, 31);
+  std::uint32_t keep_dyn_props = options.keep_dyn_props;
+  reader.bits("keep_dyn_props", keep_dyn_props, 7);
+  options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
+  reader.integer("min_existence_code", options.min_existence_code, 0, 7);
+}
+
+void check_gpr_ids(TomlReader& reader, const BoschGprOptions& options) {
+  if (reader.clean() && options.info_id >= options.base_id &&
+      options.info_id < options.base_id + kGprTargetIds) {
+    reader.report(
+        reader.has("info_id") ? "info_id" : "base_id",
+        "makes info_id one of the targets' identifiers; must be outside base_id to base_id + 95");
+  }
+}
+
+void read_gpr(TomlReader& reader, BoschGprOptions& options) {
+  reader.identifier("base_id", options.base_id, kMaxStandardId + 1 - kGprTargetIds);
+  reader.identifier("info_id", options.info_id, kMaxStandardId);
+  if (const auto policy = reader.choice("crc_policy", kCrcPolicies)) {
+    options.crc_policy = static_cast<CrcPolicy>(*policy);
+  }
+  reader.boolean("invert_azimuth", options.invert_azimuth);
+  reader.boolean("invert_doppler", options.invert_doppler);
+  reader.number("min_existence", options.min_existence, {0.0, 0.96875});
+  check_gpr_ids(reader, options);
+}
+
+/// The keys that `read` asks for.
+template <typename Options>
+std::vector<std::string_view> keys_of(void (*read)(TomlReader&, Options&)) {
+  ReadContext scratch{Diagnostics(""), nullptr};
+  TomlReader reader(nullptr, "", 0, scratch);
+  Options options;
+  read(reader, options);
+  return reader.known();
+}
+
+/// Keys of the type that the radar has; those of the other type are refused by name.
+void read_decoder(TomlReader& reader, RadarConfiguration& radar) {
+  const auto type = reader.choice("type", kTypes, Presence::required);
+  if (!type || *type == 0) {
+    read_ars408(reader, radar.decoder.emplace<Ars408Options>());
+  }
+  if (!type || *type == 1) {
+    read_gpr(reader, radar.decoder.emplace<BoschGprOptions>());
+  }
+  reader.refuse(keys_of(read_ars408), "is a key of type \"ars408\"; must be left out here");
+  reader.refuse(keys_of(read_gpr), "is a key of type \"bosch_gpr\"; must be left out here");
+}
+
+void read_mount(TomlReader reader, Pose2& vehicle_from_radar) {
+  constexpr Presence required = Presence::required;
+  reader.number("x_m", vehicle_from_radar.x_m, {-kMaxMountM, kMaxMountM}, required);
+  reader.number("y_m", vehicle_from_radar.y_m, {-kMaxMountM, kMaxMountM}, required);
+  reader.number("yaw_rad", vehicle_from_radar.yaw_rad, {-kFullCircleRad, kFullCircleRad}, required);
+  reader.finish();
+}
+
+void read_limits(TomlReader reader, DetectionLimits& limits) {
+  reader.number("min_range_m", limits.min_range_m, {0.0, 2000.0});
+  reader.number("max_range_m", limits.max_range_m, {0.0, 2000.0});
+  reader.number("max_abs_azimuth_rad", limits.max_abs_azimuth_rad, {0.01, kHalfCircleRad});
+  reader.number("min_rcs_dbm2", limits.min_rcs_dbm2, {-100.0, 100.0});
+  reader.require_less("min_range_m", limits.min_range_m, "max_range_m", limits.max_range_m);
+  reader.finish();
+}
+
+}  // namespace
+
+PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
+  PlacedRadar placed{{}, reader.line_of("name"), reader.line_of("interface")};
+  RadarConfiguration& radar = placed.radar;
+  radar.ego_motion = defaults;
+  reader.text("name", radar.name, kName, Presence::required);
+  reader.text("interface", radar.interface, kInterface, Presence::required);
+  reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 1.0});
+  read_decoder(reader, radar);
+  read_mount(reader.table("mount"), radar.ego_motion.vehicle_from_radar);
+  read_limits(reader.table("limits"), radar.ego_motion.limits);
+  read_estimator(reader.table("estimator"), radar.ego_motion);
+  reader.finish();
+  return placed;
+}
+
+}  // namespace cremed

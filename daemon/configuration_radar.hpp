@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "daemon/configuration.hpp"
+#include "daemon/toml_reader.hpp"
+
+namespace cremed {
+
+/// A GPR sends two messages for each of its 48 targets, always.
+inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
+
+/// A radar and where the file says so.
+struct PlacedRadar {
+  RadarConfiguration radar;
+  std::size_t name_line = 0;
+  std::size_t interface_line = 0;
+};
+
+/// Reads one [[radar]] table; `defaults` are those of [estimator].
+PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults);
+
+/// Reports radars of one name, and radars on one interface that would hear each other's frames.
+void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics);
+
+}  // namespace cremed

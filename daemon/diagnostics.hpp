@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cremed {
+
+/// Collects everything that is wrong with one file, so that its author can mend it in one go.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::string file_name) : file_name_(std::move(file_name)) {}
+
+  /// `problem` says what is wrong and what would be right.
+  void add(std::size_t line, std::string_view key, std::string_view problem);
+
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
+
+  /// "file:line: key: problem", one a line, in the order of the file's lines.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  struct Entry {
+    std::size_t line;
+    std::string message;
+  };
+
+  std::string file_name_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace cremed

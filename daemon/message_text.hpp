@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+// Words of error messages. None depends on the locale.
+namespace cremed {
+
+/// Text of the file as it may stand in a message: control characters replaced, cut when long.
+std::string printable(std::string_view text);
+
+/// "0x2A"
+std::string hexadecimal(std::uint64_t value);
+
+std::string concat(std::initializer_list<std::string_view> parts);
+
+/// Shortest digits that give the number back.
+std::string digits(double value);
+std::string digits(std::int64_t value);
+
+/// Printable and in double quotes.
+std::string quoted(std::string_view text);
+
+/// "a number from 0 to 1"
+std::string range_text(std::string_view what, std::string_view min, std::string_view max);
+
+/// "a", "b" or "c", each in quotes.
+std::string list_text(std::span<const std::string_view> names);
+
+}  // namespace cremed

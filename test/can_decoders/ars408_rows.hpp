@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "can_decoders/ars408.hpp"
+#include "test/can_decoders/hex_frame.hpp"
+
+namespace cremed::test {
+
+/// A frame and what it says.
+template <class Message>
+struct Ars408Row {
+  std::string frame;
+  Message expected;
+};
+
+inline Approx near(double value) { return Approx(value).margin(1e-9).epsilon(0); }
+
+constexpr double deg(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+inline const Ars408MessageRow& message_of(const CanFrame& frame) {
+  const auto* row = std::find_if(
+      kArs408Messages.begin(), kArs408Messages.end(),
+      [&](const auto& m) { return static_cast<std::uint32_t>(m.message) == (frame.id & ~0x70U); });
+  REQUIRE(row != kArs408Messages.end());
+  return *row;
+}
+
+/// The decoder of the sensor and mode the frame is from takes it; every other sensor's ignores it.
+inline void check_sensor(const CanFrame& frame, Ars408Subject subject) {
+  const auto output =
+      subject == Ars408Subject::objects ? Ars408Output::objects : Ars408Output::clusters;
+  for (std::uint8_t sensor = 0; sensor < 8; ++sensor) {
+    Ars408Decoder decoder({.sensor_id = sensor, .output = output});
+    const ScanPart part = decoder.decode(frame);
+    const bool ours = sensor == (frame.id >> 4U & 7U);
+    const DecoderCounters& counters = decoder.counters();
+    CHECK(counters.frames == (ours ? 1 : 0));
+    CHECK(counters.wrong_length + counters.wrong_kind + counters.wrong_mode == 0);
+    CHECK(counters.state_frames == (ours && part.kind == ScanPart::Kind::none ? 1 : 0));
+  }
+}
+
+/// `check` compares every signal of the message.
+template <class Message>
+void check_rows(std::optional<Message> (*decode)(Ars408Bytes),
+                void (*check)(const Message& decoded, const Message& expected),
+                const std::vector<Ars408Row<Message>>& rows) {
+  for (const auto& row : rows) {
+    INFO(row.frame);
+    const CanFrame frame = hex_frame(row.frame);
+    const Ars408MessageRow& message = message_of(frame);
+    const auto decoded = decode(bytes_of(frame));
+    REQUIRE(decoded.has_value());
+    check(*decoded, row.expected);
+    CHECK_FALSE(decode(bytes_of(frame).first(message.length - 1U)).has_value());
+    auto longer = frame.data;
+    std::fill(longer.begin() + 8, longer.end(), std::uint8_t{0xFF});
+    check(*decode(longer), row.expected);
+    check_sensor(frame, message.subject);
+  }
+}
+
+}  // namespace cremed::test

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "can_decoders/scan_assembler.hpp"
+
+namespace cremed::test {
+
+inline constexpr std::int64_t kTimeoutUs = 50'000;
+
+/// A radar family without bytes to decode: the first byte of each payload is a value that the
+/// detection hands on, and 255 in the first message marks an empty slot.
+class PlainDecoder final : public RadarDecoder {
+ public:
+  explicit PlainDecoder(const ScanFraming& framing) : framing_(framing) {}
+
+  ScanPart decode(const CanFrame&) override { return {}; }
+  [[nodiscard]] ScanFraming framing() const override { return framing_; }
+  [[nodiscard]] Detection detection(const TargetPayload& target) const override {
+    return {.range_m = static_cast<double>(target.first[0]),
+            .range_std_m = static_cast<double>(target.second[0]),
+            .validity = target.first[0] == 255 ? Validity::empty : Validity::usable};
+  }
+
+ private:
+  ScanFraming framing_;
+};
+
+/// An assembler whose scans are collected as they come.
+class ScanBench {
+ public:
+  explicit ScanBench(const ScanFraming& framing) : decoder_(framing) {}
+
+  /// Every part comes 100 us after the last one unless the stamp is set by hand.
+  std::int64_t now_us = 1'000'000;
+
+  void header(std::uint16_t counter, std::uint16_t target_count) {
+    add({.kind = ScanPart::Kind::header, .counter = counter, .target_count = target_count});
+  }
+  void first(std::uint8_t slot, std::uint8_t value = 1, std::uint16_t counter = 0) {
+    add({.kind = ScanPart::Kind::first, .slot = slot, .counter = counter, .payload = {value}});
+  }
+  void second(std::uint8_t slot, std::uint8_t value = 1, std::uint16_t counter = 0) {
+    add({.kind = ScanPart::Kind::second, .slot = slot, .counter = counter, .payload = {value}});
+  }
+  /// Header, all first and all second messages of slots 0..count-1.
+  void list(std::uint16_t counter, std::uint16_t count) {
+    header(counter, count);
+    for (std::uint16_t slot = 0; slot < count; ++slot) {
+      first(static_cast<std::uint8_t>(slot));
+    }
+    for (std::uint16_t slot = 0; slot < count; ++slot) {
+      second(static_cast<std::uint8_t>(slot));
+    }
+  }
+  void expire(std::int64_t stamp_us) {
+    assembler_.expire(stamp_us);
+    collect();
+  }
+  void finish() {
+    assembler_.finish();
+    collect();
+  }
+  void mark_dropped() { assembler_.mark_dropped(); }
+
+  [[nodiscard]] const AssemblerCounters& counters() const { return assembler_.counters(); }
+  std::vector<RadarScan> scans;
+  std::size_t most_waiting = 0;  ///< Most scans that one call closed.
+
+ private:
+  void add(ScanPart part) {
+    part.stamp_us = now_us;
+    now_us += 100;
+    assembler_.add(part);
+    collect();
+  }
+  void collect() {
+    const std::size_t before = scans.size();
+    while (const RadarScan* scan = assembler_.next()) {
+      scans.push_back(*scan);
+    }
+    most_waiting = std::max(most_waiting, scans.size() - before);
+  }
+
+  PlainDecoder decoder_;
+  ScanAssembler assembler_{decoder_, kTimeoutUs};
+};
+
+}  // namespace cremed::test

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "test/can_decoders/ars408_rows.hpp"
+
+namespace cremed::test {
+namespace {
+
+void check(const Ars408ClusterStatus& decoded, const Ars408ClusterStatus& expected) {
+  CHECK(decoded.near_count == expected.near_count);
+  CHECK(decoded.far_count == expected.far_count);
+  CHECK(decoded.counter == expected.counter);
+  CHECK(decoded.interface_version == expected.interface_version);
+}
+
+void check(const Ars408ObjectStatus& decoded, const Ars408ObjectStatus& expected) {
+  CHECK(decoded.count == expected.count);
+  CHECK(decoded.counter == expected.counter);
+  CHECK(decoded.interface_version == expected.interface_version);
+}
+
+void check(const Ars408General& decoded, const Ars408General& expected) {
+  CHECK(decoded.id == expected.id);
+  CHECK(decoded.x_m == near(expected.x_m));
+  CHECK(decoded.y_m == near(expected.y_m));
+  CHECK(decoded.vx_mps == near(expected.vx_mps));
+  CHECK(decoded.vy_mps == near(expected.vy_mps));
+  CHECK(decoded.dyn_prop == expected.dyn_prop);
+  CHECK(decoded.rcs_dbm2 == near(expected.rcs_dbm2));
+}
+
+void check(const Ars408RmsCodes& decoded, const Ars408RmsCodes& expected) {
+  CHECK(decoded.x == expected.x);
+  CHECK(decoded.y == expected.y);
+  CHECK(decoded.vx == expected.vx);
+  CHECK(decoded.vy == expected.vy);
+}
+
+void check(const Ars408ClusterQuality& decoded, const Ars408ClusterQuality& expected) {
+  CHECK(decoded.id == expected.id);
+  check(decoded.rms, expected.rms);
+  CHECK(decoded.false_alarm_code == expected.false_alarm_code);
+  CHECK(decoded.invalid_state == expected.invalid_state);
+  CHECK(decoded.ambiguity == expected.ambiguity);
+}
+
+void check(const Ars408ObjectQuality& decoded, const Ars408ObjectQuality& expected) {
+  CHECK(decoded.id == expected.id);
+  check(decoded.rms, expected.rms);
+  CHECK(decoded.ax_rms_code == expected.ax_rms_code);
+  CHECK(decoded.ay_rms_code == expected.ay_rms_code);
+  CHECK(decoded.orientation_rms_code == expected.orientation_rms_code);
+  CHECK(decoded.existence_code == expected.existence_code);
+  CHECK(decoded.measurement_state == expected.measurement_state);
+}
+
+void check(const Ars408ObjectExtended& decoded, const Ars408ObjectExtended& expected) {
+  CHECK(decoded.id == expected.id);
+  CHECK(decoded.ax_mps2 == near(expected.ax_mps2));
+  CHECK(decoded.ay_mps2 == near(expected.ay_mps2));
+  CHECK(decoded.object_class == expected.object_class);
+  CHECK(decoded.orientation_rad == near(expected.orientation_rad));
+  CHECK(decoded.length_m == near(expected.length_m));
+  CHECK(decoded.width_m == near(expected.width_m));
+}
+
+void check(const Ars408ObjectWarning& decoded, const Ars408ObjectWarning& expected) {
+  CHECK(decoded.id == expected.id);
+  CHECK(decoded.regions == expected.regions);
+}
+
+TEST_CASE("0x600 heads a list of clusters") {
+  const std::vector<Ars408Row<Ars408ClusterStatus>> rows = {
+      {"600#5024581110", {80, 36, 22545, 1}},
+      {"600#0000000010", {0, 0, 0, 1}},
+      {"600#7D7DFFFF10", {125, 125, 65535, 1}},
+      {"610#FF0A000110", {255, 10, 1, 1}},
+  };
+  check_rows<Ars408ClusterStatus>(decode_ars408_cluster_status, check, rows);
+}
+
+TEST_CASE("0x701 holds a cluster's position, velocity and cross section") {
+  const std::vector<Ars408Row<Ars408General>> rows = {
+      {"701#004E81FC80200147", {0, 2.4, -0.7, 0.0, 0.0, Ars408DynProp::stationary, -28.5}},
+      {"701#0000000000000000", {0, -500.0, -102.3, -128.0, -64.0, Ars408DynProp::moving, -64.0}},
+      {"701#FFFFFFFFFFFFFFFF", {255, 1138.2, 102.3, 127.75, 63.75, Ars408DynProp::stopped, 63.5}},
+      {"721#1155F9E172A0C291", {17, 50.2, -6.1, -13.5, 1.5, Ars408DynProp::oncoming, 8.5}},
+      {"771#C86D625880200180", {200, 200.0, 17.7, 0.0, 0.0, Ars408DynProp::stationary, 0.0}},
+  };
+  check_rows<Ars408General>(decode_ars408_cluster_general, check, rows);
+}
+
+TEST_CASE("0x702 holds a cluster's quality") {
+  const std::vector<Ars408Row<Ars408ClusterQuality>> rows = {
+      {"702#0000000003", {0, {0, 0, 0, 0}, 0, Ars408InvalidState{0}, Ars408Ambiguity{3}}},
+      {"722#116C155103", {17, {13, 16, 10, 21}, 1, Ars408InvalidState{0}, Ars408Ambiguity{3}}},
+      {"702#FFFFFFF78C", {255, {31, 31, 31, 31}, 7, Ars408InvalidState{17}, Ars408Ambiguity{4}}},
+      {"702#0508888671", {5, {1, 2, 4, 8}, 6, Ars408InvalidState{14}, Ars408Ambiguity{1}}},
+      {"702#FFFFFFFFFF", {255, {31, 31, 31, 31}, 7, Ars408InvalidState{31}, Ars408Ambiguity{7}}},
+  };
+  check_rows<Ars408ClusterQuality>(decode_ars408_cluster_quality, check, rows);
+}
+
+TEST_CASE("0x60A heads a list of objects") {
+  const std::vector<Ars408Row<Ars408ObjectStatus>> rows = {
+      {"60A#03FBF710", {3, 64503, 1}}, {"60A#03FBF910", {3, 64505, 1}},
+      {"60A#09EE9910", {9, 61081, 1}}, {"60A#64FFFF10", {100, 65535, 1}},
+      {"61A#00000010", {0, 0, 1}},
+  };
+  check_rows<Ars408ObjectStatus>(decode_ars408_object_status, check, rows);
+}
+
+TEST_CASE("0x60B holds an object's position, velocity and cross section") {
+  const std::vector<Ars408Row<Ars408General>> rows = {
+      {"60B#384F04028020019C", {56, 5.6, 0.6, 0.0, 0.0, Ars408DynProp::stationary, 14.0}},
+      {"60B#204FEC00802001B4", {32, 11.4, 0.2, 0.0, 0.0, Ars408DynProp::stationary, 26.0}},
+      {"60B#0050E3FD802001B7", {0, 17.6, -0.4, 0.0, 0.0, Ars408DynProp::stationary, 27.5}},
+      {"60B#FFFFFFFFFFFFFFFF", {255, 1138.2, 204.8, 127.75, 63.75, Ars408DynProp::stopped, 63.5}},
+      {"60B#0000000000000000", {0, -500.0, -204.6, -128.0, -64.0, Ars408DynProp::moving, -64.0}},
+  };
+  check_rows<Ars408General>(decode_ars408_object_general, check, rows);
+}
+
+TEST_CASE("0x60C holds an object's quality") {
+  const std::vector<Ars408Row<Ars408ObjectQuality>> rows = {
+      {"60C#3884A33A0220E8", {56, {16, 18, 17, 19}, 20, 0, 17, 7, Ars408MeasurementState{2}}},
+      {"60C#2084633A0220E8", {32, {16, 17, 17, 19}, 20, 0, 17, 7, Ars408MeasurementState{2}}},
+      {"60C#090888880F00AC", {9, {1, 2, 4, 8}, 16, 3, 24, 5, Ars408MeasurementState{3}}},
+      {"60C#FFFFFFFFFFFFFF", {255, {31, 31, 31, 31}, 31, 31, 31, 7, Ars408MeasurementState{7}}},
+  };
+  check_rows<Ars408ObjectQuality>(decode_ars408_object_quality, check, rows);
+}
+
+TEST_CASE("0x60D holds an object's acceleration, class, orientation and size") {
+  const std::vector<Ars408Row<Ars408ObjectExtended>> rows = {
+      {"60D#387D0FA070801205", {56, 0.0, 0.0, 0, deg(0.0), 3.6, 1.0}},
+      {"60D#207D4FA17080190C", {32, 0.02, 0.0, 1, deg(0.0), 5.0, 2.4}},
+      {"60D#007D0FA67080190B", {0, 0.0, 0.0, 6, deg(0.0), 5.0, 2.2}},
+      {"60D#FFFFFFFFFFFFFFFF", {255, 10.47, 2.61, 7, deg(229.2), 51.0, 51.0}},
+      {"60D#FF00000000000000", {255, -10.0, -2.5, 0, deg(-180.0), 0.0, 0.0}},
+      {"67D#017D4FC2A3401914", {1, 0.02, 0.02, 2, deg(81.2), 5.0, 4.0}},
+  };
+  check_rows<Ars408ObjectExtended>(decode_ars408_object_extended, check, rows);
+}
+
+TEST_CASE("0x60E names the collision regions an object is in") {
+  const std::vector<Ars408Row<Ars408ObjectWarning>> rows = {
+      {"60E#38050000", {56, 5}},
+      {"60E#00000000", {0, 0}},
+      {"60E#FFFF0000", {255, 255}},
+  };
+  check_rows<Ars408ObjectWarning>(decode_ars408_object_warning, check, rows);
+}
+
+}  // namespace
+}  // namespace cremed::test

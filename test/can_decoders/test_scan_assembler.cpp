@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "can_decoders/scan_assembler.hpp"
+#include "test/can_decoders/scan_bench.hpp"
+
+namespace cremed::test {
+namespace {
+
+const ScanFraming kWithHeader{true, 65536, 256};
+
+TEST_CASE("A list is a scan as soon as its last part is there") {
+  ScanBench bench(kWithHeader);
+  bench.header(7, 2);
+  bench.first(40, 11);
+  bench.first(9, 12);
+  bench.second(40, 21);
+  CHECK(bench.scans.empty());
+  bench.second(9, 22);
+  REQUIRE(bench.scans.size() == 1);
+  const RadarScan& scan = bench.scans[0];
+  CHECK(scan.status == ScanStatus::complete);
+  CHECK(scan.stamp_us == 1'000'000);
+  CHECK(scan.counter == 7);
+  CHECK(scan.announced == 2);
+  REQUIRE(scan.count == 2);
+  CHECK(scan.detections[0].id == 40);
+  CHECK(scan.detections[0].range_m == 11);
+  CHECK(scan.detections[0].range_std_m == 21);
+  CHECK(scan.detections[1].id == 9);
+  CHECK(scan.detections[1].range_m == 12);
+  CHECK(scan.detections[1].range_std_m == 22);
+  CHECK(bench.counters().scans == 1);
+  CHECK(bench.counters().incomplete_scans == 0);
+  CHECK(bench.counters().empty_scans == 0);
+  CHECK(bench.counters().reordered_parts == 0);
+}
+
+TEST_CASE("A header that announces nothing is a complete empty scan") {
+  ScanBench bench(kWithHeader);
+  bench.header(7, 0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.scans[0].count == 0);
+  CHECK(bench.counters().empty_scans == 1);
+}
+
+TEST_CASE("A scan forgets the one before it") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 3);
+  bench.header(2, 1);
+  bench.first(2, 50);
+  bench.second(2, 60);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.scans[1].count == 1);
+  CHECK(bench.scans[1].detections[0].range_m == 50);
+}
+
+TEST_CASE("The next header closes a scan that lacks parts") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 3);
+  bench.first(0);
+  bench.first(1);
+  bench.second(1, 77);
+  bench.list(2, 1);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.scans[0].announced == 3);
+  REQUIRE(bench.scans[0].count == 1);
+  CHECK(bench.scans[0].detections[0].range_std_m == 77);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.counters().missing_parts == 3);
+  CHECK(bench.counters().incomplete_scans == 1);
+  CHECK(bench.counters().timeouts == 0);
+}
+
+TEST_CASE("A header can close one scan and be another") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.header(2, 0);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.most_waiting == 2);
+  CHECK(bench.scans[0].counter == 1);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.scans[1].counter == 2);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+}
+
+TEST_CASE("Scans nobody takes are overwritten, oldest first") {
+  const PlainDecoder decoder(kWithHeader);
+  ScanAssembler assembler(decoder, kTimeoutUs);
+  for (std::uint16_t counter = 1; counter <= 3; ++counter) {
+    assembler.add({.kind = ScanPart::Kind::header, .counter = counter});
+  }
+  CHECK(assembler.next()->counter == 2);
+  CHECK(assembler.next()->counter == 3);
+  CHECK(assembler.next() == nullptr);
+  CHECK(assembler.counters().scans == 3);
+}
+
+TEST_CASE("The end of input closes the open scan") {
+  ScanBench bench(kWithHeader);
+  bench.finish();
+  CHECK(bench.scans.empty());
+  bench.header(1, 1);
+  bench.first(0);
+  bench.finish();
+  bench.finish();
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.counters().missing_parts == 1);
+}
+
+TEST_CASE("An open scan expires when no part of it came for too long") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us += 40'000;
+  bench.first(0);
+  const std::int64_t last_us = bench.now_us - 100;
+  bench.expire(last_us + kTimeoutUs);
+  CHECK(bench.scans.empty());
+  bench.expire(last_us - 10 * kTimeoutUs);  // A clock set back.
+  CHECK(bench.scans.empty());
+  bench.expire(last_us + kTimeoutUs + 1);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.counters().timeouts == 1);
+  bench.expire(last_us + 10 * kTimeoutUs);
+  CHECK(bench.scans.size() == 1);
+}
+
+TEST_CASE("A part that comes after the time-out finds its scan closed") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.now_us += kTimeoutUs;  // With the 100 us since the last part: just too late.
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.counters().timeouts == 1);
+  CHECK(bench.counters().orphan_parts == 1);
+}
+
+TEST_CASE("A part exactly at the time-out still counts") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.now_us += kTimeoutUs - 100;
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+}
+
+TEST_CASE("Time-out and a new empty scan in one header") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us += 2 * kTimeoutUs;
+  bench.header(2, 0);
+  CHECK(bench.most_waiting == 2);
+  CHECK(bench.counters().timeouts == 1);
+  CHECK(bench.counters().empty_scans == 1);
+}
+
+TEST_CASE("A header again is a duplicate") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.header(1, 1);
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.scans[0].stamp_us == 1'000'000);
+  CHECK(bench.counters().duplicate_parts == 1);
+  CHECK(bench.counters().conflicting_parts == 0);
+}
+
+TEST_CASE("A header again with another number is a conflict") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.header(1, 2);
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
+  CHECK(bench.scans[0].announced == 1);
+  CHECK(bench.scans[0].count == 1);
+  CHECK(bench.counters().conflicting_parts == 1);
+  CHECK(bench.counters().duplicate_parts == 0);
+}
+
+TEST_CASE("A repeated list never looks like a fresh one") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 2);
+  bench.now_us += 10'000'000;  // Not even after a long time.
+  bench.list(1, 2);
+  CHECK(bench.scans.size() == 1);
+  CHECK(bench.counters().repeated_scans == 1);
+  CHECK(bench.counters().orphan_parts == 4);
+  bench.header(1, 0);
+  CHECK(bench.scans.size() == 1);
+  CHECK(bench.counters().repeated_scans == 2);
+}
+
+TEST_CASE("The header of the last scan closes the open one") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 1);
+  bench.header(2, 1);
+  bench.list(1, 1);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[1].counter == 2);
+  CHECK(bench.scans[1].status == ScanStatus::missing_parts);
+  CHECK(bench.scans[1].count == 0);
+  CHECK(bench.counters().repeated_scans == 1);
+  CHECK(bench.counters().orphan_parts == 2);
+}
+
+TEST_CASE("The same message again is ignored") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0, 5);
+  bench.first(0, 5);
+  bench.second(0, 6);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.scans[0].count == 1);
+  CHECK(bench.counters().duplicate_parts == 1);
+}
+
+TEST_CASE("The same message with other bytes makes a scan conflicting") {
+  for (const bool of_first : {true, false}) {
+    ScanBench bench(kWithHeader);
+    bench.header(1, 2);
+    bench.first(0, 5);
+    bench.first(1, 5);
+    bench.second(0, 6);
+    of_first ? bench.first(0, 8) : bench.second(0, 9);
+    bench.second(1, 6);
+    REQUIRE(bench.scans.size() == 1);
+    CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
+    CHECK(bench.scans[0].count == 2);
+    CHECK(bench.scans[0].detections[0].range_m == 5);
+    CHECK(bench.scans[0].detections[0].range_std_m == 6);
+    CHECK(bench.counters().conflicting_parts == 1);
+    CHECK(bench.counters().incomplete_scans == 1);
+    CHECK(bench.counters().missing_parts == 0);
+  }
+}
+
+TEST_CASE("The second message may come before the first") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 2);
+  bench.second(3, 6);
+  bench.first(4, 7);
+  bench.second(4, 8);
+  bench.first(3, 5);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  REQUIRE(bench.scans[0].count == 2);
+  CHECK(bench.scans[0].detections[0].id == 3);  // In order of the message that came first.
+  CHECK(bench.scans[0].detections[0].range_m == 5);
+  CHECK(bench.scans[0].detections[0].range_std_m == 6);
+  CHECK(bench.counters().reordered_parts == 1);
+}
+
+TEST_CASE("More targets than announced are dropped and the scan is not whole") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.first(1);
+  bench.second(1);
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
+  REQUIRE(bench.scans[0].count == 1);
+  CHECK(bench.scans[0].detections[0].id == 0);
+  CHECK(bench.counters().excess_parts == 2);
+}
+
+TEST_CASE("Parts without an open scan are orphans") {
+  ScanBench bench(kWithHeader);
+  bench.first(0);
+  bench.second(0);
+  CHECK(bench.counters().orphan_parts == 2);
+  bench.list(1, 1);
+  bench.second(0);
+  CHECK(bench.counters().orphan_parts == 3);
+  CHECK(bench.scans.size() == 1);
+}
+
+TEST_CASE("Frames that are no parts change nothing") {
+  const PlainDecoder decoder(kWithHeader);
+  ScanAssembler assembler(decoder, kTimeoutUs);
+  assembler.add({.kind = ScanPart::Kind::header, .target_count = 1, .stamp_us = 1'000'000});
+  assembler.add({});  // Stamp 0: neither a step back nor a time-out.
+  CHECK(assembler.next() == nullptr);
+  CHECK(assembler.counters().stamps_backwards == 0);
+}
+
+}  // namespace
+}  // namespace cremed::test

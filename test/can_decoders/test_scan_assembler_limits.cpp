@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "test/can_decoders/scan_bench.hpp"
+
+namespace cremed::test {
+namespace {
+
+const ScanFraming kWithHeader{true, 65536, 256};
+
+TEST_CASE("256 targets fit") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 256);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.scans[0].count == 256);
+  CHECK(bench.scans[0].detections[255].id == 255);
+}
+
+TEST_CASE("More than 256 announced targets are over capacity") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 300);
+  for (unsigned slot = 0; slot < 256; ++slot) {
+    bench.first(static_cast<std::uint8_t>(slot));
+    bench.second(static_cast<std::uint8_t>(slot));
+  }
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::over_capacity);
+  CHECK(bench.scans[0].announced == 300);
+  CHECK(bench.scans[0].count == 256);
+  CHECK(bench.counters().missing_parts == 88);
+}
+
+TEST_CASE("Over capacity hides conflicts and missing parts") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 257);
+  bench.first(0, 1);
+  bench.first(0, 2);
+  bench.finish();
+  CHECK(bench.scans.at(0).status == ScanStatus::over_capacity);
+  CHECK(bench.counters().missing_parts == 2 * 257 - 1);
+}
+
+TEST_CASE("A conflict hides missing parts") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 2);
+  bench.first(0, 1);
+  bench.first(0, 2);
+  bench.finish();
+  CHECK(bench.scans.at(0).status == ScanStatus::conflicting_parts);
+  CHECK(bench.counters().missing_parts == 3);
+}
+
+TEST_CASE("Lost frames spoil the open scan, whatever else arrives") {
+  for (const std::uint16_t announced : std::vector<std::uint16_t>{1, 300}) {
+    ScanBench bench(kWithHeader);
+    bench.header(1, announced);
+    bench.first(0);
+    bench.mark_dropped();
+    bench.first(0, 9);  // Conflict.
+    bench.second(0);
+    bench.finish();
+    REQUIRE(bench.scans.size() == 1);
+    CHECK(bench.scans[0].status == ScanStatus::dropped_frames);
+    CHECK(bench.scans[0].count == 1);
+    CHECK(bench.counters().incomplete_scans == 1);
+  }
+}
+
+TEST_CASE("Lost frames between scans spoil none") {
+  ScanBench bench(kWithHeader);
+  bench.mark_dropped();
+  bench.list(1, 1);
+  bench.mark_dropped();
+  bench.list(2, 1);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+}
+
+TEST_CASE("Skipped counters are missed scans, by the smallest step seen") {
+  struct Row {
+    std::vector<std::uint16_t> counters;
+    std::uint64_t missed;
+  };
+  const std::vector<Row> rows = {
+      {{1, 2, 3, 4}, 0},
+      {{1, 3, 5, 7}, 0},
+      {{1, 2, 5}, 2},
+      {{1, 3, 7, 9, 15}, 1 + 2},
+      {{1, 5, 7, 9}, 0},                  // 4 first: nothing smaller is known yet.
+      {{1, 3, 6}, 0},                     // One and a half cycles.
+      {{65534, 65535, 0, 1}, 0},          // Wrap by one.
+      {{65533, 65535, 1, 3}, 0},          // Wrap by two.
+      {{65531, 65533, 1}, 1},             // A gap over the wrap.
+      {{40000, 40002, 12000, 12002}, 0},  // Back: a restart.
+      {{100, 102, 0, 2, 6}, 1},
+      {{0, 1, 32769}, 32767},  // Half the range is the largest gap.
+      {{0, 1, 32770}, 0},
+  };
+  for (const Row& row : rows) {
+    ScanBench bench(kWithHeader);
+    for (const std::uint16_t counter : row.counters) {
+      bench.list(counter, 1);
+    }
+    CAPTURE(row.counters);
+    CHECK(bench.scans.size() == row.counters.size());
+    CHECK(bench.counters().missed_scans == row.missed);
+  }
+}
+
+TEST_CASE("Repeated and incomplete scans are not missed ones") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 1);
+  bench.list(1, 1);
+  bench.header(2, 5);
+  bench.list(3, 1);
+  CHECK(bench.counters().missed_scans == 0);
+}
+
+TEST_CASE("Equal stamps are no step back") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us -= 100;
+  bench.first(0);
+  CHECK(bench.counters().stamps_backwards == 0);
+}
+
+TEST_CASE("A repeated header, a duplicate and an excess part keep a scan from expiring") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us += kTimeoutUs / 2;
+  bench.header(1, 1);
+  bench.now_us += kTimeoutUs - 200;
+  bench.first(0);
+  bench.now_us += kTimeoutUs - 200;
+  bench.first(0);
+  bench.now_us += kTimeoutUs - 200;
+  bench.first(1);
+  bench.now_us += kTimeoutUs - 200;
+  bench.second(0);
+  CHECK(bench.counters().timeouts == 0);
+  CHECK(bench.scans.size() == 1);
+}
+
+TEST_CASE("A small step back in time is counted and harmless") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us -= kTimeoutUs / 2;
+  bench.first(0);
+  bench.second(0);
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::complete);
+  CHECK(bench.counters().stamps_backwards == 1);
+}
+
+TEST_CASE("A step back beyond the time-out closes the open scan") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.first(0);
+  bench.now_us -= 3'600'000'000;
+  bench.second(0);
+  bench.list(2, 1);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.counters().timeouts == 1);
+  CHECK(bench.counters().orphan_parts == 1);
+  CHECK(bench.counters().stamps_backwards == 1);
+}
+
+TEST_CASE("After a step back the time-out runs from the new time") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 1);
+  bench.now_us -= kTimeoutUs / 2;
+  bench.first(0);
+  const std::int64_t last_us = bench.now_us - 100;
+  bench.expire(last_us + kTimeoutUs);
+  CHECK(bench.scans.empty());
+  bench.expire(last_us + kTimeoutUs + 1);
+  CHECK(bench.scans.size() == 1);
+}
+
+TEST_CASE("The most extreme stamps are only far apart") {
+  ScanBench bench(kWithHeader);
+  bench.now_us = std::numeric_limits<std::int64_t>::min();
+  bench.header(1, 1);
+  bench.expire(std::numeric_limits<std::int64_t>::max());
+  CHECK(bench.counters().timeouts == 1);
+  bench.now_us = std::numeric_limits<std::int64_t>::max() - 100;
+  bench.header(2, 1);
+  bench.now_us = std::numeric_limits<std::int64_t>::min();
+  bench.first(0);
+  CHECK(bench.counters().timeouts == 2);
+}
+
+}  // namespace
+}  // namespace cremed::test

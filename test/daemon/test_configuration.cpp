@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <clocale>
+#include <locale>
+#include <string>
+#include <variant>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/configuration.hpp"
+#include "test/daemon/configuration_texts.hpp"
+
+namespace cremed {
+namespace {
+
+Configuration parse(const std::string& text) { return parse_configuration(text, "test.toml"); }
+
+TEST_CASE("required keys alone give the defaults of the structs") {
+  const Configuration configuration = parse(kArs408);
+  REQUIRE(configuration.radars.size() == 1);
+  const RadarConfiguration& radar = configuration.radars[0];
+  CHECK(radar.name == "front");
+  CHECK(radar.interface == "can0");
+  CHECK(radar.scan_timeout_s == RadarConfiguration{}.scan_timeout_s);
+  const auto& decoder = std::get<Ars408Options>(radar.decoder);
+  CHECK(decoder.keep_invalid_states == Ars408Options{}.keep_invalid_states);
+  CHECK(radar.ego_motion.vehicle_from_radar.x_m == 3.4);
+  CHECK(radar.ego_motion.vehicle_from_radar.y_m == -0.5);
+  CHECK(radar.ego_motion.vehicle_from_radar.yaw_rad == 0.25);
+  CHECK(radar.ego_motion.limits.max_range_m == DetectionLimits{}.max_range_m);
+  CHECK(radar.ego_motion.registration.start_scale == RegistrationOptions{}.start_scale);
+  CHECK(configuration.output.lcm_url == OutputConfiguration{}.lcm_url);
+  CHECK(configuration.logging.level == "info");
+}
+
+TEST_CASE("every key of an ARS408 is taken") {
+  const Configuration configuration = parse(kArs408 + R"(
+scan_timeout_s = 0.08
+sensor_id = 7
+output = "objects"
+keep_invalid_states = [0, 31]
+keep_dyn_props = [7]
+min_existence_code = 3
+limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_rcs_dbm2 = -20 }
+)");
+  const RadarConfiguration& radar = configuration.radars.at(0);
+  CHECK(radar.scan_timeout_s == 0.08);
+  const auto& decoder = std::get<Ars408Options>(radar.decoder);
+  CHECK(decoder.sensor_id == 7);
+  CHECK(decoder.output == Ars408Output::objects);
+  CHECK(decoder.keep_invalid_states == 0x80000001U);
+  CHECK(decoder.keep_dyn_props == 0x80U);
+  CHECK(decoder.min_existence_code == 3);
+  const DetectionLimits& limits = radar.ego_motion.limits;
+  CHECK(limits.min_range_m == 1.5);
+  CHECK(limits.max_range_m == 80.0);
+  CHECK(limits.max_abs_azimuth_rad == 1.25);
+  CHECK(limits.min_rcs_dbm2 == -20.0);
+}
+
+TEST_CASE("every key of a GPR is taken") {
+  const Configuration configuration = parse(kGpr + R"(
+base_id = 0x300
+info_id = 257
+crc_policy = "enforce"
+invert_azimuth = true
+invert_doppler = true
+min_existence = 0.5
+)");
+  const auto& decoder = std::get<BoschGprOptions>(configuration.radars.at(0).decoder);
+  CHECK(decoder.base_id == 0x300);
+  CHECK(decoder.info_id == 0x101);
+  CHECK(decoder.crc_policy == CrcPolicy::enforce);
+  CHECK(decoder.invert_azimuth);
+  CHECK(decoder.invert_doppler);
+  CHECK(decoder.min_existence == 0.5);
+}
+
+TEST_CASE("every key of the estimator is taken") {
+  const Configuration configuration = parse(R"(
+[estimator]
+degrees_of_freedom = 3
+start_scale = 6.5
+start_doppler_scale = 1
+max_start_iterations = 0
+max_iterations = 20
+min_targets = 8
+max_gap_s = 0.25
+standstill_mps = 0.2
+max_speed_mps = 50
+max_yaw_rate_radps = 1.5
+max_std_m = 0.5
+max_std_rad = 0.05
+[estimator.outlier_ray]
+weight = 0.2
+min_range_m = 1
+max_range_m = 40
+ratio = 0.6
+growth = 2
+field_of_view_rad = 2.5
+[estimator.doppler]
+enabled = false
+stamp_std_s = 0
+moving_weight = 0.1
+moving_std_mps = 30
+)" + kArs408);
+  const EgoMotionOptions& options = configuration.radars.at(0).ego_motion;
+  CHECK(options.registration.degrees_of_freedom == 3);
+  CHECK(options.registration.start_scale == 6.5);
+  CHECK(options.registration.start_doppler_scale == 1.0);
+  CHECK(options.registration.max_start_iterations == 0);
+  CHECK(options.registration.max_iterations == 20);
+  CHECK(options.min_targets == 8);
+  CHECK(options.max_gap_s == 0.25);
+  CHECK(options.standstill_mps == 0.2);
+  CHECK(options.max_speed_mps == 50.0);
+  CHECK(options.max_yaw_rate_radps == 1.5);
+  CHECK(options.max_std_m == 0.5);
+  CHECK(options.max_std_rad == 0.05);
+  const OutlierRayOptions& ray = options.registration.outlier_ray;
+  CHECK(ray.weight == 0.2);
+  CHECK(ray.min_range_m == 1.0);
+  CHECK(ray.max_range_m == 40.0);
+  CHECK(ray.ratio == 0.6);
+  CHECK(ray.growth == 2.0);
+  CHECK(ray.field_of_view_rad == 2.5);
+  const DopplerOptions& doppler = options.registration.doppler;
+  CHECK_FALSE(doppler.enabled);
+  CHECK(doppler.stamp_std_s == 0.0);
+  CHECK(doppler.moving_weight == 0.1);
+  CHECK(doppler.moving_std_mps == 30.0);
+}
+
+TEST_CASE("a radar's own estimator keys override the common ones for that radar alone") {
+  const Configuration configuration = parse(R"(
+estimator.start_scale = 3
+estimator.outlier_ray.weight = 0.1
+)" + kArs408 + R"(
+[radar.estimator]
+start_scale = 4
+outlier_ray.growth = 2.5
+doppler.enabled = false
+)" + radar_text("left", "ars408", "can1"));
+  const RegistrationOptions& own = configuration.radars.at(0).ego_motion.registration;
+  CHECK(own.start_scale == 4.0);
+  CHECK(own.outlier_ray.weight == 0.1);
+  CHECK(own.outlier_ray.growth == 2.5);
+  CHECK_FALSE(own.doppler.enabled);
+  const RegistrationOptions& common = configuration.radars.at(1).ego_motion.registration;
+  CHECK(common.start_scale == 3.0);
+  CHECK(common.outlier_ray.weight == 0.1);
+  CHECK(common.outlier_ray.growth == OutlierRayOptions{}.growth);
+  CHECK(common.doppler.enabled);
+}
+
+TEST_CASE("output and logging are taken") {
+  const Configuration configuration = parse(kArs408 + radar_text("left", "bosch_gpr", "can1") + R"(
+[output]
+lcm_url = "none"
+csv = "/tmp/odometry.csv"
+tum = "trajectory.tum"
+tum_source = "left"
+publish_scans = true
+[logging]
+level = "trace"
+)");
+  CHECK(configuration.output.lcm_url == "none");
+  CHECK(configuration.output.csv == "/tmp/odometry.csv");
+  CHECK(configuration.output.tum == "trajectory.tum");
+  CHECK(configuration.output.tum_source == "left");
+  CHECK(configuration.output.publish_scans);
+  CHECK(configuration.logging.level == "trace");
+}
+
+TEST_CASE("radars may share an interface if they share no identifier") {
+  const std::string ars408 = radar_text("b", "ars408", "can0");
+  const std::string gpr = radar_text("b", "bosch_gpr", "can0");
+  CHECK(parse(kArs408 + ars408 + "sensor_id = 1\n").radars.size() == 2);
+  CHECK(parse(kArs408 + gpr + "base_id = 0x500\n").radars.size() == 2);
+  CHECK(parse(kArs408 + "sensor_id = 6\n" + gpr).radars.size() == 2);  // 0x260 and above.
+  CHECK(parse(kGpr + gpr + "base_id = 0x260\ninfo_id = 0x101\n").radars.size() == 2);
+}
+
+/// Decimal comma and grouped thousands, without needing a locale that is installed.
+struct CommaPunctuation : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST_CASE("numbers and messages do not depend on the locale") {
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new CommaPunctuation));
+  const std::string c_before = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // Where installed.
+  double x_m = 0.0;
+  std::string message;
+  try {
+    x_m = parse(kArs408).radars.at(0).ego_motion.vehicle_from_radar.x_m;
+    parse(kArs408 + "limits.max_range_m = 1234567.5\n");
+  } catch (const ConfigurationError& error) {
+    message = error.what();
+  }
+  std::setlocale(LC_ALL, c_before.c_str());
+  std::locale::global(before);
+  CHECK(x_m == 3.4);
+  CHECK(message ==
+        "test.toml:6: radar.limits.max_range_m: is 1234567.5; must be a number from 0 to 2000");
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "test/daemon/configuration_texts.hpp"
+
+namespace cremed {
+namespace {
+
+TEST_CASE("values that contradict each other are refused") {
+  check_refused({
+      {kArs408 + "[radar.limits]\nmin_range_m = 30\nmax_range_m = 20\n", 8,
+       "radar.limits.max_range_m", "is 20", "greater than min_range_m = 30"},
+      {kArs408 + "limits.min_range_m = 300\n", 6, "radar.limits.min_range_m", "is 300",
+       "less than max_range_m = 300"},
+      {kArs408 + "[estimator.outlier_ray]\nmax_range_m = 0.4\n", 7,
+       "estimator.outlier_ray.max_range_m", "is 0.4", "greater than min_range_m = 0.5"},
+      {kArs408 + "[radar.estimator]\noutlier_ray.min_range_m = 60\n", 7,
+       "radar.estimator.outlier_ray.min_range_m", "is 60", "less than max_range_m = 50"},
+      {kArs408 + "[estimator.outlier_ray]\ngrowth = 1.05\n", 7, "estimator.outlier_ray.growth",
+       "needs 60 Gaussians", "at most 32: raise growth or ratio"},
+      {kGpr + "info_id = 0x25F\n", 6, "radar.info_id", "makes", "outside base_id to base_id + 95"},
+      {kGpr + "base_id = 0x0C0\n", 6, "radar.base_id", "makes", "outside base_id to base_id + 95"},
+      {kArs408 + "[output]\ntum_source = \"rear\"\n", 7, "output.tum_source", "is \"rear\"",
+       "the name of a radar"},
+      {kArs408 + "[output]\ncsv = \"a\"\ntum = \"a\"\n", 8, "output.tum", "is the file of csv",
+       "another path"},
+  });
+}
+
+TEST_CASE("radars that cannot be told apart are refused at the later one") {
+  const std::string same_bus = "is the interface of radar \"front\" (line 2), and both use CAN ";
+  const std::string gpr_bus = "is the interface of radar \"left\" (line 2), and both use CAN ";
+  const std::string right = "must be another interface, or have other identifiers";
+  check_refused({
+      {kArs408 + radar_text("front", "ars408", "can1"), 7, "radar.name",
+       "is the name of radar \"front\" (line 2)", "must differ in more than case"},
+      {kArs408 + radar_text("FRONT", "ars408", "can1"), 7, "radar.name",
+       "is the name of radar \"front\" (line 2)", "must differ in more than case"},
+      {kArs408 + radar_text("b", "ars408", "can0"), 9, "radar.interface",
+       same_bus + "identifier 0x200", right},
+      {kArs408 + "sensor_id = 3\n" + radar_text("b", "ars408", "can0") +
+           "sensor_id = 3\noutput = \"objects\"\n",
+       10, "radar.interface", same_bus + "identifier 0x230", right},
+      {kGpr + radar_text("b", "bosch_gpr", "can0") + "info_id = 0x101\n", 9, "radar.interface",
+       gpr_bus + "identifier 0x200", right},
+      {kGpr + radar_text("b", "bosch_gpr", "can0") + "base_id = 0x25F\ninfo_id = 0x101\n", 9,
+       "radar.interface", gpr_bus + "identifier 0x25F", right},
+      {kGpr + radar_text("b", "bosch_gpr", "can0") + "base_id = 0x300\n", 9, "radar.interface",
+       gpr_bus + "identifier 0x100", right},
+      {kGpr + radar_text("b", "bosch_gpr", "can0") + "base_id = 0x300\ninfo_id = 0x25F\n", 9,
+       "radar.interface", gpr_bus + "identifier 0x25F", right},
+      {kArs408 + kGpr, 9, "radar.interface", same_bus + "identifier 0x200", right},
+      {kArs408 + kGpr + "base_id = 0x500\ninfo_id = 0x701\n", 9, "radar.interface",
+       same_bus + "identifier 0x701", right},
+  });
+}
+
+TEST_CASE("more radars than anything has are refused") {
+  std::string text;
+  for (std::size_t i = 0; i <= kMaxRadars; ++i) {
+    text += radar_text(std::to_string(i), "ars408", std::to_string(i));
+  }
+  check_refused({{text, 1, "radar", "has 17 tables", "at most 16"}});
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The files of config/: the manual says everything and nothing but the truth, the examples load.
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/configuration.hpp"
+#include "test/daemon/configuration_texts.hpp"
+
+namespace cremed {
+namespace {
+
+const std::string kFolder = std::string(CREMED_SOURCE_DIR) + "/config/";
+
+// Structured bindings: a field that is added to a struct and not here does not compile.
+void write(std::ostream& out, const Ars408Options& options) {
+  const auto& [sensor_id, output, states, dyn_props, existence] = options;
+  out << "ars408 " << int{sensor_id} << ' ' << static_cast<int>(output) << ' ' << states << ' '
+      << int{dyn_props} << ' ' << int{existence} << '\n';
+}
+
+void write(std::ostream& out, const BoschGprOptions& options) {
+  const auto& [base_id, info_id, crc_policy, azimuth, doppler, existence] = options;
+  out << "gpr " << base_id << ' ' << info_id << ' ' << static_cast<int>(crc_policy) << ' '
+      << azimuth << ' ' << doppler << ' ' << existence << '\n';
+}
+
+void write(std::ostream& out, const RegistrationOptions& options) {
+  const auto& [freedom, scale, doppler_scale, start, iterations, ray, doppler] = options;
+  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations;
+  const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
+  out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
+      << ' ' << field_of_view;
+  const auto& [enabled, stamp_std, moving_weight, moving_std] = doppler;
+  out << "\ndoppler " << enabled << ' ' << stamp_std << ' ' << moving_weight << ' ' << moving_std;
+}
+
+void write(std::ostream& out, const EgoMotionOptions& options) {
+  const auto& [mount, limits, registration, min_targets, gap, standstill, speed, yaw_rate, std_m,
+               std_rad] = options;
+  const auto& [x, y, yaw] = mount;
+  const auto& [min_range, max_range, azimuth, rcs] = limits;
+  out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
+      << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
+      << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';
+  write(out, registration);
+}
+
+std::string text_of(const RadarConfiguration& radar) {
+  std::ostringstream out;
+  out.precision(17);
+  const auto& [name, interface, decoder, timeout, ego_motion] = radar;
+  out << name << ' ' << interface << ' ' << timeout << '\n';
+  std::visit([&](const auto& options) { write(out, options); }, decoder);
+  write(out, ego_motion);
+  return out.str();
+}
+
+std::string text_of(const Configuration& configuration) {
+  const auto& [radars, output, logging] = configuration;
+  std::string text;
+  for (const RadarConfiguration& radar : radars) {
+    text += text_of(radar) + "\n";
+  }
+  const auto& [lcm_url, csv, tum, tum_source, publish_scans] = output;
+  const auto& [level] = logging;
+  return text + lcm_url + "|" + csv + "|" + tum + "|" + tum_source + "|" +
+         std::to_string(publish_scans) + "|" + level;
+}
+
+std::vector<std::string> manual_lines() {
+  std::ifstream file(kFolder + "cremed.toml");
+  REQUIRE(file.good());
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    text += line + "\n";
+  }
+  return text;
+}
+
+/// "#key = value" and "#[table]" are commented-out TOML, "# text" is prose.
+bool is_commented_out(const std::string& line) {
+  return line.size() > 1 && line[0] == '#' && line[1] != ' ' && line[1] != '#';
+}
+
+std::string uncommented(const std::string& line) {
+  return is_commented_out(line) ? line.substr(1) : line;
+}
+
+/// "table.key" of every key that the manual sets or shows commented out.
+std::set<std::string> keys_of(const std::vector<std::string>& lines) {
+  std::set<std::string> keys;
+  std::string table;
+  for (const std::string& commented : lines) {
+    const std::string line = uncommented(commented);
+    if (line.starts_with('[')) {
+      const std::size_t begin = line.find_first_not_of('[');
+      table = line.substr(begin, line.find(']') - begin) + ".";
+    } else if (!line.starts_with('#') && line.find(" = ") != std::string::npos) {
+      keys.insert(table + line.substr(0, line.find(" = ")));
+    }
+  }
+  return keys;
+}
+
+TEST_CASE("the manual loads as it is and holds the defaults") {
+  const Configuration configuration = load_configuration(kFolder + "cremed.toml");
+  Configuration expected;
+  RadarConfiguration& radar = expected.radars.emplace_back();
+  radar.name = "front";
+  radar.interface = "can0";
+  radar.ego_motion.vehicle_from_radar = {3.412, 0.0, 0.0};
+  CHECK(text_of(configuration) == text_of(expected));
+}
+
+TEST_CASE("the manual names every key that there is, and no other") {
+  const std::string common = "estimator.";
+  const std::string own = "radar.estimator.";
+  std::set<std::string> expected;
+  for (const std::string& key : known_configuration_keys()) {
+    if (key.starts_with(own)) {
+      CHECK(known_configuration_keys().count(common + key.substr(own.size())) == 1);
+    } else {
+      expected.insert(key);
+    }
+  }
+  CHECK(expected.size() >= 50);
+  CHECK(keys_of(manual_lines()) == expected);
+  CHECK_THAT(joined(manual_lines()), Catch::Contains("[radar.estimator]"));
+}
+
+TEST_CASE("each default that the manual shows is the default") {
+  const std::vector<std::string> lines = manual_lines();
+  const std::string as_it_is = text_of(parse_configuration(joined(lines), "manual"));
+  std::string table;
+  int tried = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    table = uncommented(lines[i]).starts_with('[') ? lines[i] : table;
+    if (!is_commented_out(lines[i]) || table.starts_with('#')) {
+      continue;  // Prose, or part of the second radar.
+    }
+    std::vector<std::string> changed = lines;
+    changed[i] = uncommented(lines[i]);
+    CAPTURE(changed[i]);
+    CHECK(text_of(parse_configuration(joined(changed), "manual")) == as_it_is);
+    ++tried;
+  }
+  CHECK(tried > 35);
+}
+
+TEST_CASE("with every comment sign removed, the manual's two radars have their defaults") {
+  std::vector<std::string> lines = manual_lines();
+  for (std::string& line : lines) {
+    line = uncommented(line);
+  }
+  const Configuration configuration = parse_configuration(joined(lines), "manual");
+  REQUIRE(configuration.radars.size() == 2);
+  RadarConfiguration expected;
+  expected.name = "left";
+  expected.interface = "can1";
+  expected.decoder = BoschGprOptions{};
+  expected.ego_motion.vehicle_from_radar = {2.0, 0.8, 1.5708};
+  CHECK(text_of(configuration.radars[1]) == text_of(expected));
+}
+
+/// "0.01 to 1000" of a comment "... m, 0.01 to 1000, less than ..."; empty if it states no range.
+std::string stated_range(const std::string& comment) {
+  std::istringstream words(comment);
+  std::string before;
+  std::string range;
+  for (std::string word; words >> word; before = word) {
+    std::string after;
+    if (word == "to" && words >> after && std::isdigit(before.back()) != 0) {
+      after.erase(after.find_last_not_of(".,;") + 1);
+      range = before + " to " + after;
+      word = after;
+    }
+  }
+  return range;
+}
+
+TEST_CASE("each range that the manual states is the range") {
+  std::vector<std::string> lines = manual_lines();
+  std::string comment;
+  int tried = 0;
+  for (std::string& line : lines) {
+    line = uncommented(line);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool is_prose = lines[i].starts_with('#');
+    const std::string range = is_prose ? "" : stated_range(comment);
+    comment = is_prose ? comment + lines[i].substr(1) : "";
+    if (range.empty() || lines[i].find(" = ") == std::string::npos) {
+      continue;
+    }
+    std::vector<std::string> changed = lines;
+    const std::size_t value = lines[i].find(" = ") + 3;
+    const bool is_list = lines[i][value] == '[';
+    changed[i] = lines[i].substr(0, value) + (is_list ? "[1000000000]" : "1000000000");
+    CAPTURE(changed[i]);
+    CHECK_THAT(message_of(joined(changed)), Catch::Contains(" from " + range));
+    ++tried;
+  }
+  CHECK(tried >= 37);
+}
+
+struct Place {
+  const char* name;
+  const char* interface;
+  Pose2 mount;
+};
+
+void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
+  const Configuration configuration = load_configuration(kFolder + file);
+  REQUIRE(configuration.radars.size() == places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    RadarConfiguration expected;  // The defaults are the paper's settings for nuScenes.
+    expected.name = places[i].name;
+    expected.interface = places[i].interface;
+    expected.ego_motion.vehicle_from_radar = places[i].mount;
+    RegistrationOptions& registration = expected.ego_motion.registration;
+    registration.degrees_of_freedom = 2;
+    registration.outlier_ray.weight = 0.5;
+    registration.start_scale = 5.0;
+    registration.start_doppler_scale = 2.0;
+    registration.doppler.stamp_std_s = 0.005;
+    CHECK(text_of(configuration.radars[i]) == text_of(expected));
+  }
+}
+
+TEST_CASE("the nuScenes files have five radars where they are on the cars") {
+  check_nuscenes("nuscenes-boston.toml", {
+                                             {"front", "can0", {3.412, 0.0, -0.004537856}},
+                                             {"left", "can1", {2.422, 0.8, 1.582664566}},
+                                             {"right", "can2", {2.422, -0.8, -1.566258471}},
+                                             {"rear_left", "can3", {-0.562, 0.628, 3.049788335}},
+                                             {"rear_right", "can4", {-0.562, -0.618, -3.054326191}},
+                                         });
+  check_nuscenes("nuscenes-singapore.toml",
+                 {
+                     {"front", "can0", {3.412, 0.0, 0.003490659}},
+                     {"left", "can1", {2.422, 0.8, 1.542172927}},
+                     {"right", "can2", {2.422, -0.8, -1.587900553}},
+                     {"rear_left", "can3", {-0.562, 0.628, 3.044028748}},
+                     {"rear_right", "can4", {-0.562, -0.618, -3.073699346}},
+                 });
+}
+
+TEST_CASE("a file that cannot be read is a configuration error with its path") {
+  const std::string missing = std::string(CREMED_BINARY_DIR) + "/no-such-file.toml";
+  CHECK_THROWS_WITH(load_configuration(missing),
+                    Catch::StartsWith(missing + ": cannot be read: No such file or directory; "));
+  CHECK_THROWS_WITH(load_configuration(CREMED_BINARY_DIR),
+                    Catch::Contains(": cannot be read: Is a directory; must be a readable"));
+  CHECK_THROWS_WITH(load_configuration("/dev/zero"),
+                    Catch::StartsWith("/dev/zero:1: file: is too large; "));
+}
+
+TEST_CASE("a file gives what its text gives, with its path in errors") {
+  const std::string path = std::string(CREMED_BINARY_DIR) + "/test_configuration_files.toml";
+  std::ofstream(path, std::ios::binary) << kArs408 << "sensor_id = 4\n";
+  CHECK(text_of(load_configuration(path)) ==
+        text_of(parse_configuration(kArs408 + "sensor_id = 4\n", "")));
+  std::ofstream(path, std::ios::binary) << kArs408 << "sensor_id = 9\n";
+  CHECK_THROWS_AS(load_configuration(path), ConfigurationError);
+  CHECK_THROWS_WITH(load_configuration(path), Catch::StartsWith(path + ":6: radar.sensor_id: "));
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace cremed

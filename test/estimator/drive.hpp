@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "estimator/ego_motion_options.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed::simulation {
+
+/// A radar that is driven at constant velocity through points that stand around it.
+class Drive {
+ public:
+  static constexpr std::int64_t kPeriodUs = 100000;
+
+  Drive(const Eigen::Vector3d& velocity, const Pose2& mount, std::uint64_t seed = 1,
+        std::size_t point_count = 60)
+      : velocity_(velocity), mount_(mount), random_(seed) {
+    points_ = scatter(random_, point_count, 4.0, 60.0, numeric::radians(180.0), 1.0);
+  }
+
+  /// The vehicle's velocity from here on: (m/s forward, m/s left, rad/s).
+  void set_velocity(const Eigen::Vector3d& velocity) { velocity_ = velocity; }
+  void set_noise(const Noise& noise) { noise_ = noise; }
+  void set_half_view(double half_view_rad) { half_view_rad_ = half_view_rad; }
+
+  /// Drives on without a scan.
+  void pass(std::int64_t time_us = kPeriodUs) {
+    stamp_us_ += time_us;
+    const Eigen::Vector3d motion = velocity_ * (static_cast<double>(time_us) * 1e-6);
+    for (Eigen::Vector2d& point : points_) {
+      point = seen_from(motion, point);
+    }
+  }
+
+  /// What is in view from here, with noise; then drives on for a period.
+  RadarScan next() {
+    Detections detections;
+    for (const Eigen::Vector2d& point : points_) {
+      const Detection detection = observe(point, velocity_, mount_, noise_);
+      if (std::abs(detection.azimuth_rad) < half_view_rad_) {
+        detections.push_back(detection);
+      }
+    }
+    perturb(detections, random_);
+    RadarScan result = scan(detections, stamp_us_);
+    pass();
+    return result;
+  }
+
+  [[nodiscard]] Eigen::Vector3d motion_per_period() const {
+    return velocity_ * (static_cast<double>(kPeriodUs) * 1e-6);
+  }
+
+ private:
+  Eigen::Vector3d velocity_;
+  Pose2 mount_;
+  Noise noise_{0.1, 0.005, 0.1};
+  double half_view_rad_ = numeric::radians(60.0);
+  Random random_;
+  Points points_;
+  std::int64_t stamp_us_ = 1700000000000000;
+};
+
+}  // namespace cremed::simulation

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "estimator/ego_motion_estimator.hpp"
+#include "test/estimator/drive.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using numeric::radians;
+using simulation::Drive;
+
+constexpr std::int64_t kPeriodUs = Drive::kPeriodUs;
+const Pose2 kFront{3.4, 0.0, 0.0};
+
+std::unique_ptr<EgoMotionEstimator> make_estimator(const Pose2& mount,
+                                                   void (*change)(EgoMotionOptions&) = nullptr) {
+  EgoMotionOptions options;
+  options.vehicle_from_radar = mount;
+  if (change != nullptr) {
+    change(options);
+  }
+  return std::make_unique<EgoMotionEstimator>(options);
+}
+
+/// What every motion must fulfil: numbers if and only if there is an estimate.
+void check_consistent(const EgoMotion& motion) {
+  const bool has_estimate =
+      motion.status == MotionStatus::ok || motion.status == MotionStatus::standing_still;
+  CHECK(motion.has_estimate() == has_estimate);
+  if (has_estimate) {
+    CHECK(motion.motion.allFinite());
+    CHECK(motion.covariance.allFinite());
+    CHECK(motion.utime_us > motion.utime_start_us);
+  } else {
+    CHECK(motion.motion.array().isNaN().all());
+    CHECK(motion.covariance.array().isNaN().all());
+  }
+}
+
+/// Is the motion that of `periods` periods of the drive, within five standard deviations?
+void check_motion(const EgoMotion& motion, const Drive& drive, double periods) {
+  REQUIRE(motion.has_estimate());
+  CHECK(motion.utime_us - motion.utime_start_us ==
+        static_cast<std::int64_t>(std::lround(periods * static_cast<double>(kPeriodUs))));
+  const Eigen::Vector3d error = motion.motion - drive.motion_per_period() * periods;
+  CAPTURE(motion.motion.transpose(), error.transpose());
+  CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
+}
+
+TEST_CASE("a status has the name of the CSV and the number of the message") {
+  const std::array<std::string, kMotionStatusCount> names = {
+      "ok",           "standing_still",  "no_reference", "incomplete_scan",
+      "gap_too_long", "too_few_targets", "degenerate",   "no_convergence",
+      "non_finite",   "implausible"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CHECK(to_string(static_cast<MotionStatus>(i)) == names[i]);
+  }
+  CHECK(static_cast<std::size_t>(MotionStatus::implausible) + 1 == kMotionStatusCount);
+  check_consistent(EgoMotion());
+}
+
+TEST_CASE("each scan after the first gives the motion since the one before") {
+  Drive drive({8.0, 0.0, 0.1}, kFront);
+  const auto estimator = make_estimator(kFront);
+  const RadarScan first = drive.next();
+  const EgoMotion none = estimator->update(first);
+  check_consistent(none);
+  CHECK(none.status == MotionStatus::no_reference);
+  CHECK(none.utime_us == first.stamp_us);
+  CHECK(none.utime_start_us == first.stamp_us);
+  CHECK(none.targets == first.count);
+  CHECK(none.iterations == 0);
+  for (int i = 0; i < 20; ++i) {
+    const RadarScan scan = drive.next();
+    const EgoMotion motion = estimator->update(scan);
+    check_consistent(motion);
+    CHECK(motion.status == MotionStatus::ok);
+    CHECK(motion.utime_us == scan.stamp_us);
+    CHECK(motion.targets == scan.count);
+    CHECK(motion.iterations > 0);
+    check_motion(motion, drive, 1.0);
+  }
+}
+
+TEST_CASE(
+    "a scan that cannot serve is skipped, and the next motion starts at the last that could") {
+  struct Row {
+    std::string what;
+    void (*spoil)(RadarScan&);
+    MotionStatus status;
+  };
+  const std::vector<Row> rows = {
+      {"missing", [](RadarScan& s) { s.status = ScanStatus::missing_parts; },
+       MotionStatus::incomplete_scan},
+      {"conflict", [](RadarScan& s) { s.status = ScanStatus::conflicting_parts; },
+       MotionStatus::incomplete_scan},
+      {"capacity", [](RadarScan& s) { s.status = ScanStatus::over_capacity; },
+       MotionStatus::incomplete_scan},
+      {"dropped", [](RadarScan& s) { s.status = ScanStatus::dropped_frames; },
+       MotionStatus::incomplete_scan},
+      {"four", [](RadarScan& s) { s.count = 4; }, MotionStatus::too_few_targets},
+      {"none", [](RadarScan& s) { s.count = 0; }, MotionStatus::too_few_targets},
+      {"NaN range", [](RadarScan& s) { s.detections[2].range_m = numeric::kNan; },
+       MotionStatus::non_finite},
+      {"NaN azimuth", [](RadarScan& s) { s.detections[0].azimuth_rad = numeric::kNan; },
+       MotionStatus::non_finite},
+      {"infinite Doppler", [](RadarScan& s) { s.detections[1].doppler_mps = numeric::kInfinity; },
+       MotionStatus::non_finite},
+      {"no deviation", [](RadarScan& s) { s.detections[1].doppler_std_mps = 0.0; },
+       MotionStatus::non_finite},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    Drive drive({8.0, 0.0, 0.1}, kFront);
+    const auto estimator = make_estimator(kFront);
+    const RadarScan first = drive.next();
+    estimator->update(first);
+    RadarScan spoilt = drive.next();
+    row.spoil(spoilt);
+    const EgoMotion nothing = estimator->update(spoilt);
+    check_consistent(nothing);
+    CHECK(nothing.status == row.status);
+    CHECK(nothing.utime_start_us == first.stamp_us);
+    CHECK(nothing.utime_us == spoilt.stamp_us);
+    check_motion(estimator->update(drive.next()), drive, 2.0);
+    check_motion(estimator->update(drive.next()), drive, 1.0);
+  }
+}
+
+TEST_CASE("a scan that cannot serve is no reference either") {
+  Drive drive({8.0, 0.0, 0.0}, kFront);
+  const auto estimator = make_estimator(kFront);
+  RadarScan incomplete = drive.next();
+  incomplete.status = ScanStatus::missing_parts;
+  CHECK(estimator->update(incomplete).status == MotionStatus::incomplete_scan);
+  CHECK(estimator->update(drive.next()).status == MotionStatus::no_reference);
+  CHECK(estimator->update(drive.next()).status == MotionStatus::ok);
+}
+
+TEST_CASE("after a gap, or when time does not run forward, the motion starts anew") {
+  struct Row {
+    std::int64_t step_us;
+    MotionStatus status;
+  };
+  const std::vector<Row> rows = {{500000, MotionStatus::ok},
+                                 {500001, MotionStatus::gap_too_long},
+                                 {3600000000, MotionStatus::gap_too_long},
+                                 {1, MotionStatus::ok},
+                                 {0, MotionStatus::gap_too_long},
+                                 {-1, MotionStatus::gap_too_long},
+                                 {-100000, MotionStatus::gap_too_long},
+                                 {-3600000000, MotionStatus::gap_too_long}};
+  for (const Row& row : rows) {
+    CAPTURE(row.step_us);
+    Drive drive(Eigen::Vector3d::Zero(), kFront);
+    const auto estimator = make_estimator(kFront, [](EgoMotionOptions& options) {
+      options.standstill_mps = 0.0;
+      options.max_speed_mps = 1e9;
+      options.max_yaw_rate_radps = 1e9;
+    });
+    RadarScan scan = drive.next();
+    const std::int64_t start_us = scan.stamp_us;
+    estimator->update(scan);
+    scan = drive.next();
+    scan.stamp_us = start_us + row.step_us;
+    const EgoMotion motion = estimator->update(scan);
+    check_consistent(motion);
+    CHECK(motion.status == row.status);
+    CHECK(motion.utime_start_us == start_us);
+    scan = drive.next();
+    scan.stamp_us = start_us + row.step_us + kPeriodUs;
+    check_motion(estimator->update(scan), drive, 1.0);
+  }
+}
+
+TEST_CASE("stamps at the ends of time are gaps, not motions") {
+  constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kBegin = std::numeric_limits<std::int64_t>::min();
+  const std::vector<std::array<std::int64_t, 2>> rows = {
+      {kEnd, kBegin + kPeriodUs - 1}, {kEnd, -2}, {kBegin, kEnd}, {kBegin, kBegin}};
+  for (const auto& [from_us, to_us] : rows) {
+    CAPTURE(from_us, to_us);
+    Drive drive({8.0, 0.0, 0.0}, kFront);
+    const auto estimator = make_estimator(kFront);
+    RadarScan scan = drive.next();
+    scan.stamp_us = from_us;
+    estimator->update(scan);
+    scan = drive.next();
+    scan.stamp_us = to_us;
+    CHECK(estimator->update(scan).status == MotionStatus::gap_too_long);
+  }
+}
+
+TEST_CASE("selection counts the detections of whole scans") {
+  Drive drive({8.0, 0.0, 0.0}, kFront);
+  const auto estimator = make_estimator(kFront);
+  RadarScan scan = drive.next();
+  const std::uint64_t count = scan.count;
+  estimator->update(scan);
+  CHECK(estimator->selection().used == count);
+  scan.status = ScanStatus::dropped_frames;
+  estimator->update(scan);
+  CHECK(estimator->selection().used == count);
+  scan.status = ScanStatus::complete;
+  scan.detections[0].validity = Validity::moving;
+  scan.detections[1].validity = Validity::no_noise;
+  scan.detections[2].range_m = 400.0;
+  const EgoMotion motion = estimator->update(scan);
+  CHECK(motion.targets == static_cast<int>(count) - 3);
+  CHECK(estimator->selection().used == 2 * count - 3);
+  CHECK(estimator->selection().moving == 1);
+  CHECK(estimator->selection().no_noise == 1);
+  CHECK(estimator->selection().outside_limits == 1);
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "estimator/ego_motion_estimator.hpp"
+#include "test/estimator/drive.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using numeric::radians;
+using simulation::Drive;
+
+constexpr double kPeriod = 0.1;
+const Pose2 kFront{3.4, 0.0, 0.0};
+
+EgoMotionOptions options_at(const Pose2& mount) {
+  EgoMotionOptions options;
+  options.vehicle_from_radar = mount;
+  return options;
+}
+
+/// What the estimator says about the second of two scans.
+EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  estimator->update(drive.next());
+  const EgoMotion motion = estimator->update(drive.next());
+  CHECK(motion.motion.array().isNaN().any() != motion.has_estimate());
+  CHECK(motion.covariance.array().isNaN().any() != motion.has_estimate());
+  return motion;
+}
+
+TEST_CASE("standing still is told from moving, whatever the radar sees of it") {
+  struct Row {
+    std::string what;
+    Eigen::Vector3d velocity;
+    Pose2 mount;
+    MotionStatus status;
+  };
+  const Pose2 centre{};
+  const Pose2 left{0.0, 0.0, radians(90.0)};
+  const std::vector<Row> rows = {
+      {"standing", {0.0, 0.0, 0.0}, kFront, MotionStatus::standing_still},
+      {"standing, looking left", {0.0, 0.0, 0.0}, left, MotionStatus::standing_still},
+      {"creeping", {0.3, 0.0, 0.0}, kFront, MotionStatus::ok},
+      {"backing", {-0.5, 0.0, 0.0}, kFront, MotionStatus::ok},
+      {"driving", {10.0, 0.0, 0.0}, kFront, MotionStatus::ok},
+      {"driving, looking left", {10.0, 0.0, 0.0}, left, MotionStatus::ok},
+      // The radar is in the centre of the turn: every Doppler is zero.
+      {"turning on the spot", {0.0, 0.0, 0.3}, centre, MotionStatus::ok},
+      {"turning the other way", {0.0, 0.0, -0.3}, centre, MotionStatus::ok},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    Drive drive(row.velocity, row.mount);
+    drive.set_noise({0.02, 0.001, 0.02});
+    const EgoMotion motion = estimate(options_at(row.mount), drive);
+    CHECK(motion.status == row.status);
+    const Eigen::Vector3d error = motion.motion - drive.motion_per_period();
+    CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
+  }
+}
+
+TEST_CASE("targets abeam show no Doppler and are no standstill") {
+  // A radar to the left whose few degrees of view hold no target with Doppler to speak of.
+  const Pose2 left{2.0, 0.8, radians(90.0)};
+  Drive drive({1.0, 0.0, 0.0}, left, 3, 1500);
+  drive.set_noise({0.05, 0.001, 0.02});
+  drive.set_half_view(radians(4.0));
+  const EgoMotion motion = estimate(options_at(left), drive);
+  CHECK(motion.status == MotionStatus::ok);
+  CHECK(motion.motion.x() == Approx(0.1).margin(0.03));
+}
+
+TEST_CASE("what is asked for decides between an estimate and its refusal") {
+  struct Row {
+    std::string what;
+    Eigen::Vector3d velocity;
+    void (*change)(EgoMotionOptions&);
+    MotionStatus status;
+  };
+  const Eigen::Vector3d driving(10.0, 0.0, 0.2);
+  const std::vector<Row> rows = {
+      {"as it comes", driving, [](EgoMotionOptions&) {}, MotionStatus::ok},
+      {"slow enough", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 10.5; },
+       MotionStatus::ok},
+      {"too fast", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 9.5; },
+       MotionStatus::implausible},
+      {"too fast backwards", -driving, [](EgoMotionOptions& o) { o.max_speed_mps = 9.5; },
+       MotionStatus::implausible},
+      {"turns slowly enough", driving, [](EgoMotionOptions& o) { o.max_yaw_rate_radps = 0.25; },
+       MotionStatus::ok},
+      {"turns too fast", driving, [](EgoMotionOptions& o) { o.max_yaw_rate_radps = 0.15; },
+       MotionStatus::implausible},
+      {"turns too fast to the right", -driving,
+       [](EgoMotionOptions& o) { o.max_yaw_rate_radps = 0.15; }, MotionStatus::implausible},
+      {"uncertain x", driving, [](EgoMotionOptions& o) { o.max_std_m = 1e-4; },
+       MotionStatus::degenerate},
+      {"certain x", driving, [](EgoMotionOptions& o) { o.max_std_m = 0.01; }, MotionStatus::ok},
+      {"uncertain yaw", driving, [](EgoMotionOptions& o) { o.max_std_rad = 1e-5; },
+       MotionStatus::degenerate},
+      {"uncertain y", driving,
+       [](EgoMotionOptions& o) {
+         o.registration.degrees_of_freedom = 3;
+         o.max_std_m = 0.01;
+       },
+       MotionStatus::degenerate},
+      {"no time", driving,
+       [](EgoMotionOptions& o) {
+         o.registration.max_iterations = 1;
+         o.registration.max_start_iterations = 0;
+       },
+       MotionStatus::no_convergence},
+      {"nothing in view", driving, [](EgoMotionOptions& o) { o.limits.min_range_m = 299.0; },
+       MotionStatus::too_few_targets},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    EgoMotionOptions options = options_at(kFront);
+    row.change(options);
+    CHECK(estimate(options, Drive(row.velocity, kFront, 2, 120)).status == row.status);
+  }
+}
+
+TEST_CASE("one place in sight is degenerate in three states") {
+  EgoMotionOptions options = options_at({});
+  options.registration.degrees_of_freedom = 3;
+  options.registration.outlier_ray.weight = 0.0;
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  const simulation::Points points(10, Eigen::Vector2d(12.0, 3.0));
+  for (const std::int64_t stamp_us : {0, 100000, 200000}) {
+    const EgoMotion motion = estimator->update(simulation::scan(
+        simulation::observe_all(points, Eigen::Vector3d::Zero(), kPeriod, {}, {}), stamp_us));
+    CHECK(motion.status == (stamp_us == 0 ? MotionStatus::no_reference : MotionStatus::degenerate));
+    CHECK(motion.motion.array().isNaN().all());
+  }
+}
+
+TEST_CASE("numbers out of any range are refused, and the estimator recovers") {
+  EgoMotionOptions options = options_at(kFront);
+  options.limits.max_range_m = 1e300;
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  Drive drive({8.0, 0.0, 0.0}, kFront);
+  estimator->update(drive.next());
+  RadarScan huge = drive.next();
+  huge.detections[3].range_m = 1e160;
+  CHECK(estimator->update(huge).status == MotionStatus::non_finite);
+  estimator->update(drive.next());
+  CHECK(estimator->update(drive.next()).status == MotionStatus::ok);
+}
+
+TEST_CASE("a refused motion is left behind: the next one starts at its scan") {
+  EgoMotionOptions options = options_at(kFront);
+  options.max_speed_mps = 12.0;
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  Drive drive({15.0, 0.0, 0.0}, kFront);
+  estimator->update(drive.next());
+  const RadarScan fast = drive.next();
+  CHECK(estimator->update(fast).status == MotionStatus::implausible);
+  drive.pass(-Drive::kPeriodUs);
+  drive.set_velocity({5.0, 0.0, 0.0});
+  drive.pass();
+  const EgoMotion motion = estimator->update(drive.next());
+  CHECK(motion.status == MotionStatus::ok);
+  CHECK(motion.utime_start_us == fast.stamp_us);
+  CHECK(motion.motion.x() == Approx(0.5).margin(0.05));
+}
+
+TEST_CASE("every speed of a road vehicle is found at once, after lost scans as well") {
+  const std::vector<Pose2> mounts = {
+      kFront, {2.4, 0.8, radians(60.0)}, {-0.8, 0.6, radians(150.0)}};
+  for (const Pose2& mount : mounts) {
+    for (const double speed_mps : {-5.0, 2.0, 10.0, 20.0, 30.0, 45.0}) {
+      for (const int lost : {0, 1, 3}) {
+        Drive drive({speed_mps, 0.0, 0.0}, mount, 7, 250);
+        const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(mount));
+        estimator->update(drive.next());
+        for (int i = 0; i < lost; ++i) {
+          drive.pass();
+        }
+        const EgoMotion motion = estimator->update(drive.next());
+        CAPTURE(mount.yaw_rad, speed_mps, lost);
+        REQUIRE(motion.status == MotionStatus::ok);
+        CHECK(motion.motion.x() == Approx(speed_mps * kPeriod * (lost + 1)).margin(0.1));
+        CHECK(std::abs(motion.motion.z()) < 5.0 * std::sqrt(motion.covariance(2, 2)));
+      }
+    }
+  }
+}
+
+TEST_CASE("what was estimated before does not change what comes after") {
+  // A drive that changes its speed abruptly: the last velocity is a start among others, no prior.
+  Drive drive({20.0, 0.0, 0.3}, kFront, 5, 120);
+  const auto used = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+  for (int i = 0; i < 3; ++i) {
+    used->update(drive.next());
+  }
+  drive.set_velocity({6.0, 0.0, -0.2});
+  const auto fresh = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+  for (int i = 0; i < 5; ++i) {
+    const RadarScan scan = drive.next();
+    const EgoMotion a = used->update(scan);
+    const EgoMotion b = fresh->update(scan);
+    if (i > 0) {
+      REQUIRE(a.status == MotionStatus::ok);
+      REQUIRE(b.status == MotionStatus::ok);
+      CHECK(numeric::normalised_error(a.motion - b.motion, b.covariance, 2) < 0.1 * 0.1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <catch2/catch.hpp>
+
+#include "estimator/ego_motion_estimator.hpp"
+#include "test/estimator/allocation_guard.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using numeric::radians;
+using simulation::Detections;
+using simulation::Random;
+
+constexpr double kDt = 0.1;
+
+/// Keeps the compiler from leaving an allocation out.
+void* volatile escaped = nullptr;
+void use(void* block) { escaped = block; }
+
+template <typename Action>
+long count_allocations(const Action& action) {
+  const AllocationGuard guard;
+  action();
+  return AllocationGuard::stop();
+}
+
+TEST_CASE("the guard sees every way to allocate") {
+  struct Row {
+    std::string what;
+    void (*allocate)();
+  };
+  const std::vector<Row> rows = {
+      {"malloc",
+       [] {
+         void* block = std::malloc(3);
+         use(block);
+         std::free(block);
+       }},
+      {"calloc",
+       [] {
+         void* block = std::calloc(3, 5);
+         use(block);
+         std::free(block);
+       }},
+      {"aligned_alloc",
+       [] {
+         void* block = std::aligned_alloc(64, 128);
+         use(block);
+         std::free(block);
+       }},
+      {"posix_memalign",
+       [] {
+         void* block = nullptr;
+         const int error = posix_memalign(&block, 64, 128);
+         use(error == 0 ? block : nullptr);
+         std::free(block);
+       }},
+      {"new",
+       [] {
+         const auto number = std::make_unique<int>(1);
+         use(number.get());
+       }},
+      {"new[]",
+       [] {
+         const auto numbers = std::make_unique<double[]>(9);
+         use(numbers.get());
+       }},
+      {"aligned new",
+       [] {
+         struct alignas(64) Line {
+           char bytes[64];
+         };
+         const auto line = std::make_unique<Line>();
+         use(line.get());
+       }},
+      {"std::vector",
+       [] {
+         std::vector<int> numbers(5);
+         use(numbers.data());
+       }},
+      {"std::function",
+       [] {
+         const std::array<double, 9> big{};
+         const std::function<double()> function = [big] { return big[3]; };
+         function();
+       }},
+      {"Eigen",
+       [] {
+         Eigen::VectorXd vector(7);
+         use(vector.data());
+       }},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    CHECK(count_allocations(row.allocate) == 1);
+  }
+  CHECK(count_allocations([] {}) == 0);
+
+  void* block = std::malloc(1);
+  use(block);
+  CHECK(count_allocations([&] { block = std::realloc(block, 5000); }) >= 1);
+  std::free(block);
+}
+
+struct Scans {
+  RadarScan first;
+  RadarScan second;
+};
+
+/// A full house: as many detections as a scan can hold, some of them movers and clutter.
+Scans full_scans() {
+  Random random(1);
+  const simulation::Points points =
+      simulation::scatter(random, kMaxDetections, 2.0, 60.0, radians(60.0), 0.0);
+  Detections first = simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, {});
+  Detections second = simulation::observe_all(points, {1.0, 0.0, radians(1.0)}, kDt, {}, {});
+  simulation::perturb(first, random);
+  simulation::perturb(second, random);
+  for (std::size_t i = 0; i < kMaxDetections; i += 5) {
+    second[i].doppler_mps += 12.0;
+    first[i].range_m += 7.0;
+  }
+  return {simulation::scan(first, 1000000), simulation::scan(second, 1100000)};
+}
+
+TEST_CASE("registration does not allocate") {
+  const Scans scans = full_scans();
+  SelectionCounters counters;
+  const auto targets = std::make_unique<TargetSet>();
+  for (const int degrees_of_freedom : {2, 3}) {
+    RegistrationOptions options;
+    options.degrees_of_freedom = degrees_of_freedom;
+    const auto registration = std::make_unique<Registration>(options, Pose2{3.0, 0.0, 0.1});
+    RegistrationResult result;
+    const long count = count_allocations([&] {
+      targets->assign(scans.first, {}, {}, counters);
+      registration->set_previous(*targets);
+      targets->assign(scans.second, {}, {}, counters);
+      result = registration->solve(*targets, kDt);
+    });
+    CHECK(count == 0);
+    CHECK(targets->size() == kMaxDetections);
+    CHECK(result.status == RegistrationStatus::converged);
+    CHECK(result.iterations > 2);
+  }
+}
+
+TEST_CASE("the estimator does not allocate, whatever comes in") {
+  const Scans scans = full_scans();
+  RadarScan incomplete = scans.second;
+  incomplete.status = ScanStatus::missing_parts;
+  RadarScan broken = scans.second;
+  broken.detections[7].range_m = numeric::kNan;
+  RadarScan late = scans.second;
+  late.stamp_us += 60000000;
+  EgoMotionOptions options;
+  options.registration.degrees_of_freedom = 3;
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  struct Row {
+    const RadarScan& scan;
+    MotionStatus status;
+  };
+  const RadarScan nothing;
+  const Row rows[] = {
+      {scans.first, MotionStatus::no_reference}, {incomplete, MotionStatus::incomplete_scan},
+      {broken, MotionStatus::non_finite},        {nothing, MotionStatus::too_few_targets},
+      {scans.second, MotionStatus::ok},          {late, MotionStatus::gap_too_long}};
+  for (const Row& row : rows) {
+    EgoMotion motion;
+    CHECK(count_allocations([&] { motion = estimator->update(row.scan); }) == 0);
+    CHECK(motion.status == row.status);
+  }
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "can_decoders/ars408.hpp"
+#include "can_decoders/bosch_gpr.hpp"
+#include "can_decoders/scan_assembler.hpp"
+#include "daemon/candump.hpp"
+#include "tools/simulate/simulation.hpp"
+
+namespace cremed::test {
+
+inline const Scenario& scenario(std::string_view name) {
+  const Scenario* found = find_scenario(name);
+  if (found == nullptr) throw std::invalid_argument("no scenario of that name");
+  return *found;
+}
+
+inline RadarConfiguration radar(const std::string& name, const std::string& interface,
+                                const Pose2& vehicle_from_radar,
+                                const std::variant<Ars408Options, BoschGprOptions>& decoder) {
+  RadarConfiguration result;
+  result.name = name;
+  result.interface = interface;
+  result.decoder = decoder;
+  result.ego_motion.vehicle_from_radar = vehicle_from_radar;
+  return result;
+}
+
+/// One radar of each kind, at mounts where every sign matters.
+inline std::vector<RadarConfiguration> one_of_each_kind() {
+  Ars408Options objects;
+  objects.sensor_id = 3;
+  objects.output = Ars408Output::objects;
+  BoschGprOptions inverted;
+  inverted.base_id = 0x480;
+  inverted.invert_azimuth = true;
+  inverted.invert_doppler = true;
+  return {radar("clusters", "can0", {3.4, 0.5, 0.6}, Ars408Options{}),
+          radar("gpr", "can1", {-0.9, -0.6, std::numbers::pi - 0.5}, BoschGprOptions{}),
+          radar("objects", "can2", {3.4, -0.5, -1.2}, objects),
+          radar("inverted", "can3", {0.5, 0.8, 1.4}, inverted)};
+}
+
+/// A whole drive in memory.
+struct Drive {
+  std::vector<RadarConfiguration> radars;
+  std::vector<CanFrame> frames;
+  std::vector<ScanTruth> truths;  ///< In order of their stamps.
+  std::string log;                ///< The frames as candump text.
+  std::string truth_csv;
+};
+
+inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
+                   const SimulationOptions& options) {
+  Drive result;
+  result.radars = radars;
+  Simulation simulation(scenario, radars, options,
+                        [&](const ScanTruth& truth) { result.truths.push_back(truth); });
+  std::array<char, kMaxCandumpLine> line{};
+  while (const auto frame = simulation.next()) {
+    const auto length =
+        format_candump_line(*frame, simulation.interfaces()[frame->interface], line);
+    result.log.append(line.data(), length);
+    result.frames.push_back(*frame);
+  }
+  std::ostringstream csv;
+  simulation.write_truth(csv);
+  result.truth_csv = csv.str();
+  return result;
+}
+
+inline std::unique_ptr<RadarDecoder> decoder_of(const RadarConfiguration& radar) {
+  if (const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder)) {
+    return std::make_unique<Ars408Decoder>(*ars408);
+  }
+  return std::make_unique<BoschGprDecoder>(std::get<BoschGprOptions>(radar.decoder));
+}
+
+/// What the daemon would make of the log for one radar.
+struct DecodedRadar {
+  std::vector<RadarScan> scans;
+  DecoderCounters decoder;
+  AssemblerCounters assembler;
+};
+
+inline DecodedRadar decode(const std::string& log, const RadarConfiguration& radar) {
+  const auto decoder = decoder_of(radar);
+  ScanAssembler assembler(*decoder, 50'000);
+  DecodedRadar result;
+  const auto take = [&] {
+    while (const RadarScan* scan = assembler.next()) result.scans.push_back(*scan);
+  };
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    const CandumpLine parsed = parse_candump_line(line);
+    if (parsed.status != CandumpStatus::frame) throw std::runtime_error("bad line: " + line);
+    if (parsed.interface_name != radar.interface) continue;
+    assembler.add(decoder->decode(parsed.frame));
+    take();
+  }
+  assembler.finish();
+  take();
+  result.decoder = decoder->counters();
+  result.assembler = assembler.counters();
+  return result;
+}
+
+/// The truth file, read again and interpolated as cremed-eval does: linearly.
+class TruthTable {
+ public:
+  explicit TruthTable(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    char comma = 0;
+    Row row;
+    while (lines >> row.stamp_us >> comma >> row.pose.x_m >> comma >> row.pose.y_m >> comma >>
+           row.pose.yaw_rad) {
+      rows_.push_back(row);
+    }
+  }
+
+  [[nodiscard]] Pose2 at(double stamp_us) const {
+    const auto after = std::lower_bound(
+        rows_.begin() + 1, rows_.end() - 1, stamp_us,
+        [](const Row& row, double stamp) { return static_cast<double>(row.stamp_us) < stamp; });
+    const Row& a = *(after - 1);
+    const Row& b = *after;
+    const double share =
+        (stamp_us - static_cast<double>(a.stamp_us)) / static_cast<double>(b.stamp_us - a.stamp_us);
+    return {a.pose.x_m + share * (b.pose.x_m - a.pose.x_m),
+            a.pose.y_m + share * (b.pose.y_m - a.pose.y_m),
+            a.pose.yaw_rad + share * (b.pose.yaw_rad - a.pose.yaw_rad)};
+  }
+
+  struct Row {
+    std::int64_t stamp_us = 0;
+    Pose2 pose;
+  };
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  std::vector<Row> rows_;
+};
+
+}  // namespace cremed::test

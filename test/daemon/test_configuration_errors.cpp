@@ -104,6 +104,8 @@ TEST_CASE("values out of range are refused with the range") {
       {kArs408 + "keep_invalid_states = [32]\n", 6, "radar.keep_invalid_states", "holds 32",
        "from 0 to 31"},
       {kArs408 + "scan_timeout_s = 0\n", 6, "radar.scan_timeout_s", "is 0", "from 0.001 to 1"},
+      {kArs408 + "scan_timeout_s = 1.0000001\n", 6, "radar.scan_timeout_s", "is 1.0000001",
+       "from 0.001 to 1"},
       {kArs408 + "scan_timeout_s = nan\n", 6, "radar.scan_timeout_s", "is nan", "from 0.001 to 1"},
       {kArs408 + "limits.max_range_m = inf\n", 6, "radar.limits.max_range_m", "is inf",
        "from 0 to 2000"},
@@ -126,6 +128,14 @@ TEST_CASE("values out of range are refused with the range") {
       {kArs408 + "[estimator]\nmax_iterations = 99999999999\n", 7, "estimator.max_iterations",
        "is 99999999999", "from 1 to 1000"},
   });
+}
+
+TEST_CASE("the ends of a range are in it") {
+  for (const char* key : {"scan_timeout_s = 0.001", "scan_timeout_s = 1", "sensor_id = 0",
+                          "sensor_id = 7", "keep_dyn_props = [0, 7]", "limits.min_rcs_dbm2 = -100",
+                          "limits.max_range_m = 2000.0", "limits.min_range_m = 0"}) {
+    CHECK(message_of(std::string(kArs408).append(key)) == "accepted");
+  }
 }
 
 TEST_CASE("strings that cannot work are refused") {

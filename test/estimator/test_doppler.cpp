@@ -168,6 +168,10 @@ TEST_CASE("a mover is explained by the wide component") {
   // Scaled up, the static component reaches farther.
   CHECK(doppler_residual(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
   CHECK_FALSE(residual(-8.0).is_static);
+  // The component for movers does not grow with it.
+  const auto scaled = doppler_residual(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
+  CHECK_FALSE(scaled.is_static);
+  CHECK(scaled.residual == Approx(-50.0 / 100.0));
 }
 
 TEST_CASE("the cost is the negative logarithm of the larger component") {

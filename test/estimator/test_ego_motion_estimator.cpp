@@ -131,6 +131,7 @@ TEST_CASE(
     const EgoMotion nothing = estimator->update(spoilt);
     check_consistent(nothing);
     CHECK(nothing.status == row.status);
+    CHECK(nothing.targets == (row.status == MotionStatus::incomplete_scan ? 0 : spoilt.count));
     CHECK(nothing.utime_start_us == first.stamp_us);
     CHECK(nothing.utime_us == spoilt.stamp_us);
     check_motion(estimator->update(drive.next()), drive, 2.0);

@@ -79,6 +79,23 @@ TEST_CASE("targets abeam show no Doppler and are no standstill") {
   CHECK(motion.motion.x() == Approx(0.1).margin(0.03));
 }
 
+TEST_CASE("a scan in which everything moves is no standstill") {
+  EgoMotionOptions options = options_at(kFront);
+  options.registration.doppler.enabled = false;
+  for (const double approach_mps : {-3.0, 3.0, 0.0}) {
+    Drive drive({0.0, 0.0, 0.0}, kFront);
+    drive.set_noise({0.02, 0.001, 0.02});
+    const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+    estimator->update(drive.next());
+    RadarScan scan = drive.next();
+    for (Detection& detection : scan.detections) {
+      detection.doppler_mps += approach_mps;
+    }
+    CHECK(estimator->update(scan).status ==
+          (approach_mps == 0.0 ? MotionStatus::standing_still : MotionStatus::ok));
+  }
+}
+
 TEST_CASE("what is asked for decides between an estimate and its refusal") {
   struct Row {
     std::string what;
@@ -127,6 +144,13 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
     row.change(options);
     CHECK(estimate(options, Drive(row.velocity, kFront, 2, 120)).status == row.status);
   }
+}
+
+TEST_CASE("an empty scan is never enough") {
+  EgoMotionOptions options = options_at(kFront);
+  options.min_targets = 0;
+  options.limits.min_range_m = 299.0;
+  CHECK(estimate(options, Drive({1.0, 0.0, 0.0}, kFront)).status == MotionStatus::too_few_targets);
 }
 
 TEST_CASE("one place in sight is degenerate in three states") {
@@ -193,6 +217,23 @@ TEST_CASE("every speed of a road vehicle is found at once, after lost scans as w
       }
     }
   }
+}
+
+TEST_CASE("after lost scans a radar that looks abeam is found going on as before") {
+  const Pose2 left{2.4, 0.8, radians(90.0)};
+  EgoMotionOptions options = options_at(left);
+  options.registration.doppler.enabled = false;
+  Drive drive({10.0, 0.0, 0.0}, left, 9, 600);
+  drive.set_half_view(radians(25.0));
+  const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+  estimator->update(drive.next());
+  CHECK(estimator->update(drive.next()).motion.x() == Approx(1.0).margin(0.1));
+  for (int i = 0; i < 3; ++i) {
+    drive.pass();
+  }
+  const EgoMotion motion = estimator->update(drive.next());
+  REQUIRE(motion.status == MotionStatus::ok);
+  CHECK(motion.motion.x() == Approx(4.0).margin(0.1));
 }
 
 TEST_CASE("what was estimated before does not change what comes after") {

@@ -68,8 +68,10 @@ TEST_CASE("one place cannot fix three states") {
 TEST_CASE("no target fixes nothing") {
   const Points some = {{10.0, 1.0}, {20.0, -4.0}};
   for (const int degrees_of_freedom : {2, 3}) {
-    CHECK(solve(options_of(degrees_of_freedom, true), see(some, kStill), {}).status ==
-          RegistrationStatus::degenerate);
+    RegistrationOptions options = options_of(degrees_of_freedom, true);
+    CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
+    options.max_iterations = 0;
+    CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
   }
 }
 
@@ -124,6 +126,21 @@ TEST_CASE("Doppler needs no common place to tell the speed") {
     CHECK(sigma_m < 0.05);
     CHECK(std::abs(result.motion.x() - motion.x()) < sigma_m);
   }
+}
+
+TEST_CASE("the first stage widens Doppler by both of its scales") {
+  Random random(11);
+  const Points near = simulation::scatter(random, 20, 5.0, 15.0, radians(40.0), 0.0);
+  const Points far = simulation::scatter(random, 20, 150.0, 200.0, radians(40.0), 0.0);
+  const Eigen::Vector3d motion(1.4, 0.0, 0.0);
+  const auto is_found = [&](double start_doppler_scale) {
+    RegistrationOptions options = options_of(2, true);
+    options.start_doppler_scale = start_doppler_scale;
+    const RegistrationResult result = solve(options, see(near, kStill), see(far, motion));
+    return std::abs(result.motion.x() - motion.x()) < 0.1;
+  };
+  CHECK_FALSE(is_found(0.2));
+  CHECK(is_found(5.0));
 }
 
 // Known defect: chance neighbours pass for correspondences, and nothing in the result tells.

@@ -239,6 +239,11 @@ TEST_CASE("is_finite finds a Doppler deviation that is not greater than zero") {
   CHECK_FALSE(is_finite_with(&Detection::doppler_std_mps, -0.1));
 }
 
+TEST_CASE("is_finite finds a covariance without extent across or along the axis") {
+  CHECK_FALSE(is_finite_with(&Detection::range_std_m, 0.0, -0.1));  // bearing 0 in that mount
+  CHECK_FALSE(is_finite_with(&Detection::azimuth_std_rad, 0.0, -0.1));
+}
+
 // Known defect: a determinant of rounding errors passes for positive, and a square hides the sign.
 TEST_CASE("is_finite finds a range or azimuth deviation that is not greater than zero",
           "[!shouldfail]") {

@@ -32,7 +32,7 @@ struct Message {
 
 const std::array<Message, 8>& messages() {
   using cremed::Ars408Bytes;
-  static const std::array<Message, 8> all{{
+  static const std::array<Message, 8> kAll{{
       {"0x201", 0x201, "201#C0FFFE03F7FE001C",
        [](std::uint8_t sensor, const CanFrame& frame) {
          return encode_ars408(sensor, *cremed::decode_ars408_radar_state(bytes_of(frame)));
@@ -68,7 +68,7 @@ const std::array<Message, 8>& messages() {
          return encode_ars408(sensor, *cremed::decode_ars408_cluster_quality(bytes_of(frame)));
        }},
   }};
-  return all;
+  return kAll;
 }
 
 }  // namespace

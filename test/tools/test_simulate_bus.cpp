@@ -21,7 +21,6 @@ using cremed::Ars408Options;
 using cremed::BoschGprOptions;
 using cremed::CanFrame;
 using cremed::RadarConfiguration;
-using cremed::ScanStatus;
 using cremed::test::Drive;
 using cremed::test::radar;
 
@@ -49,7 +48,9 @@ Drive short_drive(const char* scenario, const std::vector<RadarConfiguration>& r
 }
 
 /// Bits of a classic data frame and the gap after it, without any stuff bit, at 2 us each.
-std::int64_t least_frame_time_us(const CanFrame& frame) { return 2 * (47 + 8 * frame.length); }
+std::int64_t least_frame_time_us(const CanFrame& frame) {
+  return std::int64_t{2} * (47 + 8 * frame.length);
+}
 
 bool is_clean(const cremed::test::DecodedRadar& decoded) {
   const auto& d = decoded.decoder;
@@ -211,7 +212,7 @@ TEST_CASE("a GPR frame says how old its measurement is") {
     REQUIRE(1e6 * target->age_s == Approx(age_us).margin(51.0));
     ++count;
   }
-  CHECK(count == 200U * 48U);
+  CHECK(count == std::size_t{200} * 48);
 }
 
 TEST_CASE("a lossy bus loses one frame in a thousand, and some scans with them") {

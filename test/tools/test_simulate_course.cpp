@@ -161,7 +161,8 @@ TEST_CASE("a line between two rows of the truth is off by less than 0.1 mm") {
   const TruthTable truth(text.str());
   double worst_m = 0.0;
   double worst_rad = 0.0;
-  for (double time_s = 0.0; time_s < scenario.duration_s; time_s += 0.0033) {
+  for (int moment = 0; 0.0033 * moment < scenario.duration_s; ++moment) {
+    const double time_s = 0.0033 * moment;
     const Pose2 line = truth.at(static_cast<double>(options.start_us) + 1e6 * time_s);
     const Pose2 exact = simulation.scene().course().at(time_s).pose;
     worst_m = std::max(worst_m, std::hypot(line.x_m - exact.x_m, line.y_m - exact.y_m));

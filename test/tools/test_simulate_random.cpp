@@ -10,8 +10,13 @@
 
 using cremed::Random;
 
+namespace {
+
+constexpr int kCount = 400'000;
+
+}  // namespace
+
 TEST_CASE("normal numbers have the moments of the normal distribution") {
-  constexpr int kCount = 400'000;
   Random random(7, 3);
   std::array<double, 4> moments{};
   double product = 0.0;

@@ -123,6 +123,9 @@ constexpr std::array<const char*, 3> kComponents{"range", "azimuth", "doppler"};
 constexpr std::size_t kClusters = 0;  // Places in one_of_each_kind().
 constexpr std::size_t kGpr = 1;
 
+constexpr double kSharedMps = 0.15;
+constexpr double kReportedMps = 0.125;  // By every target of the simulated GPR.
+
 std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t radar,
                                           double shared_doppler_std_mps = 0.0) {
   std::vector<ScanErrors> all;
@@ -208,8 +211,6 @@ TEST_CASE("errors of range, azimuth and Doppler are independent") {
 }
 
 TEST_CASE("a shared Doppler error is in all targets of a scan and changes slowly") {
-  constexpr double kSharedMps = 0.15;
-  constexpr double kReportedMps = 0.125;  // by every target of the simulated GPR
   Moments squares;
   Moments products;
   double previous = 0.0;

@@ -116,9 +116,7 @@ int run_drive(const DriveArguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
   app.require_subcommand(1);
@@ -146,8 +144,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  return pairs_command->parsed() ? run_pairs(pairs) : run_drive(drive);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    return pairs_command->parsed() ? run_pairs(pairs) : run_drive(drive);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-eval: %s\n", error.what());
     return 1;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/scenario.hpp"
 
+#include <utility>
+
 namespace cremed {
 namespace {
 
@@ -75,58 +77,35 @@ CoursePlan city_course() {
                      {4.0, 0.0, 0.0}}};
 }
 
+Scenario drive(std::string_view name, std::string_view description, double duration_s,
+               CoursePlan course, const WorldOptions& world = {},
+               const TrafficOptions& traffic = {}, const FaultOptions& faults = {}) {
+  return {name, description, duration_s, std::move(course), world, traffic, faults};
+}
+
 std::vector<Scenario> all_scenarios() {
+  const WorldOptions sparse{.built_share = 0.3, .clutter_per_m = 0.1};
   const WorldOptions desert{.built_share = 0.03, .clutter_per_m = 0.01};
   const TrafficOptions crowd{
       .oncoming_interval_s = 1.5, .same_way_interval_s = 2.5, .leader = true};
   const TrafficOptions no_traffic{
       .oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false};
+  const FaultOptions lossy{.frame_loss = 1e-3, .silence_period_s = 0.0, .silence_s = 0.0};
+  const FaultOptions silent{.frame_loss = 0.0, .silence_period_s = 20.0, .silence_s = 2.0};
   return {
-      {"straight", "a straight road, 14 to 20 m/s", 60.0, straight_course(), {}, {}, {}},
-      {"bends",
-       "bends both ways, wide and tight, at 5 to 16 m/s",
-       60.0,
-       bends_course(),
-       {},
-       {},
-       {}},
-      {"stop-and-go",
-       "starts, stops, creeping and standing",
-       60.0,
-       stop_and_go_course(),
-       {},
-       {},
-       {}},
-      {"standing", "never moves; others do", 30.0, standing_course(), {}, {}, {}},
-      {"city", "a drive through a town: all of these", 150.0, city_course(), {}, {}, {}},
-      {"crowd",
-       "stop and go among so many cars that few targets stand still",
-       60.0,
-       stop_and_go_course(),
-       {.built_share = 0.3, .clutter_per_m = 0.1},
-       crowd,
-       {}},
-      {"desert",
-       "bends where there is next to nothing to see",
-       60.0,
-       bends_course(),
-       desert,
-       no_traffic,
-       {}},
-      {"lossy",
-       "the town, but one frame in a thousand is lost",
-       150.0,
-       city_course(),
-       {},
-       {},
-       {.frame_loss = 1e-3, .silence_period_s = 0.0, .silence_s = 0.0}},
-      {"silent",
-       "the town, but all radars are silent for 2 s out of 20",
-       150.0,
-       city_course(),
-       {},
-       {},
-       {.frame_loss = 0.0, .silence_period_s = 20.0, .silence_s = 2.0}},
+      drive("straight", "a straight road, 14 to 20 m/s", 60.0, straight_course()),
+      drive("bends", "bends both ways, wide and tight, at 5 to 16 m/s", 60.0, bends_course()),
+      drive("stop-and-go", "starts, stops, creeping and standing", 60.0, stop_and_go_course()),
+      drive("standing", "never moves; others do", 30.0, standing_course()),
+      drive("city", "a drive through a town: all of these", 150.0, city_course()),
+      drive("crowd", "stop and go among so many cars that few targets stand still", 60.0,
+            stop_and_go_course(), sparse, crowd),
+      drive("desert", "bends where there is next to nothing to see", 60.0, bends_course(), desert,
+            no_traffic),
+      drive("lossy", "the town, but one frame in a thousand is lost", 150.0, city_course(), {}, {},
+            lossy),
+      drive("silent", "the town, but all radars are silent for 2 s out of 20", 150.0, city_course(),
+            {}, {}, silent),
   };
 }
 

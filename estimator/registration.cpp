@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/registration.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -12,6 +12,10 @@ namespace cremed {
 namespace {
 
 constexpr int kMaxHalvings = 12;
+
+/// Starts nearer than this to each other lead to the same minimum.
+constexpr double kSameStartM = 0.1;
+constexpr double kSameStartRad = 0.05;
 
 /// Index of the free states: (x, yaw) or (x, y, yaw).
 const std::array<Eigen::Index, 3>& free_states(int degrees_of_freedom) {
@@ -100,7 +104,6 @@ NormalEquations Registration::linearise(const TargetSet& current, double dt_s,
 RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s,
                                            const Stage& stage, RegistrationResult& result,
                                            NormalEquations& equations) {
-  equations = linearise(current, dt_s, result.motion, stage.scale, stage.doppler_scale);
   for (int i = 0; i < stage.max_iterations; ++i) {
     if (!std::isfinite(equations.cost)) {
       return RegistrationStatus::non_finite;
@@ -131,15 +134,23 @@ RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s
   return RegistrationStatus::no_convergence;
 }
 
-Eigen::Vector3d Registration::best_start(const TargetSet& current, double dt_s, const Stage& stage,
-                                         std::span<const Eigen::Vector3d> starts) {
-  Eigen::Vector3d best = starts.front();
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < starts.size() && starts.size() > 1; ++i) {
-    const double cost = linearise(current, dt_s, starts[i], stage.scale, stage.doppler_scale).cost;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = starts[i];
+NormalEquations Registration::begin(const TargetSet& current, double dt_s, const Stage& stage,
+                                    std::span<const Eigen::Vector3d> starts,
+                                    Eigen::Vector3d& motion) {
+  NormalEquations best;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto is_near = [&](const Eigen::Vector3d& other) {
+      return (starts[i] - other).head<2>().norm() < kSameStartM &&
+             std::abs(starts[i].z() - other.z()) < kSameStartRad;
+    };
+    if (std::any_of(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(i), is_near)) {
+      continue;
+    }
+    const NormalEquations equations =
+        linearise(current, dt_s, starts[i], stage.scale, stage.doppler_scale);
+    if (i == 0 || equations.cost < best.cost) {
+      best = equations;
+      motion = starts[i];
     }
   }
   return best;
@@ -155,11 +166,13 @@ RegistrationResult Registration::solve(const TargetSet& current, double dt_s,
   const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
                    options_.max_start_iterations, kStartStepTolerance};
   const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
+  const bool has_two_stages = options_.start_scale > 1.0;
   RegistrationResult result;
-  NormalEquations equations;
-  result.motion = best_start(current, dt_s, wide, starts);
-  if (options_.start_scale > 1.0) {
+  NormalEquations equations =
+      begin(current, dt_s, has_two_stages ? wide : exact, starts, result.motion);
+  if (has_two_stages) {
     run_stage(current, dt_s, wide, result, equations);
+    equations = linearise(current, dt_s, result.motion, exact.scale, exact.doppler_scale);
   }
   result.status = run_stage(current, dt_s, exact, result, equations);
   result.cost = equations.cost;

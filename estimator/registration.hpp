@@ -79,8 +79,10 @@ class Registration {
     int max_iterations;
     double step_tolerance;
   };
-  Eigen::Vector3d best_start(const TargetSet& current, double dt_s, const Stage& stage,
-                             std::span<const Eigen::Vector3d> starts);
+  /// The equations at the best of the starts, which goes to `motion`.
+  NormalEquations begin(const TargetSet& current, double dt_s, const Stage& stage,
+                        std::span<const Eigen::Vector3d> starts, Eigen::Vector3d& motion);
+  /// Gauss-Newton from result.motion, where `equations` are given, until the stage's end.
   RegistrationStatus run_stage(const TargetSet& current, double dt_s, const Stage& stage,
                                RegistrationResult& result, NormalEquations& equations);
 

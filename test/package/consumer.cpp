@@ -14,8 +14,7 @@ int main() {
   header.length = 5;
   assembler.add(decoder.decode(header));
   const cremed::RadarScan* scan = assembler.next();
-  return scan != nullptr &&
-                 estimator.update(*scan).status == cremed::MotionStatus::too_few_targets
+  return scan != nullptr && estimator.update(*scan).status == cremed::MotionStatus::too_few_targets
              ? 0
              : 1;
 }

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/command_line.hpp"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 
+#include "daemon/configuration.hpp"
 #include "daemon/version.hpp"
 
 namespace cremed {
@@ -28,11 +31,14 @@ void check(const CommandLine& c) {
   if (standard_inputs > 1) {
     throw CLI::ValidationError("--replay", "standard input (-) can be read only once");
   }
+  if (c.lcm_url && !is_lcm_url(*c.lcm_url)) {
+    throw CLI::ValidationError("--lcm-url", "'" + *c.lcm_url + "' is not " + kLcmUrlWanted);
+  }
   if (c.replay.empty() && c.check_config.empty()) {
     throw CLI::ValidationError(
         "--replay",
         "reading a CAN interface directly is not built in yet: give a candump log with --replay, "
-        "or follow a live bus with `candump -L can0 | cremed --replay -`");
+        "or follow a live bus with `candump -d -L can0 | cremed --replay -`");
   }
 }
 

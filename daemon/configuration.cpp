@@ -24,15 +24,7 @@ constexpr std::array<std::string_view, 6> kLevels = {"trace", "debug", "info",
 
 bool is_any(std::string_view /*text*/) { return true; }
 
-/// "none" or scheme://rest
-bool is_lcm_url(std::string_view text) {
-  const std::size_t colon = text.find("://");
-  return text == "none" || (colon != std::string_view::npos && colon > 0 &&
-                            text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == colon);
-}
-
-constexpr TextRule kLcmUrl = {is_lcm_url,
-                              "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\""};
+constexpr TextRule kLcmUrl = {is_lcm_url, kLcmUrlWanted};
 constexpr TextRule kPath = {is_any, "a path, or \"\" for none"};
 constexpr TextRule kSource = {is_any, "the name of a radar, or \"\" for the first"};
 
@@ -112,6 +104,12 @@ struct CloseFile {
 }
 
 }  // namespace
+
+bool is_lcm_url(std::string_view text) {
+  const std::size_t colon = text.find("://");
+  return text == "none" || (colon != std::string_view::npos && colon > 0 &&
+                            text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == colon);
+}
 
 Configuration parse_configuration(std::string_view toml, const std::string& file_name) {
   ReadContext context{Diagnostics(file_name), nullptr};

@@ -24,7 +24,7 @@ struct RadarConfiguration {
   std::string name;       ///< Unique whatever its case; at most 15 of letters, digits, _ and -.
   std::string interface;  ///< CAN interface as in the log or on the computer, e.g. "can0".
   std::variant<Ars408Options, BoschGprOptions> decoder;
-  double scan_timeout_s = 0.05;  ///< An open scan with no new part for this long is closed.
+  double scan_timeout_s = 0.03;  ///< An open scan with no new part for this long is closed.
   EgoMotionOptions ego_motion;
 };
 
@@ -59,6 +59,11 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
 
 /// Reads and parses a file; a file that cannot be read is a ConfigurationError too.
 Configuration load_configuration(const std::string& path);
+
+/// "none" or scheme://rest.
+bool is_lcm_url(std::string_view text);
+inline constexpr const char* kLcmUrlWanted =
+    "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\"";
 
 /// Every key of the file as "table.key", for the test that the manual names them all. Those of
 /// [radar.estimator] are listed under "radar.estimator" too.

@@ -14,19 +14,14 @@ namespace {
 
 constexpr double kFullCircleRad = 6.2832;
 
-/// Gaussians that cover the ray; the same formula as the estimator's, but without its cap.
-double gaussians(const OutlierRayOptions& ray) {
-  const double span = (1.0 - ray.ratio) / (1.0 + ray.ratio) * ray.max_range_m / ray.min_range_m;
-  return 1.0 + std::ceil(std::log(span) / std::log(ray.growth));
-}
-
 void check_gaussians(TomlReader& reader, const OutlierRayOptions& ray) {
   const bool given_here = reader.has("min_range_m") || reader.has("max_range_m") ||
                           reader.has("ratio") || reader.has("growth");
-  if (reader.clean() && given_here && gaussians(ray) > double{kMaxRayComponents}) {
-    reader.report("growth", concat({"needs ", std::to_string(std::lround(gaussians(ray))),
-                                    " Gaussians to reach max_range_m; must need at most ",
-                                    std::to_string(kMaxRayComponents), ": raise growth or ratio"}));
+  if (reader.clean() && given_here && needed_ray_components(ray) > double{kMaxRayComponents}) {
+    reader.report("growth",
+                  concat({"needs ", std::to_string(std::lround(needed_ray_components(ray))),
+                          " Gaussians to reach max_range_m; must need at most ",
+                          std::to_string(kMaxRayComponents), ": raise growth or ratio"}));
   }
 }
 

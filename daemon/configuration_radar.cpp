@@ -122,7 +122,7 @@ PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
   radar.ego_motion = defaults;
   reader.text("name", radar.name, kName, Presence::required);
   reader.text("interface", radar.interface, kInterface, Presence::required);
-  reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 1.0});
+  reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 0.06});
   read_decoder(reader, radar);
   read_mount(reader.table("mount"), radar.ego_motion.vehicle_from_radar);
   read_limits(reader.table("limits"), radar.ego_motion.limits);

@@ -29,8 +29,9 @@ std::string multicast_problem(const std::string& url) {
   address.sin_family = AF_INET;
   address.sin_port = htons(7667);
   if (::inet_pton(AF_INET, group.empty() ? "239.255.76.67" : group.c_str(), &address.sin_addr) !=
-      1) {
-    return "'" + group + "' is no IPv4 multicast address";
+          1 ||
+      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
+    return "'" + group + "' is no IPv4 multicast address, such as 239.255.76.67";
   }
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) {
@@ -41,15 +42,17 @@ std::string multicast_problem(const std::string& url) {
   const int result = ::connect(descriptor, &generic, sizeof(address));
   const int error = errno;
   ::close(descriptor);
-  return result == 0 ? std::string() : std::string(std::strerror(error));
+  if (result == 0) {
+    return {};
+  }
+  return std::string(std::strerror(error)) +
+         ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or use --lcm-url none";
 }
 
 lcm_t* create_lcm(const std::string& url) {
   const std::string problem = multicast_problem(url);
   if (!problem.empty()) {
-    throw std::runtime_error("LCM at " + url + ": " + problem +
-                             ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or "
-                             "use --lcm-url none");
+    throw std::runtime_error("LCM at " + url + ": " + problem);
   }
   lcm_t* lcm = lcm_create(url.c_str());
   if (lcm == nullptr) {

@@ -14,25 +14,30 @@
 
 namespace {
 
-enum ExitStatus : int { good = 0, failure = 1, bad_configuration = 2 };
+enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
 std::string configuration_path(const cremed::CommandLine& command_line) {
   if (!command_line.config.empty()) {
     return command_line.config;
   }
+  // Only a file that is not there is passed over: one that cannot be read must be heard of.
   const std::string local = "/etc/cremed/cremed.toml";
-  std::error_code ignored;
-  return std::filesystem::exists(local, ignored) ? local : cremed::kInstalledConfiguration;
+  std::error_code error;
+  const bool is_absent = !std::filesystem::exists(local, error) && !error;
+  return is_absent ? cremed::kInstalledConfiguration : local;
 }
 
 int run(const cremed::CommandLine& command_line) {
   if (!command_line.check_config.empty()) {
     const auto configuration = cremed::load_configuration(command_line.check_config);
-    spdlog::info("{}: good, {} radars", command_line.check_config, configuration.radars.size());
+    spdlog::info("{}: good, number of radars: {}", command_line.check_config,
+                 configuration.radars.size());
     return good;
   }
-  const auto configuration = cremed::load_configuration(configuration_path(command_line));
+  const std::string path = configuration_path(command_line);
+  const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
+  spdlog::info("configuration: {}", path);
   return cremed::run_replay(command_line, configuration);
 }
 
@@ -49,7 +54,10 @@ int main(int argc, char** argv) {
     return run(*result.command_line);
   } catch (const cremed::ConfigurationError& error) {
     spdlog::error("{}", error.what());
-    return bad_configuration;
+    return bad_usage;
+  } catch (const cremed::UsageError& error) {
+    spdlog::error("{}", error.what());
+    return bad_usage;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return failure;

@@ -29,6 +29,8 @@ void Pipeline::on_frame(const CanFrame& frame) {
   on_time(frame.stamp_us);
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
+      // The clocks of two buses need not agree: only a bus's own frames tell its time.
+      radar->assembler.expire(frame.stamp_us);
       const ScanPart part = radar->decoder->decode(frame);
       radar->assembler.add(part);
       publish_motions(*radar);
@@ -50,22 +52,18 @@ void Pipeline::publish_motions(RadarChannel& radar) {
 }
 
 void Pipeline::on_time(std::int64_t now_us) {
-  for (const auto& radar : radars_) {
-    radar->assembler.expire(now_us);
-    publish_motions(*radar);
-  }
-  const bool backwards = now_us < time_us_;
-  time_us_ = now_us;
-  // A clock set back must not silence the status until it has caught up.
-  if (backwards || now_us >= last_status_us_ + kStatusPeriodUs) {
+  // A clock that is set back must not silence the status until it has caught up.
+  if (!time_us_ || now_us >= next_status_us_ || now_us < next_status_us_ - 2 * kStatusPeriodUs) {
+    time_us_ = now_us;
+    next_status_us_ = now_us + kStatusPeriodUs;
     publish_status();
   }
+  time_us_ = now_us;
 }
 
 void Pipeline::publish_status() {
-  last_status_us_ = time_us_;
   for (const auto& radar : radars_) {
-    const RadarStatus& status = radar->status(time_us_, source_.counters());
+    const RadarStatus& status = radar->status(*time_us_, source_.counters());
     for (OdometrySink* sink : sinks_) {
       sink->on_status(radar->index, status);
     }
@@ -85,7 +83,9 @@ void Pipeline::finish() {
     radar->assembler.finish();
     publish_motions(*radar);
   }
-  publish_status();
+  if (time_us_) {
+    publish_status();
+  }
 }
 
 }  // namespace cremed

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "can_decoders/can_frame.hpp"
@@ -47,8 +47,8 @@ class Pipeline {
   std::vector<OdometrySink*> sinks_;
   NowFunction now_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
-  std::int64_t time_us_ = std::numeric_limits<std::int64_t>::min();
-  std::int64_t last_status_us_ = std::numeric_limits<std::int64_t>::min();
+  std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
+  std::int64_t next_status_us_ = 0;
 };
 
 }  // namespace cremed

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/replay.hpp"
 
-#include <cerrno>
+#include <algorithm>
 #include <ctime>
 #include <utility>
 
@@ -10,6 +10,10 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// A longer step of the log's clock is a clock that was set, or a log that was paused.
+constexpr double kClockJumpS = 10.0;
+constexpr double kLongestWaitNs = 1e18;
 
 std::int64_t monotonic_ns() {
   timespec now{};
@@ -74,21 +78,26 @@ std::size_t Replay::earliest() const {
   return best;
 }
 
+/// The pace begins anew where the log's clock was set: nobody wants to wait for a jump's length.
 void Replay::begin_pace(std::int64_t stamp_us) {
-  last_stamp_us_ = stamp_us;
-  if (!has_begun_) {
-    has_begun_ = true;
-    first_stamp_us_ = stamp_us;
-    begin_ns_ = monotonic_ns();
+  const double step_s =
+      (static_cast<double>(stamp_us) - static_cast<double>(last_stamp_us_)) * 1e-6;
+  if (!has_begun_ || step_s < 0.0 || step_s > kClockJumpS) {
+    pace_stamp_us_ = stamp_us;
+    pace_ns_ = monotonic_ns();
   }
+  traffic_s_ += has_begun_ && step_s >= 0.0 && step_s <= kClockJumpS ? step_s : 0.0;
+  has_begun_ = true;
+  last_stamp_us_ = stamp_us;
 }
 
 void Replay::wait_until_due(std::int64_t stamp_us) const {
   if (speed_ <= 0.0) {
     return;
   }
-  const double after_ns = static_cast<double>(stamp_us - first_stamp_us_) * 1e3 / speed_;
-  const std::int64_t due_ns = begin_ns_ + static_cast<std::int64_t>(after_ns);
+  const double after_ns = static_cast<double>(stamp_us - pace_stamp_us_) * 1e3 / speed_;
+  const std::int64_t due_ns =
+      pace_ns_ + static_cast<std::int64_t>(std::min(after_ns, kLongestWaitNs));
   const timespec due{due_ns / kNsPerS, due_ns % kNsPerS};
   while (*stop_ == 0 && monotonic_ns() < due_ns) {
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);

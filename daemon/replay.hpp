@@ -24,9 +24,8 @@ class Replay final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
 
   [[nodiscard]] const std::vector<std::unique_ptr<CandumpLog>>& logs() const { return logs_; }
-  /// Stamps of the first and the last frame handed out.
-  [[nodiscard]] std::int64_t first_stamp_us() const { return first_stamp_us_; }
-  [[nodiscard]] std::int64_t last_stamp_us() const { return last_stamp_us_; }
+  /// Time the frames handed out span, without jumps of the log's clock.
+  [[nodiscard]] double traffic_s() const { return traffic_s_; }
 
  private:
   /// The event of one log that is next in line.
@@ -45,9 +44,10 @@ class Replay final : public FrameSource {
   double speed_;
   const volatile std::sig_atomic_t* stop_;
   bool has_begun_ = false;
-  std::int64_t first_stamp_us_ = 0;
   std::int64_t last_stamp_us_ = 0;
-  std::int64_t begin_ns_ = 0;
+  double traffic_s_ = 0.0;
+  std::int64_t pace_stamp_us_ = 0;  // This stamp was due at pace_ns_.
+  std::int64_t pace_ns_ = 0;
 };
 
 /// CLOCK_MONOTONIC.

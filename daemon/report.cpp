@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "daemon/message_text.hpp"
+
 namespace cremed {
 namespace {
 
@@ -69,29 +71,65 @@ std::string scan_faults(const AssemblerCounters& c) {
       .text();
 }
 
+/// RadarCfg for clusters with quality, as cansend takes it.
+std::string cluster_command(const Ars408Options& options) {
+  return concat({"2", number(options.sensor_id), "0#78000000101C0000"});
+}
+
 void add_ars408_hints(const RadarStatus& status, const Ars408Options& options,
                       const Ars408Decoder& decoder, std::vector<std::string>& hints) {
+  const bool wants_clusters = options.output == Ars408Output::clusters;
   if (status.decoder.wrong_mode != 0 && status.assembler.scans == 0) {
-    hints.emplace_back(options.output == Ars408Output::clusters
-                           ? "the sensor sends objects, not clusters: send it RadarCfg "
-                             "(0x200#78000000101C0000 for sensor 0) or set output = \"objects\""
-                           : "the sensor sends clusters, not objects: set output = \"clusters\"");
+    hints.push_back(wants_clusters
+                        ? "the sensor sends objects, not clusters: send it " +
+                              cluster_command(options) + " or set output = \"objects\""
+                        : std::string("the sensor sends clusters: set output = \"clusters\""));
   }
+  const bool no_scan_is_whole = status.assembler.incomplete_scans == status.assembler.scans;
   if (!decoder.radar_state()) {
+    if (status.assembler.scans > 1 && no_scan_is_whole) {
+      hints.push_back("no scan is whole; if no " + std::string(wants_clusters ? "0x702" : "0x60C") +
+                      " is on the bus, quality is off: send it " + cluster_command(options));
+    }
     return;
   }
   const Ars408RadarState& state = *decoder.radar_state();
   if (!state.sends_quality) {
-    hints.emplace_back(
-        "the sensor sends no quality (0x201): without it there is no noise and no estimate; send "
-        "it "
-        "RadarCfg 0x200#78000000101C0000 (sensor 0)");
+    hints.push_back("the sensor sends no quality (0x201), so no scan is whole: send it " +
+                    cluster_command(options));
   }
   if (state.speed_missing || state.yaw_rate_missing) {
     hints.emplace_back(
         "the sensor gets no speed or no yaw rate (0x201 MotionRxState): its DynProp is wrong while "
         "driving; send it 0x300 and 0x301, or keep all dyn_props");
   }
+  const std::string faults = Findings()
+                                 .add("persistent error", state.persistent_error ? 1 : 0)
+                                 .add("temporary error", state.temporary_error ? 1 : 0)
+                                 .add("temperature error", state.temperature_error ? 1 : 0)
+                                 .add("voltage error", state.voltage_error ? 1 : 0)
+                                 .add("interference", state.interference ? 1 : 0)
+                                 .text();
+  if (!faults.empty()) {
+    hints.push_back("the sensor reports a fault (0x201): " + faults);
+  }
+}
+
+void add_gpr_hints(const BoschGprDecoder& decoder, std::vector<std::string>& hints) {
+  if (!decoder.info() || decoder.info()->healthy()) {
+    return;
+  }
+  const BoschGprInfo& info = *decoder.info();
+  hints.push_back("the sensor reports a fault (Info frame): " +
+                  Findings()
+                      .add("blind", info.blind ? 1 : 0)
+                      .add("software failure", info.software_failure ? 1 : 0)
+                      .add("hardware failure", info.hardware_failure ? 1 : 0)
+                      .add("CAN failure", info.can_failure ? 1 : 0)
+                      .add("configuration failure", info.configuration_failure ? 1 : 0)
+                      .add("not safe", info.not_safe ? 1 : 0)
+                      .add("trouble code", info.trouble_code)
+                      .text());
 }
 
 void add_silence_hints(const RadarConfiguration& configuration, const RadarStatus& status,
@@ -102,6 +140,10 @@ void add_silence_hints(const RadarConfiguration& configuration, const RadarStatu
         (status.source.frames == 0
              ? ": no frame at all on the configured interfaces; is the interface name right?"
              : ": is its sensor_id or base_id right?"));
+  } else if (status.assembler.scans > 0 && status.assembler.empty_scans == status.assembler.scans) {
+    hints.emplace_back(
+        "all scans are empty: the sensor sees nothing, or its own filters let "
+        "nothing pass");
   } else if (estimates(status) == 0 && status.selection.used == 0 &&
              status.assembler.scans > status.assembler.incomplete_scans) {
     hints.push_back("whole scans, but no usable detection: " +
@@ -127,6 +169,8 @@ RadarReport report(const RadarConfiguration& configuration, RadarChannel& radar,
   if (const auto* decoder = dynamic_cast<const Ars408Decoder*>(radar.decoder.get())) {
     add_ars408_hints(status, std::get<Ars408Options>(configuration.decoder), *decoder,
                      result.hints);
+  } else if (const auto* gpr = dynamic_cast<const BoschGprDecoder*>(radar.decoder.get())) {
+    add_gpr_hints(*gpr, result.hints);
   }
   if (const std::string text = bad_frames(status.decoder); !text.empty()) {
     result.hints.push_back("frames: " + text);

@@ -6,11 +6,13 @@
 #include <csignal>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
@@ -48,6 +50,34 @@ std::size_t tum_radar(const Configuration& configuration) {
   return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin());
 }
 
+/// Which file a path leads to, if there is one.
+std::optional<std::pair<dev_t, ino_t>> identity(const std::string& path) {
+  struct stat status {};
+  if (path.empty() || path == "-" || ::stat(path.c_str(), &status) != 0 ||
+      !S_ISREG(status.st_mode)) {
+    return std::nullopt;
+  }
+  return std::pair{status.st_dev, status.st_ino};
+}
+
+/// Opening an output empties it: never one of the inputs, nor another output.
+void refuse_overwriting(const CommandLine& command_line, const std::string& csv,
+                        const std::string& tum) {
+  const auto is_same = [](const std::string& a, const std::string& b) {
+    return !a.empty() && (a == b || (identity(a) && identity(a) == identity(b)));
+  };
+  for (const std::string& output : {csv, tum}) {
+    for (const std::string& log : command_line.replay) {
+      if (is_same(output, log)) {
+        throw UsageError(output + " is to be replayed and written; write to another file");
+      }
+    }
+  }
+  if (is_same(csv, tum) && csv != "/dev/null") {
+    throw UsageError(csv + " cannot hold both CSV and trajectory; write one to another file");
+  }
+}
+
 struct Sinks {
   std::vector<std::unique_ptr<OdometrySink>> owned;
   const TumWriter* tum = nullptr;
@@ -66,6 +96,7 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
   const std::string csv = command_line.output_csv.value_or(output.csv);
   const std::string tum = command_line.output_tum.value_or(output.tum);
+  refuse_overwriting(command_line, csv, tum);
   Sinks sinks;
   if (lcm_url != "none") {
     sinks.owned.push_back(std::make_unique<LcmPublisher>(lcm_url, configuration));
@@ -168,8 +199,7 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   run(*replay, pipeline);
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
 
-  const double log_s =
-      static_cast<double>(replay->last_stamp_us() - replay->first_stamp_us()) * 1e-6;
+  const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
   log_report(configuration, pipeline, replay->counters());

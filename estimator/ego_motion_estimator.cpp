@@ -45,6 +45,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
     motion.status = MotionStatus::no_reference;
   } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {
     motion.status = MotionStatus::gap_too_long;
+    last_velocity_.setZero();
   } else {
     motion.status = solve(dt_s, motion);
   }
@@ -107,17 +108,24 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
       std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
     return MotionStatus::implausible;
   }
-  // Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
-  // none while the vehicle moves.
-  const bool stands = speed_mps <= options_.standstill_mps &&
-                      std::abs(result.motion.z()) <= 3.0 * sigma.z() &&
-                      median_abs_doppler_mps() <= options_.standstill_mps;
-  return stands ? MotionStatus::standing_still : MotionStatus::ok;
+  return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
-double EgoMotionEstimator::median_abs_doppler_mps() {
-  const auto last = std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
-                                   [](const Target& t) { return std::abs(t.doppler_mps); });
+/// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
+/// none while the vehicle moves. A small estimate alone does not either, if it could as well be a
+/// large one.
+bool EgoMotionEstimator::is_standing(const RegistrationResult& result, double dt_s) {
+  const double limit_m = options_.standstill_mps * dt_s;
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  return result.motion.head<2>().norm() <= limit_m && sigma.head<2>().maxCoeff() <= limit_m &&
+         std::abs(result.motion.z()) <= 3.0 * sigma.z() && median_normalised_doppler() <= 1.0;
+}
+
+/// 0.67 if there is nothing but noise.
+double EgoMotionEstimator::median_normalised_doppler() {
+  const auto last =
+      std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
+                     [](const Target& t) { return std::abs(t.doppler_mps) / t.doppler_std_mps; });
   return median(scratch_.begin(), last);
 }
 

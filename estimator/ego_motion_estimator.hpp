@@ -68,7 +68,8 @@ class EgoMotionEstimator {
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
-  double median_abs_doppler_mps();
+  bool is_standing(const RegistrationResult& result, double dt_s);
+  double median_normalised_doppler();
   double doppler_speed_mps();
 
   EgoMotionOptions options_;

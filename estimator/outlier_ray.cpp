@@ -6,13 +6,16 @@
 
 namespace cremed {
 
-std::size_t ray_component_count(const OutlierRayOptions& options) {
+double needed_ray_components(const OutlierRayOptions& options) {
   const double a = options.ratio;
   const double span = (1.0 - a) / (1.0 + a) * options.max_range_m / options.min_range_m;
-  const double count = 1.0 + std::ceil(std::log(span) / std::log(options.growth));
+  return 1.0 + std::ceil(std::log(span) / std::log(options.growth));
+}
+
+std::size_t ray_component_count(const OutlierRayOptions& options) {
   // fmax, unlike clamp, also ends NaN: the logarithm of impossible options.
-  return static_cast<std::size_t>(
-      std::fmin(std::fmax(count, 1.0), static_cast<double>(kMaxRayComponents)));
+  return static_cast<std::size_t>(std::fmin(std::fmax(needed_ray_components(options), 1.0),
+                                            static_cast<double>(kMaxRayComponents)));
 }
 
 OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_from_radar) {

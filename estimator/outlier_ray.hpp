@@ -38,8 +38,10 @@ class OutlierRay {
   std::size_t size_ = 0;
 };
 
-/// N = 1 + ceil(log((1 - a) / (1 + a) r_max / r_min) / log b), at least 1, at most
-/// kMaxRayComponents.
+/// N = 1 + ceil(log((1 - a) / (1 + a) r_max / r_min) / log b), however many that is.
+double needed_ray_components(const OutlierRayOptions& options);
+
+/// The same, at least 1, at most kMaxRayComponents.
 std::size_t ray_component_count(const OutlierRayOptions& options);
 
 }  // namespace cremed

@@ -35,7 +35,7 @@ TEST_CASE("required keys alone give the defaults of the structs") {
 
 TEST_CASE("every key of an ARS408 is taken") {
   const Configuration configuration = parse(kArs408 + R"(
-scan_timeout_s = 0.08
+scan_timeout_s = 0.04
 sensor_id = 7
 output = "objects"
 keep_invalid_states = [0, 31]
@@ -44,7 +44,7 @@ min_existence_code = 3
 limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_rcs_dbm2 = -20 }
 )");
   const RadarConfiguration& radar = configuration.radars.at(0);
-  CHECK(radar.scan_timeout_s == 0.08);
+  CHECK(radar.scan_timeout_s == 0.04);
   const auto& decoder = std::get<Ars408Options>(radar.decoder);
   CHECK(decoder.sensor_id == 7);
   CHECK(decoder.output == Ars408Output::objects);

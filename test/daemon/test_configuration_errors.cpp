@@ -72,7 +72,7 @@ TEST_CASE("values of the wrong type are refused") {
       {kArs408 + "sensor_id = 1.0\n", 6, "radar.sensor_id", "is 1.0", "an integer from 0 to 7"},
       {kArs408 + "\nscan_timeout_s = true\n", 7, "radar.scan_timeout_s", "is true", "a number"},
       {kArs408 + "scan_timeout_s = 12:00:00\n", 6, "radar.scan_timeout_s", "is a date or time",
-       "a number from 0.001 to 1"},
+       "a number from 0.001 to 0.06"},
       {kArs408 + "output = 2\n", 6, "radar.output", "is 2", "\"clusters\" or \"objects\""},
       {kArs408 + "limits = 5\n", 6, "radar.limits", "is 5", "a table"},
       {kArs408 + "[[radar.limits]]\n", 6, "radar.limits", "is a list", "a table"},
@@ -103,10 +103,11 @@ TEST_CASE("values out of range are refused with the range") {
       {kArs408 + "keep_dyn_props = [1, 8]\n", 6, "radar.keep_dyn_props", "holds 8", "from 0 to 7"},
       {kArs408 + "keep_invalid_states = [32]\n", 6, "radar.keep_invalid_states", "holds 32",
        "from 0 to 31"},
-      {kArs408 + "scan_timeout_s = 0\n", 6, "radar.scan_timeout_s", "is 0", "from 0.001 to 1"},
-      {kArs408 + "scan_timeout_s = 1.0000001\n", 6, "radar.scan_timeout_s", "is 1.0000001",
-       "from 0.001 to 1"},
-      {kArs408 + "scan_timeout_s = nan\n", 6, "radar.scan_timeout_s", "is nan", "from 0.001 to 1"},
+      {kArs408 + "scan_timeout_s = 0\n", 6, "radar.scan_timeout_s", "is 0", "from 0.001 to 0.06"},
+      {kArs408 + "scan_timeout_s = 0.0600001\n", 6, "radar.scan_timeout_s", "is 0.0600001",
+       "from 0.001 to 0.06"},
+      {kArs408 + "scan_timeout_s = nan\n", 6, "radar.scan_timeout_s", "is nan",
+       "from 0.001 to 0.06"},
       {kArs408 + "limits.max_range_m = inf\n", 6, "radar.limits.max_range_m", "is inf",
        "from 0 to 2000"},
       {kArs408 + "limits.min_rcs_dbm2 = -inf\n", 6, "radar.limits.min_rcs_dbm2", "is -inf",
@@ -131,7 +132,7 @@ TEST_CASE("values out of range are refused with the range") {
 }
 
 TEST_CASE("the ends of a range are in it") {
-  for (const char* key : {"scan_timeout_s = 0.001", "scan_timeout_s = 1", "sensor_id = 0",
+  for (const char* key : {"scan_timeout_s = 0.001", "scan_timeout_s = 0.06", "sensor_id = 0",
                           "sensor_id = 7", "keep_dyn_props = [0, 7]", "limits.min_rcs_dbm2 = -100",
                           "limits.max_range_m = 2000.0", "limits.min_range_m = 0"}) {
     CHECK(message_of(std::string(kArs408).append(key)) == "accepted");

@@ -44,8 +44,7 @@ TEST_CASE("Several logs are merged by time, the first named first where stamps a
   const TemporaryFile b("(2.000000) can1 002#\n(3.000000) can1 103#\n(9.000000) can1 009#\n");
   Replay forward = replay_of({&a, &b});
   CHECK(ids(forward) == std::vector<std::uint32_t>{1, 2, 3, 0x103, 4, 9});
-  CHECK(forward.first_stamp_us() == 1'000'000);
-  CHECK(forward.last_stamp_us() == 9'000'000);
+  CHECK(forward.traffic_s() == Approx(8.0));
   CHECK(forward.counters().frames == 6);
   Replay swapped = replay_of({&b, &a});
   CHECK(ids(swapped) == std::vector<std::uint32_t>{1, 2, 0x103, 3, 4, 9});
@@ -74,4 +73,17 @@ TEST_CASE("At a finite speed a frame is not early") {
   const std::int64_t begin_us = monotonic_us();
   REQUIRE(replay.next(frame) == SourceEvent::frame);
   CHECK(monotonic_us() - begin_us >= 45'000);  // 0.2 s at fourfold speed, less what next() took
+}
+
+TEST_CASE("A jump of the log's clock is not waited for, nor counted as traffic") {
+  const TemporaryFile file(
+      "(1.000000) can0 001#\n(1.010000) can0 002#\n(999999999999.000000) can0 003#\n"
+      "(999999999999.010000) can0 004#\n(5.000000) can0 005#\n(5.010000) can0 006#\n");
+  Replay replay = replay_of({&file}, 1.0);
+  const std::int64_t begin_us = monotonic_us();
+  CHECK(ids(replay).size() == 6);
+  const std::int64_t took_us = monotonic_us() - begin_us;
+  CHECK(took_us >= 25'000);  // three steps of 10 ms are paced
+  CHECK(took_us < 5'000'000);
+  CHECK(replay.traffic_s() == Approx(0.03).margin(1e-3));
 }

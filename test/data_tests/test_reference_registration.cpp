@@ -123,17 +123,19 @@ TEST_CASE("Registration agrees with the reference implementation, pair by pair")
       100.0 * (our.anees() / their.anees() - 1.0), d.median_m, d.median_rad, d.different,
       pairs.size(), d.better);
 
-  // Where the reference's stopping rule (relative cost) ends its slow search early, our minimum is
-  // the lower one and the figures may be better than its, never worse.
+  // Where the reference's stopping rule (relative cost) ends its slow search early, our minima are
+  // the lower ones, and our figures then are better than its by up to 5 % (observed: 2.8 % and
+  // 4.5 %), never worse.
   const bool is_better_minimum =
       d.median_m > row.max_median_difference &&
       static_cast<double>(d.better) >= 0.99 * static_cast<double>(d.different);
-  const double margin = is_better_minimum ? 1.0 : 0.01;
+  const double margin = is_better_minimum ? 0.05 : 0.01;
   CHECK(our.rmse_m() <= 1.01 * their.rmse_m());
   CHECK(our.rmse_m() >= (1.0 - margin) * their.rmse_m());
   CHECK(our.rmse_deg() == Approx(their.rmse_deg()).epsilon(0.01));
   CHECK(our.anees() <= 1.02 * their.anees());
-  CHECK((our.anees() >= 0.98 * their.anees() || (is_better_minimum && our.anees() >= 1.0)));
+  CHECK((our.anees() >= 0.98 * their.anees() ||
+         (is_better_minimum && our.anees() >= 0.95 * their.anees())));
   CHECK((d.median_m <= row.max_median_difference || is_better_minimum));
   CHECK(d.median_rad <= row.max_median_difference);
 }

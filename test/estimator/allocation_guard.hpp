@@ -9,41 +9,53 @@
 #include <cstddef>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__)
 #define CREMED_HAS_SANITIZER_HOOK 1
+#elif defined(__SANITIZE_THREAD__)
+#define CREMED_HAS_SANITIZER_HOOK 1
+#define CREMED_HAS_THREAD_SANITIZER 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#if __has_feature(address_sanitizer)
 #define CREMED_HAS_SANITIZER_HOOK 1
+#elif __has_feature(thread_sanitizer)
+#define CREMED_HAS_SANITIZER_HOOK 1
+#define CREMED_HAS_THREAD_SANITIZER 1
 #endif
 #endif
 
 namespace cremed {
 
+/// ThreadSanitizer calls its hook for malloc, calloc and new alone.
+#ifdef CREMED_HAS_THREAD_SANITIZER
+inline constexpr bool kGuardSeesAll = false;
+#else
+inline constexpr bool kGuardSeesAll = true;
+#endif
+
+inline volatile bool is_counting_allocations = false;
+inline long allocation_count = 0;
+
 /// Allocations since the guard was made; one guard at a time, one thread.
 class AllocationGuard {
  public:
   AllocationGuard() {
-    count_ = 0;
-    is_counting_ = true;
+    allocation_count = 0;
+    is_counting_allocations = true;
   }
-  ~AllocationGuard() { is_counting_ = false; }
+  ~AllocationGuard() { is_counting_allocations = false; }
   AllocationGuard(const AllocationGuard&) = delete;
   AllocationGuard& operator=(const AllocationGuard&) = delete;
 
   /// Stops counting; returns how many there were.
   static long stop() {
-    is_counting_ = false;
-    return count_;
+    is_counting_allocations = false;
+    return allocation_count;
   }
   static void note() {
-    if (is_counting_) {
-      ++count_;
+    if (is_counting_allocations) {
+      ++allocation_count;
     }
   }
-
- private:
-  static inline volatile bool is_counting_ = false;
-  static inline long count_ = 0;
 };
 
 }  // namespace cremed
@@ -62,7 +74,7 @@ inline const int kInstalledHooks = __sanitizer_install_malloc_and_free_hooks(
 #else
 
 // glibc's own functions under their second names.
-// NOLINTBEGIN(readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming,bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;
 void* __libc_calloc(std::size_t count, std::size_t size) noexcept;
@@ -100,6 +112,6 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexce
   return *block == nullptr ? 12 : 0;  // ENOMEM
 }
 }
-// NOLINTEND(readability-identifier-naming)
+// NOLINTEND(readability-identifier-naming,bugprone-reserved-identifier)
 
 #endif

@@ -92,8 +92,8 @@ TEST_CASE("the prediction is the range rate of a rigid body, for every mount") {
   for (const NamedMount& mount : kMounts) {
     CAPTURE(mount.name);
     for (int i = 0; i < 50; ++i) {
-      const Eigen::Vector3d velocity(uniform(random, -20.0, 20.0), uniform(random, -2.0, 2.0),
-                                     uniform(random, -1.5, 1.5));
+      const Eigen::Vector3d velocity{uniform(random, -20.0, 20.0), uniform(random, -2.0, 2.0),
+                                     uniform(random, -1.5, 1.5)};
       const double bearing_rad = mount.pose.yaw_rad + uniform(random, -1.0, 1.0);
       CHECK(predicted_m(bearing_rad, velocity * kDt, mount.pose) ==
             Approx(kDt * range_rate_mps(bearing_rad, velocity, mount.pose)).margin(1e-7));
@@ -106,8 +106,8 @@ TEST_CASE("the Jacobian is the derivative of the residual with its variance held
   for (const NamedMount& mount : kMounts) {
     for (const double bearing_std_rad : {0.0, 0.05}) {
       CAPTURE(mount.name, bearing_std_rad);
-      const Eigen::Vector3d motion(uniform(random, -2.0, 2.0), uniform(random, -0.2, 0.2),
-                                   uniform(random, -0.2, 0.2));
+      const Eigen::Vector3d motion{uniform(random, -2.0, 2.0), uniform(random, -0.2, 0.2),
+                                   uniform(random, -0.2, 0.2)};
       const double bearing_rad = mount.pose.yaw_rad + uniform(random, -1.0, 1.0);
       const Target target = target_at(bearing_rad, -3.0, bearing_std_rad);
       const DopplerOptions options;
@@ -181,7 +181,8 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
     DopplerOptions options;
     options.moving_weight = uniform(random, 0.01, 0.5);
     options.moving_std_mps = uniform(random, 10.0, 100.0);
-    const Target target = target_at(uniform(random, -1.0, 1.0), uniform(random, -12.0, -8.0), 0.02);
+    const double bearing_rad = uniform(random, -1.0, 1.0);
+    const Target target = target_at(bearing_rad, uniform(random, -12.0, -8.0), 0.02);
     const Eigen::Vector3d motion(1.0, 0.0, 0.01);
     const double error_m = predicted_m(target.bearing_rad, motion, {}) - target.doppler_mps * kDt;
     const auto density = [&](double weight, double doppler_std_mps) {

@@ -17,7 +17,6 @@
 namespace cremed {
 namespace {
 
-using numeric::radians;
 using simulation::Drive;
 
 constexpr std::int64_t kPeriodUs = Drive::kPeriodUs;

@@ -31,7 +31,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
 EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
   const auto estimator = std::make_unique<EgoMotionEstimator>(options);
   estimator->update(drive.next());
-  const EgoMotion motion = estimator->update(drive.next());
+  EgoMotion motion = estimator->update(drive.next());
   CHECK(motion.motion.array().isNaN().any() != motion.has_estimate());
   CHECK(motion.covariance.array().isNaN().any() != motion.has_estimate());
   return motion;
@@ -234,6 +234,24 @@ TEST_CASE("after lost scans a radar that looks abeam is found going on as before
   const EgoMotion motion = estimator->update(drive.next());
   REQUIRE(motion.status == MotionStatus::ok);
   CHECK(motion.motion.x() == Approx(4.0).margin(0.1));
+}
+
+// Known defect: the start that Doppler gives is dropped for being near zero in metres, although it
+// is far from it in standard deviations; then every target passes for a mover.
+TEST_CASE("a slow car is known as precisely as Doppler tells", "[!shouldfail]") {
+  EgoMotionOptions options = options_at(kFront);
+  options.registration.start_scale = 2.0;
+  int vague = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Drive drive({1.3, 0.0, 0.0}, kFront, seed, 36);
+    drive.set_noise({0.1, 0.01, 0.03});
+    const auto estimator = std::make_unique<EgoMotionEstimator>(options);
+    estimator->update(drive.next());
+    drive.pass(-40000);  // 60 ms between the scans
+    const EgoMotion motion = estimator->update(drive.next());
+    vague += std::sqrt(motion.covariance(0, 0)) < 0.1 * 0.06 ? 0 : 1;
+  }
+  CHECK(vague == 0);
 }
 
 TEST_CASE("what was estimated before does not change what comes after") {

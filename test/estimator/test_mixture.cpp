@@ -56,8 +56,10 @@ Detections random_detections(Random& random, std::size_t count) {
 }
 
 Symmetric2 random_covariance(Random& random) {
-  return polar_covariance(uniform(random, 2.0, 40.0), uniform(random, -3.0, 3.0),
-                          uniform(random, 0.05, 0.5), uniform(random, 0.003, 0.06));
+  const double range_m = uniform(random, 2.0, 40.0);
+  const double bearing_rad = uniform(random, -3.0, 3.0);
+  const double range_std_m = uniform(random, 0.05, 0.5);
+  return polar_covariance(range_m, bearing_rad, range_std_m, uniform(random, 0.003, 0.06));
 }
 
 /// A point near some target (0), between targets (1), or beside the scan (2).
@@ -261,15 +263,17 @@ TEST_CASE("the order of the targets does not matter") {
 TEST_CASE("a ray of little weight explains only what no target does better", "[!shouldfail]") {
   Random random(8);
   const Problem problem(random_detections(random, 20), 1e-9);
+  int wrong = 0;
   for (int i = 0; i < 200; ++i) {
     const Target& target = problem.targets[static_cast<std::size_t>(i % 20)];
     const Eigen::Vector2d point(target.x_m + uniform(random, -2.0, 2.0), target.y_m);
     const Symmetric2 own{0.01, 0.0, 0.01};
     const Definition definition = define(problem, point, own);
     const MixtureResidual actual = problem.mixture->evaluate(point, own);
-    CHECK(actual.component == definition.best);
-    CHECK(actual.cost == Approx(static_cast<double>(-std::log(definition.sum))).epsilon(1e-6));
+    const double cost = static_cast<double>(-std::log(definition.sum));
+    wrong += actual.component != definition.best || std::abs(actual.cost - cost) > 1e-6 ? 1 : 0;
   }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("assigning anew forgets the mixture before") {

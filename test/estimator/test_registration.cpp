@@ -62,8 +62,8 @@ std::vector<Regime> regimes(int degrees_of_freedom) {
   Random random(1);
   for (int i = 0; i < 10; ++i) {
     result.push_back(
-        {"random", Eigen::Vector3d(uniform(random, -0.5, 1.0), uniform(random, -0.25, 0.25),
-                                   radians(uniform(random, -8.0, 8.0)))});
+        {"random", Eigen::Vector3d{uniform(random, -0.5, 1.0), uniform(random, -0.25, 0.25),
+                                   radians(uniform(random, -8.0, 8.0))}});
   }
   for (Regime& regime : result) {
     if (degrees_of_freedom == 2) {
@@ -183,8 +183,8 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
       registration.set_previous(observe(Eigen::Vector3d::Zero()));
       const TargetSet current = observe({0.3, 0.1, 0.05});
       for (int i = 0; i < 10; ++i) {
-        const Eigen::Vector3d at(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5),
-                                 uniform(random, -0.1, 0.1));
+        const Eigen::Vector3d at{uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5),
+                                 uniform(random, -0.1, 0.1)};
         for (const double scale : {1.0, 5.0}) {
           const auto linearise = [&](const Eigen::Vector3d& motion) {
             return registration.linearise(current, kDt, motion, scale, scale);
@@ -221,8 +221,8 @@ TEST_CASE("the way back is the inverse of the way there") {
   for (int i = 0; i < 20; ++i) {
     const Pose2& mount = kMounts[static_cast<std::size_t>(i % 3)];
     const Points points = landmarks(random, mount);
-    const Eigen::Vector3d motion(uniform(random, -0.5, 1.0), uniform(random, -0.3, 0.3),
-                                 radians(uniform(random, -5.0, 5.0)));
+    const Eigen::Vector3d motion{uniform(random, -0.5, 1.0), uniform(random, -0.3, 0.3),
+                                 radians(uniform(random, -5.0, 5.0))};
     Detections a = simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {});
     Detections b = simulation::observe_all(points, motion, kDt, mount, {});
     simulation::perturb(a, random);

@@ -88,9 +88,9 @@ Run run(const Scenario& scenario, Random& random) {
   const bool is_car = scenario.options.degrees_of_freedom == 2;
   const simulation::Points points = simulation::scatter(
       random, 20, scenario.min_range_m, scenario.max_range_m, scenario.half_spread_rad, 0.0);
-  const Eigen::Vector3d motion(uniform(random, -0.25, 0.25),
+  const Eigen::Vector3d motion{uniform(random, -0.25, 0.25),
                                is_car ? 0.0 : uniform(random, -0.25, 0.25),
-                               uniform(random, -scenario.max_yaw_rad, scenario.max_yaw_rad));
+                               uniform(random, -scenario.max_yaw_rad, scenario.max_yaw_rad)};
   Detections previous =
       simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, scenario.noise);
   Detections current = simulation::observe_all(points, motion, kDt, {}, scenario.noise);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 #include <catch2/catch.hpp>
@@ -31,9 +30,9 @@ struct ScanPair {
 /// degrees.
 ScanPair random_pair(Random& random, double bound_m) {
   const simulation::Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 4.0);
-  const Eigen::Vector3d motion(uniform(random, -bound_m, bound_m),
+  const Eigen::Vector3d motion{uniform(random, -bound_m, bound_m),
                                uniform(random, -bound_m, bound_m),
-                               radians(10.0 * uniform(random, -bound_m, bound_m)));
+                               radians(10.0 * uniform(random, -bound_m, bound_m))};
   ScanPair pair{simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, {}),
                 simulation::observe_all(points, motion, kDt, {}, {})};
   simulation::perturb(pair.previous, random);
@@ -68,10 +67,8 @@ Eigen::Vector3d compose(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 bool is_identical(const RegistrationResult& a, const RegistrationResult& b) {
-  return a.status == b.status && a.iterations == b.iterations &&
-         std::memcmp(&a.cost, &b.cost, sizeof a.cost) == 0 &&
-         std::memcmp(a.motion.data(), b.motion.data(), sizeof a.motion) == 0 &&
-         std::memcmp(a.covariance.data(), b.covariance.data(), sizeof a.covariance) == 0;
+  return a.status == b.status && a.iterations == b.iterations && a.cost == b.cost &&
+         a.motion == b.motion && a.covariance == b.covariance;
 }
 
 TEST_CASE("the motion of another point of the vehicle follows from the mount") {

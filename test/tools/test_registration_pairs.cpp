@@ -73,4 +73,5 @@ TEST_CASE("A pair without targets is left out of the figures, not counted as goo
   const Credibility credibility = evaluate_pairs(pairs, results, 2, left_out);
   CHECK(credibility.count() == 0);
   CHECK(left_out == 1);
+  CHECK_FALSE(results[0].registration.motion.allFinite());
 }

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -63,7 +61,8 @@ void write_pairs(const std::string& path, const std::vector<cremed::PairResult>&
                  r.motion.x(), r.motion.y(), r.motion.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1),
                  c(1, 2), c(2, 2), r.iterations, static_cast<long long>(results[i].solve_us));
   }
-  if (std::fclose(file) != 0) {
+  const bool is_lost = std::ferror(file) != 0;
+  if (std::fclose(file) != 0 || is_lost) {
     throw std::runtime_error("cannot write " + path);
   }
 }
@@ -71,6 +70,9 @@ void write_pairs(const std::string& path, const std::vector<cremed::PairResult>&
 int run_pairs(const PairsArguments& arguments) {
   const auto options = cremed::profile(arguments.profile, arguments.doppler);
   const auto pairs = with_input(arguments.file, cremed::read_registration_pairs);
+  if (pairs.empty()) {
+    throw std::runtime_error(arguments.file + ": no pairs");
+  }
   const auto results = cremed::solve_pairs(pairs, *options);
   std::size_t left_out = 0;
   const auto credibility =
@@ -102,6 +104,9 @@ int run_drive(const DriveArguments& arguments) {
   const auto sources = with_input(arguments.odometry, [&](std::istream& input) {
     return cremed::evaluate_drive(input, truth);
   });
+  if (sources.empty()) {
+    throw std::runtime_error(arguments.odometry + ": no odometry");
+  }
   std::printf("# source %s\n", cremed::kCredibilityColumns);
   for (const cremed::SourceEvaluation& source : sources) {
     std::printf("%s %s\n", source.source.c_str(), cremed::to_line(source.credibility).c_str());

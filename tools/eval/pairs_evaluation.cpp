@@ -2,9 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/pairs_evaluation.hpp"
 
+#include <limits>
+
 #include "daemon/replay.hpp"
 
 namespace cremed {
+namespace {
+
+bool has_solution(const RegistrationResult& result) {
+  return result.status == RegistrationStatus::converged ||
+         result.status == RegistrationStatus::no_convergence;
+}
+
+}  // namespace
 
 TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehicle_from_radar) {
   TargetSet targets;
@@ -28,6 +38,10 @@ std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
       result.registration = registration.solve(current, pair.dt_s);
       result.solve_us = monotonic_us() - begin_us;
     }
+    if (!has_solution(result.registration)) {
+      result.registration.motion.setConstant(std::numeric_limits<double>::quiet_NaN());
+      result.registration.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
     results.push_back(result);
   }
   return results;
@@ -40,8 +54,7 @@ Credibility evaluate_pairs(const std::vector<RegistrationPair>& pairs,
   left_out = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const RegistrationResult& result = results[i].registration;
-    if (result.status == RegistrationStatus::converged ||
-        result.status == RegistrationStatus::no_convergence) {
+    if (has_solution(result)) {
       const Pose2& truth = pairs[i].truth;
       credibility.add(result.motion, result.covariance, {truth.x_m, truth.y_m, truth.yaw_rad});
     } else {

@@ -17,7 +17,7 @@ struct PairResult {
   std::int64_t solve_us = 0;
 };
 
-/// Solves every pair on its own.
+/// Solves every pair on its own; motion and covariance are NaN where there is no solution.
 std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
                                     const RegistrationOptions& options);
 

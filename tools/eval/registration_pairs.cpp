@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "can_decoders/radar_scan.hpp"
+
 namespace cremed {
 namespace {
 
@@ -62,7 +64,11 @@ void read_line(std::string_view line, std::vector<RegistrationPair>& pairs) {
     pairs.back().vehicle_from_radar = {v[1], v[2], v[3]};
   } else if (line.front() == 'D') {
     const auto v = numbers(line, 9);
-    (v[1] == 0.0 ? pairs.back().previous : pairs.back().current).push_back(to_detection(v));
+    auto& scan = v[1] == 0.0 ? pairs.back().previous : pairs.back().current;
+    if (scan.size() == kMaxDetections) {
+      throw std::runtime_error("more than 256 detections in a scan");
+    }
+    scan.push_back(to_detection(v));
   } else {
     throw std::runtime_error("a line begins with T, M, D or #");
   }

@@ -8,9 +8,15 @@
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace cremed {
+namespace {
+
+constexpr int kLongestWaitMs = 200;
+
+}  // namespace
 
 LineReader::LineReader(const std::string& path)
     : descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -57,6 +63,11 @@ LineReader::Status LineReader::fill() {
   if (end_ == buffer_.size()) {
     skipping_ = true;
     end_ = 0;
+  }
+  // A signal just before read(2) would be slept through: come up for air now and then.
+  pollfd input{descriptor_, POLLIN, 0};
+  if (::poll(&input, 1, kLongestWaitMs) == 0) {
+    return Status::interrupted;
   }
   const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
   if (count < 0) {

@@ -18,7 +18,7 @@ class LineReader {
     line,         ///< `line` is set, valid until the next call.
     too_long,     ///< A line longer than the buffer was passed over.
     end,          ///< End of input.
-    interrupted,  ///< A signal came while waiting; call again to go on.
+    interrupted,  ///< A signal came, or nothing for a while; call again to go on.
     failed,       ///< read(2) failed; errno says why.
   };
 

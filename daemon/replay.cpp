@@ -14,6 +14,7 @@ constexpr std::int64_t kNsPerS = 1'000'000'000;
 /// A longer step of the log's clock is a clock that was set, or a log that was paused.
 constexpr double kClockJumpS = 10.0;
 constexpr double kLongestWaitNs = 1e18;
+constexpr std::int64_t kLongestSleepNs = 200'000'000;
 
 std::int64_t monotonic_ns() {
   timespec now{};
@@ -98,9 +99,12 @@ void Replay::wait_until_due(std::int64_t stamp_us) const {
   const double after_ns = static_cast<double>(stamp_us - pace_stamp_us_) * 1e3 / speed_;
   const std::int64_t due_ns =
       pace_ns_ + static_cast<std::int64_t>(std::min(after_ns, kLongestWaitNs));
-  const timespec due{due_ns / kNsPerS, due_ns % kNsPerS};
-  while (*stop_ == 0 && monotonic_ns() < due_ns) {
-    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
+  for (std::int64_t now_ns = monotonic_ns(); *stop_ == 0 && now_ns < due_ns;
+       now_ns = monotonic_ns()) {
+    // In short sleeps: a signal just before one would be slept through.
+    const std::int64_t until_ns = std::min(due_ns, now_ns + kLongestSleepNs);
+    const timespec until{until_ns / kNsPerS, until_ns % kNsPerS};
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
   }
 }
 

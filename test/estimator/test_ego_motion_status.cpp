@@ -37,65 +37,6 @@ EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
   return motion;
 }
 
-TEST_CASE("standing still is told from moving, whatever the radar sees of it") {
-  struct Row {
-    std::string what;
-    Eigen::Vector3d velocity;
-    Pose2 mount;
-    MotionStatus status;
-  };
-  const Pose2 centre{};
-  const Pose2 left{0.0, 0.0, radians(90.0)};
-  const std::vector<Row> rows = {
-      {"standing", {0.0, 0.0, 0.0}, kFront, MotionStatus::standing_still},
-      {"standing, looking left", {0.0, 0.0, 0.0}, left, MotionStatus::standing_still},
-      {"creeping", {0.3, 0.0, 0.0}, kFront, MotionStatus::ok},
-      {"backing", {-0.5, 0.0, 0.0}, kFront, MotionStatus::ok},
-      {"driving", {10.0, 0.0, 0.0}, kFront, MotionStatus::ok},
-      {"driving, looking left", {10.0, 0.0, 0.0}, left, MotionStatus::ok},
-      // The radar is in the centre of the turn: every Doppler is zero.
-      {"turning on the spot", {0.0, 0.0, 0.3}, centre, MotionStatus::ok},
-      {"turning the other way", {0.0, 0.0, -0.3}, centre, MotionStatus::ok},
-  };
-  for (const Row& row : rows) {
-    CAPTURE(row.what);
-    Drive drive(row.velocity, row.mount);
-    drive.set_noise({0.02, 0.001, 0.02});
-    const EgoMotion motion = estimate(options_at(row.mount), drive);
-    CHECK(motion.status == row.status);
-    const Eigen::Vector3d error = motion.motion - drive.motion_per_period();
-    CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
-  }
-}
-
-TEST_CASE("targets abeam show no Doppler and are no standstill") {
-  // A radar to the left whose few degrees of view hold no target with Doppler to speak of.
-  const Pose2 left{2.0, 0.8, radians(90.0)};
-  Drive drive({1.0, 0.0, 0.0}, left, 3, 1500);
-  drive.set_noise({0.05, 0.001, 0.02});
-  drive.set_half_view(radians(4.0));
-  const EgoMotion motion = estimate(options_at(left), drive);
-  CHECK(motion.status == MotionStatus::ok);
-  CHECK(motion.motion.x() == Approx(0.1).margin(0.03));
-}
-
-TEST_CASE("a scan in which everything moves is no standstill") {
-  EgoMotionOptions options = options_at(kFront);
-  options.registration.doppler.enabled = false;
-  for (const double approach_mps : {-3.0, 3.0, 0.0}) {
-    Drive drive({0.0, 0.0, 0.0}, kFront);
-    drive.set_noise({0.02, 0.001, 0.02});
-    const auto estimator = std::make_unique<EgoMotionEstimator>(options);
-    estimator->update(drive.next());
-    RadarScan scan = drive.next();
-    for (Detection& detection : scan.detections) {
-      detection.doppler_mps += approach_mps;
-    }
-    CHECK(estimator->update(scan).status ==
-          (approach_mps == 0.0 ? MotionStatus::standing_still : MotionStatus::ok));
-  }
-}
-
 TEST_CASE("what is asked for decides between an estimate and its refusal") {
   struct Row {
     std::string what;
@@ -216,6 +157,25 @@ TEST_CASE("every speed of a road vehicle is found at once, after lost scans as w
         CHECK(std::abs(motion.motion.z()) < 5.0 * std::sqrt(motion.covariance(2, 2)));
       }
     }
+  }
+}
+
+TEST_CASE("after a gap nothing is left of what was before") {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Drive drive({10.0, 0.0, 0.1}, kFront, seed, 150);
+    const auto used = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+    const auto fresh = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+    used->update(drive.next());
+    CHECK(used->update(drive.next()).status == MotionStatus::ok);
+    drive.pass(1000000);
+    const RadarScan scan = drive.next();
+    CHECK(used->update(scan).status == MotionStatus::gap_too_long);
+    CHECK(fresh->update(scan).status == MotionStatus::no_reference);
+    const RadarScan next = drive.next();
+    const EgoMotion a = used->update(next);
+    const EgoMotion b = fresh->update(next);
+    CHECK(a.motion == b.motion);
+    CHECK(a.covariance == b.covariance);
   }
 }
 

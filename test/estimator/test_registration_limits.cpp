@@ -264,11 +264,19 @@ TEST_CASE("of several starts the one with the lowest cost is taken, wherever it 
 TEST_CASE("an exact start needs no step") {
   Random random(9);
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 6.0);
-  const RegistrationResult result =
-      solve(options_of(3, true), see(points, kStill), see(points, kStill));
-  CHECK(result.status == RegistrationStatus::converged);
-  CHECK(result.iterations <= 2);
-  CHECK(result.motion.norm() < 1e-4);
+  const TargetSet targets = simulation::targets(see(points, kStill), {});
+  for (const double start_scale : {1.0, 6.0}) {
+    RegistrationOptions options = options_of(3, true);
+    options.start_scale = start_scale;
+    options.start_doppler_scale = 2.0;
+    Registration registration(options, {});
+    registration.set_previous(targets);
+    const RegistrationResult result = registration.solve(targets, kDt);
+    CHECK(result.status == RegistrationStatus::converged);
+    CHECK(result.iterations <= 2);
+    CHECK(result.motion.norm() < 1e-4);
+    CHECK(result.cost == registration.linearise(targets, kDt, result.motion, 1.0, 1.0).cost);
+  }
 }
 
 }  // namespace

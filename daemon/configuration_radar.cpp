@@ -98,10 +98,11 @@ void read_decoder(TomlReader& reader, RadarConfiguration& radar) {
 }
 
 void read_mount(TomlReader reader, Pose2& vehicle_from_radar) {
-  constexpr Presence required = Presence::required;
-  reader.number("x_m", vehicle_from_radar.x_m, {-kMaxMountM, kMaxMountM}, required);
-  reader.number("y_m", vehicle_from_radar.y_m, {-kMaxMountM, kMaxMountM}, required);
-  reader.number("yaw_rad", vehicle_from_radar.yaw_rad, {-kFullCircleRad, kFullCircleRad}, required);
+  constexpr Presence kRequired = Presence::required;
+  reader.number("x_m", vehicle_from_radar.x_m, {-kMaxMountM, kMaxMountM}, kRequired);
+  reader.number("y_m", vehicle_from_radar.y_m, {-kMaxMountM, kMaxMountM}, kRequired);
+  reader.number("yaw_rad", vehicle_from_radar.yaw_rad, {-kFullCircleRad, kFullCircleRad},
+                kRequired);
   reader.finish();
 }
 

@@ -104,12 +104,12 @@ void TomlReader::identifier(std::string_view key, std::uint32_t& value, std::uin
 }
 
 void TomlReader::boolean(std::string_view key, bool& value) {
-  constexpr std::string_view wanted = "true or false";
-  if (const toml::node* node = take_leaf(key, Presence::optional, wanted)) {
+  constexpr std::string_view kWanted = "true or false";
+  if (const toml::node* node = take_leaf(key, Presence::optional, kWanted)) {
     if (node->is_boolean()) {
       value = node->as_boolean()->get();
     } else {
-      report_wrong(key, *node, wanted);
+      report_wrong(key, *node, kWanted);
     }
   }
 }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/configuration_estimator.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "can_decoders/radar_scan.hpp"
 #include "daemon/message_text.hpp"
@@ -13,6 +15,9 @@ namespace cremed {
 namespace {
 
 constexpr double kFullCircleRad = 6.2832;
+
+/// In the order of CovarianceModel.
+constexpr std::array<std::string_view, 2> kCovarianceModels{"exclusive", "gauss_newton"};
 
 void check_gaussians(TomlReader& reader, const OutlierRayOptions& ray) {
   const bool given_here = reader.has("min_range_m") || reader.has("max_range_m") ||
@@ -54,6 +59,11 @@ void read_estimator(TomlReader reader, EgoMotionOptions& options) {
   reader.number("start_doppler_scale", registration.start_doppler_scale, {1.0, 100.0});
   reader.integer("max_start_iterations", registration.max_start_iterations, 0, 100);
   reader.integer("max_iterations", registration.max_iterations, 1, 1000);
+  reader.integer("max_component_evaluations", registration.max_component_evaluations, 1'000,
+                 100'000'000);
+  if (const auto model = reader.choice("covariance", kCovarianceModels)) {
+    registration.covariance = static_cast<CovarianceModel>(*model);
+  }
   reader.integer("min_targets", options.min_targets, 2, kMaxDetections);
   reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
   reader.number("standstill_mps", options.standstill_mps, {0.0, 1.0});

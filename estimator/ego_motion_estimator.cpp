@@ -22,7 +22,7 @@ std::string_view to_string(MotionStatus status) {
   static constexpr std::array<std::string_view, kMotionStatusCount> kNames{
       "ok",           "standing_still",  "no_reference", "incomplete_scan",
       "gap_too_long", "too_few_targets", "degenerate",   "no_convergence",
-      "non_finite",   "implausible"};
+      "non_finite",   "implausible",     "ambiguous"};
   return kNames[static_cast<std::size_t>(status)];
 }
 
@@ -91,6 +91,8 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
       break;
     case RegistrationStatus::degenerate:
       return MotionStatus::degenerate;
+    case RegistrationStatus::ambiguous:
+      return MotionStatus::ambiguous;
     case RegistrationStatus::no_convergence:
       return MotionStatus::no_convergence;
     case RegistrationStatus::non_finite:
@@ -134,7 +136,7 @@ double EgoMotionEstimator::median_normalised_doppler() {
 double EgoMotionEstimator::doppler_speed_mps() {
   auto last = scratch_.begin();
   for (const Target& target : targets_) {
-    const double along = std::cos(target.bearing_rad);
+    const double along = target.cos_bearing;
     if (std::abs(along) > 0.5) {
       *last++ = -target.doppler_mps / along;
     }

@@ -26,11 +26,12 @@ enum class MotionStatus : std::uint8_t {
   gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.
   too_few_targets = 5,  ///< Usable targets < min_targets.
   degenerate = 6,       ///< J'J not positive definite, or a sigma > max_std_m, max_std_rad.
-  no_convergence = 7,   ///< Gauss-Newton did not end within max_iterations.
+  no_convergence = 7,   ///< A limit on iterations or work cut in before the end.
   non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
+  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well.
 };
-inline constexpr std::size_t kMotionStatusCount = 10;
+inline constexpr std::size_t kMotionStatusCount = 11;
 
 /// The name of a status as in the CSV, e.g. "ok".
 std::string_view to_string(MotionStatus status);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/mixture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cremed {
 namespace {
@@ -10,34 +12,21 @@ namespace {
 /// Keeps the argument of the second residual's root positive (RA-L 2021; value of the reference).
 constexpr double kDamping = 10.0;
 
-/// Components whose squared distance exceeds the nearest one's by more than this add less than
-/// 1e-11 of it and are left out.
-constexpr double kNegligible = 50.0;
-
-using ConstRow = Eigen::Map<const Eigen::ArrayXd>;
-
-/// L with L'L = C^-1, upper triangular.
-Eigen::Matrix2d square_root_information(const Symmetric2& c, double inverse_determinant) {
-  const double a = std::sqrt(c.yy * inverse_determinant);
-  Eigen::Matrix2d root;
-  root << a, -c.xy * inverse_determinant / a, 0.0, 1.0 / std::sqrt(c.yy);
-  return root;
-}
-
 }  // namespace
 
 void Mixture::push(double x_m, double y_m, const Symmetric2& covariance_m2, double weight) {
-  x_m_[size_] = x_m;
-  y_m_[size_] = y_m;
-  xx_[size_] = covariance_m2.xx;
-  xy_[size_] = covariance_m2.xy;
-  yy_[size_] = covariance_m2.yy;
-  weight_[size_] = weight;
-  ++size_;
+  MixtureComponents& c = components_;
+  const std::size_t j = c.size++;
+  c.exact.x_m[j] = x_m;
+  c.exact.y_m[j] = y_m;
+  c.exact.xx[j] = covariance_m2.xx;
+  c.exact.xy[j] = covariance_m2.xy;
+  c.exact.yy[j] = covariance_m2.yy;
+  c.weight[j] = weight;
 }
 
 void Mixture::assign(const TargetSet& targets, const OutlierRay& ray) {
-  size_ = 0;
+  components_.size = 0;
   double ray_weight = 0.0;
   for (const RayComponent& component : ray) {
     ray_weight += component.weight;
@@ -49,94 +38,67 @@ void Mixture::assign(const TargetSet& targets, const OutlierRay& ray) {
   for (const RayComponent& component : ray) {
     push(component.x_m, component.y_m, component.covariance_m2, component.weight);
   }
+  components_.log_damped_size = std::log(static_cast<double>(components_.size) + kDamping);
+  pad();
+  bound_rounding();
 }
 
-/// This loop is the hot spot of the daemon; it is kept free of branches and calls so that the
-/// compiler vectorises it.
-void Mixture::compute_distances(const Eigen::Vector2d& point_m, const Symmetric2& covariance_m2) {
-  const double px = point_m.x();
-  const double py = point_m.y();
-  const Symmetric2 own = covariance_m2;
-  const std::size_t size = size_;
-  for (std::size_t j = 0; j < size; ++j) {
-    const double ex = px - x_m_[j];
-    const double ey = py - y_m_[j];
-    const double cxx = xx_[j] + own.xx;
-    const double cxy = xy_[j] + own.xy;
-    const double cyy = yy_[j] + own.yy;
-    const double inverse = 1.0 / (cxx * cyy - cxy * cxy);
-    inverse_determinant_[j] = inverse;
-    squared_distance_[j] = (cyy * ex * ex - 2.0 * cxy * ex * ey + cxx * ey * ey) * inverse;
+/// Copies of the last component without weight: never nearer than any other, never the best.
+void Mixture::pad() {
+  MixtureComponents& c = components_;
+  const std::size_t size = c.size;
+  const std::size_t last = size - 1;
+  const std::size_t padded = (size + MixtureComponents::kPadding - 1) /
+                             MixtureComponents::kPadding * MixtureComponents::kPadding;
+  while (c.size < padded) {
+    push(c.exact.x_m[last], c.exact.y_m[last],
+         {c.exact.xx[last], c.exact.xy[last], c.exact.yy[last]}, 0.0);
   }
+  for (std::size_t j = 0; j < padded; ++j) {
+    copy_rough(j);
+  }
+  c.size = size;
 }
 
-/// Lists the components that matter at the point; returns how many. Without a branch: which
-/// components matter is as good as random.
-std::size_t Mixture::collect_active(double nearest) {
-  std::size_t count = 0;
-  for (std::size_t j = 0; j < size_; ++j) {
-    active_[count] = j;
-    exponent_[count] = -0.5 * (squared_distance_[j] - nearest);
-    count += squared_distance_[j] - nearest < kNegligible ? 1U : 0U;
-  }
-  return count;
+void Mixture::copy_rough(std::size_t j) {
+  MixtureComponents& c = components_;
+  // The exponent's bias, which log det read off the bits contains.
+  constexpr double kBias = 127.0 * 0.6931471805599453;
+  c.rough.x_m[j] = static_cast<float>(c.exact.x_m[j]);
+  c.rough.y_m[j] = static_cast<float>(c.exact.y_m[j]);
+  c.rough.xx[j] = static_cast<float>(c.exact.xx[j]);
+  c.rough.xy[j] = static_cast<float>(c.exact.xy[j]);
+  c.rough.yy[j] = static_cast<float>(c.exact.yy[j]);
+  c.rough_offset[j] = static_cast<float>(-2.0 * std::log(c.weight[j]) - kBias);
 }
 
-void Mixture::compute_likelihoods(std::size_t active_count) {
-  for (std::size_t k = 0; k < active_count; ++k) {
-    const std::size_t j = active_[k];
-    likelihood_[k] = weight_[j] * std::sqrt(inverse_determinant_[j]);
+void Mixture::bound_rounding() {
+  MixtureComponents& c = components_;
+  c.max_eccentricity = 0.0;
+  c.reach_m = 0.0;
+  double min_variance = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < c.size; ++j) {
+    const double trace = c.exact.xx[j] + c.exact.yy[j];
+    const double det = c.exact.xx[j] * c.exact.yy[j] - c.exact.xy[j] * c.exact.xy[j];
+    c.max_eccentricity = std::max(c.max_eccentricity, trace * trace / det);
+    min_variance = std::min(min_variance, det / trace);
+    c.reach_m = std::max({c.reach_m, std::abs(c.exact.x_m[j]), std::abs(c.exact.y_m[j])});
   }
-  const auto count = static_cast<Eigen::Index>(active_count);
-  Eigen::Map<Eigen::ArrayXd>(likelihood_.data(), count) *= ConstRow(exponent_.data(), count).exp();
+  c.min_std_m = std::sqrt(min_variance);
+}
+
+void Mixture::evaluate(std::span<const MixturePoint> points, std::span<MixtureResidual> residuals) {
+  for (std::size_t i = 0; i < points.size(); i += MixtureScratch::kBatch) {
+    const std::size_t count = std::min(MixtureScratch::kBatch, points.size() - i);
+    kernel_(components_, points.subspan(i, count), scratch_, residuals.subspan(i, count));
+  }
 }
 
 MixtureResidual Mixture::evaluate(const Eigen::Vector2d& point_m, const Symmetric2& covariance_m2) {
-  compute_distances(point_m, covariance_m2);
-  // Exponents are taken relative to the nearest component: nothing under- or overflows.
-  const double nearest =
-      ConstRow(squared_distance_.data(), static_cast<Eigen::Index>(size_)).minCoeff();
-  const std::size_t active_count = collect_active(nearest);
-  compute_likelihoods(active_count);
-
-  // g_ij = C_ij^-1 e, the gradient of half the squared distance to component j.
-  double sum = 0.0;
-  double sum_gx = 0.0;
-  double sum_gy = 0.0;
-  double best_gx = 0.0;
-  double best_gy = 0.0;
-  std::size_t best = 0;
-  for (std::size_t k = 0; k < active_count; ++k) {
-    const std::size_t j = active_[k];
-    const double q = likelihood_[k];
-    const double ex = point_m.x() - x_m_[j];
-    const double ey = point_m.y() - y_m_[j];
-    const double cxy = xy_[j] + covariance_m2.xy;
-    const double gx = ((yy_[j] + covariance_m2.yy) * ex - cxy * ey) * inverse_determinant_[j];
-    const double gy = ((xx_[j] + covariance_m2.xx) * ey - cxy * ex) * inverse_determinant_[j];
-    sum += q;
-    sum_gx += q * gx;
-    sum_gy += q * gy;
-    if (k == 0 || q > likelihood_[best]) {
-      best = k;
-      best_gx = gx;
-      best_gy = gy;
-    }
-  }
-
-  MixtureResidual result;
-  const std::size_t j = active_[best];
-  result.component = j;
-  result.cost = 0.5 * nearest - std::log(sum);
-  const Symmetric2 covariance{xx_[j] + covariance_m2.xx, xy_[j] + covariance_m2.xy,
-                              yy_[j] + covariance_m2.yy};
-  const Eigen::Matrix2d root = square_root_information(covariance, inverse_determinant_[j]);
-  const double rest = std::sqrt(
-      2.0 * (std::log(static_cast<double>(size_) + kDamping) - std::log(sum / likelihood_[best])));
-  result.residual << root * Eigen::Vector2d(point_m.x() - x_m_[j], point_m.y() - y_m_[j]), rest;
-  result.jacobian.topRows<2>() = root;
-  result.jacobian.row(2) << (sum_gx / sum - best_gx) / rest, (sum_gy / sum - best_gy) / rest;
-  return result;
+  const MixturePoint point{point_m.x(), point_m.y(), covariance_m2};
+  MixtureResidual residual;
+  kernel_(components_, {&point, 1}, scratch_, {&residual, 1});
+  return residual;
 }
 
 }  // namespace cremed

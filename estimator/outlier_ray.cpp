@@ -23,6 +23,7 @@ OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_fr
     return;
   }
   size_ = ray_component_count(options);
+  weight_ = options.weight;
   const double azimuth_std_rad = 1.5 * options.field_of_view_rad;
   double range_m = options.min_range_m / (1.0 - options.ratio);
   double total_weight = 0.0;

@@ -32,10 +32,13 @@ class OutlierRay {
   [[nodiscard]] const RayComponent* begin() const { return components_.data(); }
   [[nodiscard]] const RayComponent* end() const { return components_.data() + size_; }
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Total weight, w_o.
+  [[nodiscard]] double weight() const { return weight_; }
 
  private:
   std::array<RayComponent, kMaxRayComponents> components_{};
   std::size_t size_ = 0;
+  double weight_ = 0.0;
 };
 
 /// N = 1 + ceil(log((1 - a) / (1 + a) r_max / r_min) / log b), however many that is.

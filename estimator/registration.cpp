@@ -4,60 +4,54 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <utility>
 
-#include <Eigen/Cholesky>
+#include "estimator/rotation.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr int kMaxHalvings = 12;
 
+/// A search whose steps no longer lower the cost has ended if what is left of the step, squared and
+/// in standard deviations, is no more than this.
+constexpr double kStuckStep = 0.1;
+
 /// Starts nearer than this to each other lead to the same minimum.
-constexpr double kSameStartM = 0.1;
-constexpr double kSameStartRad = 0.05;
+constexpr double kSameStartM = 0.01;
+constexpr double kSameStartRad = 0.005;
 
-/// Index of the free states: (x, yaw) or (x, y, yaw).
-const std::array<Eigen::Index, 3>& free_states(int degrees_of_freedom) {
-  static constexpr std::array<Eigen::Index, 3> kTwo{0, 2, 2};
-  static constexpr std::array<Eigen::Index, 3> kThree{0, 1, 2};
-  return degrees_of_freedom == 2 ? kTwo : kThree;
+/// With a smaller share of the targets found again the search may have ended in a local minimum.
+constexpr double kSuspiciousShare = 0.5;
+/// With a smaller one chance neighbours pass for correspondences.
+constexpr double kMinShare = 0.3;
+/// Where to search again, relative to the first start: the first stage's widened azimuth reaches
+/// from one to the next.
+constexpr std::array<double, 4> kRestartYawRad{-0.15, 0.15, -0.3, 0.3};
+/// Another motion is a rival if it is farther away than this, squared and in standard deviations,
+/// and its likelihood smaller by no more than a factor of this logarithm.
+constexpr double kRivalSquaredDistance = 25.0;
+constexpr double kRivalLogRatio = 3.0;
+
+Symmetric2 operator*(double factor, const Symmetric2& m) {
+  return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
-using FreeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
-
-/// Inverse of the free block of J'J, zeros elsewhere; nothing if it is not positive definite.
-std::optional<Eigen::Matrix3d> invert_information(const Eigen::Matrix3d& information,
-                                                  int degrees_of_freedom) {
-  const auto& states = free_states(degrees_of_freedom);
-  FreeMatrix block(degrees_of_freedom, degrees_of_freedom);
-  for (Eigen::Index i = 0; i < degrees_of_freedom; ++i) {
-    for (Eigen::Index j = 0; j < degrees_of_freedom; ++j) {
-      block(i, j) =
-          information(states[static_cast<std::size_t>(i)], states[static_cast<std::size_t>(j)]);
-    }
-  }
-  const Eigen::LLT<FreeMatrix> factor(block);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-14)) {
-    return std::nullopt;
-  }
-  const FreeMatrix inverse =
-      factor.solve(FreeMatrix::Identity(degrees_of_freedom, degrees_of_freedom));
-  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < degrees_of_freedom; ++i) {
-    for (Eigen::Index j = 0; j < degrees_of_freedom; ++j) {
-      result(states[static_cast<std::size_t>(i)], states[static_cast<std::size_t>(j)]) =
-          inverse(i, j);
-    }
-  }
-  return result;
+bool has_motion(const RegistrationResult& result) {
+  return result.status == RegistrationStatus::converged ||
+         result.status == RegistrationStatus::no_convergence;
 }
 
-/// R S R'.
-Symmetric2 rotate(const Symmetric2& m, double c, double s) {
-  return {c * c * m.xx - 2.0 * c * s * m.xy + s * s * m.yy,
-          c * s * (m.xx - m.yy) + (c * c - s * s) * m.xy,
-          s * s * m.xx + 2.0 * c * s * m.xy + c * c * m.yy};
+bool is_better(const RegistrationResult& a, const RegistrationResult& b) {
+  return has_motion(a) && (!has_motion(b) || a.cost < b.cost);
+}
+
+bool is_other_motion(const Eigen::Vector3d& motion, const RegistrationResult& result,
+                     int degrees_of_freedom) {
+  const auto information = invert_information(result.covariance, degrees_of_freedom);
+  const Eigen::Vector3d difference = motion - result.motion;
+  return !information || difference.dot(*information * difference) > kRivalSquaredDistance;
 }
 
 }  // namespace
@@ -67,43 +61,58 @@ Registration::Registration(const RegistrationOptions& options, const Pose2& vehi
       vehicle_from_radar_(vehicle_from_radar),
       ray_(options.outlier_ray, vehicle_from_radar) {}
 
-void Registration::set_previous(const TargetSet& targets) { mixture_.assign(targets, ray_); }
+void Registration::set_previous(const TargetSet& targets) {
+  mixture_.assign(targets, ray_);
+  previous_ = targets;
+  is_previous_finite_ = targets.is_finite();
+}
+
+std::int64_t Registration::evaluations() const {
+  return mixture_evaluations_ + likelihood_.evaluations();
+}
+
+bool Registration::is_spent() const { return evaluations() >= options_.max_component_evaluations; }
+
+void Registration::add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
+                               NormalEquations& equations) const {
+  if (!options_.doppler.enabled) {
+    return;
+  }
+  for (const Target& target : problem.current) {
+    const DopplerResidual doppler = doppler_residual(target, motion, vehicle_from_radar_,
+                                                     problem.dt_s, options_.doppler, scale);
+    equations.information.noalias() += doppler.jacobian.transpose() * doppler.jacobian;
+    equations.gradient.noalias() += doppler.jacobian.transpose() * doppler.residual;
+    equations.cost += doppler.cost;
+  }
+}
 
 NormalEquations Registration::linearise(const TargetSet& current, double dt_s,
                                         const Eigen::Vector3d& motion, double scale,
                                         double doppler_scale) {
-  NormalEquations equations;
-  const double c = std::cos(motion.z());
-  const double s = std::sin(motion.z());
-  const double variance_scale = scale * scale;
-  for (const Target& target : current) {
-    const Eigen::Vector2d rotated(c * target.x_m - s * target.y_m, s * target.x_m + c * target.y_m);
-    const Symmetric2& covariance = target.covariance_m2;
-    const MixtureResidual point =
-        mixture_.evaluate(rotated + motion.head<2>(),
-                          rotate({covariance.xx * variance_scale, covariance.xy * variance_scale,
-                                  covariance.yy * variance_scale},
-                                 c, s));
-    Eigen::Matrix<double, 3, 3> jacobian;
-    jacobian.leftCols<2>() = point.jacobian;
-    jacobian.col(2) = point.jacobian * Eigen::Vector2d(-rotated.y(), rotated.x());
-    equations.information.noalias() += jacobian.transpose() * jacobian;
-    equations.gradient.noalias() += jacobian.transpose() * point.residual;
-    equations.cost += point.cost;
-    if (options_.doppler.enabled) {
-      const DopplerResidual doppler = doppler_residual(target, motion, vehicle_from_radar_, dt_s,
-                                                       options_.doppler, doppler_scale);
-      equations.information.noalias() += doppler.jacobian.transpose() * doppler.jacobian;
-      equations.gradient.noalias() += doppler.jacobian.transpose() * doppler.residual;
-      equations.cost += doppler.cost;
-    }
+  const Rotation rotation(motion.z());
+  for (std::size_t i = 0; i < current.size(); ++i) {
+    const Target& target = current[i];
+    lever_m_[i] = rotation * Eigen::Vector2d(target.x_m, target.y_m);
+    points_[i] = {lever_m_[i].x() + motion.x(), lever_m_[i].y() + motion.y(),
+                  rotation * (scale * scale * target.covariance_m2)};
   }
+  mixture_.evaluate({points_.data(), current.size()}, {residuals_.data(), current.size()});
+  NormalEquations equations;
+  for (std::size_t i = 0; i < current.size(); ++i) {
+    const Eigen::Matrix<double, 3, 2>& jacobian = residuals_[i].jacobian;
+    equations.add_point({jacobian.col(0).squaredNorm(), jacobian.col(0).dot(jacobian.col(1)),
+                         jacobian.col(1).squaredNorm()},
+                        jacobian.transpose() * residuals_[i].residual, lever_m_[i]);
+    equations.cost += residuals_[i].cost;
+  }
+  mixture_evaluations_ += static_cast<std::int64_t>(current.size() * mixture_.size());
+  add_doppler({current, dt_s}, motion, doppler_scale, equations);
   return equations;
 }
 
-RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s,
-                                           const Stage& stage, RegistrationResult& result,
-                                           NormalEquations& equations) {
+RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& stage,
+                                           RegistrationResult& result, NormalEquations& equations) {
   for (int i = 0; i < stage.max_iterations; ++i) {
     if (!std::isfinite(equations.cost)) {
       return RegistrationStatus::non_finite;
@@ -113,19 +122,25 @@ RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s
       return RegistrationStatus::degenerate;
     }
     Eigen::Vector3d step = -*inverse * equations.gradient;
-    if (step.dot(-equations.gradient) < stage.step_tolerance) {
+    const double squared_step = -step.dot(equations.gradient);
+    if (squared_step < stage.step_tolerance) {
       return RegistrationStatus::converged;
     }
     NormalEquations trial;
     int halvings = 0;
-    for (; halvings < kMaxHalvings; ++halvings, step *= 0.5) {
-      trial = linearise(current, dt_s, result.motion + step, stage.scale, stage.doppler_scale);
+    for (; halvings < kMaxHalvings && !is_spent(); ++halvings, step *= 0.5) {
+      trial = linearise(problem.current, problem.dt_s, result.motion + step, stage.scale,
+                        stage.doppler_scale);
       if (trial.cost <= equations.cost) {
         break;
       }
     }
     if (halvings == kMaxHalvings) {
-      return RegistrationStatus::converged;
+      return squared_step <= kStuckStep ? RegistrationStatus::converged
+                                        : RegistrationStatus::no_convergence;
+    }
+    if (is_spent()) {
+      break;
     }
     result.motion += step;
     equations = trial;
@@ -134,9 +149,9 @@ RegistrationStatus Registration::run_stage(const TargetSet& current, double dt_s
   return RegistrationStatus::no_convergence;
 }
 
-NormalEquations Registration::begin(const TargetSet& current, double dt_s, const Stage& stage,
+NormalEquations Registration::begin(const Problem& problem, const Stage& stage,
                                     std::span<const Eigen::Vector3d> starts,
-                                    Eigen::Vector3d& motion) {
+                                    RegistrationResult& result) {
   NormalEquations best;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const auto is_near = [&](const Eigen::Vector3d& other) {
@@ -147,12 +162,140 @@ NormalEquations Registration::begin(const TargetSet& current, double dt_s, const
       continue;
     }
     const NormalEquations equations =
-        linearise(current, dt_s, starts[i], stage.scale, stage.doppler_scale);
+        linearise(problem.current, problem.dt_s, starts[i], stage.scale, stage.doppler_scale);
     if (i == 0 || equations.cost < best.cost) {
       best = equations;
-      motion = starts[i];
+      result.motion = starts[i];
     }
   }
+  return best;
+}
+
+NormalEquations Registration::linearise_exclusive(const Problem& problem,
+                                                  const Eigen::Vector3d& motion) {
+  NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
+  add_doppler(problem, motion, 1.0, equations);
+  return equations;
+}
+
+RegistrationStatus Registration::climb(const Problem& problem, RegistrationResult& result,
+                                       NormalEquations& equations) {
+  // How far targets have moved since pairs were listed, in standard deviations.
+  double moved = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < options_.max_iterations && !is_spent(); ++i) {
+    if (moved > 0.5 * ExclusiveLikelihood::kListReach) {
+      if (!likelihood_.list_pairs(previous_, problem.current, result.motion)) {
+        return RegistrationStatus::ambiguous;
+      }
+      moved = 0.0;
+    }
+    equations = linearise_exclusive(problem, result.motion);
+    if (!std::isfinite(equations.cost)) {
+      return RegistrationStatus::non_finite;
+    }
+    const auto inverse = invert_information(equations.information, options_.degrees_of_freedom);
+    if (!inverse) {
+      return RegistrationStatus::degenerate;
+    }
+    const Eigen::Vector3d step = -*inverse * equations.gradient;
+    const double squared_step = -step.dot(equations.gradient);
+    if (squared_step < kStepTolerance) {
+      return RegistrationStatus::converged;
+    }
+    // The sum over all targets: the one found again moves by its root mean square.
+    moved += std::sqrt(squared_step / std::max(likelihood_.matched(), 1.0));
+    result.motion += step;
+    ++result.iterations;
+  }
+  return RegistrationStatus::no_convergence;
+}
+
+void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
+  NormalEquations equations;
+  result.status = climb(problem, result, equations);
+  result.cost = equations.cost;
+  result.matched = likelihood_.matched();
+  const int states = options_.degrees_of_freedom;
+  const auto complete = invert_information(equations.information, states);
+  if (!has_motion(result) || !complete) {
+    return;
+  }
+  const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
+  const auto observed =
+      invert_information(equations.information - likelihood_.missing_information(sigma), states);
+  if (observed) {
+    result.covariance = *observed;
+  } else {
+    result.status = RegistrationStatus::degenerate;
+  }
+}
+
+void Registration::finish_gauss_newton(const Problem& problem, const Stage& stage,
+                                       RegistrationResult& result, NormalEquations& equations) {
+  result.status = run_stage(problem, stage, result, equations);
+  result.cost = equations.cost;
+  const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);
+  if (covariance) {
+    result.covariance = *covariance;
+  } else if (result.status != RegistrationStatus::non_finite) {
+    result.status = RegistrationStatus::degenerate;
+  }
+}
+
+RegistrationResult Registration::search(const Problem& problem,
+                                        std::span<const Eigen::Vector3d> starts) {
+  const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
+                   options_.max_start_iterations, kStartStepTolerance};
+  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
+  const bool has_two_stages = options_.start_scale > 1.0;
+  const bool is_exclusive = options_.covariance == CovarianceModel::exclusive;
+  RegistrationResult result;
+  NormalEquations equations = begin(problem, has_two_stages ? wide : exact, starts, result);
+  if (has_two_stages) {
+    run_stage(problem, wide, result, equations);
+  }
+  if (is_exclusive) {
+    finish_exclusive(problem, result);
+    return result;
+  }
+  if (has_two_stages) {
+    equations = linearise(problem.current, problem.dt_s, result.motion, 1.0, 1.0);
+  }
+  finish_gauss_newton(problem, exact, result, equations);
+  return result;
+}
+
+double Registration::matched_share(const Problem& problem, const RegistrationResult& result) const {
+  return result.matched / static_cast<double>(std::min(problem.current.size(), previous_.size()));
+}
+
+RegistrationResult Registration::search_again(const Problem& problem, const Eigen::Vector3d& start,
+                                              const RegistrationResult& first) {
+  RegistrationResult best = first;
+  double rival_cost = std::numeric_limits<double>::infinity();
+  int iterations = first.iterations;
+  int starts = 1;
+  for (const double yaw_rad : kRestartYawRad) {
+    if (is_spent()) {
+      best.status = RegistrationStatus::no_convergence;
+      break;
+    }
+    const std::array<Eigen::Vector3d, 1> other{start + Eigen::Vector3d(0.0, 0.0, yaw_rad)};
+    RegistrationResult result = search(problem, other);
+    iterations += result.iterations;
+    ++starts;
+    if (is_better(result, best)) {
+      std::swap(result, best);
+    }
+    if (has_motion(result) && is_other_motion(result.motion, best, options_.degrees_of_freedom)) {
+      rival_cost = std::min(rival_cost, result.cost);
+    }
+  }
+  if (has_motion(best) && rival_cost < best.cost + kRivalLogRatio) {
+    best.status = RegistrationStatus::ambiguous;
+  }
+  best.iterations = iterations;
+  best.starts = starts;
   return best;
 }
 
@@ -163,25 +306,28 @@ RegistrationResult Registration::solve(const TargetSet& current, double dt_s) {
 
 RegistrationResult Registration::solve(const TargetSet& current, double dt_s,
                                        std::span<const Eigen::Vector3d> starts) {
-  const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
-                   options_.max_start_iterations, kStartStepTolerance};
-  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
-  const bool has_two_stages = options_.start_scale > 1.0;
-  RegistrationResult result;
-  NormalEquations equations =
-      begin(current, dt_s, has_two_stages ? wide : exact, starts, result.motion);
-  if (has_two_stages) {
-    run_stage(current, dt_s, wide, result, equations);
-    equations = linearise(current, dt_s, result.motion, exact.scale, exact.doppler_scale);
+  mixture_evaluations_ = 0;
+  if (!is_previous_finite_ || !current.is_finite()) {
+    return {};
   }
-  result.status = run_stage(current, dt_s, exact, result, equations);
-  result.cost = equations.cost;
-  const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);
-  if (covariance) {
-    result.covariance = *covariance;
-  } else if (result.status != RegistrationStatus::non_finite) {
-    result.status = RegistrationStatus::degenerate;
+  const Problem problem{current, dt_s};
+  const bool is_exclusive = options_.covariance == CovarianceModel::exclusive;
+  if (is_exclusive) {
+    likelihood_.assign(previous_, current, ray_);
   }
+  RegistrationResult result = search(problem, starts);
+  if (is_exclusive) {
+    const bool has_ended = result.status == RegistrationStatus::converged ||
+                           result.status == RegistrationStatus::degenerate;
+    if (has_ended && matched_share(problem, result) < kSuspiciousShare) {
+      result = search_again(problem, starts.front(), result);
+    }
+    if (result.status == RegistrationStatus::converged &&
+        matched_share(problem, result) < kMinShare) {
+      result.status = RegistrationStatus::ambiguous;
+    }
+  }
+  result.component_evaluations = evaluations();
   return result;
 }
 

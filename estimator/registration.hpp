@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 
 #include "estimator/doppler.hpp"
+#include "estimator/exclusive_likelihood.hpp"
 #include "estimator/mixture.hpp"
+#include "estimator/normal_equations.hpp"
 #include "estimator/outlier_ray.hpp"
 #include "estimator/pose2.hpp"
 #include "estimator/registration_options.hpp"
@@ -20,16 +22,11 @@ namespace cremed {
 /// How a registration ended.
 enum class RegistrationStatus : std::uint8_t {
   converged,       ///< Step below kStepTolerance, or no step lowers the cost.
-  degenerate,      ///< J'J is not positive definite: the targets do not fix all states.
-  no_convergence,  ///< max_iterations steps without either.
+  degenerate,      ///< The information is not positive definite: the targets do not fix all states.
+  ambiguous,       ///< Too few targets found again, too many possible partners for a
+                   ///< target, or another motion fits nearly as well.
+  no_convergence,  ///< A limit on iterations or component evaluations cut in before the end.
   non_finite,      ///< The cost is not a number: the input was out of any range.
-};
-
-/// Gauss-Newton's normal equations at one motion, all three states.
-struct NormalEquations {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< J'J
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();     ///< J'r
-  double cost = 0.0;
 };
 
 /// The ego-motion between two scans: pose of the vehicle at the current scan in its frame at the
@@ -37,13 +34,19 @@ struct NormalEquations {
 struct RegistrationResult {
   RegistrationStatus status = RegistrationStatus::non_finite;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (J'J)^-1; y row and column 0 in 2 DoF.
-  double cost = 0.0;                                     ///< Negative log likelihood + constant.
-  int iterations = 0;                                    ///< Gauss-Newton steps of both stages.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< y row and column 0 in 2 DoF.
+  double cost = 0.0;     ///< Negative log likelihood + constant of the covariance model.
+  double matched = 0.0;  ///< Expected number of targets found again; 0 with gauss_newton.
+  int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
+  int starts = 1;        ///< Searches made; more than one if the first fitted badly.
+  std::int64_t component_evaluations = 0;
 };
 
 /// Max-Sum-Mixture registration of two scans with Doppler (RA-L 2022), Gauss-Newton with step
-/// halving. All storage is inside the object: solving never allocates.
+/// halving, in two stages: wide standard deviations, then the true ones. With
+/// CovarianceModel::exclusive the second stage climbs the likelihood of one-to-one assignments
+/// instead, and if few targets are found again the search is repeated from other yaw angles. All
+/// storage is inside the object: solving never allocates.
 ///
 ///     Registration registration(options, vehicle_from_radar);
 ///     registration.set_previous(previous_targets);
@@ -67,8 +70,8 @@ class Registration {
   RegistrationResult solve(const TargetSet& current, double dt_s,
                            std::span<const Eigen::Vector3d> starts);
 
-  /// Cost and normal equations at a given motion, with true standard deviations (scale 1) or those
-  /// of the first stage.
+  /// Cost and normal equations of the Max-Sum-Mixture at a given motion, with true standard
+  /// deviations (scale 1) or those of the first stage.
   NormalEquations linearise(const TargetSet& current, double dt_s, const Eigen::Vector3d& motion,
                             double scale, double doppler_scale);
 
@@ -79,17 +82,47 @@ class Registration {
     int max_iterations;
     double step_tolerance;
   };
-  /// The equations at the best of the starts, which goes to `motion`.
-  NormalEquations begin(const TargetSet& current, double dt_s, const Stage& stage,
-                        std::span<const Eigen::Vector3d> starts, Eigen::Vector3d& motion);
-  /// Gauss-Newton from result.motion, where `equations` are given, until the stage's end.
-  RegistrationStatus run_stage(const TargetSet& current, double dt_s, const Stage& stage,
+  /// The current scan.
+  struct Problem {
+    const TargetSet& current;
+    double dt_s;
+  };
+
+  RegistrationResult search(const Problem& problem, std::span<const Eigen::Vector3d> starts);
+  RegistrationResult search_again(const Problem& problem, const Eigen::Vector3d& start,
+                                  const RegistrationResult& first);
+  /// The equations at the best of the starts, which goes to `result.motion`.
+  NormalEquations begin(const Problem& problem, const Stage& stage,
+                        std::span<const Eigen::Vector3d> starts, RegistrationResult& result);
+  /// Gauss-Newton on the mixture from result.motion, where `equations` are given, until the end.
+  RegistrationStatus run_stage(const Problem& problem, const Stage& stage,
                                RegistrationResult& result, NormalEquations& equations);
+  void finish_gauss_newton(const Problem& problem, const Stage& stage, RegistrationResult& result,
+                           NormalEquations& equations);
+  void finish_exclusive(const Problem& problem, RegistrationResult& result);
+  /// Ascends the exclusive likelihood from result.motion.
+  RegistrationStatus climb(const Problem& problem, RegistrationResult& result,
+                           NormalEquations& equations);
+  NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
+  void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
+                   NormalEquations& equations) const;
+  [[nodiscard]] double matched_share(const Problem& problem,
+                                     const RegistrationResult& result) const;
+  [[nodiscard]] std::int64_t evaluations() const;
+  [[nodiscard]] bool is_spent() const;
 
   RegistrationOptions options_;
   Pose2 vehicle_from_radar_;
   OutlierRay ray_;
   Mixture mixture_;
+  ExclusiveLikelihood likelihood_;
+  TargetSet previous_;
+  bool is_previous_finite_ = false;
+  std::int64_t mixture_evaluations_ = 0;  // of the current solve
+  // Scratch of linearise(), of each current target.
+  std::array<Eigen::Vector2d, kMaxDetections> lever_m_;  // R(yaw) m_i
+  std::array<MixturePoint, kMaxDetections> points_;
+  std::array<MixtureResidual, kMaxDetections> residuals_;
 };
 
 }  // namespace cremed

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 namespace cremed {
 
 /// Conic ray of Gaussians along the sensor's axis (Sola 2007) that explains targets which were not
@@ -23,6 +25,12 @@ struct DopplerOptions {
   double moving_std_mps = 100.0;  ///< Its standard deviation.
 };
 
+/// What estimate and covariance rest on.
+enum class CovarianceModel : std::uint8_t {
+  exclusive,     ///< All one-to-one assignments of targets, curvature: see ExclusiveLikelihood.
+  gauss_newton,  ///< The paper: Max-Sum-Mixture and (J'J)^-1; over-confident where targets cluster.
+};
+
 /// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
 struct RegistrationOptions {
   int degrees_of_freedom = 2;        ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
@@ -30,6 +38,9 @@ struct RegistrationOptions {
   double start_doppler_scale = 2.0;  ///< Further factor on the Doppler ones in the first stage.
   int max_start_iterations = 5;      ///< Gauss-Newton steps of the first stage.
   int max_iterations = 100;          ///< Gauss-Newton steps of the second stage.
+  /// Limit on the work of one registration, in evaluations of a mixture component.
+  std::int64_t max_component_evaluations = 800'000;
+  CovarianceModel covariance = CovarianceModel::exclusive;
   OutlierRayOptions outlier_ray;
   DopplerOptions doppler;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cremed {
 namespace {
@@ -42,13 +43,17 @@ bool is_selected(const Detection& detection, const DetectionLimits& limits,
   return true;
 }
 
+/// How large rounding errors may make det(C) relative to xx yy where it should be 0.
+constexpr double kRoundedDeterminant = 1e-12;
+
 bool is_finite_target(const Target& t) {
-  const bool finite = std::isfinite(t.x_m) && std::isfinite(t.y_m) &&
-                      std::isfinite(t.bearing_rad) && std::isfinite(t.doppler_mps) &&
-                      std::isfinite(t.bearing_std_rad) && std::isfinite(t.doppler_std_mps);
-  const double determinant =
-      t.covariance_m2.xx * t.covariance_m2.yy - t.covariance_m2.xy * t.covariance_m2.xy;
-  return finite && std::isfinite(determinant) && determinant > 0.0 && t.doppler_std_mps > 0.0;
+  const Symmetric2& c = t.covariance_m2;
+  const double determinant = c.xx * c.yy - c.xy * c.xy;
+  return std::isfinite(t.x_m) && std::isfinite(t.y_m) && std::isfinite(t.bearing_rad) &&
+         std::isfinite(t.doppler_mps) && std::isfinite(t.bearing_std_rad) &&
+         std::isfinite(t.doppler_std_mps) && std::isfinite(determinant) &&
+         t.bearing_std_rad > 0.0 && t.doppler_std_mps > 0.0 &&
+         determinant > kRoundedDeterminant * c.xx * c.yy;
 }
 
 }  // namespace
@@ -63,17 +68,28 @@ Symmetric2 polar_covariance(double range_m, double bearing_rad, double range_std
           s * s * radial + c * c * across};
 }
 
+TargetSet& TargetSet::operator=(const TargetSet& other) {
+  size_ = other.size_;
+  std::copy(other.begin(), other.end(), targets_.begin());
+  return *this;
+}
+
 void TargetSet::add(const Detection& detection, const Pose2& vehicle_from_radar) {
   if (size_ == targets_.size()) {
     return;
   }
   const double bearing_rad = detection.azimuth_rad + vehicle_from_radar.yaw_rad;
   Target& target = targets_[size_++];
-  target.x_m = vehicle_from_radar.x_m + detection.range_m * std::cos(bearing_rad);
-  target.y_m = vehicle_from_radar.y_m + detection.range_m * std::sin(bearing_rad);
+  target.bearing_rad = bearing_rad;
+  target.cos_bearing = std::cos(bearing_rad);
+  target.sin_bearing = std::sin(bearing_rad);
+  target.x_m = vehicle_from_radar.x_m + detection.range_m * target.cos_bearing;
+  target.y_m = vehicle_from_radar.y_m + detection.range_m * target.sin_bearing;
   target.covariance_m2 = polar_covariance(detection.range_m, bearing_rad, detection.range_std_m,
                                           detection.azimuth_std_rad);
-  target.bearing_rad = bearing_rad;
+  if (!(detection.range_std_m > 0.0)) {
+    target.covariance_m2.xx = std::numeric_limits<double>::quiet_NaN();  // its square hides it
+  }
   target.bearing_std_rad = detection.azimuth_std_rad;
   target.doppler_mps = detection.doppler_mps;
   target.doppler_std_mps = detection.doppler_std_mps;

@@ -26,6 +26,8 @@ struct Target {
   double y_m = 0.0;
   Symmetric2 covariance_m2;
   double bearing_rad = 0.0;  ///< Line of sight in the vehicle frame: azimuth + mounting yaw.
+  double cos_bearing = 1.0;
+  double sin_bearing = 0.0;
   double bearing_std_rad = 0.0;
   double doppler_mps = 0.0;
   double doppler_std_mps = 0.0;
@@ -45,6 +47,12 @@ struct SelectionCounters {
 /// The usable targets of one scan, capacity fixed.
 class TargetSet {
  public:
+  TargetSet() = default;
+  TargetSet(const TargetSet& other) { *this = other; }
+  /// Copies the targets, not the room for more.
+  TargetSet& operator=(const TargetSet& other);
+  ~TargetSet() = default;
+
   void clear() { size_ = 0; }
   /// Adds the target a detection stands for, seen by a radar at `vehicle_from_radar`. A full set
   /// ignores it: a scan never holds more detections than the set has room for.

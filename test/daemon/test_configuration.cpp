@@ -84,6 +84,8 @@ start_scale = 6.5
 start_doppler_scale = 1
 max_start_iterations = 0
 max_iterations = 20
+max_component_evaluations = 70000
+covariance = "gauss_newton"
 min_targets = 8
 max_gap_s = 0.25
 standstill_mps = 0.2
@@ -110,6 +112,8 @@ moving_std_mps = 30
   CHECK(options.registration.start_doppler_scale == 1.0);
   CHECK(options.registration.max_start_iterations == 0);
   CHECK(options.registration.max_iterations == 20);
+  CHECK(options.registration.max_component_evaluations == 70000);
+  CHECK(options.registration.covariance == CovarianceModel::gauss_newton);
   CHECK(options.min_targets == 8);
   CHECK(options.max_gap_s == 0.25);
   CHECK(options.standstill_mps == 0.2);

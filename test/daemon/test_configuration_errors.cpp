@@ -161,6 +161,8 @@ TEST_CASE("strings that cannot work are refused") {
       {kArs408 + "[output]\nlcm_url = \"239.255.76.67:7667\"\n", 7, "output.lcm_url", "is",
        "\"udpm://239.255.76.67:7667?ttl=0\""},
       {kArs408 + "[output]\ncsv = \"a\\nb\"\n", 7, "output.csv", "is \"a?b\"", "a path"},
+      {kArs408 + "[estimator]\ncovariance = \"exact\"\n", 7, "estimator.covariance", "is \"exact\"",
+       "exclusive"},
       {kGpr + "crc_policy = \"Count\"\n", 6, "radar.crc_policy", "is \"Count\"",
        "\"off\", \"count\" or \"enforce\""},
   });

@@ -36,8 +36,10 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, start, iterations, ray, doppler] = options;
-  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations;
+  const auto& [freedom, scale, doppler_scale, start, iterations, work, covariance, ray, doppler] =
+      options;
+  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations << ' '
+      << work << ' ' << static_cast<int>(covariance);
   const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
   out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
       << ' ' << field_of_view;

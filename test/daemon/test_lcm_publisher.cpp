@@ -120,6 +120,7 @@ TEST_CASE("The statuses of the message are those of the estimator") {
   CHECK(ego_motion_t::STATUS_NO_CONVERGENCE == static_cast<int>(MotionStatus::no_convergence));
   CHECK(ego_motion_t::STATUS_NON_FINITE == static_cast<int>(MotionStatus::non_finite));
   CHECK(ego_motion_t::STATUS_IMPLAUSIBLE == static_cast<int>(MotionStatus::implausible));
+  CHECK(ego_motion_t::STATUS_AMBIGUOUS == static_cast<int>(MotionStatus::ambiguous));
   CHECK(radar_scan_t::SCAN_DROPPED_FRAMES == static_cast<int>(ScanStatus::dropped_frames));
   CHECK(radar_scan_t::DETECTION_NO_POSITION == static_cast<int>(Validity::no_position));
   CHECK(sizeof(status_t{}.motions_by_status) / sizeof(std::int64_t) == kMotionStatusCount);
@@ -213,7 +214,7 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
                                    m.detections_no_position,
                                    m.detections_outside_limits};
   values.insert(values.end(), m.motions_by_status, m.motions_by_status + kMotionStatusCount);
-  REQUIRE(values.size() == 42);
+  REQUIRE(values.size() == 43);
   for (std::size_t i = 0; i < values.size(); ++i) {
     CHECK(values[i] == static_cast<std::int64_t>(i + 1));
   }

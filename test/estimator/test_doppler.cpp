@@ -42,6 +42,8 @@ DopplerOptions plain_options() {
 Target target_at(double bearing_rad, double doppler_mps, double bearing_std_rad = 0.0) {
   Target target;
   target.bearing_rad = bearing_rad;
+  target.cos_bearing = std::cos(bearing_rad);
+  target.sin_bearing = std::sin(bearing_rad);
   target.bearing_std_rad = bearing_std_rad;
   target.doppler_mps = doppler_mps;
   target.doppler_std_mps = 0.2;

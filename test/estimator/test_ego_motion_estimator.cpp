@@ -61,11 +61,11 @@ TEST_CASE("a status has the name of the CSV and the number of the message") {
   const std::array<std::string, kMotionStatusCount> names = {
       "ok",           "standing_still",  "no_reference", "incomplete_scan",
       "gap_too_long", "too_few_targets", "degenerate",   "no_convergence",
-      "non_finite",   "implausible"};
+      "non_finite",   "implausible",     "ambiguous"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     CHECK(to_string(static_cast<MotionStatus>(i)) == names[i]);
   }
-  CHECK(static_cast<std::size_t>(MotionStatus::implausible) + 1 == kMotionStatusCount);
+  CHECK(static_cast<std::size_t>(MotionStatus::ambiguous) + 1 == kMotionStatusCount);
   check_consistent(EgoMotion());
 }
 

@@ -161,6 +161,67 @@ TEST_CASE("registration does not allocate") {
   }
 }
 
+TEST_CASE("searching again and pairs without end do not allocate") {
+  // Two full scans: of different places, which makes it search again, or with more possible
+  // partners than an association has room for.
+  struct Row {
+    std::string what;
+    double max_range_m;
+    std::uint64_t second_seed;
+    double azimuth_std_rad;
+    bool searches_again;
+  };
+  const std::vector<Row> rows = {{"another place", 60.0, 2, 0.0157, true},
+                                 {"dense", 6.0, 1, 0.0157, false},
+                                 {"everything may be everything", 60.0, 2, 0.5, false}};
+  for (const Row& row : rows) {
+    const auto targets = [&](std::uint64_t seed) {
+      Random random(seed);
+      return simulation::targets(
+          simulation::observe_all(
+              simulation::scatter(random, kMaxDetections, 2.0, row.max_range_m, radians(60.0), 0.0),
+              Eigen::Vector3d::Zero(), kDt, {}, {0.13, row.azimuth_std_rad, 0.3}),
+          {});
+    };
+    const TargetSet previous = targets(1);
+    const TargetSet current = targets(row.second_seed);
+    for (const CovarianceModel model :
+         {CovarianceModel::exclusive, CovarianceModel::gauss_newton}) {
+      RegistrationOptions options;
+      options.covariance = model;
+      options.degrees_of_freedom = 3;
+      options.max_component_evaluations = 100'000'000;
+      const auto registration = std::make_unique<Registration>(options, Pose2{});
+      RegistrationResult result;
+      CHECK(count_allocations([&] {
+              registration->set_previous(previous);
+              result = registration->solve(current, kDt);
+            }) == 0);
+      CAPTURE(row.what, model);
+      if (model == CovarianceModel::exclusive) {
+        CHECK((result.starts > 1) == row.searches_again);
+      }
+    }
+  }
+}
+
+TEST_CASE("a full association does not allocate") {
+  const auto association = std::make_unique<Association>();
+  CHECK(count_allocations([&] {
+          association->clear(kMaxDetections);
+          for (std::size_t i = 0; i < kMaxDetections; ++i) {
+            association->begin_row();
+            for (std::size_t j = 0; j < 20; ++j) {
+              association->add((i + j) % kMaxDetections, 1e5, Eigen::Vector3d::UnitX());
+            }
+          }
+          association->start();
+          association->solve();
+          association->missing_information(Eigen::Vector3d::Ones());
+        }) == 0);
+  CHECK(association->size() == Association::kMaxPairs);
+}
+
 TEST_CASE("the estimator does not allocate, whatever comes in") {
   const Scans scans = full_scans();
   RadarScan incomplete = scans.second;

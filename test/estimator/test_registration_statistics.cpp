@@ -1,40 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "estimator/registration.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
+#include "test/estimator/scenario.hpp"
 
 namespace cremed {
 namespace {
 
 using numeric::radians;
-using simulation::Detections;
-using simulation::Noise;
+using simulation::point_set;
 using simulation::Random;
-using simulation::uniform;
-
-constexpr double kDt = 0.2;
-
-/// A simulated problem of the paper, and what may be added to it.
-struct Scenario {
-  RegistrationOptions options = simulation::paper_options();
-  Noise noise;
-  double min_range_m = 2.5;
-  double max_range_m = 37.5;
-  double half_spread_rad = radians(55.0);
-  double half_view_rad = radians(40.0);
-  double max_yaw_rad = radians(15.0);
-  double clutter = 0.0;  ///< Share of each scan that is not in the other one.
-  double movers = 0.0;   ///< Share of the landmarks that move on their own.
-};
+using simulation::Scenario;
+using simulation::without_doppler;
 
 /// Gross failures (wrong basin, no convergence) are counted and left out of the other figures.
 struct Statistics {
@@ -51,68 +33,13 @@ struct Statistics {
 /// Chance throws a credible error as far as this once in 10^8.
 constexpr double kGross = 40.0;
 
-void keep_visible(Detections& detections, double half_view_rad) {
-  std::erase_if(detections, [&](const Detection& detection) {
-    return std::abs(detection.azimuth_rad) > half_view_rad || detection.range_m <= 0.0;
-  });
-}
-
-void add_clutter(Detections& detections, const Scenario& scenario, Random& random) {
-  const double ratio = scenario.clutter / (1.0 - scenario.clutter);
-  const auto count = std::lround(ratio * static_cast<double>(detections.size()));
-  for (const Eigen::Vector2d& point :
-       simulation::scatter(random, static_cast<std::size_t>(count), scenario.min_range_m,
-                           scenario.max_range_m, scenario.half_view_rad, 0.0)) {
-    Detection detection = simulation::observe(point, Eigen::Vector3d::Zero(), {}, scenario.noise);
-    detection.doppler_mps = uniform(random, -30.0, 30.0);
-    detections.push_back(detection);
-  }
-}
-
-/// Lets the first landmarks drive away, which shows in position and Doppler.
-void move_landmarks(Detections& current, double share, Random& random) {
-  const auto count = static_cast<std::size_t>(share * static_cast<double>(current.size()));
-  for (std::size_t i = 0; i < count; ++i) {
-    const double speed_mps = uniform(random, 2.0, 20.0);
-    current[i].doppler_mps += speed_mps;
-    current[i].range_m += speed_mps * kDt;
-  }
-}
-
-struct Run {
-  Eigen::Vector3d error;
-  RegistrationResult result;
-};
-
-Run run(const Scenario& scenario, Random& random) {
-  const bool is_car = scenario.options.degrees_of_freedom == 2;
-  const simulation::Points points = simulation::scatter(
-      random, 20, scenario.min_range_m, scenario.max_range_m, scenario.half_spread_rad, 0.0);
-  const Eigen::Vector3d motion{uniform(random, -0.25, 0.25),
-                               is_car ? 0.0 : uniform(random, -0.25, 0.25),
-                               uniform(random, -scenario.max_yaw_rad, scenario.max_yaw_rad)};
-  Detections previous =
-      simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, scenario.noise);
-  Detections current = simulation::observe_all(points, motion, kDt, {}, scenario.noise);
-  move_landmarks(current, scenario.movers, random);
-  for (Detections* detections : {&previous, &current}) {
-    simulation::perturb(*detections, random);
-    keep_visible(*detections, scenario.half_view_rad);
-    add_clutter(*detections, scenario, random);
-  }
-  Registration registration(scenario.options, {});
-  registration.set_previous(simulation::targets(previous, {}));
-  const RegistrationResult result = registration.solve(simulation::targets(current, {}), kDt);
-  return {result.motion - motion, result};
-}
-
 Statistics evaluate(const Scenario& scenario, std::size_t runs) {
   Random random(20220411);
   const int degrees_of_freedom = scenario.options.degrees_of_freedom;
   const double limit = degrees_of_freedom == 2 ? 5.991 : 7.815;
   Statistics sum;
   for (std::size_t i = 0; i < runs; ++i) {
-    const auto [error, result] = run(scenario, random);
+    const auto [error, result] = simulation::run(scenario, random);
     const double nees = numeric::normalised_error(error, result.covariance, degrees_of_freedom);
     if (result.status != RegistrationStatus::converged || !(nees < kGross)) {
       sum.gross += 1.0;
@@ -135,26 +62,6 @@ Statistics evaluate(const Scenario& scenario, std::size_t runs) {
           sum.covered / n,
           sum.bias_x / n,
           sum.bias_yaw / n};
-}
-
-Scenario without_doppler() {
-  Scenario scenario;
-  scenario.options.doppler.enabled = false;
-  return scenario;
-}
-
-/// Point set registration: all around, three states, no outlier model, one stage.
-Scenario point_set() {
-  Scenario scenario = without_doppler();
-  scenario.options.degrees_of_freedom = 3;
-  scenario.options.start_scale = 1.0;
-  scenario.options.outlier_ray.weight = 0.0;
-  scenario.noise = {0.2, radians(3.0), 0.3};
-  scenario.min_range_m = 5.0;
-  scenario.max_range_m = 15.0;
-  scenario.half_spread_rad = radians(180.0);
-  scenario.half_view_rad = radians(360.0);
-  return scenario;
 }
 
 TEST_CASE(
@@ -206,27 +113,47 @@ TEST_CASE(
     CHECK(actual.rmse_rad < 1.5 * reference.rmse_rad);
     CHECK(actual.covered > 0.85);
   }
-  clutter.options.outlier_ray.weight = 0.0;
-  CHECK(evaluate(clutter, 200).gross > 0.5);
   movers.options.doppler.moving_weight = 0.0;
   CHECK(evaluate(movers, 200).gross > 0.5);
+  // One-to-one, most of the clutter finds nobody; a mixture's finds somebody always.
+  const Statistics with_ray = evaluate(clutter, 1000);
+  clutter.options.outlier_ray.weight = 0.0;
+  const Statistics without_ray = evaluate(clutter, 1000);
+  CAPTURE(with_ray.anees, without_ray.anees);
+  CHECK(without_ray.gross < 0.02);
+  CHECK(without_ray.anees > with_ray.anees + 0.2);
+  clutter.options.covariance = CovarianceModel::gauss_newton;
+  CHECK(evaluate(clutter, 200).gross > 0.5);
 }
 
-TEST_CASE("the scaled start finds motions that a single stage misses") {
-  const auto share_found = [](double start_scale) {
-    Scenario scenario = without_doppler();
-    scenario.options.start_scale = start_scale;
-    scenario.max_yaw_rad = radians(20.0);
-    Random random(7);
-    int found = 0;
-    for (int i = 0; i < 500; ++i) {
-      const auto [error, result] = run(scenario, random);
-      found += numeric::normalised_error(error, result.covariance, 2) < 20.0 ? 1 : 0;
-    }
-    return found / 500.0;
+TEST_CASE("one-to-one assignments are credible on all of the paper's problems, clusters or not") {
+  struct Row {
+    std::string what;
+    Scenario scenario;
+    std::size_t clusters;
   };
-  CHECK(share_found(6.0) > 0.97);
-  CHECK(share_found(1.0) < 0.85);
+  const std::vector<Row> rows = {{"PSR", point_set(), 0},       {"PSR-C", point_set(), 8},
+                                 {"Sim", without_doppler(), 0}, {"Sim-C", without_doppler(), 8},
+                                 {"Sim-D", Scenario(), 0},      {"Sim-C-D", Scenario(), 8}};
+  constexpr double kQuantile = 3.29;  // 99.9 %; of so many degrees of freedom chi-square is normal
+  for (const Row& row : rows) {
+    Scenario scenario = row.scenario;
+    scenario.clusters = row.clusters;
+    const Statistics exclusive = evaluate(scenario, 2500);
+    scenario.options.covariance = CovarianceModel::gauss_newton;
+    const Statistics gauss_newton = evaluate(scenario, 2500);
+    const double width =
+        kQuantile * numeric::anees_deviation(exclusive.runs, scenario.options.degrees_of_freedom);
+    CAPTURE(row.what, exclusive.anees, gauss_newton.anees, width);
+    CHECK(exclusive.gross < 0.002);
+    CHECK(std::abs(exclusive.anees - 1.0) < width);
+    CHECK(std::abs(exclusive.covered - 0.95) < 4.0 * numeric::share_deviation(0.95, 2500));
+    CHECK(exclusive.rmse_m < 1.01 * gauss_newton.rmse_m);
+    CHECK(exclusive.rmse_rad < gauss_newton.rmse_rad);
+    if (row.clusters > 0) {
+      CHECK(gauss_newton.anees > 1.0 + width);
+    }
+  }
 }
 
 }  // namespace

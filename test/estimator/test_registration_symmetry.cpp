@@ -101,8 +101,9 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     CHECK((turned.motion - rotation * straight.motion).norm() < 1e-9);
+    // Partners' probabilities react to a motion hundreds of times as strongly as it differs.
     CHECK((turned.covariance - rotation * straight.covariance * rotation.transpose()).norm() <
-          1e-9 * straight.covariance.norm());
+          1e-5 * straight.covariance.norm());
     CHECK(turned.cost == Approx(straight.cost));
     CHECK(turned.iterations == straight.iterations);
   }
@@ -167,12 +168,14 @@ TEST_CASE("the same input gives the same bits, whatever was solved in between") 
   }
 }
 
-TEST_CASE("the solution is where linearise says it is") {
+TEST_CASE("the solution on a mixture is where linearise says it is") {
   Random random(6);
   for (int i = 0; i < 20; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
     const TargetSet current = simulation::targets(pair.current, {});
-    const auto registration = prepare(options_of(3, true), {}, pair.previous);
+    RegistrationOptions options = options_of(3, true);
+    options.covariance = CovarianceModel::gauss_newton;
+    const auto registration = prepare(options, {}, pair.previous);
     const RegistrationResult result = registration->solve(current, kDt);
     const NormalEquations there = registration->linearise(current, kDt, result.motion, 1.0, 1.0);
     CHECK(there.cost == result.cost);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -99,14 +100,20 @@ TEST_CASE("A standing vehicle is told from a driving one") {
   }
 }
 
+/// Of NaN as well, which equals nothing.
+template <typename Matrix>
+bool has_same_bits(const Matrix& a, const Matrix& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(Matrix)) == 0;
+}
+
 TEST_CASE("The same frames give the same bits") {
   const Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
   const RecordingSink a = run_pipeline(simulated.radars, simulated.frames);
   const RecordingSink b = run_pipeline(simulated.radars, simulated.frames);
   REQUIRE(a.motions[0].size() == b.motions[0].size());
-  for (std::size_t i = 1; i < a.motions[0].size(); ++i) {
-    CHECK(a.motions[0][i].motion == b.motions[0][i].motion);
-    CHECK(a.motions[0][i].covariance == b.motions[0][i].covariance);
+  for (std::size_t i = 0; i < a.motions[0].size(); ++i) {
+    CHECK(has_same_bits(a.motions[0][i].motion, b.motions[0][i].motion));
+    CHECK(has_same_bits(a.motions[0][i].covariance, b.motions[0][i].covariance));
   }
 }
 
@@ -124,7 +131,7 @@ TEST_CASE("Each radar's result does not depend on the other radars of the vehicl
   REQUIRE(alone.motions[0].size() == both.motions[1].size());
   REQUIRE(alone.motions[0].size() > 40);
   for (std::size_t i = 1; i < alone.motions[0].size(); ++i) {
-    CHECK(alone.motions[0][i].motion == both.motions[1][i].motion);
+    CHECK(has_same_bits(alone.motions[0][i].motion, both.motions[1][i].motion));
   }
 }
 

@@ -17,12 +17,29 @@ double mean(double sum, std::size_t count) {
   return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
 }
 
+Eigen::Vector3d difference(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth) {
+  Eigen::Vector3d error = estimate - truth;
+  error.z() = std::remainder(error.z(), 2.0 * std::numbers::pi);
+  return error;
+}
+
 }  // namespace
+
+double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
+                                const Eigen::Vector3d& truth, int degrees_of_freedom) {
+  const Eigen::Vector3d error = difference(estimate, truth);
+  if (degrees_of_freedom == 3) {
+    return error.dot(covariance.ldlt().solve(error));
+  }
+  const std::array<Eigen::Index, 2> states{0, 2};
+  const Eigen::Vector2d free_error = error(states);
+  const Eigen::Matrix2d free_covariance = covariance(states, states);
+  return free_error.dot(free_covariance.ldlt().solve(free_error));
+}
 
 void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                       const Eigen::Vector3d& truth) {
-  Eigen::Vector3d error = estimate - truth;
-  error.z() = std::remainder(error.z(), 2.0 * std::numbers::pi);
+  const Eigen::Vector3d error = difference(estimate, truth);
   ++count_;
   squared_position_m2_ += error.head<2>().squaredNorm();
   squared_yaw_rad2_ += error.z() * error.z();
@@ -37,14 +54,8 @@ void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& co
       within_[index][k] += std::abs(normalised) <= static_cast<double>(k + 1) ? 1U : 0U;
     }
   }
-  if (degrees_of_freedom_ == 3) {
-    nees_ += error.dot(covariance.ldlt().solve(error)) / 3.0;
-  } else {
-    const std::array<Eigen::Index, 2> states{0, 2};
-    const Eigen::Vector2d free_error = error(states);
-    const Eigen::Matrix2d free_covariance = covariance(states, states);
-    nees_ += free_error.dot(free_covariance.ldlt().solve(free_error)) / 2.0;
-  }
+  nees_ += normalised_error_squared(estimate, covariance, truth, degrees_of_freedom_) /
+           degrees_of_freedom_;
 }
 
 double Credibility::rmse_m() const { return std::sqrt(mean(squared_position_m2_, count_)); }

@@ -10,6 +10,11 @@
 
 namespace cremed {
 
+/// e' C^-1 e over the estimated states of e = estimate - truth, its yaw wrapped to (-pi, pi]:
+/// chi-square with as many degrees of freedom, if the covariance is credible.
+double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
+                                const Eigen::Vector3d& truth, int degrees_of_freedom);
+
 /// How well a set of estimates, each with its covariance, agrees with truth. Order of states:
 /// (x_m, y_m, yaw_rad). In two degrees of freedom y is estimated as 0 and not part of the ANEES,
 /// but its error counts in the RMSE.

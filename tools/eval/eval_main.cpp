@@ -1,27 +1,41 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.hpp"
+#include "tools/eval/correspondence_counts.hpp"
 #include "tools/eval/drive_evaluation.hpp"
+#include "tools/eval/output_file.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/profile.hpp"
+#include "tools/eval/registration_method.hpp"
+#include "tools/eval/table_command.hpp"
+#include "tools/eval/temporary_folder.hpp"
 
 namespace {
+
+struct TableArguments {
+  cremed::PaperTableOptions options{.threads = std::max(std::thread::hardware_concurrency(), 1U)};
+  std::string plot;
+};
 
 struct PairsArguments {
   std::string file;
   std::string profile;
   std::string method = "msm";
+  std::string covariance = "exclusive";
   std::string output;
+  std::string plot;
   bool doppler = false;
 };
 
@@ -49,34 +63,39 @@ auto with_input(const std::string& path, Read read) {
 }
 
 void write_pairs(const std::string& path, const std::vector<cremed::PairResult>& results) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  if (file == nullptr) {
-    throw std::runtime_error("cannot write " + path);
-  }
-  std::fputs("pair,x,y,yaw,cxx,cxy,cxt,cyy,cyt,ctt,iterations,solve_us\n", file);
+  cremed::OutputFile file(path);
+  std::fputs("pair,x,y,yaw,cxx,cxy,cxt,cyy,cyt,ctt,iterations,solve_us\n", file.stream());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const cremed::RegistrationResult& r = results[i].registration;
     const Eigen::Matrix3d& c = r.covariance;
-    std::fprintf(file, "%zu,%.9f,%.9f,%.9f,%.9e,%.9e,%.9e,%.9e,%.9e,%.9e,%d,%lld\n", i,
+    std::fprintf(file.stream(), "%zu,%.9f,%.9f,%.9f,%.9e,%.9e,%.9e,%.9e,%.9e,%.9e,%d,%lld\n", i,
                  r.motion.x(), r.motion.y(), r.motion.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1),
                  c(1, 2), c(2, 2), r.iterations, static_cast<long long>(results[i].solve_us));
   }
-  const bool is_lost = std::ferror(file) != 0;
-  if (std::fclose(file) != 0 || is_lost) {
-    throw std::runtime_error("cannot write " + path);
-  }
+  file.close();
+}
+
+void plot_pairs(const std::vector<cremed::RegistrationPair>& pairs, const std::string& picture) {
+  const cremed::TemporaryFolder folder;
+  const std::string counts = folder.file("correspondences.csv");
+  cremed::write_correspondences_csv(counts, pairs);
+  cremed::draw_plot("plot_pairs", {counts}, picture);
 }
 
 int run_pairs(const PairsArguments& arguments) {
-  const auto options = cremed::profile(arguments.profile, arguments.doppler);
+  const cremed::RegistrationMethod method = cremed::registration_method(arguments.method);
+  const auto options =
+      cremed::profile(arguments.profile, arguments.doppler,
+                      arguments.covariance == "exclusive" ? cremed::CovarianceModel::exclusive
+                                                          : cremed::CovarianceModel::gauss_newton);
   const auto pairs = with_input(arguments.file, cremed::read_registration_pairs);
   if (pairs.empty()) {
     throw std::runtime_error(arguments.file + ": no pairs");
   }
-  const auto results = cremed::solve_pairs(pairs, *options);
+  const auto results = cremed::solve_pairs(pairs, *options, method.solve);
   std::size_t left_out = 0;
-  const auto credibility =
-      cremed::evaluate_pairs(pairs, results, options->degrees_of_freedom, left_out);
+  const auto credibility = cremed::evaluate_pairs(
+      pairs, results, method.is_always_3dof ? 3 : options->degrees_of_freedom, left_out);
   double iterations = 0.0;
   double solve_us = 0.0;
   std::size_t unfinished = 0;
@@ -94,6 +113,9 @@ int run_pairs(const PairsArguments& arguments) {
               unfinished, left_out);
   if (!arguments.output.empty()) {
     write_pairs(arguments.output, results);
+  }
+  if (!arguments.plot.empty()) {
+    plot_pairs(pairs, arguments.plot);
   }
   return 0;
 }
@@ -116,38 +138,75 @@ int run_drive(const DriveArguments& arguments) {
     }
   }
   if (!arguments.plot.empty()) {
-    cremed::plot_drive(arguments.odometry, arguments.truth, arguments.plot);
+    cremed::draw_plot("plot_drive", {arguments.odometry, arguments.truth}, arguments.plot);
   }
   return 0;
+}
+
+CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
+  cremed::PaperTableOptions& options = arguments.options;
+  CLI::App* command =
+      app.add_subcommand("table", "The paper's simulated problems: its figures beside ours");
+  command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--runs", options.runs, "Runs with each set (as the paper: 1000, Sim 500)")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
+  command->add_option("--threads", options.threads, "Threads; the figures do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)");
+  return command;
+}
+
+CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
+  CLI::App* command = app.add_subcommand("pairs", "Register pairs of scans with known truth");
+  command->add_option("FILE", arguments.file, "Pairs as text, - for standard input")->required();
+  command->add_option("--profile", arguments.profile, "Settings: psr, sim or nuscenes")
+      ->required()
+      ->check(CLI::IsMember({"psr", "sim", "nuscenes"}));
+  command->add_flag("--doppler", arguments.doppler, "Use Doppler");
+  command
+      ->add_option("--method", arguments.method,
+                   "msm (Max-Sum-Mixture), sa (summing approximation) or icp (without Doppler)")
+      ->check(CLI::IsMember({"msm", "sa", "icp"}));
+  command
+      ->add_option("--covariance", arguments.covariance,
+                   "Of msm: exclusive (one partner a target) or gauss_newton (the paper)")
+      ->check(CLI::IsMember({"exclusive", "gauss_newton"}))
+      ->capture_default_str();
+  command->add_option("--output", arguments.output, "Write each pair's result as CSV");
+  command->add_option("--plot", arguments.plot,
+                      "Draw how many targets have a partner, by the true motion (PNG, SVG)");
+  return command;
+}
+
+CLI::App* add_drive(CLI::App& app, DriveArguments& arguments) {
+  CLI::App* command = app.add_subcommand("drive", "Compare the odometry of a drive with truth");
+  command->add_option("ODOMETRY", arguments.odometry, "CSV that cremed wrote")->required();
+  command->add_option("TRUTH", arguments.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
+  command->add_option("--plot", arguments.plot, "Draw a picture of the trajectories (PNG, SVG)");
+  return command;
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
   app.require_subcommand(1);
-
+  TableArguments table;
   PairsArguments pairs;
-  CLI::App* pairs_command = app.add_subcommand("pairs", "Register pairs of scans with known truth");
-  pairs_command->add_option("FILE", pairs.file, "Pairs as text, - for standard input")->required();
-  pairs_command->add_option("--profile", pairs.profile, "Settings: psr, sim or nuscenes")
-      ->required()
-      ->check(CLI::IsMember({"psr", "sim", "nuscenes"}));
-  pairs_command->add_flag("--doppler", pairs.doppler, "Use Doppler");
-  pairs_command->add_option("--method", pairs.method, "msm (Max-Sum-Mixture)")
-      ->check(CLI::IsMember({"msm"}));
-  pairs_command->add_option("--output", pairs.output, "Write each pair's result as CSV");
-
   DriveArguments drive;
-  CLI::App* drive_command =
-      app.add_subcommand("drive", "Compare the odometry of a drive with truth");
-  drive_command->add_option("ODOMETRY", drive.odometry, "CSV that cremed wrote")->required();
-  drive_command->add_option("TRUTH", drive.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
-  drive_command->add_option("--plot", drive.plot, "Draw a picture of the trajectories (PNG, SVG)");
-
+  const CLI::App* table_command = add_table(app, table);
+  const CLI::App* pairs_command = add_pairs(app, pairs);
+  add_drive(app, drive);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (table_command->parsed()) {
+    cremed::run_table(table.options, table.plot);
+    return 0;
   }
   return pairs_command->parsed() ? run_pairs(pairs) : run_drive(drive);
 }

@@ -2,19 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/pairs_evaluation.hpp"
 
+#include <ctime>
 #include <limits>
-
-#include "daemon/replay.hpp"
 
 namespace cremed {
 namespace {
 
-bool has_solution(const RegistrationResult& result) {
-  return result.status == RegistrationStatus::converged ||
-         result.status == RegistrationStatus::no_convergence;
+std::int64_t processor_us() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return time.tv_sec * 1000000 + (time.tv_nsec + 500) / 1000;
 }
 
 }  // namespace
+
+bool has_solution(const RegistrationResult& result) {
+  const bool has_motion = result.status == RegistrationStatus::converged ||
+                          result.status == RegistrationStatus::no_convergence;
+  return has_motion && result.covariance(0, 0) > 0.0;
+}
 
 TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehicle_from_radar) {
   TargetSet targets;
@@ -24,25 +30,30 @@ TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehi
   return targets;
 }
 
+PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& options,
+                      RegisterFunction method) {
+  const TargetSet previous = to_targets(pair.previous, pair.vehicle_from_radar);
+  const TargetSet current = to_targets(pair.current, pair.vehicle_from_radar);
+  PairResult result;
+  if (previous.size() > 0 && current.size() > 0) {
+    const RegistrationContext context{options, pair.vehicle_from_radar, pair.dt_s};
+    const std::int64_t begin_us = processor_us();
+    result.registration = method(previous, current, context);
+    result.solve_us = processor_us() - begin_us;
+  }
+  if (!has_solution(result.registration)) {
+    result.registration.motion.setConstant(std::numeric_limits<double>::quiet_NaN());
+    result.registration.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
 std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
-                                    const RegistrationOptions& options) {
+                                    const RegistrationOptions& options, RegisterFunction method) {
   std::vector<PairResult> results;
+  results.reserve(pairs.size());
   for (const RegistrationPair& pair : pairs) {
-    const TargetSet previous = to_targets(pair.previous, pair.vehicle_from_radar);
-    const TargetSet current = to_targets(pair.current, pair.vehicle_from_radar);
-    PairResult result;
-    if (previous.size() > 0 && current.size() > 0) {
-      Registration registration(options, pair.vehicle_from_radar);
-      const std::int64_t begin_us = monotonic_us();
-      registration.set_previous(previous);
-      result.registration = registration.solve(current, pair.dt_s);
-      result.solve_us = monotonic_us() - begin_us;
-    }
-    if (!has_solution(result.registration)) {
-      result.registration.motion.setConstant(std::numeric_limits<double>::quiet_NaN());
-      result.registration.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-    results.push_back(result);
+    results.push_back(solve_pair(pair, options, method));
   }
   return results;
 }

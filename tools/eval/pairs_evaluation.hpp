@@ -7,6 +7,7 @@
 
 #include "estimator/registration.hpp"
 #include "tools/eval/credibility.hpp"
+#include "tools/eval/registration_method.hpp"
 #include "tools/eval/registration_pairs.hpp"
 
 namespace cremed {
@@ -14,12 +15,20 @@ namespace cremed {
 /// One pair's solution.
 struct PairResult {
   RegistrationResult registration;
-  std::int64_t solve_us = 0;
+  std::int64_t solve_us = 0;  ///< Time of the processor, so that other programs do not count.
 };
 
-/// Solves every pair on its own; motion and covariance are NaN where there is no solution.
+/// Is there a motion with a covariance? Also where the search did not end.
+bool has_solution(const RegistrationResult& result);
+
+/// Solves a pair; motion and covariance are NaN where there is no solution.
+PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& options,
+                      RegisterFunction method = register_msm);
+
+/// Solves every pair on its own.
 std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
-                                    const RegistrationOptions& options);
+                                    const RegistrationOptions& options,
+                                    RegisterFunction method = register_msm);
 
 /// Compares the solutions with truth. Pairs without a covariance (degenerate, not finite) are not
 /// part of it; `left_out` counts them.

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace cremed {
 
-/// Draws the trajectories of a drive with truth into `picture`, by the script plot_drive (Python,
-/// matplotlib) that is installed with cremed-eval. Throws std::runtime_error.
-void plot_drive(const std::string& odometry, const std::string& truth, const std::string& picture);
+/// Draws a picture by one of the scripts (Python, matplotlib) that are installed with cremed-eval:
+/// `script` is its name, `inputs` the files it reads, and the picture comes last on its command
+/// line. Throws std::runtime_error.
+void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
+               const std::string& picture);
 
 }  // namespace cremed

@@ -4,9 +4,11 @@
 
 namespace cremed {
 
-std::optional<RegistrationOptions> profile(std::string_view name, bool doppler) {
+std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
+                                           CovarianceModel covariance) {
   RegistrationOptions options;
   options.doppler.enabled = doppler;
+  options.covariance = covariance;
   if (name == "psr") {
     options.degrees_of_freedom = 3;
     options.outlier_ray.weight = 0.0;

@@ -11,6 +11,7 @@ namespace cremed {
 
 /// The paper's settings for a family of problems: "psr", "sim" or "nuscenes"; nothing for another
 /// name.
-std::optional<RegistrationOptions> profile(std::string_view name, bool doppler);
+std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
+                                           CovarianceModel covariance = CovarianceModel::exclusive);
 
 }  // namespace cremed

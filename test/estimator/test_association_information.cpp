@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "estimator/association.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using simulation::Random;
+using simulation::uniform;
+
+using Ratios = Eigen::MatrixXd;
+using Gradients = std::vector<Eigen::Vector3d>;  // of each pair, row by row
+
+/// Pairs where ratios are not 0; their gradients row by row.
+void fill(Association& association, const Ratios& ratios, const Gradients& gradients) {
+  association.clear(static_cast<std::size_t>(ratios.cols()));
+  for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
+    association.begin_row();
+    for (Eigen::Index j = 0; j < ratios.cols(); ++j) {
+      const auto k = static_cast<std::size_t>(i * ratios.cols() + j);
+      if (ratios(i, j) != 0.0) {
+        association.add(static_cast<std::size_t>(j), ratios(i, j), gradients[k]);
+      }
+    }
+  }
+}
+
+/// Ratios 10^-decades .. 10^decades.
+Ratios random_ratios(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
+  return Ratios::NullaryExpr(rows, columns,
+                             [&] { return std::pow(10.0, uniform(random, -decades, decades)); });
+}
+
+std::unique_ptr<Association> make_association() { return std::make_unique<Association>(); }
+
+/// Pairs whose ratios change with a state: log psi(x) = log psi(0) - g x.
+struct Problem {
+  Ratios ratios;
+  Gradients gradients;
+};
+
+Problem random_problem(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
+  std::normal_distribution<double> normal;
+  Problem problem{random_ratios(random, rows, columns, decades), {}};
+  for (Eigen::Index k = 0; k < rows * columns; ++k) {
+    problem.gradients.emplace_back(normal(random), normal(random), normal(random));
+  }
+  return problem;
+}
+
+/// sum_ij p_ij g_ij at a state, from factors that need no further round.
+Eigen::Vector3d gradient(Association& association, const Problem& problem,
+                         const Eigen::Vector3d& state) {
+  Ratios ratios = problem.ratios;
+  for (Eigen::Index k = 0; k < ratios.size(); ++k) {
+    const Eigen::Vector3d& g = problem.gradients[static_cast<std::size_t>(k)];
+    ratios(k / ratios.cols(), k % ratios.cols()) *= std::exp(-g.dot(state));
+  }
+  fill(association, ratios, problem.gradients);
+  for (int i = 0; i < 100; ++i) {
+    association.solve();
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < association.size(); ++k) {
+    sum += association.probability(k) * association.gradient(k);
+  }
+  return sum;
+}
+
+Eigen::Matrix3d missing_information(Association& association, const Problem& problem) {
+  fill(association, problem.ratios, problem.gradients);
+  association.start();
+  association.solve();
+  return association.missing_information(Eigen::Vector3d::Ones());
+}
+
+Eigen::Matrix3d complete_information(const Association& association) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < association.size(); ++k) {
+    const Eigen::Vector3d& g = association.gradient(k);
+    sum += association.probability(k) * g * g.transpose();
+  }
+  return sum;
+}
+
+TEST_CASE("missing information is how the gradient changes with the probabilities") {
+  const auto association = make_association();
+  Random random(4);
+  for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 3}, {3, 1}, {2, 2}, {3, 3}, {2, 4}}) {
+    for (int run = 0; run < 100; ++run) {
+      const Problem problem = random_problem(random, rows, columns, 1.0);
+      const Eigen::Matrix3d actual = missing_information(*association, problem);
+      const double scale = complete_information(*association).norm();
+      const Eigen::Matrix3d slope = numeric::central_differences(
+          Eigen::Vector3d(Eigen::Vector3d::Zero()), 1e-4,
+          [&](const Eigen::Vector3d& x) { return gradient(*association, problem, x); });
+      CAPTURE(rows, columns, run);
+      CHECK((actual + slope).norm() < 2.0 * Association::kGradientTolerance * scale);
+    }
+  }
+}
+
+/// The smallest eigenvalue of any missing information, relative to the complete one.
+double smallest_eigenvalue(double decades) {
+  const auto association = make_association();
+  Random random(5);
+  double smallest = 1.0;
+  for (int run = 0; run < 2000; ++run) {
+    const auto rows = static_cast<Eigen::Index>(1 + random() % 4);
+    const auto columns = static_cast<Eigen::Index>(1 + random() % 4);
+    const Eigen::Matrix3d missing =
+        missing_information(*association, random_problem(random, rows, columns, decades));
+    CHECK(missing == missing.transpose());
+    const double least =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(missing).eigenvalues().minCoeff();
+    smallest = std::min(smallest, least / complete_information(*association).norm());
+  }
+  return smallest;
+}
+
+TEST_CASE("what is missing is symmetric and not negative") {
+  CHECK(smallest_eigenvalue(1.5) > -2e-3);
+}
+
+TEST_CASE("what is missing is not negative whatever the ratios") {
+  CHECK(smallest_eigenvalue(6.0) > -2e-3);
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+
+#include "tools/eval/icp.hpp"
+#include "tools/eval/temporary_folder.hpp"
+
+namespace {
+
+using cremed::TemporaryFolder;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+struct Result {
+  int status;
+  std::string output;
+  std::string error;
+};
+
+Result run(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string command = std::string(CREMED_BINARY_DIR) + "/bin/cremed-eval " + arguments +
+                              " >" + folder.file("stdout") + " 2>" + folder.file("stderr");
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+}
+
+/// Cells of the lines that are neither header nor of a method that is not built; "|" is no cell.
+std::vector<std::vector<std::string>> cells(const std::string& table) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.front() == '#' || line.find("not built") != std::string::npos) continue;
+    std::istringstream words(line);
+    rows.emplace_back();
+    for (std::string word; words >> word;) {
+      if (word != "|") rows.back().push_back(word);
+    }
+  }
+  return rows;
+}
+
+/// Two pairs of three targets each that moved by 0.1 m.
+std::string write_pairs(const TemporaryFolder& folder) {
+  std::ofstream file(folder.file("pairs.csv"));
+  for (int pair = 0; pair < 2; ++pair) {
+    file << "T," << pair << ",0.1,0,0,0.1\n";
+    for (int id = 0; id < 3; ++id) {
+      const double azimuth_rad = 0.3 * (id - 1);
+      file << "D," << pair << ",0," << id << "," << 10 + id << "," << azimuth_rad
+           << ",-1,0.1,0.01,0.1\n"
+           << "D," << pair << ",1," << id << "," << 9.9 + id << "," << azimuth_rad
+           << ",-1,0.1,0.01,0.1\n";
+    }
+  }
+  return folder.file("pairs.csv");
+}
+
+}  // namespace
+
+TEST_CASE("cremed-eval table prints a row for every problem and method") {
+  const TemporaryFolder folder;
+  const Result result = run(folder, "table --runs 2 --sets 3 --seed 5 --threads 2");
+  CAPTURE(result.error);
+  REQUIRE(result.status == 0);
+  CHECK(result.error.empty());
+  const auto rows = cells(result.output);
+  CHECK(rows.size() == (cremed::kHasIcp ? 22U : 18U));
+  for (const auto& row : rows) {
+    CAPTURE(row[0], row[1]);
+    REQUIRE(row.size() == 20);
+    CHECK(std::stoi(row[2]) + std::stoi(row[10]) == 6);
+    CHECK(std::stod(row[3]) > 0.0);
+    CHECK(std::stod(row[6]) < 1.0);
+    CHECK(std::stod(row[7]) > 1.0);
+  }
+  REQUIRE(rows[0][1] == "MSM");
+  CHECK(rows[0][14] == "0.121");
+  CHECK((result.output.find("not built") == std::string::npos) == cremed::kHasIcp);
+}
+
+TEST_CASE("cremed-eval draws what it measured") {
+  const TemporaryFolder folder;
+  const auto command = GENERATE(std::string("table"), std::string("pairs"));
+  const std::string arguments =
+      command == "table" ? "--runs 1 --sets 2" : write_pairs(folder) + " --profile sim";
+  CAPTURE(command);
+  const std::string picture = folder.file("picture.svg");
+  const Result result = run(folder, command + " " + arguments + " --plot " + picture);
+  CAPTURE(result.error);
+  CHECK(result.status == 0);
+  CHECK(content(picture).find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("cremed-eval pairs registers by each of the methods") {
+  const TemporaryFolder folder;
+  const std::string pairs = write_pairs(folder);
+  const auto method = GENERATE(std::string("msm"), std::string("sa"), std::string("icp"));
+  const Result result = run(folder, "pairs " + pairs + " --profile sim --method " + method);
+  CAPTURE(method, result.error);
+  if (method == "icp" && !cremed::kHasIcp) {
+    CHECK(result.status == 1);
+    CHECK(result.error.find("libpcl-dev") != std::string::npos);
+    return;
+  }
+  REQUIRE(result.status == 0);
+  const auto rows = cells(result.output);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0][0] == method);
+  CHECK(rows[0][1] == "2");
+  CHECK(std::stod(rows[0][2]) < 0.05);
+}
+
+TEST_CASE("cremed-eval says what is wrong") {
+  struct Row {
+    std::string arguments;
+    int status;
+    std::string message;
+  };
+  const auto row =
+      GENERATE(Row{"table --runs 0", 2, "--runs"}, Row{"table --sets -1", 2, "--sets"},
+               Row{"table --threads 0", 2, "--threads"}, Row{"table --seed x", 2, "--seed"},
+               Row{"pairs /dev/null --profile sim --method other", 2, "--method"},
+               Row{"pairs /no/such/file --profile sim", 1, "/no/such/file"},
+               Row{"pairs PAIRS --profile sim --output /no/such/folder/a.csv", 1, "cannot write"},
+               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"});
+  CAPTURE(row.arguments);
+  const TemporaryFolder folder;
+  std::string arguments = row.arguments;
+  if (const auto place = arguments.find("PAIRS"); place != std::string::npos) {
+    arguments.replace(place, 5, write_pairs(folder));
+  }
+  const Result result = run(folder, arguments);
+  CAPTURE(result.error);
+  CHECK(result.status == row.status);
+  CHECK(result.error.find(row.message) != std::string::npos);
+}

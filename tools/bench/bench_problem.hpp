@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "estimator/registration.hpp"
+#include "tools/eval/registration_pairs.hpp"
+
+namespace cremed {
+
+/// Pairs of scans with the settings to register them.
+struct BenchProblem {
+  std::string name;
+  RegistrationOptions options;
+  std::vector<RegistrationPair> pairs;
+};
+
+/// PSR, PSR-C, Sim, Sim-C, and the latter two with Doppler (-D), of the same landmarks for ever.
+std::vector<BenchProblem> simulated_problems(CovarianceModel covariance);
+
+/// Sim-D with so many targets in both scans, scattered over the whole view, at the sensor's noise.
+BenchProblem problem_of_size(std::size_t targets, CovarianceModel covariance);
+
+/// The worst: full scans, 3 DoF, Doppler, every target within the noise of every other.
+BenchProblem ambiguous_problem(CovarianceModel covariance);
+
+}  // namespace cremed

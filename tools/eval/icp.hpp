@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tools/eval/registration_method.hpp"
+
+namespace cremed {
+
+/// Was this program built with PCL?
+extern const bool kHasIcp;
+inline constexpr const char* kNoIcp = "ICP is not built: libpcl-dev";
+
+/// Point-to-point ICP of PCL in the plane, started at zero: every target of the current scan with
+/// the nearest of the previous one, all weighted alike. Covariance: icp_covariance().
+RegistrationResult register_icp(const TargetSet& previous, const TargetSet& current,
+                                const RegistrationContext& context);
+
+}  // namespace cremed

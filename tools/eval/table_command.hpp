@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "tools/eval/paper_table.hpp"
+
+namespace cremed {
+
+/// cremed-eval table: prints the paper's table and draws it into `picture`, unless that is empty.
+/// Throws std::runtime_error.
+void run_table(const PaperTableOptions& options, const std::string& picture);
+
+}  // namespace cremed

@@ -72,25 +72,31 @@ double Association::scale(bool over_relaxed) {
     const double exact = factor_of(sum);
     return over_relaxed ? std::min(exact * std::sqrt(exact / factor), 1.0) : exact;
   };
-  std::fill_n(sum_.begin(), columns_, 0.0);
+  // Step by step for all rows: the compiler then takes several roots at once.
   for (std::size_t i = 0; i < rows_; ++i) {
     double sum = 0.0;
     for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
       sum += ratio_[k] * column_factor_[column_of_[k]];
     }
-    const double factor = next_factor(row_factor_[i], sum);
-    row_factor_[i] = factor;
+    row_sum_[i] = sum;
+  }
+  for (std::size_t i = 0; i < rows_; ++i) {
+    row_factor_[i] = next_factor(row_factor_[i], row_sum_[i]);
+  }
+  std::fill_n(sum_.begin(), columns_, 0.0);
+  for (std::size_t i = 0; i < rows_; ++i) {
+    const double factor = row_factor_[i];
     for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
       sum_[column_of_[k]] += ratio_[k] * factor;
     }
   }
-  double change = 0.0;
   for (std::size_t j = 0; j < columns_; ++j) {
     const double next = next_factor(column_factor_[j], sum_[j]);
-    change = std::max(change, std::abs(next - column_factor_[j]) * sum_[j]);
+    change_[j] = std::abs(next - column_factor_[j]) * sum_[j];
     column_factor_[j] = next;
   }
-  return change;
+  return *std::max_element(change_.begin(),
+                           change_.begin() + static_cast<std::ptrdiff_t>(columns_));
 }
 
 int Association::solve() {

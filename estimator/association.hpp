@@ -90,12 +90,14 @@ class Association {
   std::size_t size_ = 0;
   std::size_t rows_ = 0;
   std::size_t columns_ = 0;
-  Factors row_factor_;         // u
-  Factors column_factor_;      // v
-  Factors sum_;                // scratch
+  Factors row_factor_;     // u
+  Factors column_factor_;  // v
+  Factors row_sum_;        // scratch, as what follows
+  Factors sum_;
+  Factors change_;
   Gradients row_gradient_;     // a
   Gradients column_gradient_;  // b
-  Gradients column_sum_;       // scratch
+  Gradients column_sum_;
 };
 
 }  // namespace cremed

@@ -244,11 +244,12 @@ void Registration::finish_gauss_newton(const Problem& problem, const Stage& stag
 
 RegistrationResult Registration::search(const Problem& problem,
                                         std::span<const Eigen::Vector3d> starts) {
-  const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
-                   options_.max_start_iterations, kStartStepTolerance};
-  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
-  const bool has_two_stages = options_.start_scale > 1.0;
   const bool is_exclusive = options_.covariance == CovarianceModel::exclusive;
+  const bool has_two_stages = options_.start_scale > 1.0;
+  const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
+                   options_.max_start_iterations,
+                   is_exclusive ? kExclusiveStartStepTolerance : kStartStepTolerance};
+  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
   RegistrationResult result;
   NormalEquations equations = begin(problem, has_two_stages ? wide : exact, starts, result);
   if (has_two_stages) {

@@ -54,9 +54,11 @@ struct RegistrationResult {
 class Registration {
  public:
   /// A stage ends at a step shorter than this, squared, in standard deviations (step' J'J step).
-  /// The first stage only has to end near enough for the second.
+  /// The first stage only has to end near enough for the second, which is less to ask of it where
+  /// the second climbs the exclusive likelihood.
   static constexpr double kStepTolerance = 1e-5;
-  static constexpr double kStartStepTolerance = 0.1;
+  static constexpr double kStartStepTolerance = 1e-2;
+  static constexpr double kExclusiveStartStepTolerance = 0.1;
 
   Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar);
 

@@ -40,6 +40,11 @@ struct RegistrationResult {
   int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
   int starts = 1;        ///< Searches made; more than one if the first fitted badly.
   std::int64_t component_evaluations = 0;
+
+  /// Whether `motion` is the end of a search, maybe one that a limit cut short.
+  [[nodiscard]] bool has_motion() const {
+    return status == RegistrationStatus::converged || status == RegistrationStatus::no_convergence;
+  }
 };
 
 /// Max-Sum-Mixture registration of two scans with Doppler (RA-L 2022), Gauss-Newton with step

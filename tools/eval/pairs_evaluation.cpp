@@ -17,9 +17,7 @@ std::int64_t processor_us() {
 }  // namespace
 
 bool has_solution(const RegistrationResult& result) {
-  const bool has_motion = result.status == RegistrationStatus::converged ||
-                          result.status == RegistrationStatus::no_convergence;
-  return has_motion && result.covariance(0, 0) > 0.0;
+  return result.has_motion() && result.covariance(0, 0) > 0.0;
 }
 
 TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehicle_from_radar) {

@@ -1,39 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
 
+#include "test/tools/tool_run.hpp"
 #include "tools/eval/icp.hpp"
-#include "tools/eval/temporary_folder.hpp"
+
+using namespace cremed::test;
+using cremed::TemporaryFolder;
 
 namespace {
 
-using cremed::TemporaryFolder;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-struct Result {
-  int status;
-  std::string output;
-  std::string error;
-};
-
-Result run(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string command = std::string(CREMED_BINARY_DIR) + "/bin/cremed-eval " + arguments +
-                              " >" + folder.file("stdout") + " 2>" + folder.file("stderr");
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+ToolRun run(const TemporaryFolder& folder, const std::string& arguments) {
+  return run_tool("cremed-eval", folder, arguments);
 }
 
 /// Cells of the lines that are neither header nor of a method that is not built; "|" is no cell.
@@ -71,7 +54,7 @@ std::string write_pairs(const TemporaryFolder& folder) {
 
 TEST_CASE("cremed-eval table prints a row for every problem and method") {
   const TemporaryFolder folder;
-  const Result result = run(folder, "table --runs 2 --sets 3 --seed 5 --threads 2");
+  const ToolRun result = run(folder, "table --runs 2 --sets 3 --seed 5 --threads 2");
   CAPTURE(result.error);
   REQUIRE(result.status == 0);
   CHECK(result.error.empty());
@@ -97,7 +80,7 @@ TEST_CASE("cremed-eval draws what it measured") {
       command == "table" ? "--runs 1 --sets 2" : write_pairs(folder) + " --profile sim";
   CAPTURE(command);
   const std::string picture = folder.file("picture.svg");
-  const Result result = run(folder, command + " " + arguments + " --plot " + picture);
+  const ToolRun result = run(folder, command + " " + arguments + " --plot " + picture);
   CAPTURE(result.error);
   CHECK(result.status == 0);
   CHECK(content(picture).find("</svg>") != std::string::npos);
@@ -107,7 +90,7 @@ TEST_CASE("cremed-eval pairs registers by each of the methods") {
   const TemporaryFolder folder;
   const std::string pairs = write_pairs(folder);
   const auto method = GENERATE(std::string("msm"), std::string("sa"), std::string("icp"));
-  const Result result = run(folder, "pairs " + pairs + " --profile sim --method " + method);
+  const ToolRun result = run(folder, "pairs " + pairs + " --profile sim --method " + method);
   CAPTURE(method, result.error);
   if (method == "icp" && !cremed::kHasIcp) {
     CHECK(result.status == 1);
@@ -141,7 +124,7 @@ TEST_CASE("cremed-eval says what is wrong") {
   if (const auto place = arguments.find("PAIRS"); place != std::string::npos) {
     arguments.replace(place, 5, write_pairs(folder));
   }
-  const Result result = run(folder, arguments);
+  const ToolRun result = run(folder, arguments);
   CAPTURE(result.error);
   CHECK(result.status == row.status);
   CHECK(result.error.find(row.message) != std::string::npos);

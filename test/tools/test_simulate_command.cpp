@@ -1,53 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
 
 #include "test/tools/simulated_drive.hpp"
+#include "test/tools/tool_run.hpp"
+
+using namespace cremed::test;
+using cremed::TemporaryFolder;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// An empty folder of this process, removed at the end.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("cremed-simulate-" + std::to_string(getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-struct Result {
-  int status;
-  std::string output;
-  std::string error;
-};
-
-Result run(const Folder& folder, const std::string& arguments) {
-  const std::string command = std::string(CREMED_BINARY_DIR) + "/bin/cremed-simulate " + arguments +
-                              " >" + folder.file("stdout") + " 2>" + folder.file("stderr");
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+ToolRun run(const TemporaryFolder& folder, const std::string& arguments) {
+  return run_tool("cremed-simulate", folder, arguments);
 }
 
 }  // namespace
@@ -79,26 +46,26 @@ TEST_CASE("a seed decides every byte, and another radar changes none of the firs
 }
 
 TEST_CASE("cremed-simulate writes log and truth") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string log = folder.file("drive.log");
   const std::string truth = folder.file("truth.csv");
-  const Result result = run(folder, "--scenario bends --duration 3 --seed 9 --start 1600000000" +
-                                        (" --output " + log) + " --truth " + truth);
+  const ToolRun result = run(folder, "--scenario bends --duration 3 --seed 9 --start 1600000000" +
+                                         (" --output " + log) + " --truth " + truth);
   CHECK(result.status == 0);
   CHECK(result.error.empty());
   CHECK(content(log).rfind("(16000000", 0) == 0);
   CHECK(content(truth).rfind("utime,x_m,y_m,yaw_rad\n1600000000000000,", 0) == 0);
 
-  const Result piped = run(folder,
-                           "--scenario bends --duration 3 --seed 9 --start 1600000000 "
-                           "--output -");
+  const ToolRun piped = run(folder,
+                            "--scenario bends --duration 3 --seed 9 --start 1600000000 "
+                            "--output -");
   CHECK(piped.status == 0);
   CHECK(piped.output == content(log));
 }
 
 TEST_CASE("cremed-simulate names its scenarios") {
-  const Folder folder;
-  const Result result = run(folder, "--scenario list");
+  const TemporaryFolder folder;
+  const ToolRun result = run(folder, "--scenario list");
   CHECK(result.status == 0);
   for (const auto& scenario : cremed::scenarios()) {
     CHECK(result.output.find(std::string(scenario.name) + " ") != std::string::npos);
@@ -107,7 +74,7 @@ TEST_CASE("cremed-simulate names its scenarios") {
 }
 
 TEST_CASE("cremed-simulate takes its radars from the daemon's configuration") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.file("radars.toml")) << R"(
 [[radar]]
 name = "left"
@@ -116,7 +83,7 @@ interface = "can7"
 sensor_id = 2
 mount = { x_m = 2.0, y_m = 0.9, yaw_rad = 1.5 }
 )";
-  const Result result = run(
+  const ToolRun result = run(
       folder, "--scenario standing --duration 2 --output - --config " + folder.file("radars.toml"));
   CAPTURE(result.error);
   CHECK(result.status == 0);
@@ -159,8 +126,8 @@ TEST_CASE("cremed-simulate says what is wrong") {
           "cannot be written"},
       Row{"--scenario city --duration 1 --output /dev/full", 1, "writing failed"});
   CAPTURE(row.arguments);
-  const Folder folder;
-  const Result result = run(folder, row.arguments);
+  const TemporaryFolder folder;
+  const ToolRun result = run(folder, row.arguments);
   CAPTURE(result.error);
   CHECK(result.status == row.status);
   CHECK(result.error.find(row.message) != std::string::npos);

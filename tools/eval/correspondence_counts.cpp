@@ -7,9 +7,9 @@
 
 #include <Eigen/Dense>
 
-#include "tools/eval/output_file.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
 #include "tools/eval/plane_motion.hpp"
+#include "tools/eval/report_file.hpp"
 
 namespace cremed {
 namespace {
@@ -46,7 +46,7 @@ CorrespondenceCounts count_correspondences(const RegistrationPair& pair) {
 
 void write_correspondences_csv(const std::string& path,
                                const std::vector<RegistrationPair>& pairs) {
-  OutputFile file(path);
+  ReportFile file(path);
   std::fputs("pair,correspondences,outliers\n", file.stream());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const CorrespondenceCounts counts = count_correspondences(pairs[i]);

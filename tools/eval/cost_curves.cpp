@@ -10,8 +10,8 @@
 #include <Eigen/Dense>
 
 #include "estimator/mixture.hpp"
-#include "tools/eval/output_file.hpp"
 #include "tools/eval/plane_motion.hpp"
+#include "tools/eval/report_file.hpp"
 #include "tools/eval/sum_approximation.hpp"
 
 namespace cremed {
@@ -110,7 +110,7 @@ std::vector<CostPoint> cost_curves(bool outlier) {
 }
 
 void write_cost_csv(const std::string& path) {
-  OutputFile file(path);
+  ReportFile file(path);
   std::fputs("outlier,truth_m,translation_m,likelihood,sum_approximation,msm,msm_with_ray\n",
              file.stream());
   for (const bool outlier : {false, true}) {

@@ -14,11 +14,11 @@
 #include "daemon/version.hpp"
 #include "tools/eval/correspondence_counts.hpp"
 #include "tools/eval/drive_evaluation.hpp"
-#include "tools/eval/output_file.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/profile.hpp"
 #include "tools/eval/registration_method.hpp"
+#include "tools/eval/report_file.hpp"
 #include "tools/eval/table_command.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
@@ -63,7 +63,7 @@ auto with_input(const std::string& path, Read read) {
 }
 
 void write_pairs(const std::string& path, const std::vector<cremed::PairResult>& results) {
-  cremed::OutputFile file(path);
+  cremed::ReportFile file(path);
   std::fputs("pair,x,y,yaw,cxx,cxy,cxt,cyy,cyt,ctt,iterations,solve_us\n", file.stream());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const cremed::RegistrationResult& r = results[i].registration;

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "tools/eval/icp.hpp"
-#include "tools/eval/output_file.hpp"
+#include "tools/eval/report_file.hpp"
 
 namespace cremed {
 namespace {
@@ -85,7 +85,7 @@ void print_table(std::FILE* stream, const std::vector<TableRow>& rows) {
 }
 
 void write_table_csv(const std::string& path, const std::vector<TableRow>& rows) {
-  OutputFile file(path);
+  ReportFile file(path);
   std::fputs(
       "problem,method,dof,pairs,rmse_m,rmse_deg,anees,anees_low,anees_high,paper_m,paper_deg,"
       "paper_anees,bound_m,bound_deg,bound_anees\n",
@@ -102,7 +102,7 @@ void write_table_csv(const std::string& path, const std::vector<TableRow>& rows)
 }
 
 void write_nees_csv(const std::string& path, const std::vector<TableRow>& rows) {
-  OutputFile file(path);
+  ReportFile file(path);
   std::fputs("problem,method,dof,low,count\n", file.stream());
   for (const TableRow& row : rows) {
     for (std::size_t bin = 0; row.is_built && bin < NeesHistogram::kBins; ++bin) {

@@ -9,9 +9,9 @@
 namespace cremed {
 
 /// A text file to write; every failure is a std::runtime_error that names it.
-class OutputFile {
+class ReportFile {
  public:
-  explicit OutputFile(std::string path);
+  explicit ReportFile(std::string path);
 
   [[nodiscard]] std::FILE* stream() const { return file_.get(); }
   /// Closes the file; throws if anything was not written.

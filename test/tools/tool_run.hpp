@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <sys/wait.h>
+
+#include "tools/eval/temporary_folder.hpp"
+
+namespace cremed::test {
+
+inline std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// How a run of one of the programs ended.
+struct ToolRun {
+  int status = 0;
+  std::string output;
+  std::string error;
+};
+
+/// Runs a program of the build; its output goes through files of the folder.
+inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
+                        const std::string& arguments) {
+  const std::string command = std::string(CREMED_BINARY_DIR)
+                                  .append("/bin/" + name + " " + arguments)
+                                  .append(" >" + folder.file("stdout"))
+                                  .append(" 2>" + folder.file("stderr"));
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+}
+
+}  // namespace cremed::test

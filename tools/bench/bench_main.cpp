@@ -88,6 +88,7 @@ int run(int argc, char** argv) {
     rest.push_back(std::move(argument));
   }
   std::vector<char*> rest_argv;
+  rest_argv.reserve(rest.size());
   for (std::string& argument : rest) {
     rest_argv.push_back(argument.data());
   }

@@ -79,8 +79,8 @@ void fill(MixtureComponents& components, std::size_t size) {
 }  // namespace
 
 double evaluate_floor(const MixtureComponents& components, const MixturePoint& point) {
-  static const Floor floor = fastest_floor();
-  return floor(components, point);
+  static const Floor kFloor = fastest_floor();
+  return kFloor(components, point);
 }
 
 double floor_ns(std::size_t components) {

@@ -8,6 +8,10 @@
 namespace cremed {
 namespace {
 
+/// What a road vehicle does not exceed.
+constexpr double kMaxAccelerationMps2 = 10.0;
+constexpr double kMaxYawAccelerationRadps2 = 2.0;
+
 /// Reorders the range, which must not be empty.
 template <typename Iterator>
 double median(Iterator first, Iterator last) {
@@ -46,6 +50,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {
     motion.status = MotionStatus::gap_too_long;
     last_velocity_.setZero();
+    has_velocity_ = false;
   } else {
     motion.status = solve(dt_s, motion);
   }
@@ -77,7 +82,8 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
   const RegistrationResult result = registration_.solve(targets_, dt_s, starts);
   motion.iterations = result.iterations;
   const MotionStatus status = judge(result, dt_s);
-  if (status == MotionStatus::ok || status == MotionStatus::standing_still) {
+  has_velocity_ = status == MotionStatus::ok || status == MotionStatus::standing_still;
+  if (has_velocity_) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
     last_velocity_ = result.motion / dt_s;
@@ -92,7 +98,10 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
     case RegistrationStatus::degenerate:
       return MotionStatus::degenerate;
     case RegistrationStatus::ambiguous:
-      return MotionStatus::ambiguous;
+      if (!continues(result, dt_s)) {
+        return MotionStatus::ambiguous;
+      }
+      break;
     case RegistrationStatus::no_convergence:
       return MotionStatus::no_convergence;
     case RegistrationStatus::non_finite:
@@ -111,6 +120,16 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
     return MotionStatus::implausible;
   }
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
+}
+
+/// Chance finds next to never what no vehicle could have departed from since the last estimate.
+bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
+  const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
+  const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
+                                 kMaxYawAccelerationRadps2);
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  return has_velocity_ && sigma.x() > 0.0 &&
+         (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
 }
 
 /// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees

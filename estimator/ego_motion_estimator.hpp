@@ -29,7 +29,8 @@ enum class MotionStatus : std::uint8_t {
   no_convergence = 7,   ///< A limit on iterations or work cut in before the end.
   non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
-  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well.
+  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well, and
+                        ///< the motion does not continue that of the scan before.
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 
@@ -69,6 +70,7 @@ class EgoMotionEstimator {
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
+  [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
   bool is_standing(const RegistrationResult& result, double dt_s);
   double median_normalised_doppler();
   double doppler_speed_mps();
@@ -81,6 +83,7 @@ class EgoMotionEstimator {
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
   bool has_reference_ = false;
+  bool has_velocity_ = false;  // last_velocity_ is that of the scan before
 };
 
 }  // namespace cremed

@@ -28,6 +28,15 @@ class Drive {
   void set_noise(const Noise& noise) { noise_ = noise; }
   void set_half_view(double half_view_rad) { half_view_rad_ = half_view_rad; }
 
+  /// Moves a share of the points to other places.
+  void renew(double share) {
+    for (Eigen::Vector2d& point : points_) {
+      if (uniform(random_, 0.0, 1.0) < share) {
+        point = scatter(random_, 1, 4.0, 60.0, numeric::radians(180.0), 0.0)[0];
+      }
+    }
+  }
+
   /// Drives on without a scan.
   void pass(std::int64_t time_us = kPeriodUs) {
     stamp_us_ += time_us;

@@ -252,5 +252,46 @@ TEST_CASE("what was estimated before does not change what comes after") {
   }
 }
 
+TEST_CASE("few targets found again are enough for a motion that continues the one before") {
+  int continued = 0;
+  int at_first = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (const int scans_before : {1, 4}) {
+      Drive drive({8.0, 0.0, 0.3}, kFront, seed, 120);
+      const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+      for (int i = 0; i < scans_before; ++i) {
+        estimator->update(drive.next());
+      }
+      drive.renew(0.85);
+      const EgoMotion motion = estimator->update(drive.next());
+      (scans_before == 1 ? at_first : continued) += motion.has_estimate() ? 1 : 0;
+      if (motion.has_estimate()) {
+        const Eigen::Vector3d error = motion.motion - drive.motion_per_period();
+        CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
+      }
+    }
+  }
+  CHECK(continued >= 36);
+  CHECK(at_first <= 20);
+}
+
+TEST_CASE("a departure that no vehicle can make is no continuation") {
+  int wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Drive drive({8.0, 0.0, 0.3}, kFront, seed, 120);
+    const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(kFront));
+    for (int i = 0; i < 4; ++i) {
+      estimator->update(drive.next());
+    }
+    drive.renew(0.85);
+    RadarScan turned = drive.next();
+    for (int k = 0; k < turned.count; ++k) {
+      turned.detections.at(static_cast<std::size_t>(k)).azimuth_rad += 0.2;
+    }
+    wrong += estimator->update(turned).has_estimate() ? 1 : 0;
+  }
+  CHECK(wrong <= 2);
+}
+
 }  // namespace
 }  // namespace cremed

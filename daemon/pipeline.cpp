@@ -124,6 +124,16 @@ void Pipeline::on_idle(std::int64_t now_us) {
   }
 }
 
+std::size_t Pipeline::frames_to_next_scan() const {
+  std::optional<std::size_t> least;
+  for (const auto& radar : radars_) {
+    if (const auto awaited = radar->assembler.awaited_parts()) {
+      least = std::min(least.value_or(*awaited), *awaited);
+    }
+  }
+  return least.value_or(0);
+}
+
 void Pipeline::finish() {
   for (const auto& radar : radars_) {
     radar->assembler.finish();

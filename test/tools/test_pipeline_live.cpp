@@ -150,3 +150,30 @@ TEST_CASE("Every event of a source but its end goes on") {
   }
   CHECK(turns == 4);
 }
+
+TEST_CASE("A scan never closes earlier than the frames it is said to wait for allow") {
+  SimulationOptions options;
+  options.duration_s = 3.0;
+  const Drive simulated = drive(scenario("lossy"), front_and_rear(), options);
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  std::size_t most = 0;
+  std::size_t whole = 0;
+  for (const CanFrame& frame : simulated.frames) {
+    const std::size_t awaited = pipeline.frames_to_next_scan();
+    most = std::max(most, awaited);
+    const std::size_t before[2] = {sink.scans[0].size(), sink.scans[1].size()};
+    pipeline.on_frame(frame);
+    for (std::size_t radar = 0; radar < 2; ++radar) {
+      const auto& scans = sink.scans[radar];
+      if (scans.size() > before[radar] && scans.back().status == ScanStatus::complete &&
+          scans.back().count > 0) {
+        ++whole;
+        CHECK(awaited <= 1);  // This frame was the last one awaited.
+      }
+    }
+  }
+  CHECK(whole > 40);
+  CHECK(most > 90);
+}

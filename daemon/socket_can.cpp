@@ -19,7 +19,9 @@ constexpr int kIdleMs = 20;
 
 /// More frames than can come in a millisecond: one of 8 bytes takes 111 us at 1 Mbit/s.
 constexpr std::size_t kFramesPerMs = 16;
-constexpr std::size_t kLongestRestMs = 8;
+/// Long enough to save most wake-ups; too short for a scan of more than a few targets to begin and
+/// end in it, on a bus where none is open.
+constexpr std::size_t kLongestRestMs = 4;
 
 /// A full receive buffer is some 40 batches; a bus cannot refill it while it is emptied.
 constexpr int kMaxDiscardedBatches = 1000;

@@ -97,6 +97,40 @@ inline constexpr BitField kRcsThreshold{58, 3};
 inline constexpr LinearScale kMaxDistanceScale{0.0, 0.5};
 }  // namespace state
 
+/// 0x200. The sensor heeds a signal only if its valid bit is set.
+namespace configuration {
+inline constexpr std::uint8_t kMaxDistanceValid = 0;
+inline constexpr std::uint8_t kSensorIdValid = 1;
+inline constexpr std::uint8_t kPowerValid = 2;
+inline constexpr std::uint8_t kOutputValid = 3;
+inline constexpr std::uint8_t kSendsQualityValid = 4;
+inline constexpr std::uint8_t kSendsExtendedValid = 5;
+inline constexpr std::uint8_t kSortValid = 6;
+inline constexpr std::uint8_t kStoreValid = 7;
+inline constexpr std::uint8_t kRelayControlValid = 40;
+inline constexpr std::uint8_t kRcsThresholdValid = 48;
+inline constexpr BitField kMaxDistance{22, 10};
+inline constexpr BitField kSensorId{32, 3};
+inline constexpr BitField kPower{37, 3};
+inline constexpr BitField kOutput{35, 2};
+inline constexpr BitField kSendsQuality{42, 1};
+inline constexpr BitField kSendsExtended{43, 1};
+inline constexpr BitField kSort{44, 3};
+inline constexpr BitField kStore{47, 1};
+inline constexpr BitField kRelayControl{41, 1};
+inline constexpr BitField kRcsThreshold{49, 3};
+inline constexpr LinearScale kMaxDistanceScale{0.0, 0.5};
+}  // namespace configuration
+
+/// 0x300 and 0x301.
+namespace motion {
+inline constexpr BitField kDirection{6, 2};
+inline constexpr BitField kSpeed{8, 13};
+inline constexpr BitField kYawRate{8, 16};
+inline constexpr LinearScale kSpeedScale{0.0, 50.0};
+inline constexpr LinearScale kYawRateScale{32768.0, 100.0 * kDegPerRad};
+}  // namespace motion
+
 namespace version {
 inline constexpr BitField kMajor{0, 8};
 inline constexpr BitField kMinor{8, 8};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,6 +42,16 @@ class PayloadBits {
   }
   [[nodiscard]] constexpr bool flag(std::uint8_t bit) const { return get({bit, 1}) != 0; }
 
+  /// Sets the signal to the low bits of `value`.
+  constexpr void set(BitField field, std::uint32_t value) {
+    const std::uint64_t mask = (std::uint64_t{1} << field.length) - 1U;
+    word_ = (word_ & ~(mask << shift(field))) | ((value & mask) << shift(field));
+  }
+
+  [[nodiscard]] constexpr std::uint8_t byte(std::size_t index) const {
+    return static_cast<std::uint8_t>(word_ >> (big_ ? 56U - 8U * index : 8U * index));
+  }
+
   /// The same bits as two's complement.
   [[nodiscard]] constexpr std::int32_t get_signed(BitField field) const {
     const std::int64_t sign = std::int64_t{1} << (field.length - 1);
@@ -72,6 +83,13 @@ struct LinearScale {
 
   [[nodiscard]] constexpr double operator()(double raw) const {
     return (raw - zero) / steps_per_unit;
+  }
+
+  /// The raw number nearest to a value that `field` can hold; NaN becomes that of 0.
+  [[nodiscard]] std::uint32_t raw(double value, BitField field) const {
+    const double greatest = static_cast<double>((std::uint64_t{1} << field.length) - 1U);
+    const double nearest = std::round((std::isnan(value) ? 0.0 : value) * steps_per_unit + zero);
+    return static_cast<std::uint32_t>(std::clamp(nearest, 0.0, greatest));
   }
 };
 

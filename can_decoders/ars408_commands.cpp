@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "can_decoders/ars408_commands.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include "can_decoders/ars408_layout.hpp"
+#include "can_decoders/bit_field.hpp"
+
+namespace cremed {
+namespace {
+
+namespace layout = ars408_layout;
+
+constexpr std::uint32_t kCommandId = 0x200;
+constexpr std::uint32_t kSpeedId = 0x300;
+constexpr std::uint32_t kYawRateId = 0x301;
+
+enum Direction : std::uint8_t { standstill = 0, forward = 1, backward = 2 };
+
+PayloadBits empty_bits() { return PayloadBits::big_endian({}); }
+
+CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t length,
+               const PayloadBits& bits) {
+  CanFrame result;
+  result.id = base_id + 0x10U * (sensor_id & 7U);
+  result.length = length;
+  for (std::size_t i = 0; i < length; ++i) {
+    result.data[i] = bits.byte(i);
+  }
+  return result;
+}
+
+/// Writes a signal and its valid bit, if it is to be changed.
+template <typename Code>
+void put(PayloadBits& bits, std::uint8_t valid_bit, BitField field,
+         const std::optional<Code>& code) {
+  if (code) {
+    bits.set({valid_bit, 1}, 1);
+    bits.set(field, std::uint32_t{*code});
+  }
+}
+
+}  // namespace
+
+CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& command) {
+  using namespace layout::configuration;
+  PayloadBits bits = empty_bits();
+  if (command.max_distance_m) {
+    bits.set({kMaxDistanceValid, 1}, 1);
+    bits.set(kMaxDistance, kMaxDistanceScale.raw(*command.max_distance_m, kMaxDistance));
+  }
+  put(bits, kSensorIdValid, kSensorId, command.sensor_id);
+  put(bits, kPowerValid, kPower, command.power_code);
+  put(bits, kOutputValid, kOutput, command.output_code);
+  put(bits, kSendsQualityValid, kSendsQuality, command.sends_quality);
+  put(bits, kSendsExtendedValid, kSendsExtended, command.sends_extended);
+  put(bits, kSortValid, kSort, command.sort_code);
+  put(bits, kStoreValid, kStore, command.store);
+  put(bits, kRelayControlValid, kRelayControl, command.relay_control);
+  put(bits, kRcsThresholdValid, kRcsThreshold, command.rcs_threshold_code);
+  return frame(kCommandId, sensor_id, 8, bits);
+}
+
+CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {
+  using namespace layout::motion;
+  const std::uint32_t speed = kSpeedScale.raw(std::abs(speed_mps), kSpeed);
+  const Direction direction = speed == 0 ? standstill : speed_mps < 0.0 ? backward : forward;
+  PayloadBits bits = empty_bits();
+  bits.set(kDirection, direction);
+  bits.set(kSpeed, speed);
+  return frame(kSpeedId, sensor_id, 2, bits);
+}
+
+CanFrame encode_ars408_yaw_rate(std::uint8_t sensor_id, double yaw_rate_radps) {
+  using namespace layout::motion;
+  PayloadBits bits = empty_bits();
+  bits.set(kYawRate, kYawRateScale.raw(yaw_rate_radps, kYawRate));
+  return frame(kYawRateId, sensor_id, 2, bits);
+}
+
+}  // namespace cremed

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "can_decoders/can_frame.hpp"
+
+namespace cremed {
+
+/// 0x200 RadarCfg: what the sensor shall change. It keeps what is not set, and answers with its
+/// next 0x201, once a second. Codes are those of Ars408RadarState.
+struct Ars408Command {
+  std::optional<double> max_distance_m{};  ///< In steps of 2 m.
+  std::optional<std::uint8_t> sensor_id{};
+  std::optional<std::uint8_t> power_code{};
+  std::optional<std::uint8_t> output_code{};
+  std::optional<bool> sends_quality{};
+  std::optional<bool> sends_extended{};
+  std::optional<std::uint8_t> sort_code{};
+  std::optional<bool> store{};  ///< Write all settings to flash, which wears: never repeat it.
+  std::optional<bool> relay_control{};
+  std::optional<std::uint8_t> rcs_threshold_code{};
+};
+
+// Frames to the sensor, without stamp and interface; `sensor_id` is the one it has now. A value
+// beyond what a frame can carry becomes the nearest one that it can, NaN becomes 0.
+
+CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& command);
+
+/// 0x300, wanted at least every 500 ms; negative is backwards. In steps of 0.02 m/s.
+CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps);
+
+/// 0x301, wanted at least every 500 ms; counter-clockwise. In steps of 0.01 deg/s.
+CanFrame encode_ars408_yaw_rate(std::uint8_t sensor_id, double yaw_rate_radps);
+
+}  // namespace cremed

@@ -127,8 +127,9 @@ std::string LcmPublisher::connect() {
         {"LCM at ", url_, ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0"});
   }
   const std::uint64_t failures = failures_;
-  for (std::size_t i = 0; i < messages_.size(); ++i) {
-    on_status(i, RadarStatus{});
+  for (Messages& messages : messages_) {
+    publish("CREMED_STATUS", messages.status);  // As last known: counters never go back.
+    ++messages.status.seq;
   }
   if (failures_ != failures) {
     lcm_.reset();

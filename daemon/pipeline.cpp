@@ -40,6 +40,9 @@ bool Pipeline::take_next(FrameSource& source) {
     case SourceEvent::idle:
       on_idle(clock_.now_us());
       return true;
+    case SourceEvent::other:
+      on_time(clock_.now_us());
+      return true;
     case SourceEvent::end:
       break;
   }

@@ -52,10 +52,14 @@ int SocketCan::send(std::uint8_t interface, const CanFrame& frame) {
 SourceEvent SocketCan::next(CanFrame& frame) {
   SourceEvent event = SourceEvent::frame;
   while (*stop_ == 0) {
+    const bool has_read = !batch_.frames.empty();
     while (!batch_.frames.empty()) {
       if (take(frame, event)) {
         return event;
       }
+    }
+    if (has_read) {
+      return SourceEvent::other;  // However many error frames come, the caller's loop turns.
     }
     event = refill(frame);
     if (event != SourceEvent::frame) {

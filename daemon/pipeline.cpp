@@ -25,6 +25,30 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
   }
 }
 
+bool Pipeline::take_next(FrameSource& source) {
+  CanFrame frame;
+  switch (source.next(frame)) {
+    case SourceEvent::frame:
+      on_frame(frame);
+      return true;
+    case SourceEvent::dropped:
+      on_dropped(frame.interface);
+      return true;
+    case SourceEvent::clock_step:
+      on_clock_step();
+      return true;
+    case SourceEvent::idle:
+      on_idle(clock_.now_us());
+      return true;
+    case SourceEvent::other:
+      on_time(clock_.now_us());
+      return true;
+    case SourceEvent::end:
+      break;
+  }
+  return false;
+}
+
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
   on_time(frame.stamp_us);
@@ -101,6 +125,16 @@ void Pipeline::on_idle(std::int64_t now_us) {
     radar->assembler.expire(now_us);
     publish_motions(*radar, now_us);
   }
+}
+
+std::size_t Pipeline::frames_to_next_scan() const {
+  std::optional<std::size_t> least;
+  for (const auto& radar : radars_) {
+    if (const auto awaited = radar->assembler.awaited_parts()) {
+      least = std::min(least.value_or(*awaited), *awaited);
+    }
+  }
+  return least.value_or(0);
 }
 
 void Pipeline::finish() {

@@ -166,6 +166,7 @@ void Soak::handle(SourceEvent event, const CanFrame& frame) {
     case SourceEvent::idle:
       pipeline_->on_idle(frame.stamp_us);
       break;
+    case SourceEvent::other:
     case SourceEvent::end:
       break;
   }

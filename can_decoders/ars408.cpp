@@ -3,6 +3,7 @@
 #include "can_decoders/ars408.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -130,6 +131,12 @@ ScanPart scan_part(const Ars408MessageRow& row, Ars408Bytes bytes) {
   }
 }
 
+RadarHealth::Output output_of(std::uint8_t code) {
+  constexpr std::array kOutputs{RadarHealth::Output::none, RadarHealth::Output::objects,
+                                RadarHealth::Output::clusters};
+  return code < kOutputs.size() ? kOutputs[code] : RadarHealth::Output::unknown;
+}
+
 }  // namespace
 
 const Ars408MessageRow* Ars408Decoder::find(const CanFrame& frame) const {
@@ -181,6 +188,24 @@ void Ars408Decoder::note_state(Ars408Message message, Ars408Bytes bytes) {
   } else if (message == Ars408Message::version) {
     version_ = decode_ars408_version(bytes);
   }
+}
+
+RadarHealth Ars408Decoder::health() const {
+  if (!radar_state_) {
+    return {};
+  }
+  const Ars408RadarState& state = *radar_state_;
+  return {.is_known = true,
+          .faults = (state.persistent_error ? RadarHealth::persistent_error : 0U) |
+                    (state.temporary_error ? RadarHealth::temporary_error : 0U) |
+                    (state.temperature_error ? RadarHealth::temperature_error : 0U) |
+                    (state.voltage_error ? RadarHealth::voltage_error : 0U) |
+                    (state.interference ? RadarHealth::interference : 0U) |
+                    (state.speed_missing ? RadarHealth::speed_missing : 0U) |
+                    (state.yaw_rate_missing ? RadarHealth::yaw_rate_missing : 0U),
+          .output = output_of(state.output_code),
+          .sends_quality = state.sends_quality,
+          .max_distance_m = state.max_distance_m};
 }
 
 Detection Ars408Decoder::detection(const TargetPayload& target) const {

@@ -217,6 +217,22 @@ ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
           .payload = payload};
 }
 
+RadarHealth BoschGprDecoder::health() const {
+  if (!info_) {
+    return {};
+  }
+  return {.is_known = true,
+          .faults = (info_->hardware_failure ? RadarHealth::persistent_error : 0U) |
+                    (info_->blind ? RadarHealth::blind : 0U) |
+                    (info_->software_failure ? RadarHealth::software_failure : 0U) |
+                    (info_->can_failure ? RadarHealth::can_failure : 0U) |
+                    (info_->configuration_failure ? RadarHealth::configuration_failure : 0U) |
+                    (info_->not_safe ? RadarHealth::not_safe : 0U) |
+                    (info_->trouble_code != 0 ? RadarHealth::trouble_code : 0U),
+          .output = RadarHealth::Output::objects,
+          .sends_quality = true};
+}
+
 Detection BoschGprDecoder::detection(const TargetPayload& target) const {
   const auto a = decode_bosch_gpr_target_a(target.first);
   const auto b = decode_bosch_gpr_target_b(target.second);

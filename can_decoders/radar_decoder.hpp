@@ -7,6 +7,7 @@
 
 #include "can_decoders/can_frame.hpp"
 #include "can_decoders/detection.hpp"
+#include "can_decoders/radar_health.hpp"
 
 namespace cremed {
 
@@ -67,6 +68,10 @@ class RadarDecoder {
   [[nodiscard]] virtual Detection detection(const TargetPayload& target) const = 0;
 
   [[nodiscard]] virtual ScanFraming framing() const = 0;
+
+  /// What the radar last reported of itself.
+  [[nodiscard]] virtual RadarHealth health() const = 0;
+
   [[nodiscard]] const DecoderCounters& counters() const { return counters_; }
 
  protected:

@@ -22,6 +22,10 @@ namespace {
 constexpr std::array<std::string_view, 6> kLevels = {"trace", "debug", "info",
                                                      "warn",  "error", "off"};
 
+constexpr std::array<std::string_view, 3> kRealTimePolicies = {"prefer", "require", "off"};
+constexpr std::int64_t kMinReceiveBuffer = 1 << 16;
+constexpr std::int64_t kMaxReceiveBuffer = 1 << 26;
+
 bool is_any(std::string_view /*text*/) { return true; }
 
 constexpr TextRule kLcmUrl = {is_lcm_url, kLcmUrlWanted};
@@ -48,6 +52,17 @@ void read_output(TomlReader& reader, OutputConfiguration& output) {
   reader.text("tum", output.tum, kPath);
   reader.text("tum_source", output.tum_source, kSource);
   reader.boolean("publish_scans", output.publish_scans);
+  reader.finish();
+}
+
+void read_live(TomlReader reader, LiveConfiguration& live) {
+  if (const auto policy = reader.choice("realtime", kRealTimePolicies)) {
+    live.real_time = static_cast<RealTimePolicy>(*policy);
+  }
+  reader.integer("receive_buffer_bytes", live.socket.receive_buffer_bytes, kMinReceiveBuffer,
+                 kMaxReceiveBuffer);
+  reader.boolean("hardware_stamps", live.socket.hardware_stamps);
+  reader.number("max_latency_s", live.max_latency_s, {0.05, 10.0});
   reader.finish();
 }
 
@@ -84,6 +99,7 @@ Configuration read_configuration(const toml::table& table, ReadContext& context)
   }
   TomlReader output = reader.table("output");
   read_output(output, configuration.output);
+  read_live(reader.table("live"), configuration.live);
   read_logging(reader.table("logging"), configuration.logging);
   reader.finish();
   if (context.diagnostics.empty()) {  // A wrong value kept its default, which clashes easily.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "can_decoders/ars408.hpp"
 #include "can_decoders/bosch_gpr.hpp"
+#include "daemon/can_socket.hpp"
 #include "estimator/ego_motion_options.hpp"
 
 namespace cremed {
@@ -24,6 +26,7 @@ struct RadarConfiguration {
   std::string name;       ///< Unique whatever its case; at most 15 of letters, digits, _ and -.
   std::string interface;  ///< CAN interface as in the log or on the computer, e.g. "can0".
   std::variant<Ars408Options, BoschGprOptions> decoder;
+  bool motion_feedback = false;  ///< ARS408: sends the estimate back to the sensor (0x300, 0x301).
   double scan_timeout_s = 0.03;  ///< An open scan with no new part for this long is closed.
   EgoMotionOptions ego_motion;
 };
@@ -36,6 +39,21 @@ struct OutputConfiguration {
   bool publish_scans = false;  ///< radar_scan_t on CREMED_SCAN_<RADAR>.
 };
 
+/// What to do about real-time scheduling and locked memory, which the service manager grants.
+enum class RealTimePolicy : std::uint8_t {
+  prefer,   ///< Use what there is, and say once what is missing.
+  require,  ///< Do not start without.
+  off,      ///< Do not lock memory.
+};
+
+/// Running on a live bus.
+struct LiveConfiguration {
+  RealTimePolicy real_time = RealTimePolicy::prefer;
+  CanSocketOptions socket;
+  double max_latency_s =
+      0.5;  ///< Frames that waited for longer before they were read are not used.
+};
+
 struct LoggingConfiguration {
   std::string level = "info";  ///< trace, debug, info, warn, error, off.
 };
@@ -44,6 +62,7 @@ struct LoggingConfiguration {
 struct Configuration {
   std::vector<RadarConfiguration> radars;
   OutputConfiguration output;
+  LiveConfiguration live;
   LoggingConfiguration logging;
 };
 

@@ -10,6 +10,7 @@
 
 #include "daemon/candump.hpp"
 #include "daemon/configuration_estimator.hpp"
+#include "daemon/radar_identifiers.hpp"
 
 namespace cremed {
 namespace {
@@ -41,7 +42,8 @@ constexpr TextRule kName = {
     is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and not \"fused\""};
 constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
 
-void read_ars408(TomlReader& reader, Ars408Options& options) {
+void read_ars408(TomlReader& reader, RadarConfiguration& radar) {
+  auto& options = radar.decoder.emplace<Ars408Options>();
   reader.integer("sensor_id", options.sensor_id, 0, 7);
   if (const auto output = reader.choice("output", kOutputs)) {
     options.output = static_cast<Ars408Output>(*output);
@@ -51,6 +53,7 @@ void read_ars408(TomlReader& reader, Ars408Options& options) {
   reader.bits("keep_dyn_props", keep_dyn_props, 7);
   options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
   reader.integer("min_existence_code", options.min_existence_code, 0, 7);
+  reader.boolean("motion_feedback", radar.motion_feedback);
 }
 
 void check_gpr_ids(TomlReader& reader, const BoschGprOptions& options) {
@@ -62,7 +65,8 @@ void check_gpr_ids(TomlReader& reader, const BoschGprOptions& options) {
   }
 }
 
-void read_gpr(TomlReader& reader, BoschGprOptions& options) {
+void read_gpr(TomlReader& reader, RadarConfiguration& radar) {
+  auto& options = radar.decoder.emplace<BoschGprOptions>();
   reader.identifier("base_id", options.base_id, kMaxStandardId + 1 - kGprTargetIds);
   reader.identifier("info_id", options.info_id, kMaxStandardId);
   if (const auto policy = reader.choice("crc_policy", kCrcPolicies)) {
@@ -75,12 +79,11 @@ void read_gpr(TomlReader& reader, BoschGprOptions& options) {
 }
 
 /// The keys that `read` asks for.
-template <typename Options>
-std::vector<std::string_view> keys_of(void (*read)(TomlReader&, Options&)) {
+std::vector<std::string_view> keys_of(void (*read)(TomlReader&, RadarConfiguration&)) {
   ReadContext scratch{Diagnostics(""), nullptr};
   TomlReader reader(nullptr, "", 0, scratch);
-  Options options;
-  read(reader, options);
+  RadarConfiguration radar;
+  read(reader, radar);
   return reader.known();
 }
 
@@ -88,10 +91,10 @@ std::vector<std::string_view> keys_of(void (*read)(TomlReader&, Options&)) {
 void read_decoder(TomlReader& reader, RadarConfiguration& radar) {
   const auto type = reader.choice("type", kTypes, Presence::required);
   if (!type || *type == 0) {
-    read_ars408(reader, radar.decoder.emplace<Ars408Options>());
+    read_ars408(reader, radar);
   }
   if (!type || *type == 1) {
-    read_gpr(reader, radar.decoder.emplace<BoschGprOptions>());
+    read_gpr(reader, radar);
   }
   reader.refuse(keys_of(read_ars408), "is a key of type \"ars408\"; must be left out here");
   reader.refuse(keys_of(read_gpr), "is a key of type \"bosch_gpr\"; must be left out here");

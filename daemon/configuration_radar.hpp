@@ -11,9 +11,6 @@
 
 namespace cremed {
 
-/// A GPR sends two messages for each of its 48 targets, always.
-inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
-
 /// A radar and where the file says so.
 struct PlacedRadar {
   RadarConfiguration radar;

@@ -5,13 +5,16 @@
 #include <cstdint>
 
 #include "can_decoders/can_frame.hpp"
+#include "daemon/bus_status.hpp"
 
 namespace cremed {
 
 enum class SourceEvent : std::uint8_t {
-  frame,    ///< A frame of a known interface.
-  dropped,  ///< Frames were lost on `frame.interface` before the next one.
-  end,      ///< No more input, or asked to stop.
+  frame,       ///< A frame of a known interface.
+  dropped,     ///< Frames were lost on `frame.interface` before the next one.
+  clock_step,  ///< Live: the system's clock was set; stamps before and after do not compare.
+  idle,        ///< Live: nothing to read for a while.
+  end,         ///< No more input, or asked to stop.
 };
 
 /// What the source read besides the frames it handed out.
@@ -31,6 +34,8 @@ class FrameSource {
   virtual SourceEvent next(CanFrame& frame) = 0;
 
   [[nodiscard]] const SourceCounters& counters() const { return counters_; }
+  /// The bus itself; a log knows nothing of it.
+  [[nodiscard]] virtual BusStatus bus(std::uint8_t /*interface*/) const { return {}; }
 
  protected:
   FrameSource() = default;

@@ -4,63 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
-#include <string_view>
+#include <utility>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include "daemon/message_text.hpp"
+#include "daemon/multicast_route.hpp"
 
 namespace cremed {
 namespace {
-
-/// lcm_create prints a riddle and leaks a descriptor where no route leads to the group, so we look
-/// before. Empty if all is well.
-std::string multicast_problem(const std::string& url) {
-  constexpr std::string_view kScheme = "udpm://";
-  if (!url.starts_with(kScheme)) {
-    return {};
-  }
-  const std::string group =
-      url.substr(kScheme.size(), url.find_first_of(":?", kScheme.size()) - kScheme.size());
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(7667);
-  if (::inet_pton(AF_INET, group.empty() ? "239.255.76.67" : group.c_str(), &address.sin_addr) !=
-          1 ||
-      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
-    return "'" + group + "' is no IPv4 multicast address, such as 239.255.76.67";
-  }
-  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) {
-    return std::strerror(errno);
-  }
-  sockaddr generic{};
-  std::memcpy(&generic, &address, sizeof(generic));
-  const int result = ::connect(descriptor, &generic, sizeof(address));
-  const int error = errno;
-  ::close(descriptor);
-  if (result == 0) {
-    return {};
-  }
-  return std::string(std::strerror(error)) +
-         ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or use --lcm-url none";
-}
-
-lcm_t* create_lcm(const std::string& url) {
-  const std::string problem = multicast_problem(url);
-  if (!problem.empty()) {
-    throw std::runtime_error("LCM at " + url + ": " + problem);
-  }
-  lcm_t* lcm = lcm_create(url.c_str());
-  if (lcm == nullptr) {
-    throw std::runtime_error("LCM at " + url +
-                             ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0");
-  }
-  return lcm;
-}
 
 void reserve(radar_scan_t& scan) {
   scan.id.reserve(kMaxDetections);
@@ -94,6 +44,30 @@ void append(const Detection& detection, radar_scan_t& scan) {
 
 std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
+void fill_bus(const BusStatus& bus, status_t& m) {
+  m.link_state = static_cast<std::int8_t>(bus.link);
+  m.bus_state = static_cast<std::int8_t>(bus.bus);
+  m.bus_frames = count(bus.frames);
+  m.bus_frames_lost = count(bus.frames_lost);
+  m.bus_frames_stale = count(bus.frames_stale);
+  m.bus_frames_discarded = count(bus.frames_discarded);
+  m.bus_error_frames = count(bus.error_frames);
+  m.bus_offs = count(bus.bus_offs);
+  m.bus_restarts = count(bus.restarts);
+  m.bus_interruptions = count(bus.interruptions);
+  m.bus_frames_sent = count(bus.frames_sent);
+  m.bus_send_failures = count(bus.send_failures);
+  m.clock_steps = count(bus.clock_steps);
+}
+
+void fill_health(const RadarHealth& health, status_t& m) {
+  m.radar_has_reported = health.is_known ? 1 : 0;
+  m.radar_output = static_cast<std::int8_t>(health.output);
+  m.radar_sends_quality = health.sends_quality ? 1 : 0;
+  m.radar_max_distance_m = static_cast<float>(health.max_distance_m);
+  m.radar_faults = static_cast<std::int32_t>(health.faults);
+}
+
 }  // namespace
 
 std::string scan_channel(const std::string& radar_name) {
@@ -103,8 +77,8 @@ std::string scan_channel(const std::string& radar_name) {
   return channel;
 }
 
-LcmPublisher::LcmPublisher(const std::string& url, const Configuration& configuration)
-    : lcm_(create_lcm(url)),
+LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
+    : url_(std::move(url)),
       publish_scans_(configuration.output.publish_scans),
       messages_(configuration.radars.size()) {
   for (std::size_t i = 0; i < messages_.size(); ++i) {
@@ -114,17 +88,34 @@ LcmPublisher::LcmPublisher(const std::string& url, const Configuration& configur
     messages.motion.seq = messages.scan.seq = messages.status.seq = 0;
     messages.scan_channel = scan_channel(name);
     reserve(messages.scan);
+  }
+}
+
+std::string LcmPublisher::connect() {
+  const std::string problem = multicast_problem(url_);
+  if (!problem.empty()) {
+    return concat({"LCM at ", url_, ": ", problem});
+  }
+  lcm_.reset(lcm_create(url_.c_str()));
+  if (lcm_ == nullptr) {
+    return concat(
+        {"LCM at ", url_, ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0"});
+  }
+  const std::uint64_t failures = failures_;
+  for (std::size_t i = 0; i < messages_.size(); ++i) {
     on_status(i, RadarStatus{});
   }
-  if (failures_ != 0) {
-    throw std::runtime_error("LCM at " + url + ": cannot publish");
+  if (failures_ != failures) {
+    lcm_.reset();
+    return concat({"LCM at ", url_, ": cannot publish"});
   }
+  return {};
 }
 
 template <typename Message>
 void LcmPublisher::publish(const char* channel, const Message& message) {
   const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
-  if (size < 0 ||
+  if (lcm_ == nullptr || size < 0 ||
       lcm_publish(lcm_.get(), channel, buffer_.data(), static_cast<unsigned int>(size)) != 0) {
     ++failures_;
   }
@@ -178,6 +169,13 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   m.frames_of_other_interfaces = count(status.source.other_interface_frames);
   m.frames_lost_before_us = count(status.source.lost_frames);
   m.malformed_lines = count(status.source.malformed_lines);
+
+  fill_bus(status.bus, m);
+  m.latency_p50_us = static_cast<std::int32_t>(status.latency.p50_us);
+  m.latency_p99_us = static_cast<std::int32_t>(status.latency.p99_us);
+  m.latency_max_us = static_cast<std::int32_t>(status.latency.max_us);
+  fill_health(status.health, m);
+  m.messages_not_published = count(failures_);
 
   m.frames_of_this_radar = count(status.decoder.frames);
   m.frames_state = count(status.decoder.state_frames);

@@ -22,10 +22,14 @@ namespace cremed {
 /// encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
-  /// Publishes a first status_t of each radar, all zero: watchers see the radars before the first
-  /// frame, LCM allocates what it makes at first use, and what cannot work is found now. Throws
-  /// std::runtime_error that says how to mend it.
-  LcmPublisher(const std::string& url, const Configuration& configuration);
+  /// Does not connect yet: until connect() succeeds, every message is a failure.
+  LcmPublisher(std::string url, const Configuration& configuration);
+
+  /// Sets LCM up and publishes a first status_t of each radar: watchers see the radars before the
+  /// first frame, LCM allocates what it makes at first use, and what cannot work is found now.
+  /// Returns what is wrong and how to mend it; empty if all is well. May be tried again.
+  std::string connect();
+  [[nodiscard]] bool is_connected() const { return lcm_ != nullptr; }
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
@@ -49,6 +53,7 @@ class LcmPublisher final : public OdometrySink {
   template <typename Message>
   void publish(const char* channel, const Message& message);
 
+  std::string url_;
   std::unique_ptr<lcm_t, Destroy> lcm_;
   bool publish_scans_;
   std::vector<Messages> messages_;

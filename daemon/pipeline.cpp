@@ -14,8 +14,8 @@ constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 }  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
-                   std::vector<OdometrySink*> sinks, NowFunction now)
-    : source_(source), sinks_(std::move(sinks)), now_(now) {
+                   std::vector<OdometrySink*> sinks, PipelineClock clock)
+    : source_(source), sinks_(std::move(sinks)), clock_(clock) {
   const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarConfiguration& radar = configuration.radars[i];
@@ -26,28 +26,35 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
 }
 
 void Pipeline::on_frame(const CanFrame& frame) {
+  const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
   on_time(frame.stamp_us);
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
       // The clocks of two buses need not agree: only a bus's own frames tell its time.
       radar->assembler.expire(frame.stamp_us);
-      const ScanPart part = radar->decoder->decode(frame);
-      radar->assembler.add(part);
-      publish_motions(*radar);
+      radar->assembler.add(radar->decoder->decode(frame));
+      publish_motions(*radar, begin_us);
     }
   }
 }
 
-void Pipeline::publish_motions(RadarChannel& radar) {
+void Pipeline::publish_motions(RadarChannel& radar, std::int64_t begin_us) {
   while (const RadarScan* scan = radar.assembler.next()) {
-    const std::int64_t begin_us = now_();
-    const EgoMotion motion = radar.estimator.update(*scan);
-    const auto solve_us = static_cast<std::int32_t>(now_() - begin_us);
-    radar.count(motion);
-    for (OdometrySink* sink : sinks_) {
-      sink->on_scan(radar.index, *scan);
-      sink->on_motion(radar.index, motion, solve_us);
-    }
+    publish(radar, *scan, begin_us);
+  }
+}
+
+void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us) {
+  const std::int64_t solve_begin_us = clock_.now_us();
+  const EgoMotion motion = radar.estimator.update(scan);
+  const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
+  radar.count(motion);
+  for (OdometrySink* sink : sinks_) {
+    sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
+  }
+  radar.note_duration(clock_.now_us() - begin_us, solve_us);
+  for (OdometrySink* sink : sinks_) {
+    sink->on_scan(radar.index, scan);
   }
 }
 
@@ -63,7 +70,8 @@ void Pipeline::on_time(std::int64_t now_us) {
 
 void Pipeline::publish_status() {
   for (const auto& radar : radars_) {
-    const RadarStatus& status = radar->status(*time_us_, source_.counters());
+    radar->begin_period();
+    const RadarStatus& status = radar->status(*time_us_, source_);
     for (OdometrySink* sink : sinks_) {
       sink->on_status(radar->index, status);
     }
@@ -78,10 +86,27 @@ void Pipeline::on_dropped(std::uint8_t interface) {
   }
 }
 
+void Pipeline::on_clock_step() {
+  for (const auto& radar : radars_) {
+    radar->assembler.mark_dropped();
+    radar->assembler.finish();
+    publish_motions(*radar, clock_.now_us());
+    radar->estimator.forget_reference();
+  }
+}
+
+void Pipeline::on_idle(std::int64_t now_us) {
+  on_time(now_us);
+  for (const auto& radar : radars_) {
+    radar->assembler.expire(now_us);
+    publish_motions(*radar, now_us);
+  }
+}
+
 void Pipeline::finish() {
   for (const auto& radar : radars_) {
     radar->assembler.finish();
-    publish_motions(*radar);
+    publish_motions(*radar, clock_.now_us());
   }
   if (time_us_) {
     publish_status();

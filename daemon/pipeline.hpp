@@ -15,24 +15,33 @@
 
 namespace cremed {
 
-/// Time in microseconds, for measuring how long an estimate takes.
-using NowFunction = std::int64_t (*)();
+/// How durations are measured.
+struct PipelineClock {
+  std::int64_t (*now_us)();
+  /// true: `now_us` is the clock of the frames' stamps, and latency counts from the stamp of a
+  /// scan's last frame; false: it counts from when that frame was handed in.
+  bool is_that_of_stamps = false;
+};
 
 /// The whole way from a frame to a message:
 ///
 ///     FrameSource -> RadarDecoder -> ScanAssembler -> EgoMotionEstimator -> OdometrySink
 ///
-/// Time is that of the frames' stamps; nothing here reads a clock but `now`, whose differences are
-/// reported as solve_us. After construction nothing allocates, locks or logs.
+/// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. After
+/// construction nothing allocates, locks or logs.
 class Pipeline {
  public:
   /// `source` (for its counters) and `sinks` must outlive the pipeline.
   Pipeline(const Configuration& configuration, const FrameSource& source,
-           std::vector<OdometrySink*> sinks, NowFunction now);
+           std::vector<OdometrySink*> sinks, PipelineClock clock);
 
   void on_frame(const CanFrame& frame);
   /// Frames were lost on an interface: scans open on it cannot be whole.
   void on_dropped(std::uint8_t interface);
+  /// The clock of the stamps was set: what is open is void, and no motion spans the step.
+  void on_clock_step();
+  /// Nothing to read: time passes nonetheless. `now_us` is of the clock of the stamps.
+  void on_idle(std::int64_t now_us);
   /// No more frames: closes open scans and reports a last status.
   void finish();
 
@@ -40,12 +49,13 @@ class Pipeline {
 
  private:
   void on_time(std::int64_t now_us);
-  void publish_motions(RadarChannel& radar);
+  void publish_motions(RadarChannel& radar, std::int64_t begin_us);
+  void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
   void publish_status();
 
   const FrameSource& source_;
   std::vector<OdometrySink*> sinks_;
-  NowFunction now_;
+  PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::int64_t next_status_us_ = 0;

@@ -36,9 +36,23 @@ void RadarChannel::count(const EgoMotion& motion) {
   }
 }
 
-const RadarStatus& RadarChannel::status(std::int64_t utime_us, const SourceCounters& source) {
+void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
+  latency_.add(latency_us);
+  latencies.add(latency_us);
+  solve_times.add(solve_us);
+}
+
+void RadarChannel::begin_period() {
+  status_.latency = {latency_.count(), latency_.quantile_us(0.5), latency_.quantile_us(0.99),
+                     latency_.max_us()};
+  latency_.clear();
+}
+
+const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource& source) {
   status_.utime_us = utime_us;
-  status_.source = source;
+  status_.source = source.counters();
+  status_.bus = source.bus(interface);
+  status_.health = decoder->health();
   status_.decoder = decoder->counters();
   status_.assembler = assembler.counters();
   status_.selection = estimator.selection();

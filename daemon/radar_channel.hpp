@@ -11,6 +11,8 @@
 #include "can_decoders/radar_decoder.hpp"
 #include "can_decoders/scan_assembler.hpp"
 #include "daemon/configuration.hpp"
+#include "daemon/frame_source.hpp"
+#include "daemon/latency_histogram.hpp"
 #include "daemon/radar_status.hpp"
 #include "estimator/ego_motion_estimator.hpp"
 
@@ -25,16 +27,24 @@ struct RadarChannel {
 
   /// Notes an estimate in the status.
   void count(const EgoMotion& motion);
+  /// Notes how long a scan took from its last frame to the end of its publication, and how much of
+  /// that the estimate took.
+  void note_duration(std::int64_t latency_us, std::int64_t solve_us);
+  /// Sums up the latencies since the last call: the status shows them until the next.
+  void begin_period();
   /// The status with all stages' counters as of now.
-  const RadarStatus& status(std::int64_t utime_us, const SourceCounters& source);
+  const RadarStatus& status(std::int64_t utime_us, const FrameSource& source);
 
   std::size_t index;
   std::uint8_t interface;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
+  LatencyHistogram latencies;    ///< Since the start.
+  LatencyHistogram solve_times;  ///< Since the start.
 
  private:
+  LatencyHistogram latency_;  // Since begin_period().
   RadarStatus status_;
 };
 

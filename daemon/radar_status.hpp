@@ -6,11 +6,20 @@
 #include <cstdint>
 
 #include "can_decoders/radar_decoder.hpp"
+#include "can_decoders/radar_health.hpp"
 #include "can_decoders/scan_assembler.hpp"
 #include "daemon/frame_source.hpp"
 #include "estimator/ego_motion_estimator.hpp"
 
 namespace cremed {
+
+/// Quantiles since the status before.
+struct LatencySummary {
+  std::uint64_t scans = 0;
+  std::int64_t p50_us = 0;
+  std::int64_t p99_us = 0;
+  std::int64_t max_us = 0;
+};
 
 /// Everything countable about one radar's way through the pipeline.
 struct RadarStatus {
@@ -18,6 +27,9 @@ struct RadarStatus {
   MotionStatus last_motion_status = MotionStatus::no_reference;
   std::int64_t utime_last_estimate_us = 0;  ///< 0: none yet.
   SourceCounters source;
+  BusStatus bus;
+  RadarHealth health;
+  LatencySummary latency;
   DecoderCounters decoder;
   AssemblerCounters assembler;
   SelectionCounters selection;

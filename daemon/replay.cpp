@@ -24,8 +24,6 @@ std::int64_t monotonic_ns() {
 
 }  // namespace
 
-std::int64_t monotonic_us() { return monotonic_ns() / 1000; }
-
 Replay::Replay(std::vector<std::unique_ptr<CandumpLog>> logs, double speed,
                const volatile std::sig_atomic_t* stop)
     : logs_(std::move(logs)), pending_(logs_.size()), speed_(speed), stop_(stop) {}

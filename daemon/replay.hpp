@@ -50,7 +50,4 @@ class Replay final : public FrameSource {
   std::int64_t pace_ns_ = 0;
 };
 
-/// CLOCK_MONOTONIC.
-std::int64_t monotonic_us();
-
 }  // namespace cremed

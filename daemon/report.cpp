@@ -161,7 +161,7 @@ void add_silence_hints(const RadarConfiguration& configuration, const RadarStatu
 }  // namespace
 
 RadarReport report(const RadarConfiguration& configuration, RadarChannel& radar,
-                   const SourceCounters& source) {
+                   const FrameSource& source) {
   const RadarStatus& status = radar.status(0, source);
   RadarReport result;
   result.summary = summarise(status);

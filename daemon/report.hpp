@@ -18,6 +18,6 @@ struct RadarReport {
 };
 
 RadarReport report(const RadarConfiguration& configuration, RadarChannel& radar,
-                   const SourceCounters& source);
+                   const FrameSource& source);
 
 }  // namespace cremed

@@ -14,6 +14,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include "daemon/clocks.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
@@ -99,7 +100,11 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   refuse_overwriting(command_line, csv, tum);
   Sinks sinks;
   if (lcm_url != "none") {
-    sinks.owned.push_back(std::make_unique<LcmPublisher>(lcm_url, configuration));
+    auto publisher = std::make_unique<LcmPublisher>(lcm_url, configuration);
+    if (const std::string problem = publisher->connect(); !problem.empty()) {
+      throw std::runtime_error(problem);
+    }
+    sinks.owned.push_back(std::move(publisher));
   }
   if (!csv.empty()) {
     sinks.owned.push_back(std::make_unique<CsvWriter>(csv, radar_names(configuration)));
@@ -137,13 +142,27 @@ void run(FrameSource& source, Pipeline& pipeline) {
 }
 
 void log_report(const Configuration& configuration, const Pipeline& pipeline,
-                const SourceCounters& source) {
+                const FrameSource& source) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarReport result = report(configuration.radars[i], *pipeline.radars()[i], source);
     spdlog::info("{}: {}", configuration.radars[i].name, result.summary);
     for (const std::string& hint : result.hints) {
       spdlog::warn("{}: {}", configuration.radars[i].name, hint);
     }
+  }
+}
+
+std::string quantiles(const LatencyHistogram& durations) {
+  return fmt::format("p50 {} us, p99 {} us, max {} us", durations.quantile_us(0.5),
+                     durations.quantile_us(0.99), durations.max_us());
+}
+
+void log_durations(const Configuration& configuration, const Pipeline& pipeline) {
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const RadarChannel& radar = *pipeline.radars()[i];
+    spdlog::info("{}: {} scans, last frame to end of publication: {}; solver alone: {}",
+                 configuration.radars[i].name, radar.latencies.count(), quantiles(radar.latencies),
+                 quantiles(radar.solve_times));
   }
 }
 
@@ -192,9 +211,9 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   handle_stop_signals();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration);
   const Sinks sinks = open_sinks(command_line, configuration);
-  const NowFunction no_clock = [] { return std::int64_t{0}; };
+  const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(configuration, *replay, sinks.pointers(),
-                    command_line.timing ? &monotonic_us : no_clock);
+                    command_line.timing ? PipelineClock{&monotonic_us} : no_clock);
 
   const std::int64_t begin_us = monotonic_us();
   run(*replay, pipeline);
@@ -203,7 +222,10 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
-  log_report(configuration, pipeline, replay->counters());
+  log_report(configuration, pipeline, *replay);
+  if (command_line.timing) {
+    log_durations(configuration, pipeline);
+  }
   const bool input_good = report_logs(*replay);
   const bool output_good = report_sinks(sinks);
   return input_good && output_good ? 0 : 1;

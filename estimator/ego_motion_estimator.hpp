@@ -64,6 +64,9 @@ class EgoMotionEstimator {
 
   EgoMotion update(const RadarScan& scan);
 
+  /// The clock of the stamps was set: the next scan has no reference.
+  void forget_reference();
+
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
  private:

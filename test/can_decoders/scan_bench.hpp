@@ -22,6 +22,7 @@ class PlainDecoder final : public RadarDecoder {
 
   ScanPart decode(const CanFrame&) override { return {}; }
   [[nodiscard]] ScanFraming framing() const override { return framing_; }
+  [[nodiscard]] RadarHealth health() const override { return {}; }
   [[nodiscard]] Detection detection(const TargetPayload& target) const override {
     return {.range_m = static_cast<double>(target.first[0]),
             .range_std_m = static_cast<double>(target.second[0]),

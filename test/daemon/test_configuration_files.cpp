@@ -61,21 +61,25 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
 std::string text_of(const RadarConfiguration& radar) {
   std::ostringstream out;
   out.precision(17);
-  const auto& [name, interface, decoder, timeout, ego_motion] = radar;
-  out << name << ' ' << interface << ' ' << timeout << '\n';
+  const auto& [name, interface, decoder, feedback, timeout, ego_motion] = radar;
+  out << name << ' ' << interface << ' ' << feedback << ' ' << timeout << '\n';
   std::visit([&](const auto& options) { write(out, options); }, decoder);
   write(out, ego_motion);
   return out.str();
 }
 
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, output, logging] = configuration;
+  const auto& [radars, output, live, logging] = configuration;
   std::string text;
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
   }
   const auto& [lcm_url, csv, tum, tum_source, publish_scans] = output;
+  const auto& [real_time, socket, max_latency] = live;
+  const auto& [receive_buffer, hardware_stamps] = socket;
   const auto& [level] = logging;
+  text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
+          std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
   return text + lcm_url + "|" + csv + "|" + tum + "|" + tum_source + "|" +
          std::to_string(publish_scans) + "|" + level;
 }

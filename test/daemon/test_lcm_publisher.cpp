@@ -71,6 +71,7 @@ constexpr std::size_t kOneDatagram = 1472 - 8;  // LCM's own header takes 8 byte
 
 TEST_CASE("ego_motion_t carries every field, numbered for each source on its own") {
   LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
   const auto received = receive(publisher, [&] {
     publisher.on_motion(1, turning(), 450);
     publisher.on_motion(0, turning(), 0);
@@ -101,6 +102,7 @@ TEST_CASE("ego_motion_t carries every field, numbered for each source on its own
 
 TEST_CASE("Without an estimate the message holds NaN, not zero") {
   LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
   EgoMotion nothing;
   nothing.status = MotionStatus::degenerate;
   const auto received = receive(publisher, [&] { publisher.on_motion(0, nothing, 0); });
@@ -128,6 +130,7 @@ TEST_CASE("The statuses of the message are those of the estimator") {
 
 TEST_CASE("A full scan and then an empty one go out on the radar's own channel") {
   LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
   RadarScan full;
   full.stamp_us = 7;
   full.counter = 65535;
@@ -156,11 +159,13 @@ TEST_CASE("Scans stay at home unless asked for") {
   Configuration configuration = two_radars();
   configuration.output.publish_scans = false;
   LcmPublisher publisher("memq://", configuration);
+  REQUIRE(publisher.connect().empty());
   CHECK(receive(publisher, [&] { publisher.on_scan(0, RadarScan{}); }).empty());
 }
 
 TEST_CASE("status_t holds every counter and fits one datagram") {
   LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
   RadarStatus status;
   status.utime_us = 99;
   status.utime_last_estimate_us = 98;
@@ -172,6 +177,25 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
     status.motions_by_status[i] = 33 + i;
   }
+  status.bus = {.link = LinkState::failed,
+                .bus = BusState::bus_off,
+                .frames = 44,
+                .frames_lost = 45,
+                .frames_stale = 46,
+                .frames_discarded = 47,
+                .error_frames = 48,
+                .bus_offs = 49,
+                .restarts = 50,
+                .interruptions = 51,
+                .clock_steps = 52,
+                .frames_sent = 53,
+                .send_failures = 54};
+  status.latency = {1, 55, 56, 57};
+  status.health = {.is_known = true,
+                   .faults = RadarHealth::trouble_code | RadarHealth::speed_missing,
+                   .output = RadarHealth::Output::clusters,
+                   .sends_quality = true,
+                   .max_distance_m = 196.0};
   const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
   REQUIRE(received.size() == 1);
   CHECK(received[0].channel == "CREMED_STATUS");
@@ -180,7 +204,14 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   CHECK(m.utime == 99);
   CHECK(m.utime_last_estimate == 98);
   CHECK(m.last_motion_status == ego_motion_t::STATUS_GAP_TOO_LONG);
-  // Every counter was given another number: all of 1..42 must come out, none twice.
+  CHECK(m.link_state == status_t::LINK_FAILED);
+  CHECK(m.bus_state == status_t::BUS_OFF);
+  CHECK(m.radar_has_reported == 1);
+  CHECK(m.radar_output == status_t::OUTPUT_CLUSTERS);
+  CHECK(m.radar_sends_quality == 1);
+  CHECK(m.radar_max_distance_m == 196.0F);
+  CHECK(m.radar_faults == (status_t::FAULT_TROUBLE_CODE | status_t::FAULT_SPEED_MISSING));
+  // Every counter was given another number: all of 1..57 must come out, none twice.
   std::vector<std::int64_t> values{m.frames_read,
                                    m.frames_of_other_interfaces,
                                    m.frames_lost_before_us,
@@ -214,15 +245,35 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
                                    m.detections_no_position,
                                    m.detections_outside_limits};
   values.insert(values.end(), m.motions_by_status, m.motions_by_status + kMotionStatusCount);
-  REQUIRE(values.size() == 43);
+  values.insert(values.end(),
+                {m.bus_frames, m.bus_frames_lost, m.bus_frames_stale, m.bus_frames_discarded,
+                 m.bus_error_frames, m.bus_offs, m.bus_restarts, m.bus_interruptions, m.clock_steps,
+                 m.bus_frames_sent, m.bus_send_failures, m.latency_p50_us, m.latency_p99_us,
+                 m.latency_max_us});
+  REQUIRE(values.size() == 57);
   for (std::size_t i = 0; i < values.size(); ++i) {
     CHECK(values[i] == static_cast<std::int64_t>(i + 1));
   }
 }
 
-TEST_CASE("A URL that cannot work is refused with what would be right") {
-  CHECK_THROWS_WITH(LcmPublisher("udpm://nowhere:7667?ttl=0", two_radars()),
-                    Catch::Contains("no IPv4 multicast address"));
-  CHECK_THROWS_WITH(LcmPublisher("carrier-pigeon://", two_radars()),
-                    Catch::Contains("udpm://239.255.76.67:7667"));
+TEST_CASE("A URL that cannot work is refused with what would be right, time and again") {
+  LcmPublisher nowhere("udpm://nowhere:7667?ttl=0", two_radars());
+  LcmPublisher pigeon("carrier-pigeon://", two_radars());
+  for (int i = 0; i < 3; ++i) {
+    CHECK_THAT(nowhere.connect(), Catch::Contains("no IPv4 multicast address"));
+    CHECK_THAT(pigeon.connect(), Catch::Contains("udpm://239.255.76.67:7667"));
+  }
+  CHECK_FALSE(pigeon.is_connected());
+}
+
+TEST_CASE("Without a connection every message is counted, and numbered on") {
+  LcmPublisher publisher("memq://", two_radars());
+  publisher.on_motion(0, turning(), 0);
+  publisher.on_motion(0, turning(), 0);
+  CHECK(publisher.failures() == 2);
+  REQUIRE(publisher.connect().empty());
+  const auto received = receive(publisher, [&] { publisher.on_motion(0, turning(), 0); });
+  REQUIRE(received.size() == 1);
+  CHECK(decode<ego_motion_t>(received[0]).seq == 2);
+  CHECK(publisher.failures() == 2);
 }

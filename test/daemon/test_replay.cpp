@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/clocks.hpp"
 #include "daemon/replay.hpp"
 #include "test/daemon/temporary_file.hpp"
 

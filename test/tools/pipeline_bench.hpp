@@ -59,7 +59,7 @@ inline RecordingSink run_pipeline(const std::vector<RadarConfiguration>& radars,
                                   const std::vector<CanFrame>& frames) {
   RecordingSink sink(radars.size());
   const NoSource source;
-  Pipeline pipeline(configuration_of(radars), source, {&sink}, &no_clock);
+  Pipeline pipeline(configuration_of(radars), source, {&sink}, {&no_clock});
   for (const CanFrame& frame : frames) {
     pipeline.on_frame(frame);
   }

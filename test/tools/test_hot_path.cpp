@@ -69,7 +69,7 @@ Drive simulate() {
 /// both radars' stages into the sinks. Returns the number of allocations.
 long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks) {
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, sinks, &no_clock);
+  Pipeline pipeline(configuration_of(simulated.radars), source, sinks, {&no_clock});
   std::string_view rest = simulated.log;
   const AllocationGuard guard;
   while (!rest.empty()) {
@@ -122,6 +122,7 @@ TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates"
   Configuration configuration = configuration_of(radars());
   configuration.output.publish_scans = true;
   LcmPublisher publisher("udpm://239.255.76.67:7667?ttl=0", configuration);
+  REQUIRE(publisher.connect().empty());
   CHECK(allocations_of_replay(simulated, {&publisher}) == 0);
   CHECK(publisher.failures() == 0);
 }

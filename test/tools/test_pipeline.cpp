@@ -159,7 +159,7 @@ TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
   const Drive simulated = drive(scenario("straight"), front_and_rear(), options(5, 2.0));
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, &no_clock);
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == simulated.frames.size() / 2) {
       pipeline.on_dropped(0);

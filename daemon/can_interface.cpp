@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/can_interface.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <net/if.h>
+#include <sys/ioctl.h>
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kLookPeriodUs = 200'000;
+
+bool is_up(int descriptor, const std::string& name) {
+  ifreq request{};
+  name.copy(request.ifr_name, IFNAMSIZ - 1);
+  return ::ioctl(descriptor, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
+}
+
+}  // namespace
+
+CanInterface::CanInterface(std::string name, std::vector<std::uint32_t> ids,
+                           const CanSocketOptions& options)
+    : name_(std::move(name)), ids_(std::move(ids)), options_(options) {
+  status_.link = LinkState::absent;
+}
+
+void CanInterface::maintain(std::int64_t monotonic_us) {
+  if (monotonic_us < next_look_us_) {
+    return;
+  }
+  next_look_us_ = monotonic_us + kLookPeriodUs;
+  if (socket_.is_open()) {
+    look();
+  }
+  if (!socket_.is_open()) {
+    open();
+  }
+}
+
+void CanInterface::open() {
+  const CanOpenResult result = socket_.open(name_, ids_, options_);
+  status_.error = result.error;
+  switch (result.status) {
+    case CanOpenStatus::open:
+      status_.receive_buffer_bytes = result.receive_buffer_bytes;
+      status_.bus = BusState::error_active;
+      status_.link = is_up(descriptor(), name_) ? LinkState::up : LinkState::down;
+      return;
+    case CanOpenStatus::no_interface:
+      status_.link = LinkState::absent;
+      return;
+    case CanOpenStatus::no_can:
+    case CanOpenStatus::failed:
+      status_.link = LinkState::failed;
+      return;
+  }
+}
+
+void CanInterface::look() {
+  status_.hardware_stamps_work = socket_.hardware_stamps_work();
+  if (::if_nametoindex(name_.c_str()) != socket_.interface_index()) {
+    lose(LinkState::absent);
+  } else if (is_up(descriptor(), name_)) {
+    status_.link = LinkState::up;
+  } else if (status_.link == LinkState::up) {
+    lose(LinkState::down);
+  }
+}
+
+/// Down, the same socket receives again once the interface is up; gone, it never does.
+void CanInterface::lose(LinkState link) {
+  status_.interruptions += status_.link == LinkState::up ? 1 : 0;
+  status_.link = link;
+  if (link != LinkState::down) {
+    socket_.close();
+  }
+}
+
+CanReceiveResult CanInterface::receive() {
+  const CanReceiveResult result = socket_.receive();
+  switch (result.status) {
+    case CanReceiveStatus::network_down:
+      lose(LinkState::down);
+      break;
+    case CanReceiveStatus::device_gone:
+      lose(LinkState::absent);
+      break;
+    case CanReceiveStatus::failed:
+      status_.error = result.error;
+      lose(LinkState::failed);
+      break;
+    case CanReceiveStatus::frames:
+    case CanReceiveStatus::empty:
+      break;
+  }
+  return result;
+}
+
+int CanInterface::send(const CanFrame& frame) {
+  const int error = socket_.is_open() ? socket_.send(frame) : ENODEV;
+  ++(error == 0 ? status_.frames_sent : status_.send_failures);
+  return error;
+}
+
+}  // namespace cremed

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace cremed {
+
+/// CLOCK_MONOTONIC: for durations.
+std::int64_t monotonic_us();
+
+/// CLOCK_REALTIME: the clock of the frames' stamps. It can be set, so it may jump.
+std::int64_t realtime_us();
+
+}  // namespace cremed

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "daemon/message_text.hpp"
+#include "daemon/radar_identifiers.hpp"
 #include "daemon/report.hpp"
 #include "tools/doctor/seen_radar.hpp"
 
@@ -185,8 +186,14 @@ void add_bad_frames(const RadarStatus& status, Findings& findings) {
   }
 }
 
-bool is_heard(const RadarObservation& observation) {
-  return observation.status.assembler.scans != 0 || observation.status.decoder.wrong_mode != 0;
+/// Do its identifiers come at all? A few of a GPR's may be those of others.
+bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
+  const IdSet ids = sent_ids(radar);
+  std::size_t heard = 0;
+  for (std::size_t id = 0; id < ids.size(); ++id) {
+    heard += ids[id] && bus.ids[id].frames != 0 ? 1 : 0;
+  }
+  return heard > (expected_radar(radar).kind == SeenRadar::Kind::bosch_gpr ? ids.count() / 2 : 0);
 }
 
 }  // namespace
@@ -216,7 +223,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
     if (!elsewhere.empty()) {
       return elsewhere;
     }
-    if (!is_heard(observed) || !candidates(configuration, observation, bus).empty()) {
+    if (!is_heard(wanted, bus) || !candidates(configuration, observation, bus).empty()) {
       return identify(configuration, observation, wanted);
     }
   }

@@ -34,12 +34,6 @@ void check(const CommandLine& c) {
   if (c.lcm_url && !is_lcm_url(*c.lcm_url)) {
     throw CLI::ValidationError("--lcm-url", "'" + *c.lcm_url + "' is not " + kLcmUrlWanted);
   }
-  if (c.replay.empty() && c.check_config.empty()) {
-    throw CLI::ValidationError(
-        "--replay",
-        "reading a CAN interface directly is not built in yet: give a candump log with --replay, "
-        "or follow a live bus with `candump -d -L can0 | cremed --replay -`");
-  }
 }
 
 }  // namespace
@@ -47,7 +41,10 @@ void check(const CommandLine& c) {
 CommandLineResult parse_command_line(int argc, const char* const* argv) {
   CommandLine c;
   std::string speed = "max";
-  CLI::App app{"cremed: radar ego-motion with a covariance that can be believed", "cremed"};
+  CLI::App app{
+      "cremed: radar ego-motion with a covariance that can be believed\n"
+      "Without --replay it runs on the CAN interfaces of the configuration.",
+      "cremed"};
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
   app.add_option("--config", c.config,
                  "Configuration (default: /etc/cremed/cremed.toml, then the installed one)");

@@ -29,6 +29,7 @@ class LcmPublisher final : public OdometrySink {
   /// first frame, LCM allocates what it makes at first use, and what cannot work is found now.
   /// Returns what is wrong and how to mend it; empty if all is well. May be tried again.
   std::string connect();
+  [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] bool is_connected() const { return lcm_ != nullptr; }
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;

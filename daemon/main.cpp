@@ -9,6 +9,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
+#include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
 
 namespace {
@@ -26,7 +27,8 @@ int run(const cremed::CommandLine& command_line) {
   const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
   spdlog::info("configuration: {}", path);
-  return cremed::run_replay(command_line, configuration);
+  return command_line.replay.empty() ? cremed::run_live(command_line, path, configuration)
+                                     : cremed::run_replay(command_line, configuration);
 }
 
 }  // namespace

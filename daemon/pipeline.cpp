@@ -25,6 +25,27 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
   }
 }
 
+bool Pipeline::take_next(FrameSource& source) {
+  CanFrame frame;
+  switch (source.next(frame)) {
+    case SourceEvent::frame:
+      on_frame(frame);
+      return true;
+    case SourceEvent::dropped:
+      on_dropped(frame.interface);
+      return true;
+    case SourceEvent::clock_step:
+      on_clock_step();
+      return true;
+    case SourceEvent::idle:
+      on_idle(clock_.now_us());
+      return true;
+    case SourceEvent::end:
+      break;
+  }
+  return false;
+}
+
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
   on_time(frame.stamp_us);

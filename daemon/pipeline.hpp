@@ -35,6 +35,9 @@ class Pipeline {
   Pipeline(const Configuration& configuration, const FrameSource& source,
            std::vector<OdometrySink*> sinks, PipelineClock clock);
 
+  /// Takes the source's next event all the way; false at its end. The loop of the daemon.
+  bool take_next(FrameSource& source);
+
   void on_frame(const CanFrame& frame);
   /// Frames were lost on an interface: scans open on it cannot be whole.
   void on_dropped(std::uint8_t interface);

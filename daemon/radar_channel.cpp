@@ -36,6 +36,13 @@ void RadarChannel::count(const EgoMotion& motion) {
   }
 }
 
+std::uint64_t RadarChannel::estimates() const {
+  const auto of = [this](MotionStatus status) {
+    return status_.motions_by_status[static_cast<std::size_t>(status)];
+  };
+  return of(MotionStatus::ok) + of(MotionStatus::standing_still);
+}
+
 void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
   latency_.add(latency_us);
   latencies.add(latency_us);

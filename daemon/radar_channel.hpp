@@ -27,6 +27,8 @@ struct RadarChannel {
 
   /// Notes an estimate in the status.
   void count(const EgoMotion& motion);
+  /// Scans that gave an estimate.
+  [[nodiscard]] std::uint64_t estimates() const;
   /// Notes how long a scan took from its last frame to the end of its publication, and how much of
   /// that the estimate took.
   void note_duration(std::int64_t latency_us, std::int64_t solve_us);

@@ -26,7 +26,9 @@ void touch_stack() {
 std::string RealTimeState::problem() const {
   std::string text;
   if (!has_priority) {
-    text = "no real-time priority (set CPUSchedulingPolicy=fifo in the unit, or start with chrt -f 20)";
+    text =
+        "no real-time priority (set CPUSchedulingPolicy=fifo in the unit, or start with chrt -f "
+        "20)";
   }
   if (!memory_locked) {
     text += text.empty() ? "" : "; ";
@@ -39,8 +41,8 @@ RealTimeState enter_real_time() {
   RealTimeState state;
   const int policy = ::sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
   sched_param parameters{};
-  state.has_priority = (policy == SCHED_FIFO || policy == SCHED_RR) &&
-                       ::sched_getparam(0, &parameters) == 0;
+  state.has_priority =
+      (policy == SCHED_FIFO || policy == SCHED_RR) && ::sched_getparam(0, &parameters) == 0;
   state.priority = parameters.sched_priority;
   state.memory_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   touch_stack();

@@ -9,7 +9,7 @@ namespace cremed {
 /// Whether the process can rely on being run in time. The priority is the service manager's to set
 /// (CPUSchedulingPolicy=fifo); we only look.
 struct RealTimeState {
-  bool has_priority = false;   ///< SCHED_FIFO or SCHED_RR.
+  bool has_priority = false;  ///< SCHED_FIFO or SCHED_RR.
   int priority = 0;
   bool memory_locked = false;
 

@@ -20,22 +20,11 @@
 #include "daemon/pipeline.hpp"
 #include "daemon/replay.hpp"
 #include "daemon/report.hpp"
+#include "daemon/signals.hpp"
 #include "daemon/tum_writer.hpp"
 
 namespace cremed {
 namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-void request_stop(int /*signal*/) { stop_requested = 1; }
-
-/// Without SA_RESTART: a read or sleep in progress ends at once.
-void handle_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = request_stop;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
 
 std::vector<std::string> radar_names(const Configuration& configuration) {
   std::vector<std::string> names;
@@ -118,27 +107,13 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
 }
 
 std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
-                                  const Configuration& configuration) {
+                                  const Configuration& configuration,
+                                  const volatile std::sig_atomic_t* stop) {
   std::vector<std::unique_ptr<CandumpLog>> logs;
   for (const std::string& path : command_line.replay) {
-    logs.push_back(
-        std::make_unique<CandumpLog>(path, interface_names(configuration), &stop_requested));
+    logs.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), stop));
   }
-  return std::make_unique<Replay>(std::move(logs), command_line.speed, &stop_requested);
-}
-
-/// Frame in, message out: the loop of the daemon.
-void run(FrameSource& source, Pipeline& pipeline) {
-  CanFrame frame;
-  for (SourceEvent event = source.next(frame); event != SourceEvent::end;
-       event = source.next(frame)) {
-    if (event == SourceEvent::frame) {
-      pipeline.on_frame(frame);
-    } else {
-      pipeline.on_dropped(frame.interface);
-    }
-  }
-  pipeline.finish();
+  return std::make_unique<Replay>(std::move(logs), command_line.speed, stop);
 }
 
 void log_finding(const std::string& radar, const Finding& finding) {
@@ -178,7 +153,7 @@ void log_durations(const Configuration& configuration, const Pipeline& pipeline)
 }
 
 /// Logs what was wrong with the logs; false if one could not be read to its end.
-bool report_logs(const Replay& replay) {
+bool report_logs(const Replay& replay, bool was_stopped) {
   bool good = true;
   for (const auto& log : replay.logs()) {
     if (log->complaint().line_number != 0) {
@@ -195,7 +170,7 @@ bool report_logs(const Replay& replay) {
     spdlog::warn("{} frames were lost before they were logged", counters.lost_frames);
   }
   // Stopped before the first frame, the input may have been good.
-  if (counters.frames + counters.other_interface_frames == 0 && stop_requested == 0) {
+  if (counters.frames + counters.other_interface_frames == 0 && !was_stopped) {
     spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
     good = false;
   }
@@ -219,15 +194,17 @@ bool report_sinks(const Sinks& sinks) {
 }  // namespace
 
 int run_replay(const CommandLine& command_line, const Configuration& configuration) {
-  handle_stop_signals();
-  const std::unique_ptr<Replay> replay = open_logs(command_line, configuration);
+  const volatile std::sig_atomic_t* stop = handle_stop_signals();
+  const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
   const Sinks sinks = open_sinks(command_line, configuration);
   const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(configuration, *replay, sinks.pointers(),
                     command_line.timing ? PipelineClock{&monotonic_us} : no_clock);
 
   const std::int64_t begin_us = monotonic_us();
-  run(*replay, pipeline);
+  while (pipeline.take_next(*replay)) {
+  }
+  pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
 
   const double log_s = replay->traffic_s();
@@ -237,7 +214,7 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }
-  const bool input_good = report_logs(*replay);
+  const bool input_good = report_logs(*replay, *stop != 0);
   const bool output_good = report_sinks(sinks);
   return input_good && output_good ? 0 : 1;
 }

@@ -71,8 +71,8 @@ ServiceNotifier::~ServiceNotifier() {
 
 void ServiceNotifier::reloading() const {
   std::array<char, kMaxMessage> message;
-  const auto end = fmt::format_to_n(message.data(), message.size(), "RELOADING=1\nMONOTONIC_USEC={}",
-                                    monotonic_us());
+  const auto end = fmt::format_to_n(message.data(), message.size(),
+                                    "RELOADING=1\nMONOTONIC_USEC={}", monotonic_us());
   send({message.data(), std::min(end.size, message.size())});
 }
 

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/live_reporter.hpp"
+
+#include <cstring>
+
+#include <spdlog/spdlog.h>
+
+#include "daemon/message_text.hpp"
+#include "daemon/multicast_route.hpp"
+#include "daemon/report.hpp"
+
+namespace cremed {
+namespace {
+
+/// Shorter pauses are no news: a scan may be lost.
+constexpr int kPatienceS = 3;
+
+enum BusCondition : int {
+  good,
+  absent,
+  down,
+  no_socket,
+  bus_off,
+  errors_only,
+  error_passive,
+  silent,
+};
+
+int condition_of(const BusStatus& now, const BusStatus& before) {
+  switch (now.link) {
+    case LinkState::absent:
+      return absent;
+    case LinkState::down:
+      return down;
+    case LinkState::failed:
+      return no_socket;
+    case LinkState::up:
+    case LinkState::none:
+      break;
+  }
+  if (now.bus == BusState::bus_off) {
+    return bus_off;
+  }
+  const bool has_frames = now.frames != before.frames;
+  if (!has_frames && now.error_frames != before.error_frames) {
+    return errors_only;
+  }
+  if (now.bus == BusState::error_passive) {
+    return error_passive;
+  }
+  return has_frames ? good : silent;
+}
+
+std::string text_of(int condition, const std::string& name, const BusStatus& status) {
+  switch (condition) {
+    case absent:
+      return "no such CAN interface; waiting for it (those there are: `ip link show type can`)";
+    case down:
+      return concat({"is down; set it up: `ip link set ", name,
+                     " up type can bitrate 500000 restart-ms 100`"});
+    case no_socket:
+      return concat({"no raw CAN socket: ", std::strerror(status.error),
+                     "; if the kernel lacks CAN: `modprobe can-raw`"});
+    case bus_off:
+      return concat(
+          {"bus-off, the controller has left the bus; to let it return by itself: `ip "
+           "link set ",
+           name, " type can restart-ms 100`"});
+    case errors_only:
+      return concat(
+          {"error frames and no frame of a radar: is the bit rate right? `ip -details "
+           "link show ",
+           name, "`"});
+    case error_passive:
+      return "controller is error passive: check wiring, termination (120 ohm at both ends), bit "
+             "rate";
+    case silent:
+      return concat({"silent: no frame of a configured radar; `cremed-doctor` tells why"});
+    default:
+      return {};
+  }
+}
+
+const char* short_text(int condition) {
+  constexpr const char* kTexts[] = {"",
+                                    " is missing",
+                                    " is down",
+                                    " has no socket",
+                                    " is bus-off",
+                                    " has errors only",
+                                    " is error passive",
+                                    " is silent"};
+  return kTexts[condition];
+}
+
+}  // namespace
+
+LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
+                           const SocketCan& source, const LcmPublisher* publisher)
+    : configuration_(configuration),
+      pipeline_(pipeline),
+      source_(source),
+      publisher_(publisher),
+      buses_(source.interfaces().size()),
+      progress_(configuration.radars.size()) {
+  for (BusStatus& bus : buses_) {
+    bus.link = LinkState::up;
+  }
+}
+
+std::string LiveReporter::report() {
+  std::string line;
+  for (std::size_t i = 0; i < progress_.size(); ++i) {
+    line += (line.empty() ? "" : "; ") + report_radar(i);
+  }
+  for (std::size_t i = 0; i < buses_.size(); ++i) {
+    const BusStatus now = source_.bus(static_cast<std::uint8_t>(i));
+    if (i == 0) {
+      report_clock(now);
+    }
+    report_bus(*source_.interfaces()[i], now, buses_[i]);
+  }
+  report_publisher();
+  if (publisher_ != nullptr && !publisher_->is_connected()) {
+    line += "; LCM is not connected";
+  }
+  return line;
+}
+
+void LiveReporter::report_bus(const CanInterface& interface, const BusStatus& now,
+                              BusStatus& before) {
+  const std::string& name = interface.name();
+  const int condition = condition_of(now, before);
+  log_.update(name, condition, [&] { return text_of(condition, name, now); });
+  if (now.interruptions != before.interruptions && now.link == LinkState::up) {
+    spdlog::warn("{}: was down for a moment", name);
+  }
+  if (now.bus_offs != before.bus_offs && now.bus != BusState::bus_off) {
+    spdlog::warn("{}: was bus-off for a moment", name);
+  }
+  report_losses(name, now, before);
+  before = now;
+}
+
+void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
+                                 const BusStatus& before) {
+  const int lost = now.frames_lost != before.frames_lost ? 1 : 0;
+  log_.update(concat({name, " losses"}), lost, [] {
+    return "frames are lost: too many for this computer, or for the receive buffer; the scans they "
+           "belong to are incomplete";
+  });
+  const int stale = now.frames_stale != before.frames_stale ? 1 : 0;
+  log_.update(concat({name, " delay"}), stale, [] {
+    return "frames waited for longer than live.max_latency_s and are not used: cremed was not run";
+  });
+  const int wanted = configuration_.live.socket.receive_buffer_bytes;
+  const bool is_clipped = now.link == LinkState::up && now.receive_buffer_bytes < wanted;
+  log_.update(concat({name, " receive buffer"}), is_clipped ? 1 : 0, [&] {
+    return fmt::format("{} bytes instead of {}: `sysctl -w net.core.rmem_max={}`",
+                       now.receive_buffer_bytes, wanted, wanted);
+  });
+  log_.update(concat({name, " hardware stamps"}), now.hardware_stamps_work ? 0 : 1, [] {
+    return "missing, running backwards or not of the system's clock: the kernel's are used";
+  });
+}
+
+void LiveReporter::report_clock(const BusStatus& now) {
+  if (now.clock_steps != clock_steps_) {
+    spdlog::warn("the clock was set: odometry starts anew");
+    clock_steps_ = now.clock_steps;
+  }
+}
+
+std::string LiveReporter::report_radar(std::size_t radar) {
+  const RadarConfiguration& configuration = configuration_.radars[radar];
+  RadarChannel& channel = *pipeline_.radars()[radar];
+  Progress& progress = progress_[radar];
+  const std::uint64_t scans = channel.assembler.counters().scans - progress.scans;
+  const std::uint64_t estimates = channel.estimates() - progress.estimates;
+  progress.scans += scans;
+  progress.estimates += estimates;
+  progress.seconds_without_scan = scans == 0 ? progress.seconds_without_scan + 1 : 0;
+  progress.seconds_without_estimate = estimates == 0 ? progress.seconds_without_estimate + 1 : 0;
+
+  const int condition = condition_of(source_.bus(channel.interface), buses_[channel.interface]);
+  if (condition != good && scans == 0) {
+    return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
+  }
+  const int kind = progress.seconds_without_scan >= kPatienceS       ? 1
+                   : progress.seconds_without_estimate >= kPatienceS ? 2
+                                                                     : 0;
+  log_.update(configuration.name, kind, [&] {
+    const auto findings = radar_findings(configuration, channel.status(0, source_));
+    return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
+                   findings.empty() ? "" : to_text(findings.front())});
+  });
+  return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
+}
+
+void LiveReporter::report_publisher() {
+  if (publisher_ == nullptr) {
+    return;
+  }
+  const bool failing = publisher_->is_connected() && publisher_->failures() != failures_;
+  failures_ = publisher_->failures();
+  log_.update("LCM publishing", failing ? 1 : 0, [&] {
+    const std::string problem = multicast_problem(publisher_->url());
+    return concat({"messages are lost", problem.empty() ? "" : ": ", problem});
+  });
+}
+
+}  // namespace cremed

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/bus_status.hpp"
+#include "daemon/condition_log.hpp"
+#include "daemon/configuration.hpp"
+#include "daemon/lcm_publisher.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/socket_can.hpp"
+
+namespace cremed {
+
+/// What a live daemon says of itself: once a second a line for `systemctl status`, and in the log
+/// what is wrong with buses, radars and LCM, when it begins and when it ends. Off the hot path: it
+/// builds texts.
+class LiveReporter {
+ public:
+  /// All but `configuration` must outlive it; `publisher` may be null.
+  LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
+               const SocketCan& source, const LcmPublisher* publisher);
+
+  /// Looks at everything. Called once a second; returns the line.
+  std::string report();
+
+ private:
+  /// What a radar had done when last looked at.
+  struct Progress {
+    std::uint64_t scans = 0;
+    std::uint64_t estimates = 0;
+    int seconds_without_scan = 0;
+    int seconds_without_estimate = 0;
+  };
+  void report_bus(const CanInterface& interface, const BusStatus& now, BusStatus& before);
+  void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);
+  std::string report_radar(std::size_t radar);
+  void report_clock(const BusStatus& now);
+  void report_publisher();
+
+  Configuration configuration_;
+  const Pipeline& pipeline_;
+  const SocketCan& source_;
+  const LcmPublisher* publisher_;
+  ConditionLog log_;
+  std::vector<BusStatus> buses_;  // As last looked at.
+  std::vector<Progress> progress_;
+  std::uint64_t clock_steps_ = 0;
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "daemon/configuration.hpp"
+#include "daemon/lcm_publisher.hpp"
+#include "daemon/live_reporter.hpp"
+#include "daemon/motion_feedback.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/service_notifier.hpp"
+#include "daemon/socket_can.hpp"
+
+namespace cremed {
+
+/// All that works by one configuration, live: made anew when the configuration changes.
+class LiveSession {
+ public:
+  /// Opens what can be opened; the rest is tried again while it runs. `lcm_url` may be "none".
+  LiveSession(const Configuration& configuration, const std::string& lcm_url,
+              const volatile std::sig_atomic_t* stop);
+
+  /// One event of the buses, and once a second a report to log and service manager. false: the end.
+  bool turn(const ServiceNotifier& notifier);
+  void finish() { pipeline_.finish(); }
+
+ private:
+  std::vector<OdometrySink*> sinks();
+  void connect(std::int64_t monotonic_us);
+  void report(const ServiceNotifier& notifier);
+
+  SocketCan source_;
+  std::optional<LcmPublisher> publisher_;
+  MotionFeedback feedback_;
+  Pipeline pipeline_;
+  LiveReporter reporter_;
+  ConditionLog log_;
+  std::int64_t next_report_us_ = 0;
+  std::int64_t next_connect_us_ = 0;
+  std::int64_t connect_pause_us_ = 0;
+};
+
+}  // namespace cremed

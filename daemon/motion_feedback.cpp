@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/motion_feedback.hpp"
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "can_decoders/ars408_commands.hpp"
+#include "daemon/radar_channel.hpp"
+
+namespace cremed {
+
+MotionFeedback::MotionFeedback(const Configuration& configuration, SocketCan& bus) : bus_(bus) {
+  const std::vector<std::string> names = interface_names(configuration);
+  for (const RadarConfiguration& radar : configuration.radars) {
+    Sensor sensor;
+    if (const auto* options = std::get_if<Ars408Options>(&radar.decoder)) {
+      const auto name = std::find(names.begin(), names.end(), radar.interface);
+      sensor = {radar.motion_feedback, static_cast<std::uint8_t>(name - names.begin()),
+                options->sensor_id};
+    }
+    sensors_.push_back(sensor);
+  }
+}
+
+bool MotionFeedback::is_needed() const {
+  return std::any_of(sensors_.begin(), sensors_.end(),
+                     [](const Sensor& sensor) { return sensor.wants_feedback; });
+}
+
+void MotionFeedback::on_motion(std::size_t radar, const EgoMotion& motion,
+                               std::int32_t /*solve_us*/) {
+  const Sensor& sensor = sensors_[radar];
+  if (!sensor.wants_feedback || !motion.has_estimate()) {
+    return;
+  }
+  const double duration_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+  send(sensor.interface, encode_ars408_speed(sensor.sensor_id, motion.motion.x() / duration_s));
+  send(sensor.interface, encode_ars408_yaw_rate(sensor.sensor_id, motion.motion.z() / duration_s));
+}
+
+void MotionFeedback::send(std::uint8_t interface, const CanFrame& frame) {
+  failures_ += bus_.send(interface, frame) == 0 ? 0 : 1;
+}
+
+}  // namespace cremed

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "daemon/configuration.hpp"
+#include "daemon/odometry_sink.hpp"
+#include "daemon/socket_can.hpp"
+
+namespace cremed {
+
+/// Tells ARS408 sensors the speed and yaw rate (0x300, 0x301) that cremed estimated from their own
+/// scans, where the configuration asks for it. A scan without estimate sends nothing: after 500 ms
+/// the sensor takes the vehicle for standing.
+class MotionFeedback final : public OdometrySink {
+ public:
+  /// `bus` must outlive it.
+  MotionFeedback(const Configuration& configuration, SocketCan& bus);
+
+  [[nodiscard]] bool is_needed() const;
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  [[nodiscard]] std::uint64_t failures() const override { return failures_; }
+
+ private:
+  struct Sensor {
+    bool wants_feedback = false;
+    std::uint8_t interface = 0;
+    std::uint8_t sensor_id = 0;
+  };
+  void send(std::uint8_t interface, const CanFrame& frame);
+
+  SocketCan& bus_;
+  std::vector<Sensor> sensors_;  // By radar.
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/run_live.hpp"
+
+#include <memory>
+
+#include <spdlog/spdlog.h>
+
+#include "daemon/clocks.hpp"
+#include "daemon/live_session.hpp"
+#include "daemon/real_time.hpp"
+#include "daemon/service_notifier.hpp"
+#include "daemon/signals.hpp"
+
+namespace cremed {
+namespace {
+
+/// A file grows for months and writing it may block; LCM has a recorder for that.
+void refuse_files(const CommandLine& command_line, const Configuration& configuration) {
+  if (command_line.output_csv || command_line.output_tum || command_line.timing) {
+    throw UsageError(
+        "--output-csv, --output-tum and --timing need --replay; record a live drive with "
+        "`lcm-logger` and turn it into CSV with cremed-lcm-to-csv");
+  }
+  if (!configuration.output.csv.empty() || !configuration.output.tum.empty()) {
+    spdlog::warn(
+        "output.csv and output.tum are written in replays only; record a live drive with "
+        "`lcm-logger`");
+  }
+}
+
+void set_up_real_time(RealTimePolicy policy) {
+  if (policy == RealTimePolicy::off) {
+    return;
+  }
+  const RealTimeState state = enter_real_time();
+  const std::string problem = state.problem();
+  if (problem.empty()) {
+    spdlog::info("real time: priority {}, memory locked", state.priority);
+  } else if (policy == RealTimePolicy::require) {
+    throw UsageError("live.realtime is \"require\", but there is " + problem);
+  } else {
+    spdlog::warn("not real time: {}", problem);
+  }
+}
+
+std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
+                                   const Configuration& configuration,
+                                   const volatile std::sig_atomic_t* stop) {
+  return std::make_unique<LiveSession>(
+      configuration, command_line.lcm_url.value_or(configuration.output.lcm_url), stop);
+}
+
+/// The file's new configuration, or nothing if it is bad.
+std::unique_ptr<Configuration> reload(const std::string& path) {
+  try {
+    return std::make_unique<Configuration>(load_configuration(path));
+  } catch (const ConfigurationError& error) {
+    spdlog::error("{}\nthe configuration is kept as it was", error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+int run_live(const CommandLine& command_line, const std::string& path,
+             const Configuration& configuration) {
+  refuse_files(command_line, configuration);
+  const volatile std::sig_atomic_t* stop = handle_stop_signals();
+  handle_reload_signal();
+  const ServiceNotifier notifier;
+  std::unique_ptr<LiveSession> session = begin(command_line, configuration, stop);
+  set_up_real_time(configuration.live.real_time);
+  notifier.ready();
+
+  const std::int64_t watch_us = notifier.watchdog_period_us();
+  std::int64_t next_watchdog_us = 0;
+  while (session->turn(notifier)) {
+    if (watch_us > 0 && monotonic_us() >= next_watchdog_us) {
+      notifier.watchdog();
+      next_watchdog_us = monotonic_us() + watch_us;
+    }
+    if (take_reload_request()) {
+      notifier.reloading();
+      if (const auto changed = reload(path)) {
+        session.reset();  // Two at once would fight for the same buses.
+        session = begin(command_line, *changed, stop);
+        spdlog::set_level(spdlog::level::from_str(changed->logging.level));
+        spdlog::info("configuration read again: {}", path);
+      }
+      notifier.ready();
+    }
+  }
+  notifier.stopping();
+  session->finish();
+  spdlog::info("asked to stop");
+  return 0;
+}
+
+}  // namespace cremed

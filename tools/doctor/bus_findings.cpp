@@ -89,7 +89,7 @@ Finding silence(const BusObservation& bus, double seconds) {
                     " error frames): its bit rate is not that of the bus"}),
             bit_rate_command(bus)};
   }
-  return {Severity::error, concat({"no frame on ", bus.interface, " in ", digits(seconds), " s"}),
+  return {Severity::error, concat({"no frame on ", bus.interface, " in ", tenths(seconds), " s"}),
           concat({"check the radar's power, the cable and its two 120 ohm terminations; ",
                   statistics_command(bus)})};
 }

@@ -3,9 +3,7 @@
 #include "tools/doctor/diagnosis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
 
 #include "daemon/message_text.hpp"
 #include "daemon/report.hpp"
@@ -88,9 +86,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
                         double seconds) {
   const auto scans = static_cast<double>(observation.status.assembler.scans);
-  std::array<char, 64> rate{};
-  std::snprintf(rate.data(), rate.size(), "%.1f", seconds > 0.0 ? scans / seconds : 0.0);
-  return concat({radar.name, ": ", rate.data(), " scans/s, ",
+  return concat({radar.name, ": ", tenths(seconds > 0.0 ? scans / seconds : 0.0), " scans/s, ",
                  std::to_string(estimates(observation.status)), " estimates"});
 }
 

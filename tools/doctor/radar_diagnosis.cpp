@@ -186,14 +186,33 @@ void add_bad_frames(const RadarStatus& status, Findings& findings) {
   }
 }
 
-/// Do its identifiers come at all? A few of a GPR's may be those of others.
+/// Do its targets come at all? A few of a GPR's identifiers may be those of others.
 bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
+  constexpr std::size_t kFirstArs408List = 0x600;
+  const bool is_gpr = expected_radar(radar).kind == SeenRadar::Kind::bosch_gpr;
   const IdSet ids = sent_ids(radar);
   std::size_t heard = 0;
-  for (std::size_t id = 0; id < ids.size(); ++id) {
+  for (std::size_t id = is_gpr ? 0 : kFirstArs408List; id < ids.size(); ++id) {
     heard += ids[id] && bus.ids[id].frames != 0 ? 1 : 0;
   }
-  return heard > (expected_radar(radar).kind == SeenRadar::Kind::bosch_gpr ? ids.count() / 2 : 0);
+  return heard > (is_gpr ? ids.count() / 2 : 0);
+}
+
+/// What remains if nothing else explains that there is no estimate.
+void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
+                     Findings& findings) {
+  if (status.assembler.scans == 0) {
+    findings.push_back({Severity::error, "it reports its state but sends no targets",
+                        concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"})});
+  } else if (estimates(status) == 0) {
+    findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
+                        "listen longer, `--seconds 10`"});
+  }
+}
+
+bool has_error(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::error; });
 }
 
 }  // namespace
@@ -227,18 +246,17 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
       return identify(configuration, observation, wanted);
     }
   }
-  Findings findings;
-  if (!observed.status.health.is_known && lacks_quality(wanted, bus)) {
-    findings.push_back({Severity::error, quality_off(wanted),
-                        concat({"`cremed-doctor --configure-ars408 ", wanted.name, "`"})});
-    return findings;
+  const RadarHealth& health = observed.status.health;
+  if (lacks_quality(wanted, bus) && (!health.is_known || health.sends_quality)) {
+    return {{Severity::error, quality_off(wanted),
+             concat({"`cremed-doctor --configure-ars408 ", wanted.name, "`"})}};
   }
-  findings = radar_findings(wanted, observed.status);
-  const bool explained = std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
-    return f.severity == Severity::error;
-  });
-  if (!explained) {
+  Findings findings = radar_findings(wanted, observed.status);
+  if (!has_error(findings)) {
     add_incomplete(wanted, observed, findings);
+  }
+  if (!has_error(findings)) {
+    add_no_estimate(wanted, observed.status, findings);
   }
   add_bad_frames(observed.status, findings);
   return findings;

@@ -12,10 +12,10 @@
 namespace cremed {
 
 struct Ars408Setup {
-  std::optional<double> max_distance_m;  ///< As it is, if not set.
-  bool store = false;                    ///< To flash.
-  bool is_agreed = false;                ///< Do not ask.
-  std::int64_t listen_us = 2'200'000;    ///< A sensor reports once a second.
+  std::optional<double> max_distance_m{};  ///< As it is, if not set.
+  bool store = false;                      ///< To flash.
+  bool is_agreed = false;                  ///< Do not ask.
+  std::int64_t listen_us = 2'200'000;      ///< A sensor reports once a second.
   std::int64_t confirm_us = 3'000'000;
 };
 

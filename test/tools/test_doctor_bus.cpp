@@ -77,9 +77,9 @@ TEST_CASE("What is wrong with a bus is found") {
       Case{"vcan down",
            [](auto& o) {
              front_bus(o).state = InterfaceState::down;
-             front_bus(o).is_virtual = true;
+             front_bus(o).interface = "vcan0";
            },
-           "can0 is down", "`ip link set can0 up`"},
+           "vcan0 is down", "`ip link set vcan0 up`"},
       Case{"bus-off", [](auto& o) { front_bus(o).state = InterfaceState::bus_off; },
            "can0 is bus-off", kBitRate},
       Case{"refused",

@@ -14,10 +14,13 @@ constexpr int kWantedBufferBytes = 1 << 20;
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
+/// Has no wires and no bit rate.
+bool is_virtual(const BusObservation& bus) { return bus.interface.starts_with("vcan"); }
+
 std::string up_command(const BusObservation& bus) {
-  return bus.is_virtual ? concat({"`ip link set ", bus.interface, " up`"})
-                        : concat({"`ip link set ", bus.interface,
-                                  " up type can bitrate 500000 restart-ms 100`"});
+  return is_virtual(bus) ? concat({"`ip link set ", bus.interface, " up`"})
+                         : concat({"`ip link set ", bus.interface,
+                                   " up type can bitrate 500000 restart-ms 100`"});
 }
 
 /// A bit rate can be changed only while the interface is down.
@@ -47,7 +50,7 @@ Finding absent(const BusObservation& bus, const Observation& observation) {
             concat({"set interface to one it has: ", others.empty() ? "none" : others})};
   }
   const std::string remedy =
-      bus.interface.starts_with("vcan")
+      is_virtual(bus)
           ? concat({"`ip link add ", bus.interface, " type vcan && ip link set ", bus.interface,
                     " up`"})
           : "plug in its adapter and load its driver (`ip -brief link show type can` lists them)";
@@ -67,7 +70,7 @@ Finding state_finding(const BusObservation& bus, const Observation& observation)
     case InterfaceState::down:
       return {Severity::error, concat({bus.interface, " is down"}),
               concat({up_command(bus),
-                      bus.is_virtual ? "" : "; for good: systemd/80-can.network of cremed"})};
+                      is_virtual(bus) ? "" : "; for good: systemd/80-can.network of cremed"})};
     case InterfaceState::bus_off:
       return {Severity::error,
               concat({bus.interface, " is bus-off: its controller gave up after errors"}),
@@ -90,8 +93,10 @@ Finding silence(const BusObservation& bus, double seconds) {
             bit_rate_command(bus)};
   }
   return {Severity::error, concat({"no frame on ", bus.interface, " in ", tenths(seconds), " s"}),
-          concat({"check the radar's power, the cable and its two 120 ohm terminations; ",
-                  statistics_command(bus)})};
+          is_virtual(bus)
+              ? "play something on it, `canplayer -I LOG`"
+              : concat({"check the radar's power, the cable and its two 120 ohm terminations; ",
+                        statistics_command(bus)})};
 }
 
 void add_errors(const BusObservation& bus, std::vector<Finding>& findings) {

@@ -31,7 +31,6 @@ struct IdObservation {
 struct BusObservation {
   std::string interface;
   InterfaceState state = InterfaceState::up;
-  bool is_virtual = false;            ///< vcan: has no bit rate.
   std::string error;                  ///< What the kernel said, if failed.
   BusStatus status;                   ///< Counters, error frames, receive buffer.
   std::uint64_t protocol_errors = 0;  ///< Error frames that report bit, stuff, form or CRC errors.

@@ -2,63 +2,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/doctor/can_interfaces.hpp"
 
-#include <algorithm>
 #include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <optional>
 
 #include <linux/can.h>
 #include <net/if.h>
 #include <net/if_arp.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 namespace cremed {
 namespace {
 
-namespace fs = std::filesystem;
+/// What an interface request answers; nothing if there is no such interface.
+std::optional<ifreq> ask(const std::string& interface, unsigned long request) {
+  ifreq answer{};
+  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  interface.copy(answer.ifr_name, IFNAMSIZ - 1);
+  const bool is_answered = descriptor >= 0 && ::ioctl(descriptor, request, &answer) == 0;
+  ::close(descriptor);
+  return is_answered ? std::optional(answer) : std::nullopt;
+}
 
-/// Number in a file of one; -1 where it cannot be read, as `carrier` of an interface that is down.
-long number_in(const fs::path& file) {
-  std::ifstream stream(file);
-  stream >> std::setbase(0);
-  long number = -1;
-  return stream >> number ? number : -1;
+bool is_can(const std::string& interface) {
+  const auto answer = ask(interface, SIOCGIFHWADDR);
+  return answer && answer->ifr_hwaddr.sa_family == ARPHRD_CAN;
 }
 
 }  // namespace
-
-std::vector<std::string> can_interfaces(const std::string& sys_class_net) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(sys_class_net, error)) {
-    if (number_in(entry.path() / "type") == ARPHRD_CAN) {
-      names.push_back(entry.path().filename());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-InterfaceLook look_at(const std::string& interface, const std::string& sys_class_net) {
-  const fs::path folder = fs::path(sys_class_net) / interface;
-  std::error_code error;
-  if (!fs::exists(folder, error)) {
-    return {};
-  }
-  InterfaceLook look;
-  look.is_virtual = !fs::exists(folder / "device", error);
-  if (number_in(folder / "type") != ARPHRD_CAN) {
-    look.state = InterfaceState::not_can;
-  } else if ((number_in(folder / "flags") & IFF_UP) == 0) {
-    look.state = InterfaceState::down;
-  } else {
-    // Drivers take the carrier away when their controller goes bus-off.
-    look.state = number_in(folder / "carrier") == 0 ? InterfaceState::bus_off : InterfaceState::up;
-  }
-  return look;
-}
 
 bool kernel_has_can() {
   const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
@@ -67,6 +39,33 @@ bool kernel_has_can() {
     return true;
   }
   return errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT;
+}
+
+std::vector<std::string> can_interfaces() {
+  std::vector<std::string> names;
+  struct if_nameindex* const all = ::if_nameindex();
+  for (const auto* entry = all; entry != nullptr && entry->if_index != 0; ++entry) {
+    if (is_can(entry->if_name)) {
+      names.emplace_back(entry->if_name);
+    }
+  }
+  ::if_freenameindex(all);
+  return names;
+}
+
+InterfaceState state_of(const std::string& interface) {
+  const auto answer = ask(interface, SIOCGIFFLAGS);
+  if (!answer) {
+    return InterfaceState::absent;
+  }
+  if (!is_can(interface)) {
+    return InterfaceState::not_can;
+  }
+  if ((answer->ifr_flags & IFF_UP) == 0) {
+    return InterfaceState::down;
+  }
+  // Drivers take the carrier away when their controller goes bus-off.
+  return (answer->ifr_flags & IFF_RUNNING) == 0 ? InterfaceState::bus_off : InterfaceState::up;
 }
 
 }  // namespace cremed

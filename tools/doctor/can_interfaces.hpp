@@ -9,21 +9,13 @@
 
 namespace cremed {
 
-/// Where the kernel shows its network interfaces.
-inline constexpr const char* kSysClassNet = "/sys/class/net";
-
-/// Names of the CAN interfaces there are, sorted.
-std::vector<std::string> can_interfaces(const std::string& sys_class_net = kSysClassNet);
-
-struct InterfaceLook {
-  InterfaceState state = InterfaceState::absent;
-  bool is_virtual = false;
-};
-
-InterfaceLook look_at(const std::string& interface,
-                      const std::string& sys_class_net = kSysClassNet);
-
 /// Can this kernel open raw CAN sockets?
 bool kernel_has_can();
+
+/// Names of the CAN interfaces there are, in the kernel's order.
+std::vector<std::string> can_interfaces();
+
+/// What the kernel says about an interface; never `failed`.
+InterfaceState state_of(const std::string& interface);
 
 }  // namespace cremed

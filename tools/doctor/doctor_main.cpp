@@ -125,7 +125,7 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   observation.is_live = true;
   BusObservation bus;
   bus.interface = interface;
-  bus.state = look_at(interface).state;
+  bus.state = state_of(interface);
   if (bus.state == InterfaceState::up) {
     const CanOpenResult result = socket.open(interface, {}, {});
     if (result.status == CanOpenStatus::open) {

@@ -40,9 +40,7 @@ std::set<std::string> interfaces_to_hear(const Configuration& configuration) {
 
 /// Notes what the kernel says about the interface; opens it if it can be read.
 std::unique_ptr<CanSocket> open(const CanSocketOptions& options, BusObservation& bus) {
-  const InterfaceLook look = look_at(bus.interface);
-  bus.state = look.state;
-  bus.is_virtual = look.is_virtual;
+  bus.state = state_of(bus.interface);
   // One that is bus-off may come back meanwhile.
   if (bus.state != InterfaceState::up && bus.state != InterfaceState::bus_off) {
     return nullptr;
@@ -91,7 +89,7 @@ void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
     for (std::size_t i = 0; i < polled.size(); ++i) {
       if (polled[i].revents != 0 && !receive(ears[i], observer)) {
         ears[i].socket->close();  // poll() passes over a negative descriptor.
-        observer.bus(ears[i].interface).state = look_at(ears[i].interface).state;
+        observer.bus(ears[i].interface).state = state_of(ears[i].interface);
       }
     }
   }

@@ -50,6 +50,13 @@ void ScanAssembler::finish() {
   }
 }
 
+std::optional<std::size_t> ScanAssembler::awaited_parts() const {
+  if (!is_open_) {
+    return std::nullopt;
+  }
+  return 2 * capacity() - (open_.has_first.count() + open_.has_second.count());
+}
+
 const RadarScan* ScanAssembler::next() {
   if (waiting_count_ == 0) {
     return nullptr;

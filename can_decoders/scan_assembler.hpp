@@ -70,6 +70,10 @@ class ScanAssembler {
   /// No more input: closes the open scan.
   void finish();
 
+  /// Messages that the open scan still waits for; nothing if no scan is open. A scan of more
+  /// targets than fit waits for those that do.
+  [[nodiscard]] std::optional<std::size_t> awaited_parts() const;
+
   /// The oldest closed scan not yet handed out, or nullptr. Valid until the next call of add,
   /// expire or finish.
   const RadarScan* next();

@@ -233,7 +233,8 @@ CanReceiveResult CanSocket::receive() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const std::size_t size = headers[i].msg_len;
-    if (size != CAN_MTU && size != CANFD_MTU) {
+    const bool is_cut = (headers[i].msg_hdr.msg_flags & MSG_TRUNC) != 0;
+    if (is_cut || (size != CAN_MTU && size != CANFD_MTU)) {
       continue;
     }
     const Control said(headers[i].msg_hdr);

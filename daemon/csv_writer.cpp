@@ -4,19 +4,12 @@
 
 #include <utility>
 
-#include "daemon/text_line.hpp"
-
 namespace cremed {
 
-CsvWriter::CsvWriter(const std::string& path, std::vector<std::string> sources)
-    : file_(path), sources_(std::move(sources)) {
-  file_.write(kHeader);
-}
-
-void CsvWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
+TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us) {
   TextLine line;
   line.integer(motion.utime_start_us).text(",").integer(motion.utime_us).text(",");
-  line.text(sources_[radar]);
+  line.text(source);
   for (Eigen::Index i = 0; i < 3; ++i) {
     line.text(",").fixed(motion.motion(i), 9);
   }
@@ -28,7 +21,16 @@ void CsvWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32
   line.text(",").text(to_string(motion.status));
   line.text(",").integer(motion.targets).text(",").integer(motion.iterations);
   line.text(",").integer(solve_us).text("\n");
-  file_.write(line.view());
+  return line;
+}
+
+CsvWriter::CsvWriter(const std::string& path, std::vector<std::string> sources)
+    : file_(path), sources_(std::move(sources)) {
+  file_.write(kOdometryCsvHeader);
+}
+
+void CsvWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
+  file_.write(odometry_csv_row(sources_[radar], motion, solve_us).view());
 }
 
 }  // namespace cremed

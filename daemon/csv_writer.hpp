@@ -2,21 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/odometry_sink.hpp"
 #include "daemon/output_file.hpp"
+#include "daemon/text_line.hpp"
 
 namespace cremed {
 
-/// Odometry as CSV, one row a scan of each radar; a row without estimate has nan for the motion.
+inline constexpr std::string_view kOdometryCsvHeader =
+    "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
+    "status,targets,iterations,solve_us\n";
+
+/// One row under that header; without estimate it has nan for the motion.
+TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us);
+
+/// Odometry as CSV, one row a scan of each radar.
 class CsvWriter final : public OdometrySink {
  public:
-  static constexpr const char* kHeader =
-      "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
-      "status,targets,iterations,solve_us\n";
-
   /// `sources`: names of the radars. Throws std::runtime_error if the file cannot be made.
   CsvWriter(const std::string& path, std::vector<std::string> sources);
 

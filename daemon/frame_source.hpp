@@ -14,6 +14,7 @@ enum class SourceEvent : std::uint8_t {
   dropped,     ///< Frames were lost on `frame.interface` before the next one.
   clock_step,  ///< Live: the system's clock was set; stamps before and after do not compare.
   idle,        ///< Live: nothing to read for a while.
+  other,       ///< Live: nothing but error frames was read.
   end,         ///< No more input, or asked to stop.
 };
 

@@ -3,8 +3,12 @@
 #include "daemon/lcm_publisher.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cctype>
 #include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include "daemon/message_text.hpp"
 #include "daemon/multicast_route.hpp"
@@ -68,6 +72,27 @@ void fill_health(const RadarHealth& health, status_t& m) {
   m.radar_faults = static_cast<std::int32_t>(health.faults);
 }
 
+/// LCM sends with a socket that waits when its buffer is full, and gives no access to it: it is
+/// among the descriptors that lcm_create has opened. One that never waits costs a message, not the
+/// scans behind it.
+lcm_t* create_lcm(const std::string& url) {
+  constexpr int kDescriptors = 256;
+  const auto is_open = [](int descriptor) { return ::fcntl(descriptor, F_GETFD) >= 0; };
+  std::bitset<kDescriptors> before;
+  for (int i = 0; i < kDescriptors; ++i) {
+    before[static_cast<std::size_t>(i)] = is_open(i);
+  }
+  lcm_t* lcm = lcm_create(url.c_str());
+  for (int i = 0; i < kDescriptors; ++i) {
+    struct stat status {};
+    if (!before[static_cast<std::size_t>(i)] && is_open(i) && ::fstat(i, &status) == 0 &&
+        S_ISSOCK(status.st_mode)) {
+      ::fcntl(i, F_SETFL, ::fcntl(i, F_GETFL) | O_NONBLOCK);
+    }
+  }
+  return lcm;
+}
+
 }  // namespace
 
 std::string scan_channel(const std::string& radar_name) {
@@ -96,14 +121,15 @@ std::string LcmPublisher::connect() {
   if (!problem.empty()) {
     return concat({"LCM at ", url_, ": ", problem});
   }
-  lcm_.reset(lcm_create(url_.c_str()));
+  lcm_.reset(create_lcm(url_));
   if (lcm_ == nullptr) {
     return concat(
         {"LCM at ", url_, ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0"});
   }
   const std::uint64_t failures = failures_;
-  for (std::size_t i = 0; i < messages_.size(); ++i) {
-    on_status(i, RadarStatus{});
+  for (Messages& messages : messages_) {
+    publish("CREMED_STATUS", messages.status);  // As last known: counters never go back.
+    ++messages.status.seq;
   }
   if (failures_ != failures) {
     lcm_.reset();

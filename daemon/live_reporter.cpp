@@ -202,7 +202,9 @@ void LiveReporter::report_publisher() {
   if (publisher_ == nullptr) {
     return;
   }
-  const bool failing = publisher_->is_connected() && publisher_->failures() != failures_;
+  const bool was_connected = is_connected_;
+  is_connected_ = publisher_->is_connected();
+  const bool failing = was_connected && is_connected_ && publisher_->failures() != failures_;
   failures_ = publisher_->failures();
   log_.update("LCM publishing", failing ? 1 : 0, [&] {
     const std::string problem = multicast_problem(publisher_->url());

@@ -49,6 +49,7 @@ class LiveReporter {
   std::vector<BusStatus> buses_;  // As last looked at.
   std::vector<Progress> progress_;
   std::uint64_t clock_steps_ = 0;
+  bool is_connected_ = false;
   std::uint64_t failures_ = 0;
 };
 

@@ -58,6 +58,7 @@ void LiveSession::connect(std::int64_t monotonic_us) {
 }
 
 bool LiveSession::turn(const ServiceNotifier& notifier) {
+  source_.expect(pipeline_.frames_to_next_scan());
   const bool goes_on = pipeline_.take_next(source_);
   const std::int64_t now_us = monotonic_us();
   if (now_us >= next_report_us_) {

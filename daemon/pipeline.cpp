@@ -40,6 +40,9 @@ bool Pipeline::take_next(FrameSource& source) {
     case SourceEvent::idle:
       on_idle(clock_.now_us());
       return true;
+    case SourceEvent::other:
+      on_time(clock_.now_us());
+      return true;
     case SourceEvent::end:
       break;
   }
@@ -122,6 +125,16 @@ void Pipeline::on_idle(std::int64_t now_us) {
     radar->assembler.expire(now_us);
     publish_motions(*radar, now_us);
   }
+}
+
+std::size_t Pipeline::frames_to_next_scan() const {
+  std::optional<std::size_t> least;
+  for (const auto& radar : radars_) {
+    if (const auto awaited = radar->assembler.awaited_parts()) {
+      least = std::min(least.value_or(*awaited), *awaited);
+    }
+  }
+  return least.value_or(0);
 }
 
 void Pipeline::finish() {

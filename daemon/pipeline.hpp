@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,6 +48,9 @@ class Pipeline {
   void on_idle(std::int64_t now_us);
   /// No more frames: closes open scans and reports a last status.
   void finish();
+
+  /// No scan can be whole before so many more frames have come; 0 if no scan is open.
+  [[nodiscard]] std::size_t frames_to_next_scan() const;
 
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/socket_can.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "daemon/can_error.hpp"
 #include "daemon/clocks.hpp"
@@ -14,6 +16,12 @@ namespace {
 
 /// How often time passes on a silent bus: scans time out, the service tells that it lives.
 constexpr int kIdleMs = 20;
+
+/// More frames than can come in a millisecond: one of 8 bytes takes 111 us at 1 Mbit/s.
+constexpr std::size_t kFramesPerMs = 16;
+/// Long enough to save most wake-ups; too short for a scan of more than a few targets to begin and
+/// end in it, on a bus where none is open.
+constexpr std::size_t kLongestRestMs = 4;
 
 /// A full receive buffer is some 40 batches; a bus cannot refill it while it is emptied.
 constexpr int kMaxDiscardedBatches = 1000;
@@ -44,10 +52,14 @@ int SocketCan::send(std::uint8_t interface, const CanFrame& frame) {
 SourceEvent SocketCan::next(CanFrame& frame) {
   SourceEvent event = SourceEvent::frame;
   while (*stop_ == 0) {
+    const bool has_read = !batch_.frames.empty();
     while (!batch_.frames.empty()) {
       if (take(frame, event)) {
         return event;
       }
+    }
+    if (has_read) {
+      return SourceEvent::other;  // However many error frames come, the caller's loop turns.
     }
     event = refill(frame);
     if (event != SourceEvent::frame) {
@@ -125,7 +137,17 @@ SourceEvent SocketCan::receive(std::size_t interface, CanFrame& frame) {
   return SourceEvent::dropped;
 }
 
+/// Ends before the last of the expected frames can have come.
+void SocketCan::rest() const {
+  const std::size_t rest_ms = std::min(expected_frames_ / kFramesPerMs, kLongestRestMs);
+  if (rest_ms > 0) {
+    const timespec duration{0, static_cast<long>(rest_ms) * 1'000'000};
+    ::nanosleep(&duration, nullptr);
+  }
+}
+
 SourceEvent SocketCan::wait() {
+  rest();
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     polled_[i] = {interfaces_[i]->descriptor(), POLLIN, 0};
   }

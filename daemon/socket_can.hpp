@@ -34,6 +34,10 @@ class SocketCan final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
   [[nodiscard]] BusStatus bus(std::uint8_t interface) const override;
 
+  /// Nothing can come of the next so many frames but waiting for more: where they take longer than a
+  /// short rest, they are read together after it, instead of one wake-up each.
+  void expect(std::size_t frames) { expected_frames_ = frames; }
+
   /// errno, or 0.
   int send(std::uint8_t interface, const CanFrame& frame);
 
@@ -55,6 +59,7 @@ class SocketCan final : public FrameSource {
   bool report_loss(CanFrame& frame, SourceEvent& event);
   SourceEvent refill(CanFrame& frame);
   SourceEvent receive(std::size_t interface, CanFrame& frame);
+  void rest() const;
   SourceEvent wait();
   void discard_waiting();
 
@@ -65,6 +70,7 @@ class SocketCan final : public FrameSource {
   std::uint64_t clock_steps_ = 0;
   std::vector<pollfd> polled_;  // One each interface, then the clock.
   std::size_t next_readable_ = 0;
+  std::size_t expected_frames_ = 0;
   Batch batch_;
 };
 

@@ -13,31 +13,29 @@ namespace cremed {
 class TextLine {
  public:
   TextLine& text(std::string_view value) {
-    const std::size_t count = value.copy(end_, static_cast<std::size_t>(limit() - end_));
-    end_ += count;
+    size_ += value.copy(end(), buffer_.size() - size_);
     return *this;
   }
-  TextLine& integer(long long value) { return advance(std::to_chars(end_, limit(), value)); }
+  TextLine& integer(long long value) { return advance(std::to_chars(end(), limit(), value)); }
   /// Fixed notation with `decimals` digits behind the point; "nan" for NaN.
   TextLine& fixed(double value, int decimals) {
-    return advance(std::to_chars(end_, limit(), value, std::chars_format::fixed, decimals));
+    return advance(std::to_chars(end(), limit(), value, std::chars_format::fixed, decimals));
   }
   TextLine& scientific(double value, int decimals) {
-    return advance(std::to_chars(end_, limit(), value, std::chars_format::scientific, decimals));
+    return advance(std::to_chars(end(), limit(), value, std::chars_format::scientific, decimals));
   }
-  [[nodiscard]] std::string_view view() const {
-    return {buffer_.data(), static_cast<std::size_t>(end_ - buffer_.data())};
-  }
+  [[nodiscard]] std::string_view view() const { return {buffer_.data(), size_}; }
 
  private:
+  [[nodiscard]] char* end() { return buffer_.data() + size_; }
   [[nodiscard]] char* limit() { return buffer_.data() + buffer_.size(); }
   TextLine& advance(std::to_chars_result result) {
-    end_ = result.ec == std::errc{} ? result.ptr : end_;
+    size_ += result.ec == std::errc{} ? static_cast<std::size_t>(result.ptr - end()) : 0;
     return *this;
   }
 
   std::array<char, 1024> buffer_{};
-  char* end_ = buffer_.data();
+  std::size_t size_ = 0;
 };
 
 }  // namespace cremed

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "daemon/service_notifier.hpp"
+
+using namespace cremed;
+
+namespace {
+
+/// What a service manager listens with.
+class Manager {
+ public:
+  explicit Manager(const std::string& name) : name_(name) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    name.copy(address.sun_path, sizeof(address.sun_path) - 1);
+    if (name[0] == '@') {
+      address.sun_path[0] = '\0';
+    }
+    descriptor_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    REQUIRE(::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address),
+                   static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size())) == 0);
+    ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
+  }
+  ~Manager() {
+    ::close(descriptor_);
+    ::unlink(name_.c_str());
+    for (const char* variable : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) {
+      ::unsetenv(variable);
+    }
+  }
+  Manager(const Manager&) = delete;
+  Manager& operator=(const Manager&) = delete;
+
+  [[nodiscard]] std::string received() const {
+    std::array<char, 1024> text{};
+    const ssize_t size = ::recv(descriptor_, text.data(), text.size(), MSG_DONTWAIT);
+    return size < 0 ? "nothing" : std::string(text.data(), static_cast<std::size_t>(size));
+  }
+
+ private:
+  std::string name_;
+  int descriptor_ = -1;
+};
+
+}  // namespace
+
+TEST_CASE("The manager hears everything, by a path or an abstract name") {
+  const std::string name = GENERATE(std::string("@cremed-test-") + std::to_string(::getpid()),
+                                    "/tmp/cremed-test-" + std::to_string(::getpid()));
+  const Manager manager(name);
+  const ServiceNotifier notifier;
+  notifier.ready();
+  CHECK(manager.received() == "READY=1");
+  notifier.status("front: 14 scans/s");
+  CHECK(manager.received() == "STATUS=front: 14 scans/s");
+  notifier.watchdog();
+  CHECK(manager.received() == "WATCHDOG=1");
+  notifier.reloading();
+  CHECK_THAT(manager.received(), Catch::StartsWith("RELOADING=1\nMONOTONIC_USEC="));
+  notifier.stopping();
+  CHECK(manager.received() == "STOPPING=1");
+}
+
+TEST_CASE("The watchdog wants half its time, and only from the process it watches") {
+  const Manager manager("@cremed-test-watchdog-" + std::to_string(::getpid()));
+  CHECK(ServiceNotifier().watchdog_period_us() == 0);
+  ::setenv("WATCHDOG_USEC", "2000000", 1);
+  CHECK(ServiceNotifier().watchdog_period_us() == 1'000'000);
+  ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
+  CHECK(ServiceNotifier().watchdog_period_us() == 1'000'000);
+  ::setenv("WATCHDOG_PID", "1", 1);
+  CHECK(ServiceNotifier().watchdog_period_us() == 0);
+}
+
+TEST_CASE("Without a manager, or with one that is gone or does not read, nothing happens") {
+  ServiceNotifier().ready();
+  {
+    const Manager manager("@cremed-test-deaf-" + std::to_string(::getpid()));
+    const ServiceNotifier notifier;
+    for (int i = 0; i < 10'000; ++i) {
+      notifier.watchdog();  // Its queue is full long before.
+    }
+  }
+  ::setenv("NOTIFY_SOCKET", "relative/path", 1);
+  ServiceNotifier().ready();
+  ::unsetenv("NOTIFY_SOCKET");
+}
+
+TEST_CASE("A status too long for a datagram is cut") {
+  const Manager manager("@cremed-test-long-" + std::to_string(::getpid()));
+  ServiceNotifier().status(std::string(5000, 'x'));
+  const std::string text = manager.received();
+  CHECK(text.size() == 512);
+  CHECK_THAT(text, Catch::StartsWith("STATUS=xxx"));
+}

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What only a live source does to the pipeline: clock steps, silence, durations.
+#include <algorithm>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/pipeline_bench.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+std::vector<RadarConfiguration> front_and_rear() {
+  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
+          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
+}
+
+Drive straight(double duration_s) {
+  SimulationOptions options;
+  options.seed = 3;
+  options.duration_s = duration_s;
+  return drive(scenario("straight"), front_and_rear(), options);
+}
+
+std::int64_t stamp_clock_us = 0;
+std::int64_t stamp_clock() { return stamp_clock_us; }
+
+/// Each look at it takes 10 us.
+std::int64_t busy_clock() {
+  static std::int64_t now_us = 0;
+  return now_us += 10;
+}
+
+class EndlessSource final : public FrameSource {
+ public:
+  explicit EndlessSource(std::vector<SourceEvent> events) : events_(std::move(events)) {}
+  SourceEvent next(CanFrame& frame) override {
+    frame.interface = 0;
+    return at_ < events_.size() ? events_[at_++] : SourceEvent::end;
+  }
+
+ private:
+  std::vector<SourceEvent> events_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("No estimate spans a clock step, however small, and the next pair gives one again") {
+  const std::int64_t step_us = GENERATE(50'000, -50'000, 3'600'000'000, -3'600'000'000);
+  CAPTURE(step_us);
+  Drive simulated = straight(4.0);
+  const std::size_t middle = simulated.frames.size() / 2;
+  const std::int64_t step_at_us = simulated.frames[middle].stamp_us;
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
+    if (i == middle) {
+      pipeline.on_clock_step();
+    }
+    simulated.frames[i].stamp_us += i >= middle ? step_us : 0;
+    pipeline.on_frame(simulated.frames[i]);
+  }
+  pipeline.finish();
+  for (const auto& motions : sink.motions) {
+    const auto last_before = std::find_if(motions.begin(), motions.end(), [&](const auto& motion) {
+      return motion.status == MotionStatus::no_reference && &motion != &motions.front();
+    });
+    REQUIRE(last_before != motions.end());
+    // Before it everything is of the old time, from it on of the new.
+    for (auto motion = motions.begin(); motion != last_before; ++motion) {
+      CHECK(motion->utime_us < step_at_us);
+    }
+    for (auto motion = last_before; motion != motions.end(); ++motion) {
+      CHECK(motion->utime_start_us >= step_at_us + step_us);
+    }
+    CHECK(count_status(motions, MotionStatus::no_reference) == 2);
+    CHECK(motions.back().has_estimate());
+    CHECK(count_status(motions, MotionStatus::incomplete_scan) <= 2);
+  }
+}
+
+TEST_CASE("On a silent bus scans still time out, and the status still comes once a second") {
+  const Drive simulated = straight(1.0);
+  RecordingSink sink(2);
+  const NoSource source;
+  stamp_clock_us = simulated.frames.front().stamp_us;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&stamp_clock, true});
+  const auto header = std::find_if(simulated.frames.begin(), simulated.frames.end(),
+                                   [](const CanFrame& frame) { return frame.id == 0x600; });
+  pipeline.on_frame(*header);
+  CHECK(sink.scans[0].empty());
+  pipeline.on_idle(header->stamp_us + 20'000);
+  CHECK(sink.scans[0].empty());
+  pipeline.on_idle(header->stamp_us + 40'000);
+  REQUIRE(sink.scans[0].size() == 1);
+  CHECK(sink.motions[0][0].status == MotionStatus::incomplete_scan);
+  const std::size_t before = sink.statuses[0].size();
+  for (int i = 1; i <= 250; ++i) {
+    pipeline.on_idle(header->stamp_us + 40'000 + i * 20'000);
+  }
+  CHECK(sink.statuses[0].size() - before == 5);
+}
+
+TEST_CASE("Latency counts from the stamp of a scan's last frame, and is told once a second") {
+  const Drive simulated = straight(3.0);
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&stamp_clock, true});
+  for (const CanFrame& frame : simulated.frames) {
+    stamp_clock_us = frame.stamp_us + 700;  // So much later it is read.
+    pipeline.on_frame(frame);
+  }
+  pipeline.finish();
+  REQUIRE(sink.statuses[0].size() >= 3);
+  const LatencySummary& latency = sink.statuses[0][1].latency;
+  CHECK(latency.scans >= 13);
+  CHECK(latency.scans <= 15);
+  CHECK(latency.max_us == 700);
+  CHECK(latency.p50_us == 700);
+  CHECK(pipeline.radars()[0]->latencies.count() == sink.motions[0].size());
+}
+
+TEST_CASE("Without stamps of the clock, latency counts from when the last frame was handed in") {
+  const Drive simulated = straight(1.0);
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&busy_clock});
+  for (const CanFrame& frame : simulated.frames) {
+    pipeline.on_frame(frame);
+  }
+  const RadarChannel& front = *pipeline.radars()[0];
+  CHECK(front.latencies.max_us() == 30);  // Handed in, before and after the solver, published.
+  CHECK(front.solve_times.max_us() == 10);
+}
+
+TEST_CASE("Every event of a source but its end goes on") {
+  EndlessSource source({SourceEvent::frame, SourceEvent::dropped, SourceEvent::clock_step,
+                        SourceEvent::idle, SourceEvent::end});
+  RecordingSink sink(2);
+  Pipeline pipeline(configuration_of(front_and_rear()), source, {&sink}, {&no_clock});
+  int turns = 0;
+  while (pipeline.take_next(source)) {
+    ++turns;
+  }
+  CHECK(turns == 4);
+}
+
+TEST_CASE("A scan never closes earlier than the frames it is said to wait for allow") {
+  SimulationOptions options;
+  options.duration_s = 3.0;
+  const Drive simulated = drive(scenario("lossy"), front_and_rear(), options);
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  std::size_t most = 0;
+  std::size_t whole = 0;
+  for (const CanFrame& frame : simulated.frames) {
+    const std::size_t awaited = pipeline.frames_to_next_scan();
+    most = std::max(most, awaited);
+    const std::size_t before[2] = {sink.scans[0].size(), sink.scans[1].size()};
+    pipeline.on_frame(frame);
+    for (std::size_t radar = 0; radar < 2; ++radar) {
+      const auto& scans = sink.scans[radar];
+      if (scans.size() > before[radar] && scans.back().status == ScanStatus::complete &&
+          scans.back().count > 0) {
+        ++whole;
+        CHECK(awaited <= 1);  // This frame was the last one awaited.
+      }
+    }
+  }
+  CHECK(whole > 40);
+  CHECK(most > 90);
+}

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs scenarios, each in a network namespace of its own with buses of its own, some at a time."""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+
+from can_bus import CanBus, RadarPlayer, ip
+from lcm_listener import LcmListener
+from live_daemon import FRONT, REAR, Failure, LiveDaemon, check, wait_until
+
+SCENARIOS = {}
+LIMIT_S = 120
+SYSCTL = pathlib.Path(__file__).resolve().parents[2] / "systemd" / "sysctl.conf"
+# A scan is on the bus for up to 0.05 s, and the guest shares its processor.
+SLOWEST_ODOMETRY_S = 0.8
+
+
+def scenario(function=None, owns_kernel=False):
+    """Registers a scenario. `owns_kernel`: it sets what all namespaces share, so it runs alone, and
+    only in a guest."""
+    if function is None:
+        return lambda function: scenario(function, owns_kernel)
+    function.owns_kernel = owns_kernel
+    SCENARIOS[function.__name__] = function
+    return function
+
+
+class Vehicle:
+    """What a scenario works with."""
+
+    def __init__(self, arguments, folder):
+        self.bin = pathlib.Path(arguments.bin)
+        self.logs = pathlib.Path(arguments.logs)
+        self.folder = pathlib.Path(folder)
+        self.folder.chmod(0o755)
+        self.listener = None
+        self.daemons, self.players = [], []
+
+    def bus(self, name):
+        return CanBus(name).create()
+
+    def radar(self, bus, log="bends", interface=None):
+        self.players.append(RadarPlayer(bus, self.logs / f"{log}.log", interface))
+        return self.players[-1]
+
+    def start(self, configuration=FRONT, **options):
+        self.listener = self.listener or LcmListener()
+        folder = tempfile.mkdtemp(dir=self.folder)
+        os.chmod(folder, 0o755)
+        daemon = LiveDaemon(folder, self.bin / "cremed", configuration, **options)
+        self.daemons.append(daemon)
+        return daemon
+
+    def expect_odometry(self, *sources, limit_s=8):
+        """Three more estimates of each; returns how long the first took."""
+        begin_s = time.monotonic()
+        for source in sources:
+            wait_until(lambda s=source: len(self.listener.estimates(s, begin_s)) >= 3, limit_s,
+                       f"three estimates of {source}")
+        return min(self.listener.estimates(sources[0], begin_s)[0].monotonic_s - begin_s, limit_s)
+
+    def expect_good_manners(self, repeated=()):
+        """What holds in every scenario: nothing stale, nothing told twice, a clean end."""
+        for heard in self.listener.heard["CREMED_EGO_MOTION"]:
+            check(heard.age_s < SLOWEST_ODOMETRY_S,
+                  f"no stale scan; {heard.message.source} is {heard.age_s:.2f} s old")
+        for daemon in self.daemons:
+            told = [line for line in daemon.lines if not any(word in line for word in repeated)]
+            twice = {line for line in told if told.count(line) > 1}
+            check(not twice, f"each condition told once, not {sorted(twice)}")
+            if daemon.process.poll() is None:
+                status, took_s = daemon.stop()
+                check(status == 0, f"exit status 0 after SIGTERM, not {status}")
+                check(took_s < 1, f"an end within 1 s, not {took_s:.2f} s")
+
+
+def simulate(program, folder):
+    """The logs that the radars play."""
+    def run(name, scenario_name, duration_s, configuration):
+        toml = folder / f"{name}.toml"
+        toml.write_text(configuration)
+        subprocess.run([program, "--scenario", scenario_name, "--duration", str(duration_s),
+                        "--config", toml, "--output", folder / f"{name}.log"], check=True)
+    from live_daemon import radar
+    run("bends", "bends", 30, FRONT + REAR)
+    run("straight", "straight", 60, FRONT)
+    run("one-bus", "bends", 15,
+        FRONT + radar("corner", "vcan0", "sensor_id = 3", x_m=3.4, yaw_rad=-0.6))
+
+
+def set_receive_limit(setting):
+    """It is that of all namespaces, and only the first one's has it."""
+    subprocess.run(["nsenter", "--net", "--target", "1", "sysctl", "--quiet", setting], check=True)
+
+
+def run_one(arguments):
+    """In the scenario's own process and namespace."""
+    ip("link", "set", "lo", "up")
+    ip("route", "add", "224.0.0.0/4", "dev", "lo")
+    with tempfile.TemporaryDirectory(prefix="cremed-scenario-") as folder:
+        vehicle = Vehicle(arguments, folder)
+        begin_s, verdict = time.monotonic(), "PASS"
+        try:
+            SCENARIOS[arguments.scenario](vehicle)
+        except Failure as failure:
+            verdict = f"FAIL: {failure}"
+        except Exception:  # pylint: disable=broad-except
+            verdict = f"FAIL: {traceback.format_exc()}"
+        print(f"{arguments.scenario}: {verdict} ({time.monotonic() - begin_s:.1f} s)")
+        for daemon in vehicle.daemons:
+            if verdict != "PASS":
+                print("    log:", *daemon.lines, sep="\n      ")
+                print("    STATUS:", daemon.status_text())
+            if daemon.process.poll() is None:
+                daemon.process.kill()
+    sys.stdout.flush()
+    # Listeners, players and readers still wait for something.
+    os._exit(0 if verdict == "PASS" else 1)
+
+
+def run_in_namespace(arguments, logs, name):
+    command = ["unshare", "--net", sys.executable, sys.argv[0], arguments.bin, "--logs", logs,
+               "--scenario", name]
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              errors="replace", timeout=LIMIT_S, check=False)
+    except subprocess.TimeoutExpired as expired:
+        print(f"{name}: FAIL: not done within {LIMIT_S} s\n{expired.output}", flush=True)
+        return False
+    print(done.stdout, end="", flush=True)
+    return done.returncode == 0
+
+
+def run_all(arguments):
+    names = [name for name in SCENARIOS if arguments.only in name]
+    alone = [name for name in names if SCENARIOS[name].owns_kernel]
+    if os.environ.get("CREMED_KERNEL") != "guest":
+        print(*[f"{name}: SKIPPED: it would change this computer" for name in alone], sep="\n")
+        names, alone = [name for name in names if name not in alone], []
+    else:
+        set_receive_limit(f"--load={SYSCTL}")
+    with tempfile.TemporaryDirectory(prefix="cremed-logs-") as folder:
+        simulate(pathlib.Path(arguments.bin) / "cremed-simulate", pathlib.Path(folder))
+
+        def run(name):
+            return run_in_namespace(arguments, folder, name)
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+            results = list(pool.map(run, [name for name in names if name not in alone]))
+        results += [run(name) for name in alone]
+    print(f"{sum(results)} of {len(results)} scenarios passed")
+    return 0 if results and all(results) else 1
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("bin", help="folder of cremed and cremed-simulate")
+    parser.add_argument("--only", default="", help="scenarios with this in their name")
+    parser.add_argument("--jobs", type=int, default=4)
+    parser.add_argument("--scenario", help=argparse.SUPPRESS)
+    parser.add_argument("--logs", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.scenario:
+        run_one(arguments)
+    sys.exit(run_all(arguments))

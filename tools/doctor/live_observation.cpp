@@ -89,7 +89,6 @@ void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
     for (std::size_t i = 0; i < polled.size(); ++i) {
       if (polled[i].revents != 0 && !receive(ears[i], observer)) {
         ears[i].socket->close();  // poll() passes over a negative descriptor.
-        observer.bus(ears[i].interface).state = state_of(ears[i].interface);
       }
     }
   }
@@ -104,6 +103,9 @@ Observation observe_live(const Configuration& configuration, double seconds,
   if (has_can) {
     std::vector<Ear> ears = open_all(configuration, observer);
     listen(ears, monotonic_us() + std::llround(seconds * 1e6), stop, observer);
+    for (const Ear& ear : ears) {
+      observer.bus(ear.interface).state = state_of(ear.interface);  // As it is by now.
+    }
   }
   Observation observation = observer.finish();
   observation.is_live = true;

@@ -61,6 +61,10 @@ std::string tenths(double value) {
   return {text.data(), result.ptr};
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return concat({std::to_string(count), " ", noun, count == 1 ? "" : "s"});
+}
+
 std::string quoted(std::string_view text) { return concat({"\"", printable(text), "\""}); }
 
 std::string range_text(std::string_view what, std::string_view min, std::string_view max) {

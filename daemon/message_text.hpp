@@ -26,6 +26,9 @@ std::string digits(std::int64_t value);
 /// One decimal: "13.6"
 std::string tenths(double value);
 
+/// "1 frame", "2 frames"
+std::string counted(std::uint64_t count, std::string_view noun);
+
 /// Printable and in double quotes.
 std::string quoted(std::string_view text);
 

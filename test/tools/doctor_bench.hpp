@@ -76,6 +76,24 @@ inline void report_state(Recording& traffic, const std::string& interface,
   traffic.insert(traffic.begin(), {interface, frame});
 }
 
+inline bool is_of(const BusFrame& entry, const std::string& interface, std::uint32_t id) {
+  return entry.interface == interface && entry.frame.id == id;
+}
+
+inline void move_ids(Recording& traffic, const std::string& interface, std::uint32_t shift) {
+  for (BusFrame& entry : traffic) {
+    entry.frame.id += entry.interface == interface ? shift : 0;
+  }
+}
+
+inline void rename(Recording& traffic, const std::string& from, const std::string& to) {
+  for (BusFrame& entry : traffic) {
+    if (entry.interface == from) {
+      entry.interface = to;
+    }
+  }
+}
+
 inline Observation observe(const Configuration& configuration, const Recording& traffic) {
   Observer observer(configuration);
   for (const BusFrame& entry : traffic) {

@@ -27,24 +27,6 @@ Ars408Options& front_options(Configuration& configuration) {
   return std::get<Ars408Options>(configuration.radars[0].decoder);
 }
 
-bool is_of(const BusFrame& entry, const std::string& interface, std::uint32_t id) {
-  return entry.interface == interface && entry.frame.id == id;
-}
-
-void move_ids(Recording& traffic, const std::string& interface, std::uint32_t shift) {
-  for (auto& entry : traffic) {
-    entry.frame.id += entry.interface == interface ? shift : 0;
-  }
-}
-
-void rename(Recording& traffic, const std::string& from, const std::string& to) {
-  for (auto& entry : traffic) {
-    if (entry.interface == from) {
-      entry.interface = to;
-    }
-  }
-}
-
 /// Each n-th frame of the identifier is lost.
 void lose_each(Recording& traffic, const std::string& interface, std::uint32_t id, int n) {
   int count = 0;
@@ -186,7 +168,7 @@ const std::vector<Case>& cases() {
        Severity::warning, "scans are not whole: their headers say", "frames are lost on the way"},
       {"some frames of a GPR lost",
        [](auto&, auto& traffic) { lose_each(traffic, "can1", 0x210, 4); }, Severity::warning,
-       "frames are missing", "frames are lost on the way"},
+       "missing", "frames are lost on the way"},
       {"more clusters than fit on the bus", [](auto&, auto& traffic) { announce(traffic, 170); },
        Severity::error, "scans are not whole: their headers say",
        "`cremed-doctor --configure-ars408 front --max-distance 200`"},
@@ -236,7 +218,7 @@ const std::vector<Case>& cases() {
          frame.length = 3;
          traffic.insert(traffic.begin() + 100, {"can0", frame});
        },
-       Severity::warning, "front: 1 frames of the wrong length", "`candump -e any`"},
+       Severity::warning, "front: 1 frame of the wrong length", "`candump -e any`"},
       {"too short to tell",
        [](auto&, auto& traffic) {
          const std::int64_t begin_us = traffic.front().frame.stamp_us;

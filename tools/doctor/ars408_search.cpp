@@ -74,9 +74,10 @@ Ars408Search find_ars408(const Configuration& configuration, const RadarConfigur
     return {configured, ""};
   }
   std::vector<std::uint8_t> candidates;
-  for (std::uint8_t sensor = 0; sensor < states.size(); ++sensor) {
-    if (states[sensor] && !is_of_other_radar(sensor, configuration, radar)) {
-      candidates.push_back(sensor);
+  for (std::size_t sensor = 0; sensor < states.size(); ++sensor) {
+    const auto id = static_cast<std::uint8_t>(sensor);
+    if (states[sensor] && !is_of_other_radar(id, configuration, radar)) {
+      candidates.push_back(id);
     }
   }
   return choose(candidates, radar.interface);

@@ -88,8 +88,9 @@ Finding silence(const BusObservation& bus, double seconds) {
   const BusStatus& status = bus.status;
   if (status.error_frames != 0) {
     return {Severity::error,
-            concat({"nothing but errors on ", bus.interface, " (", number(status.error_frames),
-                    " error frames): its bit rate is not that of the bus"}),
+            concat({"nothing but errors on ", bus.interface, " (",
+                    counted(status.error_frames, "error frame"),
+                    "): its bit rate is not that of the bus"}),
             bit_rate_command(bus)};
   }
   return {Severity::error, concat({"no frame on ", bus.interface, " in ", tenths(seconds), " s"}),
@@ -101,7 +102,7 @@ Finding silence(const BusObservation& bus, double seconds) {
 
 void add_errors(const BusObservation& bus, std::vector<Finding>& findings) {
   const BusStatus& status = bus.status;
-  const std::string frames = number(status.error_frames) + " error frames";
+  const std::string frames = counted(status.error_frames, "error frame");
   if (status.bus_offs != 0) {
     findings.push_back(
         {Severity::warning,
@@ -129,15 +130,15 @@ void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
   if (bus.overruns != 0) {
     findings.push_back({Severity::warning,
                         concat({"the controller of ", bus.interface, " lost frames ",
-                                number(bus.overruns), " times: it was not read in time"}),
+                                counted(bus.overruns, "time"), ": it was not read in time"}),
                         "use another adapter, or see what keeps the computer from interrupts"});
   }
   if (dropped != 0) {
-    findings.push_back({Severity::warning,
-                        concat({number(dropped), " frames of ", bus.interface,
-                                " were lost before they were read"}),
-                        concat({"allow a larger receive buffer, ", kRaise,
-                                ", and see what keeps the processor busy"})});
+    findings.push_back(
+        {Severity::warning,
+         concat({counted(dropped, "frame"), " of ", bus.interface, " lost before they were read"}),
+         concat({"allow a larger receive buffer, ", kRaise,
+                 ", and see what keeps the processor busy"})});
   } else if (bus.status.receive_buffer_bytes != 0 &&
              bus.status.receive_buffer_bytes < kWantedBufferBytes) {
     findings.push_back(

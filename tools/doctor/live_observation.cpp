@@ -80,11 +80,11 @@ bool receive(const Ear& ear, Observer& observer) {
 
 void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
             const volatile std::sig_atomic_t* stop, Observer& observer) {
+  std::vector<pollfd> polled(ears.size());
   while (!ears.empty() && *stop == 0 && monotonic_us() < deadline_us) {
-    std::vector<pollfd> polled;
-    for (const Ear& ear : ears) {
-      polled.push_back({ear.socket->descriptor(), POLLIN, 0});
-    }
+    std::transform(ears.begin(), ears.end(), polled.begin(), [](const Ear& ear) {
+      return pollfd{ear.socket->descriptor(), POLLIN, 0};
+    });
     ::poll(polled.data(), polled.size(), kPollMs);
     for (std::size_t i = 0; i < polled.size(); ++i) {
       if (polled[i].revents != 0 && !receive(ears[i], observer)) {

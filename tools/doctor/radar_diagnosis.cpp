@@ -153,13 +153,13 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
       concat({number(scans.incomplete_scans), " of ", number(scans.scans), " scans are not whole: ",
               has_header ? "their headers say " + number(incomplete.announced_targets) +
                                " targets, " + number(incomplete.whole_targets) + " came whole"
-                         : number(scans.missing_parts) + " frames are missing"});
+                         : counted(scans.missing_parts, "frame") + " missing"});
   if (has_header && incomplete.most_announced > kMostThatFit) {
-    findings.push_back({severity, what,
-                        concat({"up to ", number(incomplete.most_announced),
-                                " do not fit on the bus: shorten the range, `cremed-doctor "
-                                "--configure-ars408 ",
-                                radar.name, " --max-distance 200`, or filter (0x202)"})});
+    findings.push_back(
+        {severity, what,
+         concat({"up to ", number(incomplete.most_announced),
+                 " do not fit on the bus: filter (0x202), or shorten the range: ",
+                 "`cremed-doctor --configure-ars408 ", radar.name, " --max-distance 200`"})});
   } else {
     findings.push_back({severity, what,
                         "frames are lost on the way: look at the load of bus and computer, and "
@@ -170,19 +170,21 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
 void add_bad_frames(const RadarStatus& status, Findings& findings) {
   const DecoderCounters& c = status.decoder;
   if (c.crc_errors != 0) {
-    findings.push_back({Severity::warning, number(c.crc_errors) + " frames with a wrong checksum",
+    findings.push_back({Severity::warning,
+                        counted(c.crc_errors, "frame") + " with a wrong checksum",
                         "check the cable; if it is all of them, set crc_policy = \"off\""});
   }
   if (c.wrong_length + c.wrong_kind != 0) {
     findings.push_back({Severity::warning,
-                        number(c.wrong_length + c.wrong_kind) +
-                            " frames of the wrong length, remote or FD on its identifiers",
+                        counted(c.wrong_length + c.wrong_kind, "frame") +
+                            " of the wrong length, remote or FD on its identifiers",
                         "find the other node that sends them, `candump -e any`"});
   }
   if (c.wrong_slot != 0) {
-    findings.push_back({Severity::warning,
-                        number(c.wrong_slot) + " frames whose content contradicts the identifier",
-                        "check base_id, and that it is a General Purpose Radar"});
+    findings.push_back(
+        {Severity::warning,
+         counted(c.wrong_slot, "frame") + " whose content contradicts the identifier",
+         "check base_id, and that it is a General Purpose Radar"});
   }
 }
 

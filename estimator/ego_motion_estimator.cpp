@@ -60,12 +60,12 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   return motion;
 }
 
-/// Selects the targets; ok if the scan can be one end of an estimate.
 void EgoMotionEstimator::forget_reference() {
   has_reference_ = false;
   has_velocity_ = false;
 }
 
+/// Selects the targets; ok if the scan can be one end of an estimate.
 MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
   targets_.clear();
   if (scan.status != ScanStatus::complete) {

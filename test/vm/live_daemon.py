@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""cremed as it runs on a vehicle, without a service manager: its log, its notifications, its end."""
+"""cremed as it runs on a vehicle, without a service manager: its log, notifications and end."""
 import os
 import pathlib
 import shutil
@@ -13,6 +13,10 @@ import time
 
 class Failure(Exception):
     """What was expected, and what was there instead."""
+
+
+class Skipped(Exception):
+    """What this computer lacks for a scenario."""
 
 
 def wait_until(condition, limit_s, expected):

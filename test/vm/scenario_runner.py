@@ -13,10 +13,11 @@ import traceback
 
 from can_bus import CanBus, RadarPlayer, ip
 from lcm_listener import LcmListener
-from live_daemon import FRONT, REAR, Failure, LiveDaemon, check, radar, wait_until
+from live_daemon import FRONT, REAR, Failure, LiveDaemon, Skipped, check, radar, wait_until
 
 SCENARIOS = {}
 LIMIT_S = 120
+PASSED, FAILED, SKIPPED = 0, 1, 77
 SYSCTL = pathlib.Path(__file__).resolve().parents[2] / "systemd" / "sysctl.conf"
 # A scan is on the bus for up to 0.05 s, and the guest shares its processor.
 SLOWEST_ODOMETRY_S = 0.8
@@ -68,7 +69,7 @@ class Vehicle:
         self.daemons.append(daemon)
         return daemon
 
-    def expect_odometry(self, *sources, limit_s=8):
+    def expect_odometry(self, *sources, limit_s=20):
         return expect_estimates(self.listener, sources, limit_s)
 
     def expect_good_manners(self, repeated=(), read_before_us=0):
@@ -79,7 +80,9 @@ class Vehicle:
             check(not is_estimate or heard.age_s < SLOWEST_ODOMETRY_S,
                   f"no stale scan; {heard.message.source} is {heard.age_s:.2f} s old")
         for daemon in self.daemons:
-            told = [line for line in daemon.lines if not any(word in line for word in repeated)]
+            # A computer that is busy otherwise may make it lose frames, or wait, more than once.
+            told = [line for line in daemon.lines
+                    if not any(word in line for word in (*repeated, "losses", "delay"))]
             twice = {line for line in told if told.count(line) > 1}
             check(not twice, f"each condition told once, not {sorted(twice)}")
             if daemon.process.poll() is None:
@@ -117,23 +120,26 @@ def run_one(arguments):
     ip("route", "add", "224.0.0.0/4", "dev", "lo")
     with tempfile.TemporaryDirectory(prefix="cremed-scenario-") as folder:
         vehicle = Vehicle(arguments, folder)
-        begin_s, verdict = time.monotonic(), "PASS"
+        begin_s, status, verdict = time.monotonic(), FAILED, "PASS"
         try:
             SCENARIOS[arguments.scenario](vehicle)
+            status = PASSED
         except Failure as failure:
             verdict = f"FAIL: {failure}"
+        except Skipped as skipped:
+            status, verdict = SKIPPED, f"SKIPPED: {skipped}"
         except Exception:  # pylint: disable=broad-except
             verdict = f"FAIL: {traceback.format_exc()}"
         print(f"{arguments.scenario}: {verdict} ({time.monotonic() - begin_s:.1f} s)")
         for daemon in vehicle.daemons:
-            if verdict != "PASS":
+            if status == FAILED:
                 print("    log:", *daemon.lines, sep="\n      ")
                 print("    STATUS:", daemon.status_text())
             if daemon.process.poll() is None:
                 daemon.process.kill()
     sys.stdout.flush()
     # Listeners, players and readers still wait for something.
-    os._exit(0 if verdict == "PASS" else 1)
+    os._exit(status)
 
 
 def run_in_namespace(arguments, name):
@@ -143,9 +149,9 @@ def run_in_namespace(arguments, name):
                               errors="replace", timeout=LIMIT_S, check=False)
     except subprocess.TimeoutExpired as expired:
         print(f"{name}: FAIL: not done within {LIMIT_S} s\n{expired.output}", flush=True)
-        return False
+        return FAILED
     print(done.stdout, end="", flush=True)
-    return done.returncode == 0
+    return done.returncode
 
 
 def run_all(arguments):
@@ -162,8 +168,11 @@ def run_all(arguments):
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = list(pool.map(run, [name for name in names if name not in alone]))
     results += [run(name) for name in alone]
-    print(f"{sum(results)} of {len(results)} scenarios passed")
-    return 0 if results and all(results) else 1
+    print(f"{results.count(PASSED)} of {len(results)} scenarios passed, "
+          f"{results.count(SKIPPED)} skipped")
+    if not results or set(results) - {PASSED, SKIPPED}:
+        return FAILED
+    return PASSED if PASSED in results else SKIPPED
 
 
 def main():

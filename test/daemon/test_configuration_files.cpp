@@ -20,7 +20,7 @@
 namespace cremed {
 namespace {
 
-const std::string kFolder = std::string(CREMED_SOURCE_DIR) + "/config/";
+const std::string kFolder = CREMED_SOURCE_DIR "/config/";
 
 // Structured bindings: a field that is added to a struct and not here does not compile.
 void write(std::ostream& out, const Ars408Options& options) {

@@ -13,7 +13,7 @@ using namespace cremed::test;
 
 namespace {
 
-const std::string kData = std::string(CREMED_SOURCE_DIR) + "/test/data/";
+const std::string kData = CREMED_SOURCE_DIR "/test/data/";
 const std::string kBends = "--config " + kData + "bends.toml --replay ";
 
 ToolRun doctor(const TemporaryFolder& folder, const std::string& arguments) {

@@ -92,7 +92,7 @@ mount = { x_m = 2.0, y_m = 0.9, yaw_rad = 1.5 }
 }
 
 TEST_CASE("without a configuration the radars are those of the demo") {
-  const std::string path = std::string(CREMED_SOURCE_DIR) + "/config/demo.toml";
+  const std::string path = CREMED_SOURCE_DIR "/config/demo.toml";
   const auto expected = cremed::load_configuration(path).radars;
   const auto radars = cremed::default_radars();
   REQUIRE(radars.size() == expected.size());

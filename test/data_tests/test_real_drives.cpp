@@ -47,8 +47,8 @@ TEST_CASE("Real drives: five radars give odometry, the front one as the referenc
                               RealDrive{"scene-0796", "nuscenes-singapore", 0.01188, 0.1207});
   CAPTURE(scene.name);
   const std::string folder = std::string("data/nuscenes/") + scene.name;
-  const Configuration configuration = load_configuration(
-      CREMED_SOURCE_DIR "/config/" + scene.configuration + ".toml");
+  const Configuration configuration =
+      load_configuration(std::string(CREMED_SOURCE_DIR "/config/") + scene.configuration + ".toml");
   const auto frames = read_frames(read_shared(folder + "/can.log.xz"), configuration);
   const RecordingSink sink = run_pipeline(configuration.radars, frames);
   std::istringstream csv(read_shared(folder + "/truth.csv"));

@@ -11,8 +11,6 @@
 namespace cremed {
 namespace {
 
-constexpr std::uint32_t kSensorBits = 0x70;
-constexpr unsigned kSensorShift = 4;
 constexpr double kMinRangeM = 0.01;
 
 /// Standard deviations of a target's position and velocity.
@@ -140,11 +138,10 @@ RadarHealth::Output output_of(std::uint8_t code) {
 }  // namespace
 
 const Ars408MessageRow* Ars408Decoder::find(const CanFrame& frame) const {
-  const std::uint32_t sensor = (frame.id & kSensorBits) >> kSensorShift;
-  if (frame.extended || frame.error || sensor != options_.sensor_id) {
+  if (frame.extended || frame.error || ars408_sensor_id(frame.id) != options_.sensor_id) {
     return nullptr;
   }
-  const std::uint32_t base = frame.id & ~kSensorBits;
+  const std::uint32_t base = ars408_base_id(frame.id);
   const auto* row = std::find_if(
       kArs408Messages.begin(), kArs408Messages.end(),
       [base](const Ars408MessageRow& r) { return static_cast<std::uint32_t>(r.message) == base; });

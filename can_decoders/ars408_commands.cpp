@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "can_decoders/ars408_layout.hpp"
+#include "can_decoders/ars408_messages.hpp"
 #include "can_decoders/bit_field.hpp"
 
 namespace cremed {
@@ -24,7 +25,7 @@ PayloadBits empty_bits() { return PayloadBits::big_endian({}); }
 CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t length,
                const PayloadBits& bits) {
   CanFrame result;
-  result.id = base_id + 0x10U * (sensor_id & 7U);
+  result.id = ars408_id(base_id, sensor_id & 7U);
   result.length = length;
   for (std::size_t i = 0; i < length; ++i) {
     result.data[i] = bits.byte(i);

@@ -29,6 +29,15 @@ enum class Ars408Message : std::uint16_t {
   cluster_quality = 0x702,
 };
 
+/// The identifier that sensor 0..7 has for the one with `base_id` of sensor 0, and the way back.
+constexpr std::uint32_t ars408_id(std::uint32_t base_id, std::uint32_t sensor_id) {
+  return base_id + 0x10U * sensor_id;
+}
+constexpr std::uint32_t ars408_base_id(std::uint32_t id) { return id & ~0x70U; }
+constexpr std::uint8_t ars408_sensor_id(std::uint32_t id) {
+  return static_cast<std::uint8_t>((id & 0x70U) >> 4U);
+}
+
 /// What a message is about: the sensor itself, or one of the two kinds of target list.
 enum class Ars408Subject : std::uint8_t { sensor, clusters, objects };
 

@@ -94,6 +94,13 @@ const char* short_text(int condition) {
   return kTexts[condition];
 }
 
+/// All buses have the computer's clock: one of them tells.
+void report_clock(const BusStatus& now, const BusStatus& before) {
+  if (now.clock_steps != before.clock_steps) {
+    spdlog::warn("the clock was set: odometry starts anew");
+  }
+}
+
 }  // namespace
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
@@ -117,7 +124,7 @@ std::string LiveReporter::report() {
   for (std::size_t i = 0; i < buses_.size(); ++i) {
     const BusStatus now = source_.bus(static_cast<std::uint8_t>(i));
     if (i == 0) {
-      report_clock(now);
+      report_clock(now, buses_[i]);
     }
     report_bus(*source_.interfaces()[i], now, buses_[i]);
   }
@@ -165,25 +172,19 @@ void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
   });
 }
 
-void LiveReporter::report_clock(const BusStatus& now) {
-  if (now.clock_steps != clock_steps_) {
-    spdlog::warn("the clock was set: odometry starts anew");
-    clock_steps_ = now.clock_steps;
-  }
-}
-
 std::string LiveReporter::report_radar(std::size_t radar) {
   const RadarConfiguration& configuration = configuration_.radars[radar];
   RadarChannel& channel = *pipeline_.radars()[radar];
+  const RadarStatus& status = channel.status(0, source_);
   Progress& progress = progress_[radar];
-  const std::uint64_t scans = channel.assembler.counters().scans - progress.scans;
-  const std::uint64_t estimates = channel.estimates() - progress.estimates;
+  const std::uint64_t scans = status.assembler.scans - progress.scans;
+  const std::uint64_t estimates = cremed::estimates(status) - progress.estimates;
   progress.scans += scans;
   progress.estimates += estimates;
   progress.seconds_without_scan = scans == 0 ? progress.seconds_without_scan + 1 : 0;
   progress.seconds_without_estimate = estimates == 0 ? progress.seconds_without_estimate + 1 : 0;
 
-  const int condition = condition_of(source_.bus(channel.interface), buses_[channel.interface]);
+  const int condition = condition_of(status.bus, buses_[channel.interface]);
   if (condition != good && scans == 0) {
     return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
   }
@@ -191,7 +192,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
   log_.update(configuration.name, kind, [&] {
-    const auto findings = radar_findings(configuration, channel.status(0, source_));
+    const auto findings = radar_findings(configuration, status);
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});
   });

@@ -38,7 +38,6 @@ class LiveReporter {
   void report_bus(const CanInterface& interface, const BusStatus& now, BusStatus& before);
   void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);
   std::string report_radar(std::size_t radar);
-  void report_clock(const BusStatus& now);
   void report_publisher();
 
   Configuration configuration_;
@@ -48,7 +47,6 @@ class LiveReporter {
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // As last looked at.
   std::vector<Progress> progress_;
-  std::uint64_t clock_steps_ = 0;
   bool is_connected_ = false;
   std::uint64_t failures_ = 0;
 };

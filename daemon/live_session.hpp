@@ -31,7 +31,6 @@ class LiveSession {
  private:
   std::vector<OdometrySink*> sinks();
   void connect(std::int64_t monotonic_us);
-  void report(const ServiceNotifier& notifier);
 
   SocketCan source_;
   std::optional<LcmPublisher> publisher_;

@@ -3,7 +3,6 @@
 #include "daemon/motion_feedback.hpp"
 
 #include <algorithm>
-#include <string>
 #include <variant>
 
 #include "can_decoders/ars408_commands.hpp"
@@ -12,13 +11,10 @@
 namespace cremed {
 
 MotionFeedback::MotionFeedback(const Configuration& configuration, SocketCan& bus) : bus_(bus) {
-  const std::vector<std::string> names = interface_names(configuration);
   for (const RadarConfiguration& radar : configuration.radars) {
     Sensor sensor;
     if (const auto* options = std::get_if<Ars408Options>(&radar.decoder)) {
-      const auto name = std::find(names.begin(), names.end(), radar.interface);
-      sensor = {radar.motion_feedback, static_cast<std::uint8_t>(name - names.begin()),
-                options->sensor_id};
+      sensor = {radar.motion_feedback, interface_index(configuration, radar), options->sensor_id};
     }
     sensors_.push_back(sensor);
   }

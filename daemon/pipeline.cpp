@@ -16,37 +16,40 @@ constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
                    std::vector<OdometrySink*> sinks, PipelineClock clock)
     : source_(source), sinks_(std::move(sinks)), clock_(clock) {
-  const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarConfiguration& radar = configuration.radars[i];
-    const auto name = std::find(names.begin(), names.end(), radar.interface);
     radars_.push_back(
-        std::make_unique<RadarChannel>(radar, i, static_cast<std::uint8_t>(name - names.begin())));
+        std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
 }
 
 bool Pipeline::take_next(FrameSource& source) {
   CanFrame frame;
-  switch (source.next(frame)) {
+  const SourceEvent event = source.next(frame);
+  on_event(event, frame);
+  return event != SourceEvent::end;
+}
+
+void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
+  switch (event) {
     case SourceEvent::frame:
       on_frame(frame);
-      return true;
+      break;
     case SourceEvent::dropped:
       on_dropped(frame.interface);
-      return true;
+      break;
     case SourceEvent::clock_step:
       on_clock_step();
-      return true;
+      break;
     case SourceEvent::idle:
       on_idle(frame.stamp_us);
-      return true;
+      break;
     case SourceEvent::other:
       on_time(clock_.now_us());
-      return true;
+      break;
     case SourceEvent::end:
       break;
   }
-  return false;
 }
 
 void Pipeline::on_frame(const CanFrame& frame) {

@@ -38,6 +38,8 @@ class Pipeline {
 
   /// Takes the source's next event all the way; false at its end. The loop of the daemon.
   bool take_next(FrameSource& source);
+  /// What a source reported, with what it set in `frame`.
+  void on_event(SourceEvent event, const CanFrame& frame);
 
   void on_frame(const CanFrame& frame);
   /// Frames were lost on an interface: scans open on it cannot be whole.

@@ -36,13 +36,6 @@ void RadarChannel::count(const EgoMotion& motion) {
   }
 }
 
-std::uint64_t RadarChannel::estimates() const {
-  const auto of = [this](MotionStatus status) {
-    return status_.motions_by_status[static_cast<std::size_t>(status)];
-  };
-  return of(MotionStatus::ok) + of(MotionStatus::standing_still);
-}
-
 void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
   latency_.add(latency_us);
   latencies.add(latency_us);
@@ -74,6 +67,12 @@ std::vector<std::string> interface_names(const Configuration& configuration) {
     }
   }
   return names;
+}
+
+std::uint8_t interface_index(const Configuration& configuration, const RadarConfiguration& radar) {
+  const std::vector<std::string> names = interface_names(configuration);
+  const auto name = std::find(names.begin(), names.end(), radar.interface);
+  return static_cast<std::uint8_t>(name - names.begin());
 }
 
 }  // namespace cremed

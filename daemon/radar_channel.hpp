@@ -27,8 +27,6 @@ struct RadarChannel {
 
   /// Notes an estimate in the status.
   void count(const EgoMotion& motion);
-  /// Scans that gave an estimate.
-  [[nodiscard]] std::uint64_t estimates() const;
   /// Notes how long a scan took from its last frame to the end of its publication, and how much of
   /// that the estimate took.
   void note_duration(std::int64_t latency_us, std::int64_t solve_us);
@@ -50,7 +48,10 @@ struct RadarChannel {
   RadarStatus status_;
 };
 
-/// Index of each radar's interface in the list of distinct names, in order of first mention.
+/// Distinct names of the radars' interfaces, in order of first mention.
 std::vector<std::string> interface_names(const Configuration& configuration);
+
+/// CanFrame::interface of a radar of the configuration: where its interface is in that list.
+std::uint8_t interface_index(const Configuration& configuration, const RadarConfiguration& radar);
 
 }  // namespace cremed

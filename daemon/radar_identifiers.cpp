@@ -11,14 +11,10 @@ namespace {
 /// 0x008 and 0x010 (relay) do no harm.
 constexpr std::uint32_t kArs408Commands[] = {0x200, 0x202, 0x300, 0x301, 0x400, 0x401};
 
-std::uint32_t shifted(std::uint32_t id, const Ars408Options& options) {
-  return id + 0x10U * options.sensor_id;
-}
-
 IdSet sent_by(const Ars408Options& options) {
   IdSet ids;
   for (const Ars408MessageRow& row : kArs408Messages) {
-    ids.set(shifted(static_cast<std::uint32_t>(row.message), options));
+    ids.set(ars408_id(static_cast<std::uint32_t>(row.message), options.sensor_id));
   }
   return ids;
 }
@@ -42,7 +38,7 @@ IdSet used_ids(const RadarConfiguration& radar) {
   IdSet ids = sent_ids(radar);
   if (const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder)) {
     for (const std::uint32_t id : kArs408Commands) {
-      ids.set(shifted(id, *ars408));
+      ids.set(ars408_id(id, ars408->sensor_id));
     }
   }
   return ids;

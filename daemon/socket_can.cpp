@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "daemon/can_error.hpp"
 #include "daemon/clocks.hpp"
@@ -50,18 +51,12 @@ int SocketCan::send(std::uint8_t interface, const CanFrame& frame) {
 }
 
 SourceEvent SocketCan::next(CanFrame& frame) {
-  SourceEvent event = SourceEvent::frame;
   while (*stop_ == 0) {
-    const bool has_read = !batch_.frames.empty();
-    while (!batch_.frames.empty()) {
-      if (take(frame, event)) {
-        return event;
-      }
+    if (!batch_.frames.empty()) {
+      // However many error frames come, the caller's loop turns.
+      return take(frame).value_or(SourceEvent::other);
     }
-    if (has_read) {
-      return SourceEvent::other;  // However many error frames come, the caller's loop turns.
-    }
-    event = refill(frame);
+    const SourceEvent event = refill(frame);
     if (event != SourceEvent::frame) {
       return event;
     }
@@ -69,48 +64,42 @@ SourceEvent SocketCan::next(CanFrame& frame) {
   return SourceEvent::end;
 }
 
-/// Goes one step through the batch; true if that is an event.
-bool SocketCan::take(CanFrame& frame, SourceEvent& event) {
+/// Goes one step through the batch.
+std::optional<SourceEvent> SocketCan::take(CanFrame& frame) {
   const ReceivedFrame& received = batch_.frames.front();
   if (received.lost_before != 0 && !batch_.loss_is_told) {
     batch_.loss_is_told = true;
     interfaces_[batch_.interface]->status().frames_lost += received.lost_before;
     counters_.lost_frames += received.lost_before;
-    return report_loss(frame, event);
+    frame.interface = static_cast<std::uint8_t>(batch_.interface);
+    return SourceEvent::dropped;
   }
   batch_.loss_is_told = false;
   batch_.frames = batch_.frames.subspan(1);
-  return take(received, frame, event);
+  return judge(received, frame);
 }
 
-bool SocketCan::take(const ReceivedFrame& received, CanFrame& frame, SourceEvent& event) {
+/// What a frame off the bus means; nothing for one that is only counted.
+std::optional<SourceEvent> SocketCan::judge(const ReceivedFrame& received, CanFrame& frame) {
   BusStatus& status = interfaces_[batch_.interface]->status();
+  frame.interface = static_cast<std::uint8_t>(batch_.interface);
   if (received.frame.error) {
-    return note_error_frame(received.frame, status) && report_loss(frame, event);
+    return note_error_frame(received.frame, status) ? std::optional(SourceEvent::dropped)
+                                                    : std::nullopt;
   }
   if (status.bus == BusState::bus_off) {
     status.bus = BusState::error_active;  // Not every driver tells that it restarted.
   }
   if (batch_.read_us - received.frame.stamp_us > max_latency_us_) {
     ++status.frames_stale;
-    if (batch_.stale_is_told) {
-      return false;
-    }
-    batch_.stale_is_told = true;
-    return report_loss(frame, event);
+    return std::exchange(batch_.stale_is_told, true) ? std::nullopt
+                                                     : std::optional(SourceEvent::dropped);
   }
   ++status.frames;
   ++counters_.frames;
   frame = received.frame;
   frame.interface = static_cast<std::uint8_t>(batch_.interface);
-  event = SourceEvent::frame;
-  return true;
-}
-
-bool SocketCan::report_loss(CanFrame& frame, SourceEvent& event) {
-  frame.interface = static_cast<std::uint8_t>(batch_.interface);
-  event = SourceEvent::dropped;
-  return true;
+  return SourceEvent::frame;
 }
 
 /// `frame` if there may be a new batch, else what happened instead.

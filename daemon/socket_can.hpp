@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,9 +55,8 @@ class SocketCan final : public FrameSource {
     bool loss_is_told = false;   // of the first frame
     bool stale_is_told = false;  // of the batch
   };
-  bool take(CanFrame& frame, SourceEvent& event);
-  bool take(const ReceivedFrame& received, CanFrame& frame, SourceEvent& event);
-  bool report_loss(CanFrame& frame, SourceEvent& event);
+  std::optional<SourceEvent> take(CanFrame& frame);
+  std::optional<SourceEvent> judge(const ReceivedFrame& received, CanFrame& frame);
   SourceEvent refill(CanFrame& frame);
   SourceEvent receive(std::size_t interface, CanFrame& frame);
   void rest() const;

@@ -4,21 +4,10 @@
 #include <linux/can/error.h>
 
 #include "daemon/can_error.hpp"
+#include "test/daemon/error_frame.hpp"
 
 using namespace cremed;
-
-namespace {
-
-CanFrame error_frame(std::uint32_t error_class, std::uint8_t controller = 0) {
-  CanFrame frame;
-  frame.error = true;
-  frame.id = error_class;
-  frame.length = 8;
-  frame.data[1] = controller;
-  return frame;
-}
-
-}  // namespace
+using cremed::test::error_frame;
 
 TEST_CASE("The state of the controller follows its error frames") {
   BusStatus status;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "tools/eval/true_trajectory.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace cremed::soak {
@@ -31,13 +31,7 @@ struct SoakDrive {
 
   /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
   [[nodiscard]] Eigen::Vector3d motion(std::int64_t start_us, std::int64_t end_us) const {
-    const Pose2 start = at(start_us).pose;
-    const Pose2 end = at(end_us).pose;
-    const double c = std::cos(start.yaw_rad);
-    const double s = std::sin(start.yaw_rad);
-    const double dx = end.x_m - start.x_m;
-    const double dy = end.y_m - start.y_m;
-    return {c * dx + s * dy, -s * dx + c * dy, end.yaw_rad - start.yaw_rad};
+    return motion_between(at(start_us).pose, at(end_us).pose);
   }
 
   std::size_t scenario;  ///< Index of kScenarios.

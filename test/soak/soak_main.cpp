@@ -152,23 +152,9 @@ void Soak::run_drive(std::size_t number, double duration_s) {
 
 void Soak::handle(SourceEvent event, const CanFrame& frame) {
   const AllocationGuard guard;
-  switch (event) {
-    case SourceEvent::frame:
-      pipeline_->on_frame(frame);
-      break;
-    case SourceEvent::dropped:
-      pipeline_->on_dropped(frame.interface);
-      break;
-    case SourceEvent::clock_step:
-      pipeline_->on_clock_step();
-      checker_.on_clock_step();
-      break;
-    case SourceEvent::idle:
-      pipeline_->on_idle(frame.stamp_us);
-      break;
-    case SourceEvent::other:
-    case SourceEvent::end:
-      break;
+  pipeline_->on_event(event, frame);
+  if (event == SourceEvent::clock_step) {
+    checker_.on_clock_step();
   }
   allocations_ += AllocationGuard::stop();
 }

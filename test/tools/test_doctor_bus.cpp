@@ -8,21 +8,13 @@
 #include <catch2/catch.hpp>
 #include <linux/can/error.h>
 
+#include "test/daemon/error_frame.hpp"
 #include "test/tools/doctor_bench.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
 
 namespace {
-
-CanFrame error_frame(std::uint32_t error_class, std::uint8_t controller = 0) {
-  CanFrame frame;
-  frame.error = true;
-  frame.id = error_class;
-  frame.length = 8;
-  frame.data[1] = controller;
-  return frame;
-}
 
 /// Frames in front of a healthy drive, or in place of what can0 carries.
 Observation with_errors(const Configuration& configuration, std::vector<CanFrame> errors,

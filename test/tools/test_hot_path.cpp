@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -21,15 +20,10 @@ using namespace cremed::test;
 
 namespace {
 
-std::vector<RadarConfiguration> radars() {
-  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
-          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
-}
-
 Drive simulate() {
   SimulationOptions options;
   options.duration_s = 6.0;
-  return drive(scenario("lossy"), radars(), options);
+  return drive(scenario("lossy"), default_radars(), options);
 }
 
 /// Text in, messages out, without an allocation: every line of the log is parsed and goes through
@@ -86,7 +80,7 @@ TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates"
     WARN("skipped: this system lets us have no network namespace of our own");
     return;
   }
-  Configuration configuration = configuration_of(radars());
+  Configuration configuration = configuration_of(default_radars());
   configuration.output.publish_scans = true;
   LcmPublisher publisher("udpm://239.255.76.67:7667?ttl=0", configuration);
   REQUIRE(publisher.connect().empty());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -14,11 +13,6 @@ using namespace cremed;
 using namespace cremed::test;
 
 namespace {
-
-std::vector<RadarConfiguration> front_and_rear() {
-  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
-          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
-}
 
 SimulationOptions options(std::uint64_t seed, double duration_s) {
   SimulationOptions result;
@@ -63,7 +57,7 @@ TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accu
       GENERATE(Row{"straight", 0.01, 0.35}, Row{"bends", 0.02, 0.35}, Row{"stop-and-go", 0.01, 0.3},
                Row{"standing", 0.006, 0.25}, Row{"city", 0.012, 0.35});
   CAPTURE(row.scenario);
-  const Drive simulated = drive(scenario(row.scenario), front_and_rear(), options(7, 25.0));
+  const Drive simulated = drive(scenario(row.scenario), default_radars(), options(7, 25.0));
   const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
   check_invariants(sink);
 
@@ -81,7 +75,7 @@ TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accu
 }
 
 TEST_CASE("A standing vehicle is told from a driving one") {
-  const Drive standing = drive(scenario("standing"), front_and_rear(), options(3, 10.0));
+  const Drive standing = drive(scenario("standing"), default_radars(), options(3, 10.0));
   const auto standing_motions = run_pipeline(standing.radars, standing.frames).motions;
   for (const auto& motions : standing_motions) {
     for (const EgoMotion& motion : motions) {
@@ -95,7 +89,7 @@ TEST_CASE("A standing vehicle is told from a driving one") {
     CHECK(2 * count_status(motions, MotionStatus::standing_still) > motions.size());
   }
 
-  const Drive driving = drive(scenario("straight"), front_and_rear(), options(3, 10.0));
+  const Drive driving = drive(scenario("straight"), default_radars(), options(3, 10.0));
   for (const auto& motions : run_pipeline(driving.radars, driving.frames).motions) {
     CHECK(count_status(motions, MotionStatus::standing_still) == 0);
   }
@@ -108,7 +102,7 @@ bool has_same_bits(const Matrix& a, const Matrix& b) {
 }
 
 TEST_CASE("The same frames give the same bits") {
-  const Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(11, 5.0));
   const RecordingSink a = run_pipeline(simulated.radars, simulated.frames);
   const RecordingSink b = run_pipeline(simulated.radars, simulated.frames);
   REQUIRE(a.motions[0].size() == b.motions[0].size());
@@ -119,7 +113,7 @@ TEST_CASE("The same frames give the same bits") {
 }
 
 TEST_CASE("Each radar's result does not depend on the other radars of the vehicle") {
-  const Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(11, 5.0));
   const RecordingSink both = run_pipeline(simulated.radars, simulated.frames);
   std::vector<CanFrame> rear_frames;
   for (CanFrame frame : simulated.frames) {
@@ -137,7 +131,7 @@ TEST_CASE("Each radar's result does not depend on the other radars of the vehicl
 }
 
 TEST_CASE("Lost frames cost their scans and nothing else") {
-  const Drive simulated = drive(scenario("lossy"), front_and_rear(), options(5, 30.0));
+  const Drive simulated = drive(scenario("lossy"), default_radars(), options(5, 30.0));
   const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
   check_invariants(sink);
   for (const auto& motions : sink.motions) {
@@ -157,7 +151,7 @@ TEST_CASE("Lost frames cost their scans and nothing else") {
 }
 
 TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
-  const Drive simulated = drive(scenario("straight"), front_and_rear(), options(5, 2.0));
+  const Drive simulated = drive(scenario("straight"), default_radars(), options(5, 2.0));
   RecordingSink sink(2);
   const NoSource source;
   Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
@@ -176,7 +170,7 @@ TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
 }
 
 TEST_CASE("Silence is a gap, not a standing vehicle") {
-  const Drive simulated = drive(scenario("silent"), front_and_rear(), options(5, 45.0));
+  const Drive simulated = drive(scenario("silent"), default_radars(), options(5, 45.0));
   const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
   check_invariants(sink);
   for (const auto& motions : sink.motions) {
@@ -185,7 +179,7 @@ TEST_CASE("Silence is a gap, not a standing vehicle") {
 }
 
 TEST_CASE("A clock that is set back costs one estimate and then goes on") {
-  Drive simulated = drive(scenario("straight"), front_and_rear(), options(9, 6.0));
+  Drive simulated = drive(scenario("straight"), default_radars(), options(9, 6.0));
   for (std::size_t i = simulated.frames.size() / 2; i < simulated.frames.size(); ++i) {
     simulated.frames[i].stamp_us -= 3'600'000'000;
   }
@@ -201,7 +195,7 @@ TEST_CASE("A clock that is set back costs one estimate and then goes on") {
 }
 
 TEST_CASE("Status at 1 Hz, and its counters add up") {
-  const Drive simulated = drive(scenario("city"), front_and_rear(), options(2, 20.0));
+  const Drive simulated = drive(scenario("city"), default_radars(), options(2, 20.0));
   const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
   for (std::size_t radar = 0; radar < 2; ++radar) {
     REQUIRE(sink.statuses[radar].size() >= 20);
@@ -225,7 +219,7 @@ TEST_CASE("Status at 1 Hz, and its counters add up") {
 }
 
 TEST_CASE("Frames of two buses out of order by a moment do not multiply the status") {
-  Drive simulated = drive(scenario("straight"), front_and_rear(), options(4, 5.0));
+  Drive simulated = drive(scenario("straight"), default_radars(), options(4, 5.0));
   for (std::size_t i = 1; i < simulated.frames.size(); i += 2) {
     if (simulated.frames[i].interface != simulated.frames[i - 1].interface) {
       std::swap(simulated.frames[i], simulated.frames[i - 1]);
@@ -236,7 +230,7 @@ TEST_CASE("Frames of two buses out of order by a moment do not multiply the stat
 }
 
 TEST_CASE("Two buses whose clocks disagree by an hour do not disturb each other") {
-  Drive simulated = drive(scenario("bends"), front_and_rear(), options(11, 5.0));
+  Drive simulated = drive(scenario("bends"), default_radars(), options(11, 5.0));
   const RecordingSink together = run_pipeline(simulated.radars, simulated.frames);
   for (CanFrame& frame : simulated.frames) {
     frame.stamp_us += frame.interface == 1 ? 3'600'000'000 : 0;
@@ -251,5 +245,5 @@ TEST_CASE("Two buses whose clocks disagree by an hour do not disturb each other"
 }
 
 TEST_CASE("Without a frame there is no status with an invented time") {
-  CHECK(run_pipeline(front_and_rear(), {}).statuses[0].empty());
+  CHECK(run_pipeline(default_radars(), {}).statuses[0].empty());
 }

@@ -3,7 +3,6 @@
 //
 // What only a live source does to the pipeline: clock steps, silence, durations.
 #include <algorithm>
-#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -14,16 +13,11 @@ using namespace cremed::test;
 
 namespace {
 
-std::vector<RadarConfiguration> front_and_rear() {
-  return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),
-          radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
-}
-
 Drive straight(double duration_s) {
   SimulationOptions options;
   options.seed = 3;
   options.duration_s = duration_s;
-  return drive(scenario("straight"), front_and_rear(), options);
+  return drive(scenario("straight"), default_radars(), options);
 }
 
 std::int64_t stamp_clock_us = 0;
@@ -143,7 +137,7 @@ TEST_CASE("Every event of a source but its end goes on") {
   EndlessSource source({SourceEvent::frame, SourceEvent::dropped, SourceEvent::clock_step,
                         SourceEvent::idle, SourceEvent::end});
   RecordingSink sink(2);
-  Pipeline pipeline(configuration_of(front_and_rear()), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(default_radars()), source, {&sink}, {&no_clock});
   int turns = 0;
   while (pipeline.take_next(source)) {
     ++turns;
@@ -154,7 +148,7 @@ TEST_CASE("Every event of a source but its end goes on") {
 TEST_CASE("A scan never closes earlier than the frames it is said to wait for allow") {
   SimulationOptions options;
   options.duration_s = 3.0;
-  const Drive simulated = drive(scenario("lossy"), front_and_rear(), options);
+  const Drive simulated = drive(scenario("lossy"), default_radars(), options);
   RecordingSink sink(2);
   const NoSource source;
   Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});

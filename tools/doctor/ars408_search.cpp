@@ -50,12 +50,11 @@ Ars408Search choose(const std::vector<std::uint8_t>& candidates, const std::stri
 }  // namespace
 
 void note_state(const CanFrame& frame, Ars408States& states) {
-  constexpr std::uint32_t kSensorBits = 0x70;
   constexpr auto kRadarState = static_cast<std::uint32_t>(Ars408Message::radar_state);
-  if (!frame.is_classic_data() || (frame.id & ~kSensorBits) != kRadarState) {
+  if (!frame.is_classic_data() || ars408_base_id(frame.id) != kRadarState) {
     return;
   }
-  const std::size_t sensor = (frame.id & kSensorBits) >> 4U;
+  const std::size_t sensor = ars408_sensor_id(frame.id);
   const auto state = decode_ars408_radar_state(std::span(frame.data).first(frame.length));
   if (state && state->sensor_id == sensor) {
     states[sensor] = state;

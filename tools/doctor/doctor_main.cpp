@@ -16,6 +16,7 @@
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
 #include "daemon/multicast_route.hpp"
+#include "daemon/signals.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/can_interfaces.hpp"
@@ -37,10 +38,6 @@ struct Arguments {
   std::string ars408;
   Ars408Setup setup;
 };
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-void request_stop(int /*signal*/) { stop_requested = 1; }
 
 void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--config", arguments.config,
@@ -77,9 +74,10 @@ void print(const Finding& finding) {
   std::cout << severity << to_text(finding) << '\n';
 }
 
-Observation observe(const Arguments& arguments, const Configuration& configuration) {
+Observation observe(const Arguments& arguments, const Configuration& configuration,
+                    const volatile std::sig_atomic_t* stop) {
   Observation observation = arguments.replay.empty()
-                                ? observe_live(configuration, arguments.seconds, &stop_requested)
+                                ? observe_live(configuration, arguments.seconds, stop)
                                 : observe_log(configuration, arguments.replay);
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
   if (asks_for_lcm) {
@@ -90,7 +88,7 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
 }
 
 int run_diagnosis(const Arguments& arguments, const Configuration& configuration) {
-  const Observation observation = observe(arguments, configuration);
+  const Observation observation = observe(arguments, configuration, handle_stop_signals());
   const std::vector<Finding> findings = diagnose(configuration, observation);
   std::for_each(findings.begin(), findings.end(), print);
   const bool is_well = std::all_of(findings.begin(), findings.end(), [](const Finding& finding) {
@@ -162,8 +160,6 @@ int run(int argc, char** argv) {
   if (arguments.lcm_url && !is_lcm_url(*arguments.lcm_url)) {
     throw UsageError("--lcm-url: '" + *arguments.lcm_url + "' is not " + kLcmUrlWanted);
   }
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
   const Configuration configuration = load_configuration(configuration_path(arguments.config));
   return arguments.ars408.empty() ? run_diagnosis(arguments, configuration)
                                   : run_setup(arguments, configuration);

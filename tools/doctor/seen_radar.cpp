@@ -35,7 +35,7 @@ std::vector<SeenRadar> take_gprs(const BusObservation& bus, IdSet& ids) {
 
 bool has(const BusObservation& bus, const IdSet& ids, Ars408Message message, std::uint32_t sensor,
          std::uint8_t length) {
-  const std::uint32_t id = static_cast<std::uint32_t>(message) + 0x10U * sensor;
+  const std::uint32_t id = ars408_id(static_cast<std::uint32_t>(message), sensor);
   return ids[id] && bus.ids[id].length == length;
 }
 

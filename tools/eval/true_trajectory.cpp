@@ -56,11 +56,15 @@ std::optional<Eigen::Vector3d> TrueTrajectory::motion(std::int64_t start_us,
   if (!start || !end) {
     return std::nullopt;
   }
-  const double c = std::cos(start->yaw_rad);
-  const double s = std::sin(start->yaw_rad);
-  const double dx = end->x_m - start->x_m;
-  const double dy = end->y_m - start->y_m;
-  return Eigen::Vector3d(c * dx + s * dy, -s * dx + c * dy, wrap(end->yaw_rad - start->yaw_rad));
+  return motion_between(*start, *end);
+}
+
+Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end) {
+  const double c = std::cos(start.yaw_rad);
+  const double s = std::sin(start.yaw_rad);
+  const double dx = end.x_m - start.x_m;
+  const double dy = end.y_m - start.y_m;
+  return {c * dx + s * dy, -s * dx + c * dy, wrap(end.yaw_rad - start.yaw_rad)};
 }
 
 }  // namespace cremed

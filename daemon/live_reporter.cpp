@@ -191,9 +191,9 @@ std::string LiveReporter::report_radar(std::size_t radar) {
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
   log_.update(configuration.name, kind, [&] {
-    const RadarReport found = cremed::report(configuration, channel, source_);
-    return concat({kind == 1 ? "no scans" : "no estimates", found.hints.empty() ? "" : ": ",
-                   found.hints.empty() ? "" : found.hints.front()});
+    const auto findings = radar_findings(configuration, channel.status(0, source_));
+    return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
+                   findings.empty() ? "" : to_text(findings.front())});
   });
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
 }

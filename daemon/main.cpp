@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <exception>
-#include <filesystem>
 #include <string>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -9,24 +8,13 @@
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
+#include "daemon/configuration_path.hpp"
 #include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
-#include "daemon/version.hpp"
 
 namespace {
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
-
-std::string configuration_path(const cremed::CommandLine& command_line) {
-  if (!command_line.config.empty()) {
-    return command_line.config;
-  }
-  // Only a file that is not there is passed over: one that cannot be read must be heard of.
-  const std::string local = "/etc/cremed/cremed.toml";
-  std::error_code error;
-  const bool is_absent = !std::filesystem::exists(local, error) && !error;
-  return is_absent ? cremed::kInstalledConfiguration : local;
-}
 
 int run(const cremed::CommandLine& command_line) {
   if (!command_line.check_config.empty()) {
@@ -35,7 +23,7 @@ int run(const cremed::CommandLine& command_line) {
                  configuration.radars.size());
     return good;
   }
-  const std::string path = configuration_path(command_line);
+  const std::string path = cremed::configuration_path(command_line.config);
   const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
   spdlog::info("configuration: {}", path);

@@ -54,6 +54,17 @@ std::string digits(double value) { return shortest_digits(value); }
 
 std::string digits(std::int64_t value) { return shortest_digits(value); }
 
+std::string tenths(double value) {
+  std::array<char, 32> text{};
+  const auto result =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 1);
+  return {text.data(), result.ptr};
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return concat({std::to_string(count), " ", noun, count == 1 ? "" : "s"});
+}
+
 std::string quoted(std::string_view text) { return concat({"\"", printable(text), "\""}); }
 
 std::string range_text(std::string_view what, std::string_view min, std::string_view max) {

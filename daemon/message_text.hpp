@@ -23,6 +23,12 @@ std::string concat(std::initializer_list<std::string_view> parts);
 std::string digits(double value);
 std::string digits(std::int64_t value);
 
+/// One decimal: "13.6"
+std::string tenths(double value);
+
+/// "1 frame", "2 frames"
+std::string counted(std::uint64_t count, std::string_view noun);
+
 /// Printable and in double quotes.
 std::string quoted(std::string_view text);
 

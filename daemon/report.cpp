@@ -2,39 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "daemon/message_text.hpp"
 
 namespace cremed {
 namespace {
 
+using Findings = std::vector<Finding>;
+
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
-std::uint64_t estimates(const RadarStatus& status) {
-  return status.motions_by_status[static_cast<std::size_t>(MotionStatus::ok)] +
-         status.motions_by_status[static_cast<std::size_t>(MotionStatus::standing_still)];
-}
-
-std::string summarise(const RadarStatus& status) {
-  std::string text =
-      number(status.assembler.scans) + " scans, " + number(estimates(status)) + " estimates";
-  for (std::size_t i = 1; i < kMotionStatusCount; ++i) {
-    if (status.motions_by_status[i] != 0) {
-      text += ", " + std::string(to_string(static_cast<MotionStatus>(i))) + " " +
-              number(status.motions_by_status[i]);
-    }
-  }
-  return text;
+std::uint64_t count_of(const RadarStatus& status, MotionStatus motion) {
+  return status.motions_by_status[static_cast<std::size_t>(motion)];
 }
 
 /// "label n" for each counter that is not zero.
-class Findings {
+class CounterText {
  public:
-  Findings& add(std::string_view label, std::uint64_t value) {
+  CounterText& add(std::string_view label, std::uint64_t value) {
     if (value != 0) {
-      text_ += (text_.empty() ? "" : ", ") + std::string(label) + " " + number(value);
+      text_ += concat({text_.empty() ? "" : ", ", label, " ", number(value)});
     }
     return *this;
   }
@@ -45,7 +38,7 @@ class Findings {
 };
 
 std::string bad_frames(const DecoderCounters& c) {
-  return Findings()
+  return CounterText()
       .add("wrong length", c.wrong_length)
       .add("remote or FD", c.wrong_kind)
       .add("wrong mode", c.wrong_mode)
@@ -56,7 +49,7 @@ std::string bad_frames(const DecoderCounters& c) {
 }
 
 std::string scan_faults(const AssemblerCounters& c) {
-  return Findings()
+  return CounterText()
       .add("incomplete", c.incomplete_scans)
       .add("timed out", c.timeouts)
       .add("missed", c.missed_scans)
@@ -71,114 +64,228 @@ std::string scan_faults(const AssemblerCounters& c) {
       .text();
 }
 
-/// RadarCfg for clusters with quality, as cansend takes it.
-std::string cluster_command(const Ars408Options& options) {
-  return concat({"2", number(options.sensor_id), "0#78000000101C0000"});
+std::string rejected_detections(const SelectionCounters& c) {
+  return CounterText()
+      .add("no noise", c.no_noise)
+      .add("invalid state", c.invalid_state)
+      .add("moving", c.moving)
+      .add("low existence", c.low_existence)
+      .add("no position", c.no_position)
+      .add("outside limits", c.outside_limits)
+      .text();
 }
 
-void add_ars408_hints(const RadarStatus& status, const Ars408Options& options,
-                      const Ars408Decoder& decoder, std::vector<std::string>& hints) {
-  const bool wants_clusters = options.output == Ars408Output::clusters;
-  if (status.decoder.wrong_mode != 0 && status.assembler.scans == 0) {
-    hints.push_back(wants_clusters
-                        ? "the sensor sends objects, not clusters: send it " +
-                              cluster_command(options) + " or set output = \"objects\""
-                        : std::string("the sensor sends clusters: set output = \"clusters\""));
-  }
-  const bool no_scan_is_whole = status.assembler.incomplete_scans == status.assembler.scans;
-  if (!decoder.radar_state()) {
-    if (status.assembler.scans > 1 && no_scan_is_whole) {
-      hints.push_back("no scan is whole; if no " + std::string(wants_clusters ? "0x702" : "0x60C") +
-                      " is on the bus, quality is off: send it " + cluster_command(options));
-    }
-    return;
-  }
-  const Ars408RadarState& state = *decoder.radar_state();
-  if (!state.sends_quality) {
-    hints.push_back("the sensor sends no quality (0x201), so no scan is whole: send it " +
-                    cluster_command(options));
-  }
-  if (state.speed_missing || state.yaw_rate_missing) {
-    hints.emplace_back(
-        "the sensor gets no speed or no yaw rate (0x201 MotionRxState): its DynProp is wrong while "
-        "driving; send it 0x300 and 0x301, or keep all dyn_props");
-  }
-  const std::string faults = Findings()
-                                 .add("persistent error", state.persistent_error ? 1 : 0)
-                                 .add("temporary error", state.temporary_error ? 1 : 0)
-                                 .add("temperature error", state.temperature_error ? 1 : 0)
-                                 .add("voltage error", state.voltage_error ? 1 : 0)
-                                 .add("interference", state.interference ? 1 : 0)
-                                 .text();
-  if (!faults.empty()) {
-    hints.push_back("the sensor reports a fault (0x201): " + faults);
-  }
+const Ars408Options* ars408_options(const RadarConfiguration& radar) {
+  return std::get_if<Ars408Options>(&radar.decoder);
 }
 
-void add_gpr_hints(const BoschGprDecoder& decoder, std::vector<std::string>& hints) {
-  if (!decoder.info() || decoder.info()->healthy()) {
-    return;
-  }
-  const BoschGprInfo& info = *decoder.info();
-  hints.push_back("the sensor reports a fault (Info frame): " +
-                  Findings()
-                      .add("blind", info.blind ? 1 : 0)
-                      .add("software failure", info.software_failure ? 1 : 0)
-                      .add("hardware failure", info.hardware_failure ? 1 : 0)
-                      .add("CAN failure", info.can_failure ? 1 : 0)
-                      .add("configuration failure", info.configuration_failure ? 1 : 0)
-                      .add("not safe", info.not_safe ? 1 : 0)
-                      .add("trouble code", info.trouble_code)
-                      .text());
+/// The command that sets the sensor to what the configuration expects.
+std::string configure_command(const RadarConfiguration& radar) {
+  return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
 }
 
-void add_silence_hints(const RadarConfiguration& configuration, const RadarStatus& status,
-                       std::vector<std::string>& hints) {
+void add_silence(const RadarConfiguration& radar, const RadarStatus& status, Findings& findings) {
   if (status.decoder.frames == 0) {
-    hints.push_back(
-        "no frame with this radar's identifiers on " + configuration.interface +
-        (status.source.frames == 0
-             ? ": no frame at all on the configured interfaces; is the interface name right?"
-             : ": is its sensor_id or base_id right?"));
-  } else if (status.assembler.scans > 0 && status.assembler.empty_scans == status.assembler.scans) {
-    hints.emplace_back(
-        "all scans are empty: the sensor sees nothing, or its own filters let "
-        "nothing pass");
-  } else if (estimates(status) == 0 && status.selection.used == 0 &&
-             status.assembler.scans > status.assembler.incomplete_scans) {
-    hints.push_back("whole scans, but no usable detection: " +
-                    Findings()
-                        .add("no noise", status.selection.no_noise)
-                        .add("invalid state", status.selection.invalid_state)
-                        .add("moving", status.selection.moving)
-                        .add("low existence", status.selection.low_existence)
-                        .add("no position", status.selection.no_position)
-                        .add("outside limits", status.selection.outside_limits)
-                        .text());
+    findings.push_back(
+        {Severity::error, concat({"no frame with this radar's identifiers on ", radar.interface}),
+         status.source.frames == 0
+             ? "no frame of any radar either: check the interface, its bit rate and the cable"
+             : "check its sensor_id or base_id; `cremed-doctor` names what is on the bus"});
+  }
+}
+
+void add_wrong_mode(const RadarConfiguration& radar, const RadarStatus& status,
+                    const Ars408Options& options, Findings& findings) {
+  if (status.decoder.wrong_mode == 0 || status.assembler.scans != 0) {
+    return;
+  }
+  if (options.output == Ars408Output::clusters) {
+    findings.push_back({Severity::error, "the sensor sends objects, not clusters",
+                        configure_command(radar) + ", or set output = \"objects\""});
+  } else {
+    findings.push_back(
+        {Severity::error, "the sensor sends clusters, not objects", "set output = \"clusters\""});
+  }
+}
+
+/// A scan can be whole only with the quality message of each target.
+void add_unknown_quality(const RadarConfiguration& radar, const RadarStatus& status,
+                         Findings& findings) {
+  const AssemblerCounters& scans = status.assembler;
+  if (!status.health.is_known && scans.scans > 2 && scans.incomplete_scans == scans.scans) {
+    findings.push_back({Severity::error,
+                        "no scan is whole, and no 0x201 says how the sensor is set",
+                        "if it sends no quality: " + configure_command(radar)});
+  }
+}
+
+struct Cause {
+  std::uint64_t count;
+  std::string_view remedy;
+};
+
+std::string_view remedy_of_most(std::initializer_list<Cause> causes) {
+  return std::max_element(causes.begin(), causes.end(),
+                          [](const Cause& a, const Cause& b) { return a.count < b.count; })
+      ->remedy;
+}
+
+void add_no_detection(const RadarStatus& status, Findings& findings) {
+  const AssemblerCounters& scans = status.assembler;
+  const SelectionCounters& c = status.selection;
+  if (scans.scans > 0 && scans.empty_scans == scans.scans) {
+    findings.push_back({Severity::error, "all scans are empty",
+                        "the sensor sees nothing, or its own filters (0x202) let nothing pass"});
+  } else if (estimates(status) == 0 && c.used == 0 && scans.scans > scans.incomplete_scans) {
+    const std::string_view remedy = remedy_of_most(
+        {{c.no_noise, "the sensor rates no target: is it covered, or in a test mode?"},
+         {c.invalid_state, "add the codes the sensor sends to keep_invalid_states"},
+         {c.moving,
+          "give the sensor speed and yaw rate (0x300, 0x301), or set "
+          "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
+         {c.low_existence, "lower min_existence_code or min_existence"},
+         {c.no_position, "all targets are at range 0: is this radar of the configured type?"},
+         {c.outside_limits, "widen [radar.limits]"}});
+    findings.push_back({Severity::error,
+                        "whole scans, but no usable detection: " + rejected_detections(c),
+                        std::string(remedy)});
+  }
+}
+
+std::string_view remedy_of_most_motions(const RadarStatus& status) {
+  return remedy_of_most(
+      {{count_of(status, MotionStatus::incomplete_scan), "find out why frames are lost"},
+       {count_of(status, MotionStatus::gap_too_long), "find out why scans come so rarely"},
+       {count_of(status, MotionStatus::too_few_targets),
+        "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},
+       {count_of(status, MotionStatus::degenerate), "the surroundings hold too few fixed targets"},
+       {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
+       {count_of(status, MotionStatus::non_finite), "report it: it is a defect of cremed"},
+       {count_of(status, MotionStatus::implausible),
+        "check type, invert_azimuth, invert_doppler and the limits of speed"},
+       {count_of(status, MotionStatus::ambiguous), "the surroundings hold too few fixed targets"}});
+}
+
+/// Usable detections, but few of the whole scans gave an estimate.
+void add_few_estimates(const RadarStatus& status, Findings& findings) {
+  constexpr std::uint64_t kEnoughScans = 10;
+  const std::uint64_t whole = status.assembler.scans - status.assembler.incomplete_scans;
+  const std::uint64_t good = estimates(status);
+  if (status.selection.used != 0 && whole >= kEnoughScans && 2 * good < whole) {
+    findings.push_back({good == 0 ? Severity::error : Severity::warning,
+                        concat({"few scans give an estimate: ", summary(status)}),
+                        std::string(remedy_of_most_motions(status))});
+  }
+}
+
+void add_setting(const RadarConfiguration& radar, const RadarHealth& health, Findings& findings) {
+  if (health.output == RadarHealth::Output::none) {
+    findings.push_back({Severity::error, "the sensor is set to send no targets (0x201)",
+                        configure_command(radar)});
+  } else if (!health.sends_quality) {
+    findings.push_back({Severity::error, "the sensor sends no quality (0x201), so no scan is whole",
+                        configure_command(radar)});
+  }
+}
+
+void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
+                        Findings& findings) {
+  constexpr std::uint8_t kEveryDynProp = 0xFF;
+  const bool no_speed = (health.faults & RadarHealth::speed_missing) != 0;
+  const bool no_yaw_rate = (health.faults & RadarHealth::yaw_rate_missing) != 0;
+  if ((no_speed || no_yaw_rate) && options.keep_dyn_props != kEveryDynProp) {
+    findings.push_back(
+        {Severity::warning,
+         concat({"the sensor gets no ", no_speed ? "speed (0x300)" : "",
+                 no_speed && no_yaw_rate ? " and no " : "", no_yaw_rate ? "yaw rate (0x301)" : "",
+                 ": its DynProp is wrong while driving"}),
+         "send them from the vehicle's bus, or set motion_feedback = true, or "
+         "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"});
+  }
+}
+
+struct FaultText {
+  RadarHealth::Fault fault;
+  std::string_view name;
+  std::string_view remedy;
+};
+
+constexpr std::array<FaultText, 11> kFaults{{
+    {RadarHealth::persistent_error, "persistent error",
+     "restart the sensor; if it stays, replace it"},
+    {RadarHealth::temporary_error, "temporary error", "wait, then restart the sensor"},
+    {RadarHealth::temperature_error, "temperature error", "cool or warm the sensor"},
+    {RadarHealth::voltage_error, "voltage error", "check the sensor's supply, 8 to 32 V"},
+    {RadarHealth::interference, "interference",
+     "another radar of its band disturbs it: move or switch off one"},
+    {RadarHealth::blind, "blind", "clean the sensor, and what is in front of it"},
+    {RadarHealth::software_failure, "software failure", "restart the sensor"},
+    {RadarHealth::can_failure, "CAN failure", "check its cable and termination"},
+    {RadarHealth::configuration_failure, "configuration failure", "configure the sensor anew"},
+    {RadarHealth::not_safe, "not safe", "see its data sheet"},
+    {RadarHealth::trouble_code, "trouble code", "see its data sheet"},
+}};
+
+void add_faults(const RadarHealth& health, Findings& findings) {
+  for (const FaultText& text : kFaults) {
+    if ((health.faults & text.fault) != 0) {
+      findings.push_back({Severity::warning, concat({"the sensor reports a fault: ", text.name}),
+                          std::string(text.remedy)});
+    }
   }
 }
 
 }  // namespace
 
-RadarReport report(const RadarConfiguration& configuration, RadarChannel& radar,
-                   const FrameSource& source) {
-  const RadarStatus& status = radar.status(0, source);
-  RadarReport result;
-  result.summary = summarise(status);
-  add_silence_hints(configuration, status, result.hints);
-  if (const auto* decoder = dynamic_cast<const Ars408Decoder*>(radar.decoder.get())) {
-    add_ars408_hints(status, std::get<Ars408Options>(configuration.decoder), *decoder,
-                     result.hints);
-  } else if (const auto* gpr = dynamic_cast<const BoschGprDecoder*>(radar.decoder.get())) {
-    add_gpr_hints(*gpr, result.hints);
+std::uint64_t estimates(const RadarStatus& status) {
+  return count_of(status, MotionStatus::ok) + count_of(status, MotionStatus::standing_still);
+}
+
+std::string summary(const RadarStatus& status) {
+  std::string text =
+      concat({number(status.assembler.scans), " scans, ", number(estimates(status)), " estimates"});
+  for (std::size_t i = 1; i < kMotionStatusCount; ++i) {
+    if (status.motions_by_status[i] != 0) {
+      text += concat({", ", to_string(static_cast<MotionStatus>(i)), " ",
+                      number(status.motions_by_status[i])});
+    }
   }
-  if (const std::string text = bad_frames(status.decoder); !text.empty()) {
-    result.hints.push_back("frames: " + text);
+  return text;
+}
+
+std::string irregularities(const RadarStatus& status) {
+  const std::string frames = bad_frames(status.decoder);
+  const std::string scans = scan_faults(status.assembler);
+  return concat({frames.empty() ? "" : "frames: ", frames,
+                 frames.empty() || scans.empty() ? "" : "; ",
+                 scans.empty() ? "" : "scans: ", scans});
+}
+
+std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status) {
+  Findings findings;
+  if (!status.health.is_known) {
+    return findings;
   }
-  if (const std::string text = scan_faults(status.assembler); !text.empty()) {
-    result.hints.push_back("scans: " + text);
+  if (const Ars408Options* options = ars408_options(radar)) {
+    add_setting(radar, status.health, findings);
+    add_missing_motion(status.health, *options, findings);
   }
-  return result;
+  add_faults(status.health, findings);
+  return findings;
+}
+
+std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status) {
+  Findings findings;
+  add_silence(radar, status, findings);
+  if (const Ars408Options* options = ars408_options(radar)) {
+    add_wrong_mode(radar, status, *options, findings);
+    add_unknown_quality(radar, status, findings);
+  }
+  add_no_detection(status, findings);
+  const Findings health = health_findings(radar, status);
+  findings.insert(findings.end(), health.begin(), health.end());
+  add_few_estimates(status, findings);
+  return findings;
 }
 
 }  // namespace cremed

@@ -6,18 +6,25 @@
 #include <vector>
 
 #include "daemon/configuration.hpp"
-#include "daemon/radar_channel.hpp"
+#include "daemon/finding.hpp"
 #include "daemon/radar_status.hpp"
 
 namespace cremed {
 
-/// What became of one radar, for people.
-struct RadarReport {
-  std::string summary;             ///< One line: scans, estimates, what kept the others out.
-  std::vector<std::string> hints;  ///< What is wrong and what to do, most likely cause first.
-};
+/// Number of estimates so far.
+std::uint64_t estimates(const RadarStatus& status);
 
-RadarReport report(const RadarConfiguration& configuration, RadarChannel& radar,
-                   const FrameSource& source);
+/// One line: scans, estimates, what kept the others out.
+std::string summary(const RadarStatus& status);
+
+/// One line: every counter of bad frames and imperfect scans that is not zero; empty if all are.
+std::string irregularities(const RadarStatus& status);
+
+/// Why there is no odometry, or bad odometry, as far as the pipeline can tell; most likely cause
+/// first.
+std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status);
+
+/// What the sensor says about itself, and about how it is set.
+std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status);
 
 }  // namespace cremed

@@ -116,13 +116,24 @@ std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
   return std::make_unique<Replay>(std::move(logs), command_line.speed, stop);
 }
 
+void log_finding(const std::string& radar, const Finding& finding) {
+  const auto level = finding.severity == Severity::error     ? spdlog::level::err
+                     : finding.severity == Severity::warning ? spdlog::level::warn
+                                                             : spdlog::level::info;
+  spdlog::log(level, "{}: {}", radar, to_text(finding));
+}
+
 void log_report(const Configuration& configuration, const Pipeline& pipeline,
                 const FrameSource& source) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    const RadarReport result = report(configuration.radars[i], *pipeline.radars()[i], source);
-    spdlog::info("{}: {}", configuration.radars[i].name, result.summary);
-    for (const std::string& hint : result.hints) {
-      spdlog::warn("{}: {}", configuration.radars[i].name, hint);
+    const RadarConfiguration& radar = configuration.radars[i];
+    const RadarStatus& status = pipeline.radars()[i]->status(0, source);
+    spdlog::info("{}: {}", radar.name, summary(status));
+    for (const Finding& finding : radar_findings(radar, status)) {
+      log_finding(radar.name, finding);
+    }
+    if (const std::string text = irregularities(status); !text.empty()) {
+      spdlog::warn("{}: {}", radar.name, text);
     }
   }
 }

@@ -17,7 +17,10 @@ std::optional<Eigen::Matrix<double, States, States>> invert(
   if (factor.info() != Eigen::Success || !(factor.rcond() > kMinReciprocalCondition)) {
     return std::nullopt;
   }
-  return factor.solve(Eigen::Matrix<double, States, States>::Identity());
+  const Eigen::Matrix<double, States, States> inverse =
+      factor.solve(Eigen::Matrix<double, States, States>::Identity());
+  // Rounding makes it asymmetric in the last digit, which others' checks would refuse.
+  return 0.5 * (inverse + inverse.transpose());
 }
 
 }  // namespace

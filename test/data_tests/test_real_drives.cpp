@@ -67,9 +67,10 @@ TEST_CASE("Real drives: five radars give odometry, the front one as the referenc
   const Credibility front = credibility_of(sink.motions[0], truth);
   std::printf("%s front: %s\n", scene.name, to_line(front).c_str());
   CHECK(front.count() >= 240);
-  // No worse than the reference; better by 7 % at most in what was measured.
+  // No worse than the reference, which takes Doppler for that of the mean speed; better by 9 % at
+  // most in what was measured.
   CHECK(front.rmse_m() <= 1.01 * scene.rmse_m);
-  CHECK(front.rmse_m() >= 0.95 * scene.rmse_m);
+  CHECK(front.rmse_m() >= 0.9 * scene.rmse_m);
   CHECK(front.rmse_deg() <= 1.01 * scene.rmse_deg);
   CHECK(front.rmse_deg() >= 0.9 * scene.rmse_deg);
 }

@@ -12,7 +12,8 @@
 
 namespace cremed::simulation {
 
-/// A radar that is driven at constant velocity through points that stand around it.
+/// A radar that is driven at constant velocity, or straight on at constant acceleration, through
+/// points that stand around it.
 class Drive {
  public:
   static constexpr std::int64_t kPeriodUs = 100000;
@@ -25,6 +26,8 @@ class Drive {
 
   /// The vehicle's velocity from here on: (m/s forward, m/s left, rad/s).
   void set_velocity(const Eigen::Vector3d& velocity) { velocity_ = velocity; }
+  /// Along x, and the velocity changes accordingly.
+  void set_acceleration(double acceleration_mps2) { acceleration_mps2_ = acceleration_mps2; }
   void set_noise(const Noise& noise) { noise_ = noise; }
   void set_half_view(double half_view_rad) { half_view_rad_ = half_view_rad; }
 
@@ -40,7 +43,10 @@ class Drive {
   /// Drives on without a scan.
   void pass(std::int64_t time_us = kPeriodUs) {
     stamp_us_ += time_us;
-    const Eigen::Vector3d motion = velocity_ * (static_cast<double>(time_us) * 1e-6);
+    const double time_s = static_cast<double>(time_us) * 1e-6;
+    const Eigen::Vector3d change(acceleration_mps2_ * time_s, 0.0, 0.0);
+    const Eigen::Vector3d motion = (velocity_ + 0.5 * change) * time_s;
+    velocity_ += change;
     for (Eigen::Vector2d& point : points_) {
       point = seen_from(motion, point);
     }
@@ -67,6 +73,7 @@ class Drive {
 
  private:
   Eigen::Vector3d velocity_;
+  double acceleration_mps2_ = 0.0;
   Pose2 mount_;
   Noise noise_{0.1, 0.005, 0.1};
   double half_view_rad_ = numeric::radians(60.0);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,33 @@ TEST_CASE(
     CHECK(nothing.utime_us == spoilt.stamp_us);
     check_motion(estimator->update(drive.next()), drive, 2.0);
     check_motion(estimator->update(drive.next()), drive, 1.0);
+  }
+}
+
+TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed") {
+  const Pose2 rear{-0.9, 0.3, std::numbers::pi};
+  for (const double acceleration_mps2 : {-3.0, 3.0}) {
+    for (const Pose2& mount : {kFront, rear}) {
+      for (const int periods : {1, 3}) {
+        CAPTURE(acceleration_mps2, mount.x_m, periods);
+        Drive drive({14.0, 0.0, 0.2}, mount, 3, 120);
+        const auto estimator = make_estimator(mount);
+        // Turning is told from speed once there is an estimate.
+        estimator->update(drive.next());
+        estimator->update(drive.next());
+        drive.set_acceleration(acceleration_mps2);
+        estimator->update(drive.next());
+        drive.pass((periods - 1) * kPeriodUs);
+        const EgoMotion motion = estimator->update(drive.next());
+        REQUIRE(motion.has_estimate());
+        const double span_s = 0.1 * periods;
+        const Eigen::Vector3d truth(14.0 * span_s + 0.5 * acceleration_mps2 * span_s * span_s, 0.0,
+                                    0.2 * span_s);
+        // Taken for the mean, Doppler alone would be 15 or 135 mm off.
+        CHECK(std::abs(motion.motion.x() - truth.x()) < 0.005 * periods);
+        CHECK(numeric::normalised_error(motion.motion - truth, motion.covariance, 2) < 25.0);
+      }
+    }
   }
 }
 

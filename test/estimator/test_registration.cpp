@@ -140,7 +140,7 @@ TEST_CASE("the covariance is symmetric, positive definite, and zero for what is 
                      const Eigen::Vector3d&) {
     const Eigen::Matrix3d covariance = solve(options, mount, previous, current).covariance;
     const Eigen::Vector3d sigma = covariance.diagonal().cwiseSqrt();
-    CHECK((covariance - covariance.transpose()).norm() < 1e-15);
+    CHECK(covariance == covariance.transpose());
     const Eigen::Vector3d eigenvalues =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
     if (options.degrees_of_freedom == 2) {

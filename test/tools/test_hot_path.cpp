@@ -5,54 +5,19 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <net/if.h>
-#include <net/route.h>
-#include <netinet/in.h>
-#include <sched.h>
-#include <sys/ioctl.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "daemon/candump.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/tum_writer.hpp"
 #include "test/estimator/allocation_guard.hpp"
+#include "test/tools/own_network.hpp"
 #include "test/tools/pipeline_bench.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
 
 namespace {
-
-/// Puts this process into a network of its own, where only lo exists and multicast goes there;
-/// false if the system does not let us.
-bool enter_own_network() {
-  if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) {
-    return false;
-  }
-  const int descriptor = ::socket(AF_INET, SOCK_DGRAM, 0);
-  ifreq interface {};
-  std::string_view("lo").copy(interface.ifr_name, IFNAMSIZ - 1);
-  interface.ifr_flags = IFF_UP;
-  rtentry route{};
-  char device[] = "lo";
-  const auto address = [](sockaddr& target, in_addr_t value) {
-    sockaddr_in in{};
-    in.sin_family = AF_INET;
-    in.sin_addr.s_addr = htonl(value);
-    static_assert(sizeof(in) == sizeof(target));
-    std::memcpy(&target, &in, sizeof(in));
-  };
-  address(route.rt_dst, 0xE0000000);      // 224.0.0.0
-  address(route.rt_genmask, 0xF0000000);  // /4
-  route.rt_flags = RTF_UP;
-  route.rt_dev = device;
-  const bool good = ::ioctl(descriptor, SIOCSIFFLAGS, &interface) == 0 &&
-                    ::ioctl(descriptor, SIOCADDRT, &route) == 0;
-  ::close(descriptor);
-  return good;
-}
 
 std::vector<RadarConfiguration> radars() {
   return {radar("front", "can0", {3.6, 0.0, 0.0}, Ars408Options{}),

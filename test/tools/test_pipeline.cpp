@@ -76,6 +76,7 @@ TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accu
   const Credibility rear = credibility_of(sink.motions[1], truth_of(simulated));
   CHECK(rear.count() >= 230);
   CHECK(rear.rmse_m() < 0.03);
+  CHECK(rear.anees() < 1.7);
   CHECK(rear.rmse_deg() < 0.5);
 }
 

@@ -76,10 +76,10 @@ def read_log(path, interface):
 class RadarPlayer(threading.Thread):
     """Plays one interface of a log at real speed, over and over, whatever becomes of the bus."""
 
-    def __init__(self, bus, log, interface=None):
+    def __init__(self, bus, log):
         super().__init__(daemon=True)
         self.bus = bus
-        self.frames = read_log(log, interface or bus.name)
+        self.frames = read_log(log, bus.name)
         self.cycle_s = self.frames[-1][0] + 0.07
         self.silent = threading.Event()
         self.ended = threading.Event()

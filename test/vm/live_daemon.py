@@ -42,7 +42,7 @@ REAR = radar("rear", "vcan1", kind="bosch_gpr", x_m=-0.9, yaw_rad=3.14159)
 
 
 class LiveDaemon:
-    """One cremed, run as a user who may do nothing, as under systemd."""
+    """One cremed, with the priority and as little right to anything as its unit gives it."""
 
     def __init__(self, folder, program, configuration, live=('realtime = "off"',)):
         self.folder = pathlib.Path(folder)
@@ -56,6 +56,7 @@ class LiveDaemon:
             [self.program, "--config", self.configuration], stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE, text=True, user="nobody", group="nogroup", extra_groups=[],
             env={**os.environ, "NOTIFY_SOCKET": self.open_notify_socket()})
+        os.sched_setscheduler(self.process.pid, os.SCHED_FIFO, os.sched_param(20))
         threading.Thread(target=self.read_log, daemon=True).start()
 
     def open_notify_socket(self):

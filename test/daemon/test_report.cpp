@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/report.hpp"
+
+using namespace cremed;
+
+namespace {
+
+RadarConfiguration front() {
+  RadarConfiguration radar;
+  radar.name = "front";
+  radar.interface = "can0";
+  radar.decoder = Ars408Options{};
+  return radar;
+}
+
+std::uint64_t& count(RadarStatus& status, MotionStatus motion) {
+  return status.motions_by_status[static_cast<std::size_t>(motion)];
+}
+
+/// 100 scans of an ARS408, an estimate each.
+RadarStatus healthy() {
+  RadarStatus status;
+  status.source.frames = 5000;
+  status.decoder.frames = 5000;
+  status.assembler.scans = 100;
+  status.selection.used = 2000;
+  count(status, MotionStatus::ok) = 99;
+  count(status, MotionStatus::no_reference) = 1;
+  status.health.is_known = true;
+  status.health.output = RadarHealth::Output::clusters;
+  status.health.sends_quality = true;
+  return status;
+}
+
+void no_estimate_but(RadarStatus& status, MotionStatus motion) {
+  status.motions_by_status = {};
+  count(status, motion) = 100;
+}
+
+}  // namespace
+
+TEST_CASE("All well: nothing is reported but the summary") {
+  const RadarStatus status = healthy();
+  CHECK(radar_findings(front(), status).empty());
+  CHECK(irregularities(status).empty());
+  CHECK(summary(status) == "100 scans, 99 estimates, no_reference 1");
+}
+
+TEST_CASE("Irregularities name every counter that is not zero") {
+  RadarStatus status = healthy();
+  status.decoder.crc_errors = 3;
+  CHECK(irregularities(status) == "frames: CRC errors 3");
+  status.assembler.incomplete_scans = 2;
+  status.assembler.orphan_parts = 5;
+  CHECK(irregularities(status) == "frames: CRC errors 3; scans: incomplete 2, orphan parts 5");
+  status.decoder = {};
+  CHECK(irregularities(status) == "scans: incomplete 2, orphan parts 5");
+}
+
+TEST_CASE("Each trouble is the first finding") {
+  struct Case {
+    std::string name;
+    std::function<void(RadarStatus&)> spoil;
+    Severity severity;
+    std::string what;
+    std::string remedy;
+  };
+  const auto row = GENERATE(
+      Case{"nothing on any bus", [](auto& s) { s = {}; }, Severity::error,
+           "no frame with this radar's identifiers on can0", "bit rate"},
+      Case{"nothing of this radar",
+           [](auto& s) {
+             s = {};
+             s.source.frames = 7;
+           },
+           Severity::error, "no frame with this radar's identifiers on can0", "sensor_id"},
+      Case{"objects",
+           [](auto& s) {
+             s.assembler = {};
+             s.decoder.wrong_mode = 9;
+           },
+           Severity::error, "sends objects", "`cremed-doctor --configure-ars408 front`"},
+      Case{"no scan whole, no report",
+           [](auto& s) {
+             s.assembler.incomplete_scans = 100;
+             s.health = {};
+           },
+           Severity::error, "no scan is whole", "--configure-ars408 front"},
+      Case{"empty", [](auto& s) { s.assembler.empty_scans = 100; }, Severity::error,
+           "all scans are empty", "0x202"},
+      Case{"no quality", [](auto& s) { s.health.sends_quality = false; }, Severity::error,
+           "no quality (0x201)", "--configure-ars408 front"},
+      Case{"no output", [](auto& s) { s.health.output = RadarHealth::Output::none; },
+           Severity::error, "send no targets (0x201)", "--configure-ars408 front"},
+      Case{"no detection has noise",
+           [](auto& s) {
+             no_estimate_but(s, MotionStatus::too_few_targets);
+             s.selection = {};
+             s.selection.no_noise = 2000;
+           },
+           Severity::error, "no usable detection: no noise 2000", "covered"},
+      Case{"low existence",
+           [](auto& s) {
+             no_estimate_but(s, MotionStatus::too_few_targets);
+             s.selection = {};
+             s.selection.low_existence = 2000;
+           },
+           Severity::error, "no usable detection: low existence 2000", "min_existence"},
+      Case{"no position",
+           [](auto& s) {
+             no_estimate_but(s, MotionStatus::too_few_targets);
+             s.selection = {};
+             s.selection.no_position = 2000;
+           },
+           Severity::error, "no usable detection: no position 2000", "type"},
+      Case{"no motion at all",
+           [](auto& s) {
+             s.health.faults = RadarHealth::speed_missing | RadarHealth::yaw_rate_missing;
+           },
+           Severity::warning, "no speed (0x300) and no yaw rate (0x301): ", "motion_feedback"});
+  CAPTURE(row.name);
+  RadarStatus status = healthy();
+  row.spoil(status);
+  const auto findings = radar_findings(front(), status);
+  REQUIRE_FALSE(findings.empty());
+  CHECK(findings.front().severity == row.severity);
+  CHECK_THAT(findings.front().what, Catch::Contains(row.what));
+  CHECK_THAT(findings.front().remedy, Catch::Contains(row.remedy));
+}
+
+TEST_CASE("Each way to end without an estimate has its own remedy") {
+  struct Case {
+    MotionStatus status;
+    std::string remedy;
+  };
+  const auto row = GENERATE(Case{MotionStatus::incomplete_scan, "frames are lost"},
+                            Case{MotionStatus::gap_too_long, "so rarely"},
+                            Case{MotionStatus::too_few_targets, "min_targets"},
+                            Case{MotionStatus::degenerate, "few fixed targets"},
+                            Case{MotionStatus::no_convergence, "max_iterations"},
+                            Case{MotionStatus::non_finite, "defect"},
+                            Case{MotionStatus::implausible, "invert_doppler"},
+                            Case{MotionStatus::ambiguous, "few fixed targets"});
+  RadarStatus status = healthy();
+  no_estimate_but(status, row.status);
+  auto findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings.front().severity == Severity::error);
+  CHECK_THAT(findings.front().what, Catch::Contains(std::string(to_string(row.status)) + " 100"));
+  CHECK_THAT(findings.front().remedy, Catch::Contains(row.remedy));
+  count(status, MotionStatus::ok) = 49;
+  findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings.front().severity == Severity::warning);
+  count(status, MotionStatus::ok) = 50;
+  CHECK(radar_findings(front(), status).empty());
+}
+
+TEST_CASE("Each fault that a radar reports is named") {
+  struct Case {
+    RadarHealth::Fault fault;
+    std::string name;
+  };
+  const auto row = GENERATE(
+      Case{RadarHealth::persistent_error, "persistent error"},
+      Case{RadarHealth::temporary_error, "temporary error"},
+      Case{RadarHealth::temperature_error, "temperature error"},
+      Case{RadarHealth::voltage_error, "voltage error"},
+      Case{RadarHealth::interference, "interference"}, Case{RadarHealth::blind, "blind"},
+      Case{RadarHealth::software_failure, "software failure"},
+      Case{RadarHealth::can_failure, "CAN failure"},
+      Case{RadarHealth::configuration_failure, "configuration failure"},
+      Case{RadarHealth::not_safe, "not safe"}, Case{RadarHealth::trouble_code, "trouble code"});
+  RadarConfiguration gpr = front();
+  gpr.decoder = BoschGprOptions{};
+  RadarStatus status = healthy();
+  status.health.faults = row.fault;
+  for (const RadarConfiguration& radar : {front(), gpr}) {
+    const auto findings = radar_findings(radar, status);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings.front().severity == Severity::warning);
+    CHECK(findings.front().what == "the sensor reports a fault: " + row.name);
+    CHECK_FALSE(findings.front().remedy.empty());
+  }
+}
+
+TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {
+  RadarConfiguration radar = front();
+  std::get<Ars408Options>(radar.decoder).keep_dyn_props = 0xFF;
+  RadarStatus status = healthy();
+  status.health.faults = RadarHealth::speed_missing | RadarHealth::yaw_rate_missing;
+  CHECK(radar_findings(radar, status).empty());
+}
+
+TEST_CASE("A finding is one line") {
+  CHECK(to_text({Severity::error, "can0 is down", "`ip link set can0 up`"}) ==
+        "can0 is down; `ip link set can0 up`");
+}

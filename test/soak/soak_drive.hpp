@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tools/simulate/simulation.hpp"
+
+namespace cremed::soak {
+
+inline constexpr std::array<std::string_view, 4> kScenarios{"straight", "bends", "stop-and-go",
+                                                            "city"};
+
+/// One of the drives, with truth.
+struct SoakDrive {
+  SoakDrive(std::size_t scenario_index, const std::vector<RadarConfiguration>& radars,
+            const SimulationOptions& options)
+      : scenario(scenario_index),
+        simulation(*find_scenario(kScenarios[scenario_index]), radars, options) {}
+
+  [[nodiscard]] VehicleState at(std::int64_t true_us) const {
+    return simulation.scene().course().at(simulation.scene().seconds(true_us));
+  }
+
+  /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
+  [[nodiscard]] Eigen::Vector3d motion(std::int64_t start_us, std::int64_t end_us) const {
+    const Pose2 start = at(start_us).pose;
+    const Pose2 end = at(end_us).pose;
+    const double c = std::cos(start.yaw_rad);
+    const double s = std::sin(start.yaw_rad);
+    const double dx = end.x_m - start.x_m;
+    const double dy = end.y_m - start.y_m;
+    return {c * dx + s * dy, -s * dx + c * dy, end.yaw_rad - start.yaw_rad};
+  }
+
+  std::size_t scenario;  ///< Index of kScenarios.
+  Simulation simulation;
+};
+
+}  // namespace cremed::soak

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/tool_run.hpp"
+#include "tools/doctor/can_interfaces.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+const std::string kData = std::string(CREMED_SOURCE_DIR) + "/test/data/";
+const std::string kBends = "--config " + kData + "bends.toml --replay ";
+
+ToolRun doctor(const TemporaryFolder& folder, const std::string& arguments) {
+  return run_tool("cremed-doctor", folder, arguments);
+}
+
+/// The log bends.log, without or with what a filter of the shell changes.
+ToolRun doctor_of_filtered(const TemporaryFolder& folder, const std::string& filter,
+                           const std::string& options = "") {
+  const std::string log = folder.file("log");
+  REQUIRE(std::system((filter + " <" + kData + "bends.log >" + log).c_str()) == 0);
+  return doctor(folder, kBends + log + options);
+}
+
+}  // namespace
+
+TEST_CASE("cremed-doctor: a healthy log has no finding") {
+  const TemporaryFolder folder;
+  const ToolRun result = doctor(folder, kBends + kData + "bends.log");
+  CHECK(result.status == 0);
+  CHECK_THAT(result.output, Catch::StartsWith("no finding: front: 13."));
+  CHECK_THAT(result.output, Catch::Contains("\nno finding: rear: 10."));
+  CHECK_THAT(result.output, Catch::Contains(" estimates\n"));
+}
+
+TEST_CASE("cremed-doctor: findings are one a line, the status says that there are some") {
+  const TemporaryFolder folder;
+  const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '");
+  CHECK(silent.status == 1);
+  CHECK_THAT(silent.output, Catch::StartsWith("error: the log has no frame of interface can0; set "
+                                              "interface to one it has: can1\nfront: 0.0 scans/s, "
+                                              "0 estimates\nrear: 10."));
+  const ToolRun shifted = doctor_of_filtered(folder, "sed 's/ can0 \\([267]\\)0/ can0 \\12/'");
+  CHECK(shifted.status == 1);
+  CHECK_THAT(shifted.output, Catch::StartsWith("error: front: not an ARS408 with sensor id 0 but "
+                                               "an ARS408 with sensor id 2 is on can0; set "));
+  const ToolRun lossy =
+      doctor(folder, "--config " + kData + "lossy.toml --replay " + kData + "lossy.log");
+  CHECK(lossy.status == 1);
+  CHECK_THAT(lossy.output, Catch::StartsWith("warning: front: 8 of 40 scans are not whole"));
+}
+
+TEST_CASE("cremed-doctor: lost frames that the log itself reports") {
+  const TemporaryFolder folder;
+  const ToolRun result = doctor_of_filtered(
+      folder, "sed \"100i DROPCOUNT: dropped 9 CAN frames on 'can0' socket (total drops 9)\"");
+  CHECK(result.status == 1);
+  CHECK_THAT(result.output, Catch::StartsWith("warning: 9 frames of can0 lost before"));
+}
+
+TEST_CASE("cremed-doctor: LCM is checked with a log only if asked for") {
+  const TemporaryFolder folder;
+  const std::string url = " --lcm-url 'udpm://1.2.3.4:7667'";
+  const ToolRun result = doctor_of_filtered(folder, "cat", url);
+  CHECK(result.status == 1);
+  CHECK_THAT(result.output, Catch::StartsWith("error: LCM cannot send; '1.2.3.4' is no IPv4 mult"));
+  CHECK(doctor_of_filtered(folder, "cat", " --lcm-url none").status == 0);
+}
+
+TEST_CASE("cremed-doctor says what is wrong with its arguments") {
+  struct Row {
+    std::string arguments;
+    int status;
+    std::string message;
+  };
+  const std::string config = "--config " + kData + "bends.toml ";
+  const auto row = GENERATE_COPY(
+      Row{"--nonsense", 2, "--nonsense"}, Row{"--seconds 0", 2, "--seconds"},
+      Row{"--config /no/such/file.toml", 2, "/no/such/file.toml: cannot be read"},
+      Row{config + "--lcm-url me", 2, "--lcm-url: 'me' is not"},
+      Row{config + "--store", 2, "--configure-ars408"},
+      Row{config + "--max-distance 250", 2, "--configure-ars408"},
+      Row{config + "--configure-ars408 front --max-distance 20", 2, "--max-distance"},
+      Row{config + "--configure-ars408 front --replay x", 2, "--replay"},
+      Row{config + "--configure-ars408 rear", 2,
+          "'rear' is no ARS408 of the configuration; it "
+          "has front"},
+      Row{kBends + "/no/such/log", 1, "/no/such/log"},
+      Row{kBends + "/dev/null", 1, "no CAN frame in it; lines of `candump -L` are expected"});
+  CAPTURE(row.arguments);
+  const TemporaryFolder folder;
+  const ToolRun result = doctor(folder, row.arguments);
+  CAPTURE(result.output, result.error);
+  CHECK(result.status == row.status);
+  CHECK_THAT(result.error, Catch::Contains(row.message));
+}
+
+TEST_CASE("cremed-doctor on a computer without these interfaces") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("absent.toml"))
+      << "[[radar]]\nname = \"front\"\ntype = \"ars408\"\ninterface = \"cremed-absent\"\n"
+         "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.0 }\n";
+  const std::string config = "--config " + folder.file("absent.toml");
+  const ToolRun result = doctor(folder, config + " --seconds 0.1 --lcm-url none");
+  CHECK(result.status == 1);
+  CHECK_THAT(result.output,
+             Catch::StartsWith(kernel_has_can() ? "error: there is no interface cremed-absent; "
+                                                : "error: the kernel has no CAN sockets; "));
+  const ToolRun setup = doctor(folder, config + " --configure-ars408 front --yes");
+  CHECK(setup.status == 1);
+  CHECK_THAT(setup.output, Catch::StartsWith("error: there is no interface cremed-absent; "));
+}

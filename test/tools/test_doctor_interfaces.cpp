@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "tools/doctor/can_interfaces.hpp"
+
+using namespace cremed;
+
+// CAN interfaces themselves are for the tests in a kernel that has them (test/vm).
+TEST_CASE("An interface of another kind is told from one that is not there") {
+  CHECK(state_of("lo") == InterfaceState::not_can);
+  CHECK(state_of("cremed-absent") == InterfaceState::absent);
+  CHECK(state_of("a name that is longer than any interface's") == InterfaceState::absent);
+  const auto names = can_interfaces();
+  CHECK(std::find(names.begin(), names.end(), "lo") == names.end());
+}

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/doctor_bench.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+/// A healthy drive, spoilt in one way, and the finding that must come first.
+struct Case {
+  std::string name;
+  std::function<void(Configuration&, Recording&)> spoil;
+  Severity severity;
+  std::string what;
+  std::string remedy;
+};
+
+Ars408Options& front_options(Configuration& configuration) {
+  return std::get<Ars408Options>(configuration.radars[0].decoder);
+}
+
+/// Each n-th frame of the identifier is lost.
+void lose_each(Recording& traffic, const std::string& interface, std::uint32_t id, int n) {
+  int count = 0;
+  remove_if(traffic,
+            [&](const BusFrame& entry) { return is_of(entry, interface, id) && ++count % n == 0; });
+}
+
+/// Headers that announce this many near clusters.
+void announce(Recording& traffic, std::uint8_t near_count) {
+  for (auto& entry : traffic) {
+    if (is_of(entry, "can0", 0x600)) {
+      entry.frame.data[0] = near_count;
+    }
+  }
+}
+
+void say(Recording& traffic, const std::function<void(Ars408RadarState&)>& change) {
+  Ars408RadarState state = good_state();
+  change(state);
+  report_state(traffic, "can0", state);
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> kAll{
+      {"another sensor id", [](auto&, auto& traffic) { move_ids(traffic, "can0", 0x30); },
+       Severity::error, "front: not an ARS408 with sensor id 0 but an ARS408 with sensor id 3",
+       "set sensor_id = 3 for radar \"front\", or give the sensor its id: "
+       "`cremed-doctor --configure-ars408 front`"},
+      {"another base id", [](auto&, auto& traffic) { move_ids(traffic, "can1", 0x60); },
+       Severity::error,
+       "rear: not a Bosch GPR with base id 0x200 but a Bosch GPR with base id 0x260",
+       "set base_id = 0x260 for radar \"rear\""},
+      {"another base id that overlaps",
+       [](auto&, auto& traffic) { move_ids(traffic, "can1", 0x20); }, Severity::error,
+       "but a Bosch GPR with base id 0x220", "set base_id = 0x220"},
+      {"a GPR where an ARS408 is expected",
+       [](auto& configuration, auto& traffic) {
+         configuration.radars[1].decoder = Ars408Options{};
+         remove_if(traffic, [](const auto& entry) { return entry.interface == "can0"; });
+         configuration.radars.erase(configuration.radars.begin());
+       },
+       Severity::error, "rear: not an ARS408 with sensor id 0 but a Bosch GPR with base id 0x200",
+       "set type = \"bosch_gpr\" and base_id = 0x200"},
+      {"an ARS408 where a GPR is expected",
+       [](auto& configuration, auto& traffic) {
+         configuration.radars[0].decoder = BoschGprOptions{};
+         configuration.radars.pop_back();
+         remove_if(traffic, [](const auto& entry) { return entry.interface == "can1"; });
+       },
+       Severity::error, "front: not a Bosch GPR with base id 0x200 but an ARS408 with sensor id 0",
+       "set type = \"ars408\" and sensor_id = 0"},
+      {"on another bus", [](auto&, auto& traffic) { rename(traffic, "can0", "can7"); },
+       Severity::error, "front: an ARS408 with sensor id 0 is on can7, not on can0",
+       "set interface = \"can7\" for radar \"front\""},
+      {"buses swapped",
+       [](auto&, auto& traffic) {
+         rename(traffic, "can0", "x");
+         rename(traffic, "can1", "can0");
+         rename(traffic, "x", "can1");
+       },
+       Severity::error, "front: an ARS408 with sensor id 0 is on can1, not on can0",
+       "set interface = \"can1\""},
+      {"other traffic only",
+       [](auto&, auto& traffic) {
+         for (auto& entry : traffic) {
+           entry.frame.id = entry.interface == "can0" ? 0x123 : entry.frame.id;
+         }
+       },
+       Severity::error, "front: frames on can0, but none of an ARS408 with sensor id 0: 0x123",
+       "power"},
+      {"extended frames only",
+       [](auto&, auto& traffic) {
+         for (auto& entry : traffic) {
+           entry.frame.extended = entry.interface == "can0";
+         }
+       },
+       Severity::error, "extended, remote or FD frames", "power"},
+      {"objects instead of clusters",
+       [](auto& configuration, auto& traffic) {
+         front_options(configuration).output = Ars408Output::objects;
+         traffic = recording_of(configuration.radars);
+         front_options(configuration).output = Ars408Output::clusters;
+       },
+       Severity::error, "front: the sensor sends objects, not clusters",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"clusters instead of objects",
+       [](auto& configuration, auto&) {
+         front_options(configuration).output = Ars408Output::objects;
+       },
+       Severity::error, "front: the sensor sends clusters, not objects",
+       "set output = \"clusters\""},
+      {"no quality, and the sensor says so",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [](const auto& entry) { return is_of(entry, "can0", 0x702); });
+         say(traffic, [](auto& state) { state.sends_quality = false; });
+       },
+       Severity::error, "front: the sensor sends no quality (0x201)",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"no quality, and the sensor says nothing",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [](const auto& entry) {
+           return is_of(entry, "can0", 0x702) || is_of(entry, "can0", 0x201);
+         });
+       },
+       Severity::error, "front: the sensor sends targets without quality on can0",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"no quality, though the sensor claims it",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [](const auto& entry) { return is_of(entry, "can0", 0x702); });
+       },
+       Severity::error, "front: the sensor sends targets without quality on can0",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"set to send nothing",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [](const auto& entry) { return entry.interface == "can0"; });
+         say(traffic, [](auto& state) { state.output_code = 0; });
+       },
+       Severity::error, "front: the sensor is set to send no targets (0x201)",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"reports, but sends no targets",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [](const auto& entry) { return entry.interface == "can0"; });
+         say(traffic, [](auto&) {});
+       },
+       Severity::error, "front: it reports its state but sends no targets",
+       "`cremed-doctor --configure-ars408 front`"},
+      {"no speed",
+       [](auto&, auto& traffic) { say(traffic, [](auto& state) { state.speed_missing = true; }); },
+       Severity::warning, "front: the sensor gets no speed (0x300): ", "motion_feedback = true"},
+      {"no yaw rate",
+       [](auto&, auto& traffic) {
+         say(traffic, [](auto& state) { state.yaw_rate_missing = true; });
+       },
+       Severity::warning, "front: the sensor gets no yaw rate (0x301): ", "keep_dyn_props"},
+      {"a fault",
+       [](auto&, auto& traffic) { say(traffic, [](auto& state) { state.voltage_error = true; }); },
+       Severity::warning, "front: the sensor reports a fault: voltage error", "8 to 32 V"},
+      {"some frames lost", [](auto&, auto& traffic) { lose_each(traffic, "can0", 0x702, 40); },
+       Severity::warning, "scans are not whole: their headers say", "frames are lost on the way"},
+      {"some frames of a GPR lost",
+       [](auto&, auto& traffic) { lose_each(traffic, "can1", 0x210, 4); }, Severity::warning,
+       "missing", "frames are lost on the way"},
+      {"more clusters than fit on the bus", [](auto&, auto& traffic) { announce(traffic, 170); },
+       Severity::error, "scans are not whole: their headers say",
+       "`cremed-doctor --configure-ars408 front --max-distance 200`"},
+      {"every scan lacks a frame", [](auto&, auto& traffic) { announce(traffic, 100); },
+       Severity::error, "scans are not whole", "frames are lost on the way"},
+      {"all targets move",
+       [](auto& configuration, auto&) { front_options(configuration).keep_dyn_props = 1U << 7U; },
+       Severity::error, "front: whole scans, but no usable detection: invalid state",
+       "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
+      {"all targets outside the limits",
+       [](auto& configuration, auto&) {
+         configuration.radars[0].ego_motion.limits.min_rcs_dbm2 = 99.0;
+       },
+       Severity::error, "no usable detection: ", "widen [radar.limits]"},
+      {"all states refused",
+       [](auto& configuration, auto&) {
+         front_options(configuration).keep_invalid_states = 1U << 14U;
+       },
+       Severity::error, "no usable detection: invalid state",
+       "add the codes the sensor sends to keep_invalid_states"},
+      {"empty scans",
+       [](auto&, auto& traffic) {
+         announce(traffic, 0);
+         for (auto& entry : traffic) {
+           entry.frame.data[1] = is_of(entry, "can0", 0x600) ? 0 : entry.frame.data[1];
+         }
+         remove_if(traffic, [](const auto& entry) {
+           return entry.interface == "can0" && entry.frame.id != 0x600;
+         });
+       },
+       Severity::error, "front: all scans are empty", "0x202"},
+      {"too few targets",
+       [](auto& configuration, auto&) { configuration.radars[0].ego_motion.min_targets = 250; },
+       Severity::error, "front: few scans give an estimate", "min_targets"},
+      {"wrong checksums",
+       [](auto&, auto& traffic) {
+         for (auto& entry : traffic) {
+           std::uint8_t& checksum = entry.frame.data[7];
+           checksum = static_cast<std::uint8_t>(~checksum);
+         }
+       },
+       Severity::warning, "frames with a wrong checksum", "crc_policy = \"off\""},
+      {"frames of the wrong length",
+       [](auto&, auto& traffic) {
+         CanFrame frame = traffic.front().frame;
+         frame.id = 0x701;
+         frame.length = 3;
+         traffic.insert(traffic.begin() + 100, {"can0", frame});
+       },
+       Severity::warning, "front: 1 frame of the wrong length", "`candump -e any`"},
+      {"too short to tell",
+       [](auto&, auto& traffic) {
+         const std::int64_t begin_us = traffic.front().frame.stamp_us;
+         remove_if(traffic, [begin_us](const auto& entry) {
+           return entry.interface == "can0" && entry.frame.stamp_us > begin_us + 60'000;
+         });
+       },
+       Severity::error, "front: no estimate yet", "--seconds"},
+  };
+  return kAll;
+}
+
+}  // namespace
+
+TEST_CASE("A healthy drive has no finding") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  report_state(traffic, "can0", good_state());
+  const Observation observation = observe(configuration, traffic);
+  CHECK(all_text(diagnose(configuration, observation)).empty());
+  CHECK(observation.seconds == Approx(3.0).margin(0.2));
+  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
+             Catch::Matches("front: 1[34]\\.[0-9] scans/s, [34][0-9] estimates"));
+}
+
+TEST_CASE("A drive observed from the middle of a scan has no finding") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  traffic.erase(traffic.begin(), traffic.begin() + 77);
+  traffic.erase(traffic.end() - 7, traffic.end());
+  CHECK(all_text(diagnose(configuration, observe(configuration, traffic))).empty());
+}
+
+TEST_CASE("What is wrong with a radar is found") {
+  Configuration healthy = demo_configuration();
+  static const Recording kDrive = recording_of(healthy.radars);
+  for (const Case& spoilt : cases()) {
+    DYNAMIC_SECTION(spoilt.name) {
+      Configuration configuration = healthy;
+      Recording traffic = kDrive;
+      spoilt.spoil(configuration, traffic);
+      const auto findings = diagnose(configuration, observe(configuration, traffic));
+      check_first(findings, spoilt.severity, spoilt.what, spoilt.remedy);
+    }
+  }
+}
+
+TEST_CASE("A radar that is somewhere else explains the silence of its bus") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  rename(traffic, "can0", "can7");
+  CHECK(diagnose(configuration, observe(configuration, traffic)).size() == 1);
+}
+
+TEST_CASE("A radar that another of the configuration is missing is not offered to the wrong one") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  remove_if(traffic, [](const BusFrame& entry) { return entry.interface == "can1"; });
+  rename(traffic, "can0", "can1");
+  const auto findings = diagnose(configuration, observe(configuration, traffic));
+  check_first(findings, Severity::error, "front: an ARS408 with sensor id 0 is on can1", "can1");
+  CHECK_THAT(all_text(findings),
+             Catch::Contains("rear: frames on can1, but none of a Bosch GPR with base id 0x200"));
+}

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "daemon/finding.hpp"
+#include "tools/doctor/observation.hpp"
+
+namespace cremed {
+
+/// Can frames come from this bus at all?
+bool is_silent(const BusObservation& bus);
+
+/// What is wrong with one bus of the observation, whatever radars are on it.
+std::vector<Finding> bus_findings(const BusObservation& bus, const Observation& observation);
+
+}  // namespace cremed

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/doctor/bus_observation.hpp"
+
+namespace cremed {
+
+/// Can this kernel open raw CAN sockets?
+bool kernel_has_can();
+
+/// Names of the CAN interfaces there are, in the kernel's order.
+std::vector<std::string> can_interfaces();
+
+/// What the kernel says about an interface; never `failed`.
+InterfaceState state_of(const std::string& interface);
+
+}  // namespace cremed

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/diagnosis.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "daemon/message_text.hpp"
+#include "daemon/report.hpp"
+#include "tools/doctor/bus_findings.hpp"
+#include "tools/doctor/radar_diagnosis.hpp"
+
+namespace cremed {
+namespace {
+
+using Findings = std::vector<Finding>;
+
+void append(const Findings& more, Findings& findings) {
+  findings.insert(findings.end(), more.begin(), more.end());
+}
+
+/// Radars of the configuration on this bus; `found_elsewhere`: those of them that are on another.
+struct RadarsOnBus {
+  std::size_t count = 0;
+  std::size_t found_elsewhere = 0;
+};
+
+RadarsOnBus radars_on(const BusObservation& bus, const Configuration& configuration,
+                      const Observation& observation) {
+  RadarsOnBus radars;
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    if (configuration.radars[i].interface == bus.interface) {
+      ++radars.count;
+      radars.found_elsewhere += find_elsewhere(configuration, observation, i).empty() ? 0 : 1;
+    }
+  }
+  return radars;
+}
+
+void add_buses(const Configuration& configuration, const Observation& observation,
+               Findings& findings) {
+  for (const BusObservation& bus : observation.buses) {
+    const RadarsOnBus radars = radars_on(bus, configuration, observation);
+    if (radars.count != 0 && (!is_silent(bus) || radars.found_elsewhere < radars.count)) {
+      append(bus_findings(bus, observation), findings);
+    }
+  }
+}
+
+/// A radar's findings, each with its name. Of one on a silent bus nothing can be said but where it
+/// is instead.
+void add_radar(const Configuration& configuration, const Observation& observation,
+               std::size_t radar, Findings& findings) {
+  const RadarConfiguration& wanted = configuration.radars[radar];
+  const auto bus = std::find_if(observation.buses.begin(), observation.buses.end(),
+                                [&](const auto& b) { return b.interface == wanted.interface; });
+  Findings own = is_silent(*bus) ? find_elsewhere(configuration, observation, radar)
+                                 : diagnose_radar(configuration, observation, radar);
+  for (Finding& finding : own) {
+    finding.what = concat({wanted.name, ": ", finding.what});
+  }
+  append(own, findings);
+}
+
+}  // namespace
+
+Findings diagnose(const Configuration& configuration, const Observation& observation) {
+  Findings findings;
+  if (!observation.kernel_has_can) {
+    findings.push_back({Severity::error, "the kernel has no CAN sockets",
+                        "`modprobe can_raw`, or a kernel built with CONFIG_CAN"});
+  } else {
+    for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+      add_radar(configuration, observation, i, findings);
+    }
+    add_buses(configuration, observation, findings);
+  }
+  if (!observation.lcm_problem.empty()) {
+    findings.push_back({Severity::error, "LCM cannot send", observation.lcm_problem});
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
+  return findings;
+}
+
+std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
+                        double seconds) {
+  const auto scans = static_cast<double>(observation.status.assembler.scans);
+  return concat({radar.name, ": ", tenths(seconds > 0.0 ? scans / seconds : 0.0), " scans/s, ",
+                 std::to_string(estimates(observation.status)), " estimates"});
+}
+
+}  // namespace cremed

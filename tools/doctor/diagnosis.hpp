@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/configuration.hpp"
+#include "daemon/finding.hpp"
+#include "tools/doctor/observation.hpp"
+
+namespace cremed {
+
+/// Why there is no odometry, or bad odometry: errors first, and of each severity the most likely
+/// cause first.
+std::vector<Finding> diagnose(const Configuration& configuration, const Observation& observation);
+
+/// One line: "front: 13.6 scans/s, 40 estimates".
+std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
+                        double seconds);
+
+}  // namespace cremed

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/live_observation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <poll.h>
+
+#include "daemon/can_socket.hpp"
+#include "daemon/clocks.hpp"
+#include "daemon/radar_channel.hpp"
+#include "tools/doctor/can_interfaces.hpp"
+#include "tools/doctor/observer.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr int kPollMs = 100;
+
+/// An interface that is listened to.
+struct Ear {
+  std::string interface;
+  std::unique_ptr<CanSocket> socket;
+};
+
+std::set<std::string> interfaces_to_hear(const Configuration& configuration) {
+  const std::vector<std::string> there = can_interfaces();
+  const std::vector<std::string> wanted = interface_names(configuration);
+  std::set<std::string> names(there.begin(), there.end());
+  names.insert(wanted.begin(), wanted.end());
+  return names;
+}
+
+/// Notes what the kernel says about the interface; opens it if it can be read.
+std::unique_ptr<CanSocket> open(const CanSocketOptions& options, BusObservation& bus) {
+  bus.state = state_of(bus.interface);
+  // One that is bus-off may come back meanwhile.
+  if (bus.state != InterfaceState::up && bus.state != InterfaceState::bus_off) {
+    return nullptr;
+  }
+  auto socket = std::make_unique<CanSocket>();
+  const CanOpenResult result = socket->open(bus.interface, {}, options);
+  if (result.status != CanOpenStatus::open) {
+    bus.state = InterfaceState::failed;
+    bus.error = std::strerror(result.error);
+    return nullptr;
+  }
+  bus.status.receive_buffer_bytes = result.receive_buffer_bytes;
+  return socket;
+}
+
+std::vector<Ear> open_all(const Configuration& configuration, Observer& observer) {
+  std::vector<Ear> ears;
+  for (const std::string& name : interfaces_to_hear(configuration)) {
+    if (auto socket = open(configuration.live.socket, observer.bus(name))) {
+      ears.push_back({name, std::move(socket)});
+    }
+  }
+  return ears;
+}
+
+/// Takes what is there now; false if the interface went away.
+bool receive(const Ear& ear, Observer& observer) {
+  const CanReceiveResult result = ear.socket->receive();
+  for (const ReceivedFrame& received : result.frames) {
+    if (received.lost_before != 0) {
+      observer.add_lost(ear.interface, received.lost_before);
+    }
+    observer.add(ear.interface, received.frame);
+  }
+  return result.status == CanReceiveStatus::frames || result.status == CanReceiveStatus::empty;
+}
+
+void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
+            const volatile std::sig_atomic_t* stop, Observer& observer) {
+  std::vector<pollfd> polled(ears.size());
+  while (!ears.empty() && *stop == 0 && monotonic_us() < deadline_us) {
+    std::transform(ears.begin(), ears.end(), polled.begin(), [](const Ear& ear) {
+      return pollfd{ear.socket->descriptor(), POLLIN, 0};
+    });
+    ::poll(polled.data(), polled.size(), kPollMs);
+    for (std::size_t i = 0; i < polled.size(); ++i) {
+      if (polled[i].revents != 0 && !receive(ears[i], observer)) {
+        ears[i].socket->close();  // poll() passes over a negative descriptor.
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Observation observe_live(const Configuration& configuration, double seconds,
+                         const volatile std::sig_atomic_t* stop) {
+  Observer observer(configuration);
+  const bool has_can = kernel_has_can();
+  if (has_can) {
+    std::vector<Ear> ears = open_all(configuration, observer);
+    listen(ears, monotonic_us() + std::llround(seconds * 1e6), stop, observer);
+    for (const Ear& ear : ears) {
+      observer.bus(ear.interface).state = state_of(ear.interface);  // As it is by now.
+    }
+  }
+  Observation observation = observer.finish();
+  observation.is_live = true;
+  observation.kernel_has_can = has_can;
+  observation.seconds = seconds;
+  return observation;
+}
+
+}  // namespace cremed

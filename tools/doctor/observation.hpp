@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/radar_status.hpp"
+#include "tools/doctor/bus_observation.hpp"
+
+namespace cremed {
+
+/// The scans of one radar that were not whole: what their headers announced, what came.
+struct IncompleteScans {
+  std::uint64_t announced_targets = 0;
+  std::uint64_t whole_targets = 0;  ///< Both messages came.
+  std::uint16_t most_announced = 0;
+};
+
+/// What the pipeline made of one radar's frames.
+struct RadarObservation {
+  RadarStatus status;
+  IncompleteScans incomplete;
+};
+
+/// All that a diagnosis rests on.
+struct Observation {
+  bool is_live = false;
+  bool kernel_has_can = true;
+  double seconds = 0.0;  ///< Of traffic.
+  std::string lcm_problem;
+  std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
+  std::vector<RadarObservation> radars;  ///< In the order of the configuration.
+};
+
+}  // namespace cremed

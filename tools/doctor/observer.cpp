@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/observer.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace cremed {
+namespace {
+
+/// A longer step is a clock that was set, or a log that was paused.
+constexpr std::int64_t kClockJumpUs = 10'000'000;
+
+std::int64_t no_clock() { return 0; }
+
+}  // namespace
+
+Observer::Observer(const Configuration& configuration)
+    : configured_buses_(interface_names(configuration).size()),
+      sink_(observation_.radars),
+      pipeline_(configuration, source_, {&sink_}, PipelineClock{&no_clock}) {
+  observation_.radars.resize(configuration.radars.size());
+  for (const std::string& name : interface_names(configuration)) {
+    bus(name);
+  }
+}
+
+std::size_t Observer::index_of(std::string_view interface) {
+  auto& buses = observation_.buses;
+  const auto found = std::find_if(buses.begin(), buses.end(), [interface](const auto& bus) {
+    return bus.interface == interface;
+  });
+  const auto index = static_cast<std::size_t>(found - buses.begin());
+  if (found == buses.end()) {
+    buses.emplace_back().interface = interface;
+  }
+  return index;
+}
+
+BusObservation& Observer::bus(std::string_view interface) {
+  return observation_.buses[index_of(interface)];
+}
+
+void Observer::add(std::string_view interface, CanFrame frame) {
+  const std::size_t index = index_of(interface);
+  observation_.buses[index].add(frame);
+  note_time(frame.stamp_us);
+  if (index < configured_buses_) {
+    frame.interface = static_cast<std::uint8_t>(index);
+    source_.count_frame();
+    pipeline_.on_frame(frame);
+  }
+}
+
+void Observer::add_lost(std::string_view interface, std::uint64_t frames) {
+  const std::size_t index = index_of(interface);
+  observation_.buses[index].status.frames_lost += frames;
+  source_.count_lost(frames);
+  if (index < configured_buses_) {
+    pipeline_.on_dropped(static_cast<std::uint8_t>(index));
+  }
+}
+
+void Observer::note_time(std::int64_t stamp_us) {
+  const std::int64_t step_us = stamp_us - last_stamp_us_.value_or(stamp_us);
+  last_stamp_us_ = stamp_us;
+  observation_.seconds +=
+      step_us > 0 && step_us < kClockJumpUs ? static_cast<double>(step_us) * 1e-6 : 0.0;
+}
+
+Observation Observer::finish() {
+  pipeline_.finish();
+  for (std::size_t i = 0; i < observation_.radars.size(); ++i) {
+    observation_.radars[i].status = pipeline_.radars()[i]->status(0, source_);
+  }
+  return std::move(observation_);
+}
+
+void Observer::Sink::on_scan(std::size_t radar, const RadarScan& scan) {
+  if (scan.status != ScanStatus::complete) {
+    IncompleteScans& incomplete = radars_[radar].incomplete;
+    incomplete.announced_targets += scan.announced;
+    incomplete.whole_targets += scan.count;
+    incomplete.most_announced = std::max(incomplete.most_announced, scan.announced);
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "daemon/frame_source.hpp"
+#include "daemon/odometry_sink.hpp"
+#include "daemon/pipeline.hpp"
+#include "tools/doctor/observation.hpp"
+
+namespace cremed {
+
+/// Turns frames, live or from a log, into an observation: counts what is on each bus and runs the
+/// daemon's own pipeline.
+class Observer {
+ public:
+  explicit Observer(const Configuration& configuration);
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+
+  /// The bus of an interface; made at its first mention.
+  BusObservation& bus(std::string_view interface);
+
+  void add(std::string_view interface, CanFrame frame);
+  void add_lost(std::string_view interface, std::uint64_t frames);
+
+  /// No more frames.
+  Observation finish();
+
+ private:
+  /// The pipeline reads counters from its source; here they come from whoever calls add().
+  class Source final : public FrameSource {
+   public:
+    SourceEvent next(CanFrame& /*frame*/) override { return SourceEvent::end; }
+    void count_frame() { ++counters_.frames; }
+    void count_lost(std::uint64_t frames) { counters_.lost_frames += frames; }
+  };
+  class Sink final : public OdometrySink {
+   public:
+    explicit Sink(std::vector<RadarObservation>& radars) : radars_(radars) {}
+    void on_scan(std::size_t radar, const RadarScan& scan) override;
+    void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
+    [[nodiscard]] std::uint64_t failures() const override { return 0; }
+
+   private:
+    std::vector<RadarObservation>& radars_;
+  };
+
+  std::size_t index_of(std::string_view interface);
+  void note_time(std::int64_t stamp_us);
+
+  std::size_t configured_buses_;  // The first of observation_.buses, in the pipeline's order.
+  Observation observation_;
+  Source source_;
+  Sink sink_;
+  Pipeline pipeline_;
+  std::optional<std::int64_t> last_stamp_us_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/radar_diagnosis.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "daemon/message_text.hpp"
+#include "daemon/radar_identifiers.hpp"
+#include "daemon/report.hpp"
+#include "tools/doctor/seen_radar.hpp"
+
+namespace cremed {
+namespace {
+
+using Findings = std::vector<Finding>;
+
+std::string number(std::uint64_t value) { return std::to_string(value); }
+
+const BusObservation& bus_of(const RadarConfiguration& radar, const Observation& observation) {
+  return *std::find_if(observation.buses.begin(), observation.buses.end(),
+                       [&](const auto& bus) { return bus.interface == radar.interface; });
+}
+
+/// Radars on a bus that no radar of the configuration is meant to be.
+std::vector<SeenRadar> unclaimed(const BusObservation& bus, const Configuration& configuration) {
+  std::vector<SeenRadar> radars = seen_radars(bus);
+  for (const RadarConfiguration& radar : configuration.radars) {
+    if (radar.interface == bus.interface) {
+      std::erase(radars, expected_radar(radar));
+    }
+  }
+  return radars;
+}
+
+bool contains(const std::vector<SeenRadar>& radars, const SeenRadar& wanted) {
+  return std::find(radars.begin(), radars.end(), wanted) != radars.end();
+}
+
+std::string seen_ids(const BusObservation& bus) {
+  constexpr std::size_t kMaxNamed = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t id = 0; id < bus.ids.size(); ++id) {
+    if (bus.ids[id].frames != 0 && ++count <= kMaxNamed) {
+      text += concat({count == 1 ? "" : ", ", hexadecimal(id)});
+    }
+  }
+  text += count > kMaxNamed ? concat({" and ", number(count - kMaxNamed), " more"}) : "";
+  if (bus.foreign_frames != 0) {
+    text += concat(
+        {text.empty() ? "" : ", ", number(bus.foreign_frames), " extended, remote or FD frames"});
+  }
+  return text;
+}
+
+std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.name); }
+
+/// Another radar of the same kind is more likely than one of the other kind.
+std::optional<SeenRadar> most_likely(const std::vector<SeenRadar>& radars,
+                                     const SeenRadar& expected) {
+  for (const SeenRadar& radar : radars) {
+    if (radar.kind == expected.kind) {
+      return radar;
+    }
+  }
+  return radars.empty() ? std::nullopt : std::optional(radars.front());
+}
+
+Finding other_radar(const RadarConfiguration& radar, const SeenRadar& expected,
+                    const SeenRadar& seen) {
+  const std::string what =
+      concat({"not ", to_text(expected), " but ", to_text(seen), " is on ", radar.interface});
+  if (seen.kind == expected.kind) {
+    return {Severity::error, what,
+            concat({"set ", key_of(seen), " for radar ", quoted_name(radar),
+                    seen.kind == SeenRadar::Kind::ars408
+                        ? concat({", or give the sensor its id: `cremed-doctor --configure-ars408 ",
+                                  radar.name, "`"})
+                        : ""})};
+  }
+  return {
+      Severity::error, what,
+      concat({"set type = ", seen.kind == SeenRadar::Kind::ars408 ? "\"ars408\"" : "\"bosch_gpr\"",
+              " and ", key_of(seen), " for radar ", quoted_name(radar)})};
+}
+
+/// Radars on a bus that may be the one that is missing there: none that another radar of the
+/// configuration is looking for.
+std::vector<SeenRadar> candidates(const Configuration& configuration,
+                                  const Observation& observation, const BusObservation& bus) {
+  std::vector<SeenRadar> radars = unclaimed(bus, configuration);
+  for (const RadarConfiguration& other : configuration.radars) {
+    const SeenRadar expected = expected_radar(other);
+    if (!contains(seen_radars(bus_of(other, observation)), expected)) {
+      std::erase(radars, expected);
+    }
+  }
+  return radars;
+}
+
+/// The configured radar is not on its bus: what is there instead.
+Findings identify(const Configuration& configuration, const Observation& observation,
+                  const RadarConfiguration& radar) {
+  const BusObservation& bus = bus_of(radar, observation);
+  const SeenRadar expected = expected_radar(radar);
+  if (const auto seen = most_likely(candidates(configuration, observation, bus), expected)) {
+    return {other_radar(radar, expected, *seen)};
+  }
+  return {{Severity::error,
+           concat({"frames on ", radar.interface, ", but none of ", to_text(expected), ": ",
+                   seen_ids(bus)}),
+           concat({"check that radar ", quoted_name(radar),
+                   " has power and is on this bus, and its type, sensor_id or base_id"})}};
+}
+
+/// Cluster or object lists without the message that says how good each target is.
+bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
+  const SeenRadar expected = expected_radar(radar);
+  const std::size_t shift = std::size_t{0x10} * expected.number;
+  const auto seen = [&](std::size_t id) { return bus.ids[id + shift].frames != 0; };
+  return expected.kind == SeenRadar::Kind::ars408 &&
+         ((seen(0x701) && !seen(0x702)) || (seen(0x60B) && !seen(0x60C)));
+}
+
+std::string quality_off(const RadarConfiguration& radar) {
+  return concat(
+      {"the sensor sends targets without quality on ", radar.interface, ", so no scan is whole"});
+}
+
+/// The first and the last scan are cut by the beginning and the end of the observation.
+bool are_many(const AssemblerCounters& scans) {
+  constexpr std::uint64_t kCut = 2;
+  return scans.incomplete_scans > kCut && scans.incomplete_scans * 50 > scans.scans;
+}
+
+void add_incomplete(const RadarConfiguration& radar, const RadarObservation& observation,
+                    Findings& findings) {
+  // More clusters with quality than this do not fit in a cycle at 500 kbit/s, whatever their bits.
+  constexpr std::uint16_t kMostThatFit = 150;
+  const AssemblerCounters& scans = observation.status.assembler;
+  const IncompleteScans& incomplete = observation.incomplete;
+  if (!are_many(scans)) {
+    return;
+  }
+  const Severity severity =
+      scans.incomplete_scans == scans.scans ? Severity::error : Severity::warning;
+  const bool has_header = expected_radar(radar).kind == SeenRadar::Kind::ars408;
+  const std::string what =
+      concat({number(scans.incomplete_scans), " of ", number(scans.scans), " scans are not whole: ",
+              has_header ? "their headers say " + number(incomplete.announced_targets) +
+                               " targets, " + number(incomplete.whole_targets) + " came whole"
+                         : counted(scans.missing_parts, "frame") + " missing"});
+  if (has_header && incomplete.most_announced > kMostThatFit) {
+    findings.push_back(
+        {severity, what,
+         concat({"up to ", number(incomplete.most_announced),
+                 " do not fit on the bus: filter (0x202), or shorten the range: ",
+                 "`cremed-doctor --configure-ars408 ", radar.name, " --max-distance 200`"})});
+  } else {
+    findings.push_back({severity, what,
+                        "frames are lost on the way: look at the load of bus and computer, and "
+                        "for a second node that sends these identifiers"});
+  }
+}
+
+void add_bad_frames(const RadarStatus& status, Findings& findings) {
+  const DecoderCounters& c = status.decoder;
+  if (c.crc_errors != 0) {
+    findings.push_back({Severity::warning,
+                        counted(c.crc_errors, "frame") + " with a wrong checksum",
+                        "check the cable; if it is all of them, set crc_policy = \"off\""});
+  }
+  if (c.wrong_length + c.wrong_kind != 0) {
+    findings.push_back({Severity::warning,
+                        counted(c.wrong_length + c.wrong_kind, "frame") +
+                            " of the wrong length, remote or FD on its identifiers",
+                        "find the other node that sends them, `candump -e any`"});
+  }
+  if (c.wrong_slot != 0) {
+    findings.push_back(
+        {Severity::warning,
+         counted(c.wrong_slot, "frame") + " whose content contradicts the identifier",
+         "check base_id, and that it is a General Purpose Radar"});
+  }
+}
+
+/// Do its targets come at all? A few of a GPR's identifiers may be those of others.
+bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
+  constexpr std::size_t kFirstArs408List = 0x600;
+  const bool is_gpr = expected_radar(radar).kind == SeenRadar::Kind::bosch_gpr;
+  const IdSet ids = sent_ids(radar);
+  std::size_t heard = 0;
+  for (std::size_t id = is_gpr ? 0 : kFirstArs408List; id < ids.size(); ++id) {
+    heard += ids[id] && bus.ids[id].frames != 0 ? 1 : 0;
+  }
+  return heard > (is_gpr ? ids.count() / 2 : 0);
+}
+
+/// What remains if nothing else explains that there is no estimate.
+void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
+                     Findings& findings) {
+  if (status.assembler.scans == 0) {
+    findings.push_back({Severity::error, "it reports its state but sends no targets",
+                        concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"})});
+  } else if (estimates(status) == 0) {
+    findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
+                        "listen longer, `--seconds 10`"});
+  }
+}
+
+bool has_error(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::error; });
+}
+
+}  // namespace
+
+Findings find_elsewhere(const Configuration& configuration, const Observation& observation,
+                        std::size_t radar) {
+  const RadarConfiguration& wanted = configuration.radars[radar];
+  const SeenRadar expected = expected_radar(wanted);
+  for (const BusObservation& bus : observation.buses) {
+    if (bus.interface != wanted.interface && contains(unclaimed(bus, configuration), expected)) {
+      return {{Severity::error,
+               concat({to_text(expected), " is on ", bus.interface, ", not on ", wanted.interface}),
+               concat({"set interface = ", quoted(bus.interface), " for radar ",
+                       quoted_name(wanted)})}};
+    }
+  }
+  return {};
+}
+
+Findings diagnose_radar(const Configuration& configuration, const Observation& observation,
+                        std::size_t radar) {
+  const RadarConfiguration& wanted = configuration.radars[radar];
+  const RadarObservation& observed = observation.radars[radar];
+  const BusObservation& bus = bus_of(wanted, observation);
+  if (!contains(seen_radars(bus), expected_radar(wanted))) {
+    Findings elsewhere = find_elsewhere(configuration, observation, radar);
+    if (!elsewhere.empty()) {
+      return elsewhere;
+    }
+    if (!is_heard(wanted, bus) || !candidates(configuration, observation, bus).empty()) {
+      return identify(configuration, observation, wanted);
+    }
+  }
+  const RadarHealth& health = observed.status.health;
+  if (lacks_quality(wanted, bus) && (!health.is_known || health.sends_quality)) {
+    return {{Severity::error, quality_off(wanted),
+             concat({"`cremed-doctor --configure-ars408 ", wanted.name, "`"})}};
+  }
+  Findings findings = radar_findings(wanted, observed.status);
+  if (!has_error(findings)) {
+    add_incomplete(wanted, observed, findings);
+  }
+  if (!has_error(findings)) {
+    add_no_estimate(wanted, observed.status, findings);
+  }
+  add_bad_frames(observed.status, findings);
+  return findings;
+}
+
+}  // namespace cremed

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstddef>
 #include <span>
 
@@ -15,7 +14,6 @@ namespace {
 constexpr std::uint32_t kSensorBits = 0x70;
 constexpr unsigned kSensorShift = 4;
 constexpr double kMinRangeM = 0.01;
-const double kRmsFactor = std::getenv("RMSF") ? std::atof(std::getenv("RMSF")) : 1.0;
 
 /// Standard deviations of a target's position and velocity.
 struct CartesianStd {
@@ -26,16 +24,15 @@ struct CartesianStd {
 };
 
 std::optional<CartesianStd> cartesian_std(const Ars408RmsCodes& codes) {
-  const auto x = ars408_rms(codes.x);
-  const auto y = ars408_rms(codes.y);
-  const auto vx = ars408_rms(codes.vx);
-  const auto vy = ars408_rms(codes.vy);
+  const auto x = ars408_std(codes.x);
+  const auto y = ars408_std(codes.y);
+  const auto vx = ars408_std(codes.vx);
+  const auto vy = ars408_std(codes.vy);
   const bool no_quality = (codes.x | codes.y | codes.vx | codes.vy) == 0;
   if (no_quality || !x || !y || !vx || !vy) {
     return std::nullopt;
   }
-  const double f = kRmsFactor;
-  return CartesianStd{f * *x, f * *y, f * *vx, f * *vy};
+  return CartesianStd{*x, *y, *vx, *vy};
 }
 
 Motion motion_of(Ars408DynProp dyn_prop) {

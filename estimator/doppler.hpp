@@ -17,16 +17,16 @@ struct DopplerGeometry {
   DopplerGeometry(const Target& target, const Eigen::Vector3d& motion,
                   const Pose2& vehicle_from_radar);
 
-  double range_change_m;                  ///< u
-  double per_bearing_m;                   ///< du/dphi
-  Eigen::RowVector3d jacobian;            ///< du/d(x, y, yaw)
+  double range_change_m;        ///< u
+  double per_bearing_m;         ///< du/dphi
+  Eigen::RowVector3d jacobian;  ///< du/d(x, y, yaw)
 };
 
 /// Doppler residual of one target.
 struct DopplerResidual {
-  double error_m = 0.0;  ///< Predicted less measured change of range.
-  double per_m = 0.0;    ///< One over the chosen component's standard deviation.
-  double cost = 0.0;     ///< -log of the chosen component, up to a constant.
+  double error_m = 0.0;   ///< Predicted less measured change of range.
+  double per_m = 0.0;     ///< One over the chosen component's standard deviation.
+  double cost = 0.0;      ///< -log of the chosen component, up to a constant.
   bool is_static = true;  ///< false: explained best as a moving target.
 };
 

@@ -21,6 +21,9 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
+/// Slower than this the vehicle's body comes to rest.
+constexpr double kRollingMps = 0.2;
+
 }  // namespace
 
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
@@ -119,6 +122,11 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
   return RegistrationStatus::no_convergence;
 }
 
+/// 0 when the vehicle stands, 1 when it drives.
+double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
+  return std::min(motion.head<2>().norm() / (problem.dt_s * kRollingMps), 1.0);
+}
+
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
@@ -160,26 +168,22 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
   return RegistrationStatus::no_convergence;
 }
 
-/// Errors of the velocity that no measurement of this pair shows, along the direction of travel.
-void Registration::add_time_error(const Problem& problem, RegistrationResult& result) const {
-  const SharedErrorOptions& shared = options_.shared_errors;
-  const Eigen::Vector3d per_s = result.motion / problem.dt_s;
-  const Eigen::Vector3d by_stamp = per_s * shared.stamp_std_s;
-  result.covariance += by_stamp * by_stamp.transpose();
-  const double speed = per_s.head<2>().norm();
-  const double body_m = shared.velocity_std_mps * problem.dt_s * std::min(1.0, speed / 0.2);
-  result.covariance(0, 0) += body_m * body_m;
-  if (options_.degrees_of_freedom == 3) {
-    result.covariance(1, 1) += body_m * body_m;
-  } else {
-    result.covariance.row(1).setZero();
-    result.covariance.col(1).setZero();
-  }
+/// Errors that no measurement of the two scans shows: of the time between them, and of the radar's
+/// own velocity over the vehicle's.
+void Registration::add_unseen_errors(const Problem& problem, RegistrationResult& result) const {
+  const SharedErrorOptions& errors = options_.shared_errors;
+  const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
+  result.covariance.noalias() += by_time * by_time.transpose();
+  const double by_velocity_m =
+      rolling(problem, result.motion) * errors.velocity_std_mps * problem.dt_s;
+  const double variance_m2 = by_velocity_m * by_velocity_m;
+  result.covariance(0, 0) += variance_m2;
+  result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;
 }
 
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
-  shared_doppler_.start();
+  shared_doppler_.start(rolling(problem, result.motion));
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();
@@ -193,7 +197,7 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
-    add_time_error(problem, result);
+    add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
   }

@@ -2,35 +2,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/shared_doppler.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 namespace cremed {
 
+namespace {
+
+/// An error of zero deviation is none: it is held fast.
+constexpr double kLeastStd = 1e-9;
+
+double information_of(double deviation) {
+  const double held = std::max(deviation, kLeastStd);
+  return 1.0 / (held * held);
+}
+
+}  // namespace
+
 SharedDoppler::SharedDoppler(const DopplerOptions& options, const SharedErrorOptions& errors,
                              const Pose2& vehicle_from_radar)
-    : options_(options), both_(errors.both_scans), vehicle_from_radar_(vehicle_from_radar) {
-  const auto information = [](double deviation) {
-    return 1.0 / std::max(deviation * deviation, 1e-18);
-  };
-  information_ << information(errors.doppler_offset_std_mps), information(errors.mount_yaw_std_rad),
-      information(errors.acceleration_std_mps2), information(errors.yaw_acceleration_std_radps2);
-  if (!errors.target_stamp) options_.stamp_std_s = 0;
+    : options_(options), errors_(errors), vehicle_from_radar_(vehicle_from_radar) {
+  start(1.0);
+}
+
+void SharedDoppler::start(double rolling) {
+  shared_.setZero();
+  prior_information_ << information_of(rolling * errors_.doppler_offset_std_mps),
+      information_of(rolling * errors_.mount_yaw_std_rad),
+      information_of(errors_.acceleration_std_mps2),
+      information_of(errors_.yaw_acceleration_std_radps2);
 }
 
 void SharedDoppler::add(const TargetSet& previous, const TargetSet& current,
                         const Eigen::Vector3d& motion, double dt_s, NormalEquations& equations) {
   Sums sums;
   add_scan(current, motion, dt_s, 1.0, sums);
-  if (both_) add_scan(previous, motion, dt_s, -1.0, sums);
-  sums.shared.diagonal() += information_;
-  sums.gradient += information_.cwiseProduct(shared_);
-  const Eigen::LLT<Eigen::Matrix<double, kShared, kShared>> factor(sums.shared);
+  if (options_.both_scans) {
+    add_scan(previous, motion, dt_s, -1.0, sums);
+  }
+  const SharedVector pull = prior_information_.cwiseProduct(shared_);
+  sums.shared.diagonal() += prior_information_;
+  sums.gradient += pull;
+  const Eigen::LLT<SharedMatrix> factor(sums.shared);
   const Eigen::Matrix<double, kShared, 3> gain = factor.solve(sums.cross.transpose());
   const SharedVector step = factor.solve(sums.gradient);
   equations.information += sums.motion.information - sums.cross * gain;
   equations.gradient += sums.motion.gradient - sums.cross * step;
-  equations.cost += sums.motion.cost + 0.5 * shared_.dot(information_.cwiseProduct(shared_)) -
-                    0.5 * sums.gradient.dot(step);
+  equations.cost += sums.motion.cost + 0.5 * shared_.dot(pull) - 0.5 * sums.gradient.dot(step);
   shared_ -= step;
 }
 

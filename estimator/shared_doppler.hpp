@@ -11,50 +11,52 @@
 
 namespace cremed {
 
-/// The Doppler of both scans, with the errors that their targets share. A target's own error
-/// averages out over a scan; one that all targets share does not, however many there are. So each
-/// shared error is an unknown of its own, known beforehand only to be small:
+/// The Doppler of both scans, with the errors that their targets share. Each of these is an unknown
+/// of its own, known beforehand only to be small (SharedErrorOptions):
 ///
 ///     e_i = u_i(m) - v_i dt + dt b + du_i/dphi d +- dt^2/2 (du_i/dx a + du_i/dyaw w)
 ///
 /// with the residual u_i - v_i dt of DopplerResidual, the offset b of all Doppler of the radar, the
 /// error d of its mounting yaw, and the accelerations a and w along x and of the yaw: Doppler tells
-/// the velocity when a scan is taken (+ current, - previous scan), while the motion m is the mean of
-/// the time between. b, d, a, w are Gaussian around zero; for a given m their best values follow
+/// the velocity when a scan is taken (+ current, - previous scan), while the motion m is the mean
+/// of the time between. b, d, a, w are Gaussian around zero; for a given m their best values follow
 /// from a linear equation, and eliminating them (Schur complement) leaves the equations of m alone:
 ///
 ///     H = H_mm - H_ms (H_ss + P^-1)^-1 H_sm       g = g_m - H_ms (H_ss + P^-1)^-1 g_s
 class SharedDoppler {
  public:
-  static constexpr int kShared = 4;  // b, d, a, w
-  using SharedVector = Eigen::Matrix<double, kShared, 1>;
-
   SharedDoppler(const DopplerOptions& options, const SharedErrorOptions& errors,
                 const Pose2& vehicle_from_radar);
 
-  /// Forgets the shared errors of the last registration.
-  void start() { shared_.setZero(); }
+  /// Begins a registration: shared errors are unknown again. `rolling` (0..1) is the part of offset
+  /// and mounting error that shows at the vehicle's speed.
+  void start(double rolling);
 
-  /// Adds to `equations` what both scans' Doppler says about `motion`. Which targets move is told
-  /// by the shared errors found at the call before.
+  /// Adds to `equations` what the Doppler says about `motion`. Which targets move is told by the
+  /// shared errors found at the call before.
   void add(const TargetSet& previous, const TargetSet& current, const Eigen::Vector3d& motion,
            double dt_s, NormalEquations& equations);
 
  private:
+  static constexpr int kShared = 4;  // b, d, a, w
+  using SharedVector = Eigen::Matrix<double, kShared, 1>;
+  using SharedMatrix = Eigen::Matrix<double, kShared, kShared>;
+
+  /// Normal equations of motion and shared errors together.
   struct Sums {
     NormalEquations motion;
     Eigen::Matrix<double, 3, kShared> cross = Eigen::Matrix<double, 3, kShared>::Zero();
-    Eigen::Matrix<double, kShared, kShared> shared =
-        Eigen::Matrix<double, kShared, kShared>::Zero();
+    SharedMatrix shared = SharedMatrix::Zero();
     SharedVector gradient = SharedVector::Zero();
   };
+  /// `side`: 1 for the current scan, -1 for the previous.
   void add_scan(const TargetSet& targets, const Eigen::Vector3d& motion, double dt_s, double side,
                 Sums& sums) const;
 
   DopplerOptions options_;
-  bool both_;
-  SharedVector information_;  // P^-1, diagonal
+  SharedErrorOptions errors_;
   Pose2 vehicle_from_radar_;
+  SharedVector prior_information_ = SharedVector::Zero();  // P^-1, which is diagonal.
   SharedVector shared_ = SharedVector::Zero();
 };
 

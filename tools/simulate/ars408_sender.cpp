@@ -60,7 +60,7 @@ constexpr double kStandingDopplerMps = 0.5;
 double square(double value) { return value * value; }
 
 /// Variance that a code of table R stands for.
-double variance(std::uint8_t code) { return square(ars408_rms(code).value_or(0.0)); }
+double variance(std::uint8_t code) { return square(ars408_std(code).value_or(0.0)); }
 
 double rounding_variance(double step) { return step * step / 12.0; }
 

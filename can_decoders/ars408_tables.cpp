@@ -34,7 +34,7 @@ std::optional<double> ars408_rms(std::uint8_t index) { return look_up(kRms, inde
 
 std::optional<double> ars408_std(std::uint8_t index) {
   // sqrt((1 - q^2) / (-2 log q)) with q = 2000^(-1/30)
-  constexpr double kOfBound = 0.88580;
+  constexpr double kOfBound = 0.88573;
   const std::optional<double> bound = ars408_rms(index);
   return bound ? std::optional(kOfBound * *bound) : std::nullopt;
 }

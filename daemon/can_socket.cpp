@@ -123,7 +123,6 @@ struct CanSocket::Control {
     } else if (c.cmsg_type == SO_TIMESTAMPING) {
       scm_timestamping times{};
       std::memcpy(&times, CMSG_DATA(&c), sizeof(times));
-      kernel_ns = ns_of(times.ts[0]);
       hardware_ns = ns_of(times.ts[2]);
     } else if (c.cmsg_type == SO_RXQ_OVFL) {
       std::memcpy(&drops, CMSG_DATA(&c), sizeof(drops));
@@ -188,17 +187,17 @@ CanOpenResult CanSocket::adopt(int descriptor, const CanSocketOptions& options) 
 
 CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
   constexpr int kOn = 1;
-  constexpr int kBothStamps = SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE |
-                              SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE;
+  constexpr int kHardwareStamps = SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE;
   hardware_stamps_ = options.hardware_stamps;
   hardware_stamps_work_ = true;
   last_hardware_ns_ = 0;
   kernel_drops_ = 0;
-  const bool has_stamps = hardware_stamps_
-                              ? set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kBothStamps)
-                              : set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn);
-  if (!has_stamps) {
-    return fail(hardware_stamps_ ? "SO_TIMESTAMPING" : "SO_TIMESTAMPNS");
+  // Of SO_TIMESTAMPNS every frame gets one; SO_TIMESTAMPING may leave it out.
+  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn)) {
+    return fail("SO_TIMESTAMPNS");
+  }
+  if (hardware_stamps_ && !set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) {
+    return fail("SO_TIMESTAMPING");
   }
   if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
     return fail("SO_RXQ_OVFL");

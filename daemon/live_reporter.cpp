@@ -155,7 +155,7 @@ void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
     return "frames waited for longer than live.max_latency_s and are not used: cremed was not run";
   });
   const int wanted = configuration_.live.socket.receive_buffer_bytes;
-  const bool is_clipped = now.link == LinkState::up && now.receive_buffer_bytes < wanted;
+  const bool is_clipped = now.receive_buffer_bytes != 0 && now.receive_buffer_bytes < wanted;
   log_.update(concat({name, " receive buffer"}), is_clipped ? 1 : 0, [&] {
     return fmt::format("{} bytes instead of {}: `sysctl -w net.core.rmem_max={}`",
                        now.receive_buffer_bytes, wanted, wanted);

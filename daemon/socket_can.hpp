@@ -34,8 +34,8 @@ class SocketCan final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
   [[nodiscard]] BusStatus bus(std::uint8_t interface) const override;
 
-  /// Nothing can come of the next so many frames but waiting for more: where they take longer than a
-  /// short rest, they are read together after it, instead of one wake-up each.
+  /// Nothing can come of the next so many frames but waiting for more: where they take longer than
+  /// a short rest, they are read together after it, instead of one wake-up each.
   void expect(std::size_t frames) { expected_frames_ = frames; }
 
   /// errno, or 0.

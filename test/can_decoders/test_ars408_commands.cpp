@@ -74,6 +74,7 @@ TEST_CASE("RadarCfg: a value beyond the frame becomes its limit, or keeps its lo
   check_frame(encode_ars408_command(0, {.max_distance_m = kNan}), "200#0100000000000000");
   check_frame(encode_ars408_command(0, {.max_distance_m = 201.0}), "200#0119400000000000");
   check_frame(encode_ars408_command(0, {.output_code = std::uint8_t{255}}), "200#0800000018000000");
+  check_frame(encode_ars408_command(9, {}), "210#0000000000000000");
 }
 
 TEST_CASE("Speed: direction and magnitude") {

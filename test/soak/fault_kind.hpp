@@ -44,7 +44,7 @@ inline constexpr std::array<FaultRow, 11> kFaults{{
     {FaultKind::length_wrong, "wrong length", 10.0, 0, 8},          // bytes
     {FaultKind::frame_late, "frame late", 2.0, 1, 3},               // frames that overtake it
     {FaultKind::interface_down, "interface down", 60.0, 0.1, 5.0},  // s; the source tells
-    {FaultKind::clock_step, "clock step", 100.0, 0.01, 3600.0},     // s; the source tells
+    {FaultKind::clock_step, "clock step", 20.0, 0.01, 3600.0},      // s; the source tells
 }};
 
 /// Every stamp is late by up to so much; nobody tells.

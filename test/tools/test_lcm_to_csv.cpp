@@ -31,12 +31,13 @@ void record_drive(const std::string& log, const std::string& csv) {
   options.duration_s = 8.0;
   const Drive simulated = drive(scenario("lossy"), radars, options);
   LcmPublisher publisher(log, configuration_of(radars));
+  REQUIRE(publisher.connect().empty());
   CsvWriter writer(csv, {"front", "rear"});
   const NoSource source;
-  const NowFunction clock = [] {
+  const PipelineClock clock{[] {
     static std::int64_t now_us = 0;
     return now_us += 17;
-  };
+  }};
   Pipeline pipeline(configuration_of(radars), source, {&publisher, &writer}, clock);
   for (const CanFrame& frame : simulated.frames) {
     pipeline.on_frame(frame);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""cremed as it runs on a vehicle, without a service manager: its log, its notifications, its end."""
+"""cremed as it runs on a vehicle, without a service manager: its log, notifications and end."""
 import os
 import pathlib
 import shutil

@@ -68,7 +68,7 @@ class Vehicle:
         self.daemons.append(daemon)
         return daemon
 
-    def expect_odometry(self, *sources, limit_s=8):
+    def expect_odometry(self, *sources, limit_s=20):
         return expect_estimates(self.listener, sources, limit_s)
 
     def expect_good_manners(self, repeated=(), read_before_us=0):
@@ -79,7 +79,9 @@ class Vehicle:
             check(not is_estimate or heard.age_s < SLOWEST_ODOMETRY_S,
                   f"no stale scan; {heard.message.source} is {heard.age_s:.2f} s old")
         for daemon in self.daemons:
-            told = [line for line in daemon.lines if not any(word in line for word in repeated)]
+            # A computer that is busy otherwise may make it lose frames, or wait, more than once.
+            told = [line for line in daemon.lines
+                    if not any(word in line for word in (*repeated, "losses", "delay"))]
             twice = {line for line in told if told.count(line) > 1}
             check(not twice, f"each condition told once, not {sorted(twice)}")
             if daemon.process.poll() is None:

@@ -47,7 +47,7 @@ Finding absent(const BusObservation& bus, const Observation& observation) {
   const std::string others = other_interfaces(observation);
   if (!observation.is_live) {
     return {Severity::error, concat({"the log has no frame of interface ", bus.interface}),
-            concat({"set interface to one it has: ", others.empty() ? "none" : others})};
+            concat({"set interface to one it has: ", others})};
   }
   const std::string remedy =
       is_virtual(bus)

@@ -9,7 +9,7 @@
 
 namespace cremed {
 
-/// Can frames come from this bus at all?
+/// No frame came from this bus.
 bool is_silent(const BusObservation& bus);
 
 /// What is wrong with one bus of the observation, whatever radars are on it.

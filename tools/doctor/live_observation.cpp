@@ -100,9 +100,10 @@ Observation observe_live(const Configuration& configuration, double seconds,
                          const volatile std::sig_atomic_t* stop) {
   Observer observer(configuration);
   const bool has_can = kernel_has_can();
+  const std::int64_t begin_us = monotonic_us();
   if (has_can) {
     std::vector<Ear> ears = open_all(configuration, observer);
-    listen(ears, monotonic_us() + std::llround(seconds * 1e6), stop, observer);
+    listen(ears, begin_us + std::llround(seconds * 1e6), stop, observer);
     for (const Ear& ear : ears) {
       observer.bus(ear.interface).state = state_of(ear.interface);  // As it is by now.
     }
@@ -110,7 +111,7 @@ Observation observe_live(const Configuration& configuration, double seconds,
   Observation observation = observer.finish();
   observation.is_live = true;
   observation.kernel_has_can = has_can;
-  observation.seconds = seconds;
+  observation.seconds = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
   return observation;
 }
 

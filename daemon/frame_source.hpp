@@ -13,7 +13,7 @@ enum class SourceEvent : std::uint8_t {
   frame,       ///< A frame of a known interface.
   dropped,     ///< Frames were lost on `frame.interface` before the next one.
   clock_step,  ///< Live: the system's clock was set; stamps before and after do not compare.
-  idle,        ///< Live: nothing to read for a while.
+  idle,        ///< Live: nothing to read for a while; all before `frame.stamp_us` was read.
   other,       ///< Live: nothing but error frames was read.
   end,         ///< No more input, or asked to stop.
 };

@@ -38,7 +38,7 @@ bool Pipeline::take_next(FrameSource& source) {
       on_clock_step();
       return true;
     case SourceEvent::idle:
-      on_idle(clock_.now_us());
+      on_idle(frame.stamp_us);
       return true;
     case SourceEvent::other:
       on_time(clock_.now_us());

@@ -124,7 +124,7 @@ SourceEvent SocketCan::refill(CanFrame& frame) {
       return receive(next_readable_++, frame);
     }
   }
-  return wait();
+  return wait(frame);
 }
 
 SourceEvent SocketCan::receive(std::size_t interface, CanFrame& frame) {
@@ -146,12 +146,14 @@ void SocketCan::rest() const {
   }
 }
 
-SourceEvent SocketCan::wait() {
+SourceEvent SocketCan::wait(CanFrame& frame) {
   rest();
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
     polled_[i] = {interfaces_[i]->descriptor(), POLLIN, 0};
   }
   polled_.back() = {clock_watch_.descriptor(), POLLIN, 0};
+  // Before the wait: whoever is held up after it must not take time for passed in silence.
+  frame.stamp_us = realtime_us();
   const int ready = ::poll(polled_.data(), polled_.size(), kIdleMs);
   next_readable_ = ready > 0 ? 0 : interfaces_.size();
   if (ready > 0 && polled_.back().revents != 0 && clock_watch_.was_set()) {

@@ -60,7 +60,7 @@ class SocketCan final : public FrameSource {
   SourceEvent refill(CanFrame& frame);
   SourceEvent receive(std::size_t interface, CanFrame& frame);
   void rest() const;
-  SourceEvent wait();
+  SourceEvent wait(CanFrame& frame);
   void discard_waiting();
 
   std::int64_t max_latency_us_;

@@ -74,7 +74,7 @@ inline const int kInstalledHooks = __sanitizer_install_malloc_and_free_hooks(
 #else
 
 // glibc's own functions under their second names.
-// NOLINTBEGIN(readability-identifier-naming,bugprone-reserved-identifier)
+// NOLINTBEGIN(readability-identifier-naming,clang-diagnostic-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;
 void* __libc_calloc(std::size_t count, std::size_t size) noexcept;
@@ -112,6 +112,6 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexce
   return *block == nullptr ? 12 : 0;  // ENOMEM
 }
 }
-// NOLINTEND(readability-identifier-naming,bugprone-reserved-identifier)
+// NOLINTEND(readability-identifier-naming,clang-diagnostic-reserved-identifier)
 
 #endif

@@ -15,6 +15,10 @@ class Failure(Exception):
     """What was expected, and what was there instead."""
 
 
+class Skipped(Exception):
+    """What this computer lacks for a scenario."""
+
+
 def wait_until(condition, limit_s, expected):
     """Returns the condition's first true value."""
     deadline = time.monotonic() + limit_s

@@ -13,10 +13,11 @@ import traceback
 
 from can_bus import CanBus, RadarPlayer, ip
 from lcm_listener import LcmListener
-from live_daemon import FRONT, REAR, Failure, LiveDaemon, check, radar, wait_until
+from live_daemon import FRONT, REAR, Failure, LiveDaemon, Skipped, check, radar, wait_until
 
 SCENARIOS = {}
 LIMIT_S = 120
+PASSED, FAILED, SKIPPED = 0, 1, 77
 SYSCTL = pathlib.Path(__file__).resolve().parents[2] / "systemd" / "sysctl.conf"
 # A scan is on the bus for up to 0.05 s, and the guest shares its processor.
 SLOWEST_ODOMETRY_S = 0.8
@@ -119,23 +120,26 @@ def run_one(arguments):
     ip("route", "add", "224.0.0.0/4", "dev", "lo")
     with tempfile.TemporaryDirectory(prefix="cremed-scenario-") as folder:
         vehicle = Vehicle(arguments, folder)
-        begin_s, verdict = time.monotonic(), "PASS"
+        begin_s, status, verdict = time.monotonic(), FAILED, "PASS"
         try:
             SCENARIOS[arguments.scenario](vehicle)
+            status = PASSED
         except Failure as failure:
             verdict = f"FAIL: {failure}"
+        except Skipped as skipped:
+            status, verdict = SKIPPED, f"SKIPPED: {skipped}"
         except Exception:  # pylint: disable=broad-except
             verdict = f"FAIL: {traceback.format_exc()}"
         print(f"{arguments.scenario}: {verdict} ({time.monotonic() - begin_s:.1f} s)")
         for daemon in vehicle.daemons:
-            if verdict != "PASS":
+            if status == FAILED:
                 print("    log:", *daemon.lines, sep="\n      ")
                 print("    STATUS:", daemon.status_text())
             if daemon.process.poll() is None:
                 daemon.process.kill()
     sys.stdout.flush()
     # Listeners, players and readers still wait for something.
-    os._exit(0 if verdict == "PASS" else 1)
+    os._exit(status)
 
 
 def run_in_namespace(arguments, name):
@@ -145,9 +149,9 @@ def run_in_namespace(arguments, name):
                               errors="replace", timeout=LIMIT_S, check=False)
     except subprocess.TimeoutExpired as expired:
         print(f"{name}: FAIL: not done within {LIMIT_S} s\n{expired.output}", flush=True)
-        return False
+        return FAILED
     print(done.stdout, end="", flush=True)
-    return done.returncode == 0
+    return done.returncode
 
 
 def run_all(arguments):
@@ -164,8 +168,11 @@ def run_all(arguments):
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = list(pool.map(run, [name for name in names if name not in alone]))
     results += [run(name) for name in alone]
-    print(f"{sum(results)} of {len(results)} scenarios passed")
-    return 0 if results and all(results) else 1
+    print(f"{results.count(PASSED)} of {len(results)} scenarios passed, "
+          f"{results.count(SKIPPED)} skipped")
+    if not results or set(results) - {PASSED, SKIPPED}:
+        return FAILED
+    return PASSED if PASSED in results else SKIPPED
 
 
 def main():

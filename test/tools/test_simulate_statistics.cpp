@@ -127,12 +127,12 @@ constexpr double kSharedMps = 0.15;
 constexpr double kReportedMps = 0.125;  // By every target of the simulated GPR.
 
 std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t radar,
-                                          double shared_doppler_std_mps = 0.0) {
+                                          double doppler_offset_std_mps = 0.0) {
   std::vector<ScanErrors> all;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     cremed::SimulationOptions options;
     options.seed = seed;
-    options.shared_doppler_std_mps = shared_doppler_std_mps;
+    options.doppler_offset_std_mps = doppler_offset_std_mps;
     const Drive drive = cremed::test::drive(cremed::test::scenario(name),
                                             {cremed::test::one_of_each_kind()[radar]}, options);
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));

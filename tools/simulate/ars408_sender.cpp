@@ -187,9 +187,9 @@ Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408R
   Ars408General target = cluster(measurement);
   const RadarView& view = measurement.echo.view;
   target.vx_mps = view.x_mps + speed_noise_std(rms.vx) * random().normal() +
-                  shared_doppler_mps() * std::cos(view.azimuth_rad);
+                  doppler_offset_mps() * std::cos(view.azimuth_rad);
   target.vy_mps = view.y_mps + speed_noise_std(rms.vy) * random().normal() +
-                  shared_doppler_mps() * std::sin(view.azimuth_rad);
+                  doppler_offset_mps() * std::sin(view.azimuth_rad);
   return target;
 }
 

@@ -50,7 +50,7 @@ void LiveSession::connect(std::int64_t monotonic_us) {
   if (!publisher_ || publisher_->is_connected() || monotonic_us < next_connect_us_) {
     return;
   }
-  const std::string problem = publisher_->connect();
+  std::string problem = publisher_->connect();
   log_.update("publishing", problem.empty() ? 0 : 1, [&] { return problem; });
   connect_pause_us_ =
       std::clamp(2 * connect_pause_us_, kFirstConnectPauseUs, kLongestConnectPauseUs);

@@ -12,7 +12,7 @@ namespace cremed {
 namespace {
 
 /// The deepest use measured is below 64 KiB; Eigen may take 128 KiB on the stack.
-constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
 void touch_stack() {
   std::array<volatile char, kStackBytes> stack;

@@ -129,6 +129,10 @@ SourceEvent SocketCan::refill(CanFrame& frame) {
 
 SourceEvent SocketCan::receive(std::size_t interface, CanFrame& frame) {
   const CanReceiveResult result = interfaces_[interface]->receive();
+  if (clock_watch_.was_set()) {  // After the wait, maybe before these frames.
+    interfaces_[interface]->status().frames_discarded += result.frames.size();
+    return step_clock();
+  }
   batch_ = {interface, result.frames, realtime_us(), false, false};
   if (result.status == CanReceiveStatus::frames || result.status == CanReceiveStatus::empty) {
     return SourceEvent::frame;
@@ -157,14 +161,13 @@ SourceEvent SocketCan::wait(CanFrame& frame) {
   const int ready = ::poll(polled_.data(), polled_.size(), kIdleMs);
   next_readable_ = ready > 0 ? 0 : interfaces_.size();
   if (ready > 0 && polled_.back().revents != 0 && clock_watch_.was_set()) {
-    ++clock_steps_;
-    discard_waiting();
-    return SourceEvent::clock_step;
+    return step_clock();
   }
   return ready > 0 ? SourceEvent::frame : SourceEvent::idle;
 }
 
-void SocketCan::discard_waiting() {
+SourceEvent SocketCan::step_clock() {
+  ++clock_steps_;
   next_readable_ = interfaces_.size();
   for (const auto& interface : interfaces_) {
     for (int i = 0; i < kMaxDiscardedBatches && interface->descriptor() >= 0; ++i) {
@@ -175,6 +178,7 @@ void SocketCan::discard_waiting() {
       }
     }
   }
+  return SourceEvent::clock_step;
 }
 
 }  // namespace cremed

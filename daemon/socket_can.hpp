@@ -61,7 +61,7 @@ class SocketCan final : public FrameSource {
   SourceEvent receive(std::size_t interface, CanFrame& frame);
   void rest() const;
   SourceEvent wait(CanFrame& frame);
-  void discard_waiting();
+  SourceEvent step_clock();
 
   std::int64_t max_latency_us_;
   const volatile std::sig_atomic_t* stop_;

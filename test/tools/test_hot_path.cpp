@@ -6,10 +6,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/can_socket.hpp"
 #include "daemon/candump.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/tum_writer.hpp"
+#include "test/daemon/datagram_pair.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/tools/own_network.hpp"
 #include "test/tools/pipeline_bench.hpp"
@@ -90,4 +92,34 @@ TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates"
   REQUIRE(publisher.connect().empty());
   CHECK(allocations_of_replay(simulated, {&publisher}) == 0);
   CHECK(publisher.failures() == 0);
+}
+
+TEST_CASE("From a socket to CSV, nothing allocates") {
+  const Drive simulated = simulate();
+  CsvWriter csv("/dev/null", {"front", "rear"});
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&csv}, {&no_clock});
+  const DatagramPair pair;
+  CanSocket socket;
+  REQUIRE(socket.adopt(pair.receiver(), {}).status == CanOpenStatus::open);
+  std::size_t received = 0;
+  long allocations = 0;
+  for (const CanFrame& frame : simulated.frames) {
+    can_frame raw{};
+    raw.can_id = frame.id;
+    raw.can_dlc = frame.length;
+    std::memcpy(raw.data, frame.data.data(), sizeof(raw.data));
+    pair.send(&raw, sizeof(raw));
+    const AllocationGuard guard;
+    for (const ReceivedFrame& read : socket.receive().frames) {
+      CanFrame stamped = read.frame;
+      stamped.stamp_us = frame.stamp_us;
+      stamped.interface = frame.interface;
+      pipeline.on_frame(stamped);
+      ++received;
+    }
+    allocations += AllocationGuard::stop();
+  }
+  CHECK(received == simulated.frames.size());
+  CHECK(allocations == 0);
 }

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A virtual CAN bus, and a radar that talks on it."""
+import contextlib
 import socket
 import struct
 import subprocess
@@ -57,6 +58,26 @@ class CanBus:
     def send_fd(self, identifier, data):
         with self.open() as sender:
             sender.send(struct.pack("=IBB2x64s", identifier, len(data), 0, data))
+
+
+class BusListener:
+    """Hears frames of given identifiers on a bus."""
+
+    def __init__(self, bus, *identifiers):
+        self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+        filters = b"".join(struct.pack("=II", identifier, 0x7FF) for identifier in identifiers)
+        self.socket.setsockopt(socket.SOL_CAN_RAW, socket.CAN_RAW_FILTER, filters)
+        self.socket.bind((bus.name,))
+        self.socket.setblocking(False)
+
+    def heard(self):
+        """[(identifier, data)] since the last call."""
+        frames = []
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                identifier, length, data = struct.unpack("=IB3x8s", self.socket.recv(16))
+                frames.append((identifier, data[:length]))
+        return frames
 
 
 def read_log(path, interface):

@@ -49,9 +49,7 @@ bool report(const std::string& log, const cremed::LcmLogCounters& counters) {
   return counters.bad_messages == 0 && !counters.ends_inside_message && counters.motions != 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"Odometry of an LCM log as the CSV that cremed --output-csv writes"};
   std::string log;
   std::string output = "-";
@@ -60,15 +58,22 @@ int main(int argc, char** argv) {
   app.add_option("--output", output, "CSV file; '-': standard output")->capture_default_str();
   try {
     app.parse(argc, argv);
-    std::error_code not_there;
-    if (std::filesystem::equivalent(log, output, not_there)) {
-      std::cerr << "cremed-lcm-to-csv: " << log
-                << " is to be read and written; name another file\n";
-      return kBadUsage;
-    }
-    return report(log, convert(log, output)) ? 0 : kRunTimeFailure;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+  std::error_code not_there;
+  if (std::filesystem::equivalent(log, output, not_there)) {
+    std::cerr << "cremed-lcm-to-csv: " << log << " is to be read and written; name another file\n";
+    return kBadUsage;
+  }
+  return report(log, convert(log, output)) ? 0 : kRunTimeFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "cremed-lcm-to-csv: " << error.what() << '\n';
     return kRunTimeFailure;

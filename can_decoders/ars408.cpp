@@ -22,10 +22,10 @@ struct CartesianStd {
 };
 
 std::optional<CartesianStd> cartesian_std(const Ars408RmsCodes& codes) {
-  const auto x = ars408_rms(codes.x);
-  const auto y = ars408_rms(codes.y);
-  const auto vx = ars408_rms(codes.vx);
-  const auto vy = ars408_rms(codes.vy);
+  const auto x = ars408_std(codes.x);
+  const auto y = ars408_std(codes.y);
+  const auto vx = ars408_std(codes.vx);
+  const auto vy = ars408_std(codes.vy);
   const bool no_quality = (codes.x | codes.y | codes.vx | codes.vy) == 0;
   if (no_quality || !x || !y || !vx || !vy) {
     return std::nullopt;

@@ -32,6 +32,13 @@ std::optional<double> look_up(const std::array<double, size>& table, std::size_t
 
 std::optional<double> ars408_rms(std::uint8_t index) { return look_up(kRms, index); }
 
+std::optional<double> ars408_std(std::uint8_t index) {
+  // sqrt((1 - q^2) / (-2 log q)) with q = 2000^(-1/30)
+  constexpr double kOfBound = 0.88573;
+  const std::optional<double> bound = ars408_rms(index);
+  return bound ? std::optional(kOfBound * *bound) : std::nullopt;
+}
+
 std::optional<double> ars408_orientation_rms_rad(std::uint8_t index) {
   const std::optional<double> deg = look_up(kOrientationRmsDeg, index);
   return deg ? std::optional(*deg * std::numbers::pi / 180.0) : std::nullopt;

@@ -62,8 +62,13 @@ enum class Ars408MeasurementState : std::uint8_t {
   created_by_merge,
 };
 
-/// Table R: standard deviation (m, m/s or m/s^2) of an index; nothing for 31, "invalid", and above.
+/// Table R: upper bound of the standard deviation (m, m/s or m/s^2) of an index; nothing for 31,
+/// "invalid", and above.
 std::optional<double> ars408_rms(std::uint8_t index);
+
+/// The standard deviation to reckon with: an index stands for all from the bound below to its own,
+/// a factor of 2000^(1/30). Root mean square, each part of the logarithm being as likely.
+std::optional<double> ars408_std(std::uint8_t index);
 
 /// Table RA: standard deviation of an orientation; nothing for 31, "invalid", and above.
 std::optional<double> ars408_orientation_rms_rad(std::uint8_t index);

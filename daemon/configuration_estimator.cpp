@@ -44,9 +44,20 @@ void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
 
 void read_doppler(TomlReader reader, DopplerOptions& doppler) {
   reader.boolean("enabled", doppler.enabled);
+  reader.boolean("both_scans", doppler.both_scans);
   reader.number("stamp_std_s", doppler.stamp_std_s, {0.0, 1.0});
   reader.number("moving_weight", doppler.moving_weight, {0.0, 0.99});
   reader.number("moving_std_mps", doppler.moving_std_mps, {0.1, 1000.0});
+  reader.finish();
+}
+
+void read_shared_errors(TomlReader reader, SharedErrorOptions& errors) {
+  reader.number("doppler_offset_std_mps", errors.doppler_offset_std_mps, {0.0, 10.0});
+  reader.number("mount_yaw_std_rad", errors.mount_yaw_std_rad, {0.0, 1.0});
+  reader.number("velocity_std_mps", errors.velocity_std_mps, {0.0, 10.0});
+  reader.number("stamp_std_s", errors.stamp_std_s, {0.0, 1.0});
+  reader.number("acceleration_std_mps2", errors.acceleration_std_mps2, {0.0, 100.0});
+  reader.number("yaw_acceleration_std_radps2", errors.yaw_acceleration_std_radps2, {0.0, 100.0});
   reader.finish();
 }
 
@@ -73,6 +84,7 @@ void read_estimator(TomlReader reader, EgoMotionOptions& options) {
   reader.number("max_std_rad", options.max_std_rad, {0.001, 3.1416});
   read_outlier_ray(reader.table("outlier_ray"), registration.outlier_ray);
   read_doppler(reader.table("doppler"), registration.doppler);
+  read_shared_errors(reader.table("shared_errors"), registration.shared_errors);
   reader.finish();
 }
 

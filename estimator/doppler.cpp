@@ -29,25 +29,31 @@ bool is_clear(const Component& first, const Component& second, double squared_er
 
 }  // namespace
 
-DopplerResidual doppler_residual(const Target& target, const Eigen::Vector3d& motion,
-                                 const Pose2& vehicle_from_radar, double dt_s,
-                                 const DopplerOptions& options, double scale) {
+DopplerGeometry::DopplerGeometry(const Target& target, const Eigen::Vector3d& motion,
+                                 const Pose2& vehicle_from_radar) {
   const double c = target.cos_bearing;
   const double s = target.sin_bearing;
   const double sensor_x_m = motion.x() - motion.z() * vehicle_from_radar.y_m;
   const double sensor_y_m = motion.y() + motion.z() * vehicle_from_radar.x_m;
-  const double error_m = -sensor_x_m * c - sensor_y_m * s - target.doppler_mps * dt_s;
-  const double squared_error_m2 = error_m * error_m;
+  range_change_m = -sensor_x_m * c - sensor_y_m * s;
+  per_bearing_m = sensor_x_m * s - sensor_y_m * c;
+  jacobian << -c, -s, vehicle_from_radar.y_m * c - vehicle_from_radar.x_m * s;
+}
+
+DopplerResidual doppler_residual(const Target& target, const DopplerGeometry& geometry, double dt_s,
+                                 const DopplerOptions& options, double scale, double shared_m) {
+  DopplerResidual result;
+  result.error_m = geometry.range_change_m - target.doppler_mps * dt_s + shared_m;
+  const double squared_error_m2 = result.error_m * result.error_m;
 
   const double stamp_m = target.doppler_mps * options.stamp_std_s;
-  const double bearing_m = (sensor_x_m * s - sensor_y_m * c) * target.bearing_std_rad;
+  const double bearing_m = geometry.per_bearing_m * target.bearing_std_rad;
   const double common_m2 = stamp_m * stamp_m + bearing_m * bearing_m;
   const auto component = [&](double weight, double doppler_std_mps) {
     const double doppler_m = dt_s * doppler_std_mps;
     return Component{doppler_m * doppler_m + common_m2, weight};
   };
 
-  DopplerResidual result;
   Component best = component(1.0 - options.moving_weight, target.doppler_std_mps * scale);
   result.cost = best.cost(squared_error_m2);
   const Component moving = component(options.moving_weight, options.moving_std_mps);
@@ -59,10 +65,7 @@ DopplerResidual doppler_residual(const Target& target, const Eigen::Vector3d& mo
       best = moving;
     }
   }
-  const double per_m = 1.0 / std::sqrt(best.variance_m2);
-  result.residual = error_m * per_m;
-  result.jacobian << -c, -s, vehicle_from_radar.y_m * c - vehicle_from_radar.x_m * s;
-  result.jacobian *= per_m;
+  result.per_m = 1.0 / std::sqrt(best.variance_m2);
   return result;
 }
 

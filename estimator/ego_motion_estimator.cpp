@@ -82,11 +82,8 @@ MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
 }
 
 MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
-  const double speed_mps = doppler_speed_mps();
-  const double over_mean_mps = speed_over_mean_mps(speed_mps, dt_s);
   const std::array<Eigen::Vector3d, 3> starts{
-      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {speed_mps * dt_s, 0.0, 0.0}};
-  targets_.add_speed(-over_mean_mps);
+      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {doppler_speed_mps() * dt_s, 0.0, 0.0}};
   const RegistrationResult result = registration_.solve(targets_, dt_s, starts);
   motion.iterations = result.iterations;
   const MotionStatus status = judge(result, dt_s);
@@ -95,18 +92,8 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
     last_velocity_ = result.motion / dt_s;
-    reference_speed_mps_ = doppler_speed_mps() + over_mean_mps;
   }
   return status;
-}
-
-/// Doppler is of the moment of the scan, the registration wants that of the mean speed since the
-/// reference. While the vehicle accelerates they differ by half of what Doppler says the speed has
-/// changed by. 0 if that is not known: turning needs a yaw rate to tell it from speed.
-double EgoMotionEstimator::speed_over_mean_mps(double speed_mps, double dt_s) const {
-  const double change_mps = speed_mps - reference_speed_mps_;
-  const bool is_known = has_velocity_ && std::abs(change_mps) <= kMaxAccelerationMps2 * dt_s;
-  return is_known ? 0.5 * change_mps : 0.0;
 }
 
 MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double dt_s) {

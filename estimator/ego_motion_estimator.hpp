@@ -72,7 +72,6 @@ class EgoMotionEstimator {
  private:
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
-  [[nodiscard]] double speed_over_mean_mps(double speed_mps, double dt_s) const;
   MotionStatus judge(const RegistrationResult& result, double dt_s);
   [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
   bool is_standing(const RegistrationResult& result, double dt_s);
@@ -86,7 +85,6 @@ class EgoMotionEstimator {
   std::array<double, kMaxDetections> scratch_{};
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
-  double reference_speed_mps_ = 0.0;  // By the Doppler of the reference; if has_velocity_.
   bool has_reference_ = false;
   bool has_velocity_ = false;  // last_velocity_ is that of the scan before
 };

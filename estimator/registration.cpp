@@ -21,12 +21,16 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
+/// Slower than this the vehicle's body comes to rest.
+constexpr double kRollingMps = 0.2;
+
 }  // namespace
 
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
     : options_(options),
       vehicle_from_radar_(vehicle_from_radar),
-      ray_(options.outlier_ray, vehicle_from_radar) {}
+      ray_(options.outlier_ray, vehicle_from_radar),
+      shared_doppler_(options.doppler, options.shared_errors, vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
   mixture_.assign(targets, ray_);
@@ -46,10 +50,12 @@ void Registration::add_doppler(const Problem& problem, const Eigen::Vector3d& mo
     return;
   }
   for (const Target& target : problem.current) {
-    const DopplerResidual doppler = doppler_residual(target, motion, vehicle_from_radar_,
-                                                     problem.dt_s, options_.doppler, scale);
-    equations.information.noalias() += doppler.jacobian.transpose() * doppler.jacobian;
-    equations.gradient.noalias() += doppler.jacobian.transpose() * doppler.residual;
+    const DopplerGeometry geometry(target, motion, vehicle_from_radar_);
+    const DopplerResidual doppler =
+        doppler_residual(target, geometry, problem.dt_s, options_.doppler, scale);
+    const Eigen::RowVector3d jacobian = doppler.per_m * geometry.jacobian;
+    equations.information.noalias() += jacobian.transpose() * jacobian;
+    equations.gradient.noalias() += jacobian.transpose() * (doppler.per_m * doppler.error_m);
     equations.cost += doppler.cost;
   }
 }
@@ -116,10 +122,17 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
   return RegistrationStatus::no_convergence;
 }
 
+/// 0 when the vehicle stands, 1 when it drives.
+double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
+  return std::min(motion.head<2>().norm() / (problem.dt_s * kRollingMps), 1.0);
+}
+
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
-  add_doppler(problem, motion, 1.0, equations);
+  if (options_.doppler.enabled) {
+    shared_doppler_.add(previous_, problem.current, motion, problem.dt_s, equations);
+  }
   return equations;
 }
 
@@ -155,8 +168,22 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
   return RegistrationStatus::no_convergence;
 }
 
+/// Errors that no measurement of the two scans shows: of the time between them, and of the radar's
+/// own velocity over the vehicle's.
+void Registration::add_unseen_errors(const Problem& problem, RegistrationResult& result) const {
+  const SharedErrorOptions& errors = options_.shared_errors;
+  const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
+  result.covariance.noalias() += by_time * by_time.transpose();
+  const double by_velocity_m =
+      rolling(problem, result.motion) * errors.velocity_std_mps * problem.dt_s;
+  const double variance_m2 = by_velocity_m * by_velocity_m;
+  result.covariance(0, 0) += variance_m2;
+  result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;
+}
+
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
+  shared_doppler_.start(rolling(problem, result.motion));
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();
@@ -170,6 +197,7 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
+    add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
   }

@@ -15,6 +15,7 @@
 #include "estimator/outlier_ray.hpp"
 #include "estimator/pose2.hpp"
 #include "estimator/registration_options.hpp"
+#include "estimator/shared_doppler.hpp"
 #include "estimator/target_set.hpp"
 
 namespace cremed {
@@ -113,6 +114,8 @@ class Registration {
   NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
+  static double rolling(const Problem& problem, const Eigen::Vector3d& motion);
+  void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,
                                      const RegistrationResult& result) const;
   [[nodiscard]] std::int64_t evaluations() const;
@@ -123,6 +126,7 @@ class Registration {
   OutlierRay ray_;
   Mixture mixture_;
   ExclusiveLikelihood likelihood_;
+  SharedDoppler shared_doppler_;
   TargetSet previous_;
   bool is_previous_finite_ = false;
   std::int64_t mixture_evaluations_ = 0;  // of the current solve

@@ -106,12 +106,6 @@ void TargetSet::assign(const RadarScan& scan, const Pose2& vehicle_from_radar,
   }
 }
 
-void TargetSet::add_speed(double change_mps) {
-  for (std::size_t i = 0; i < size_; ++i) {
-    targets_[i].doppler_mps -= change_mps * targets_[i].cos_bearing;
-  }
-}
-
 bool TargetSet::is_finite() const { return std::all_of(begin(), end(), is_finite_target); }
 
 }  // namespace cremed

@@ -61,9 +61,6 @@ class TargetSet {
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
               SelectionCounters& counters);
 
-  /// Makes every Doppler what it had been, had the vehicle been faster along x by so much.
-  void add_speed(double change_mps);
-
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Target& operator[](std::size_t i) const { return targets_[i]; }
   [[nodiscard]] const Target* begin() const { return targets_.data(); }

@@ -84,8 +84,8 @@ TEST_CASE("Standard deviations follow from finite differences of the polar form"
     const double y = raw.y * 0.2 - 102.3;
     const double vx = raw.vx * 0.25 - 128.0;
     const double vy = raw.vy * 0.25 - 64.0;
-    const double std[] = {*ars408_rms(byte(raw.x_rms)), *ars408_rms(byte(raw.y_rms)),
-                          *ars408_rms(byte(raw.vx_rms)), *ars408_rms(byte(raw.vy_rms))};
+    const double std[] = {*ars408_std(byte(raw.x_rms)), *ars408_std(byte(raw.y_rms)),
+                          *ars408_std(byte(raw.vx_rms)), *ars408_std(byte(raw.vy_rms))};
     const auto spread = [&](auto f) {
       const double h = 1e-5;
       const double slopes[] = {

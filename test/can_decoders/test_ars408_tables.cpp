@@ -21,6 +21,21 @@ TEST_CASE("Table R is a geometric series rounded to thousandths") {
   }
 }
 
+TEST_CASE("The deviation to reckon with is the root mean square of those an index stands for") {
+  for (std::uint8_t index = 1; index <= 30; ++index) {
+    INFO(int{index});
+    const double high = 0.005 * std::pow(2000.0, index / 30.0);
+    const double low = 0.005 * std::pow(2000.0, (index - 1) / 30.0);
+    double sum = 0.0;
+    constexpr int kSteps = 1000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double std = low * std::pow(high / low, (i + 0.5) / kSteps);
+      sum += std * std;
+    }
+    CHECK(ars408_std(index).value() == Approx(std::sqrt(sum / kSteps)).epsilon(1e-3).margin(5e-4));
+  }
+}
+
 TEST_CASE("Table RA is a geometric series of degrees rounded to thousandths") {
   for (std::uint8_t index = 0; index <= 30; ++index) {
     INFO(int{index});
@@ -34,6 +49,7 @@ TEST_CASE("Rms index 31 and impossible ones have no value") {
   for (const std::uint8_t index : std::initializer_list<std::uint8_t>{31, 32, 255}) {
     INFO(int{index});
     CHECK_FALSE(ars408_rms(index).has_value());
+    CHECK_FALSE(ars408_std(index).has_value());
     CHECK_FALSE(ars408_orientation_rms_rad(index).has_value());
   }
 }

@@ -36,15 +36,19 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, start, iterations, work, covariance, ray, doppler] =
-      options;
+  const auto& [freedom, scale, doppler_scale, start, iterations, work, covariance, ray, doppler,
+               errors] = options;
   out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations << ' '
       << work << ' ' << static_cast<int>(covariance);
   const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
   out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
       << ' ' << field_of_view;
-  const auto& [enabled, stamp_std, moving_weight, moving_std] = doppler;
-  out << "\ndoppler " << enabled << ' ' << stamp_std << ' ' << moving_weight << ' ' << moving_std;
+  const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;
+  out << "\ndoppler " << enabled << ' ' << both_scans << ' ' << stamp_std << ' ' << moving_weight
+      << ' ' << moving_std;
+  const auto& [offset, mount_yaw, velocity, stamp, acceleration, yaw_acceleration] = errors;
+  out << "\nshared " << offset << ' ' << mount_yaw << ' ' << velocity << ' ' << stamp << ' '
+      << acceleration << ' ' << yaw_acceleration;
 }
 
 void write(std::ostream& out, const EgoMotionOptions& options) {

@@ -39,6 +39,22 @@ DopplerOptions plain_options() {
   return options;
 }
 
+/// A residual in standard deviations.
+struct Whitened {
+  double residual;
+  Eigen::RowVector3d jacobian;
+  double cost;
+  bool is_static;
+};
+
+Whitened residual_of(const Target& target, const Eigen::Vector3d& motion, const Pose2& mount,
+                     double dt_s, const DopplerOptions& options, double scale) {
+  const DopplerGeometry geometry(target, motion, mount);
+  const DopplerResidual result = doppler_residual(target, geometry, dt_s, options, scale);
+  return {result.per_m * result.error_m, result.per_m * geometry.jacobian, result.cost,
+          result.is_static};
+}
+
 Target target_at(double bearing_rad, double doppler_mps, double bearing_std_rad = 0.0) {
   Target target;
   target.bearing_rad = bearing_rad;
@@ -52,7 +68,7 @@ Target target_at(double bearing_rad, double doppler_mps, double bearing_std_rad 
 
 /// Change of range that the residual predicts over kDt, from a target without Doppler.
 double predicted_m(double bearing_rad, const Eigen::Vector3d& motion, const Pose2& mount) {
-  return doppler_residual(target_at(bearing_rad, 0.0), motion, mount, kDt, plain_options(), 1.0)
+  return residual_of(target_at(bearing_rad, 0.0), motion, mount, kDt, plain_options(), 1.0)
              .residual *
          0.2 * kDt;
 }
@@ -61,7 +77,7 @@ double predicted_m(double bearing_rad, const Eigen::Vector3d& motion, const Pose
 double deviation_m(const Target& target, const Eigen::Vector3d& motion, const Pose2& mount,
                    const DopplerOptions& options, double scale) {
   const double error_m = predicted_m(target.bearing_rad, motion, mount) - target.doppler_mps * kDt;
-  return error_m / doppler_residual(target, motion, mount, kDt, options, scale).residual;
+  return error_m / residual_of(target, motion, mount, kDt, options, scale).residual;
 }
 
 /// Range rate of a standing target by following the radar along the vehicle's path.
@@ -82,7 +98,7 @@ TEST_CASE("driving forward at a static target ahead is a negative Doppler") {
   CHECK(predicted_m(radians(180.0), forward, {}) == Approx(1.0));
   CHECK(predicted_m(radians(60.0), forward, {}) == Approx(-0.5));
   const auto residual = [&](double doppler_mps) {
-    return doppler_residual(target_at(0.0, doppler_mps), forward, {}, kDt, plain_options(), 1.0)
+    return residual_of(target_at(0.0, doppler_mps), forward, {}, kDt, plain_options(), 1.0)
         .residual;
   };
   CHECK(residual(-10.0) == Approx(0.0).margin(1e-12));
@@ -117,7 +133,7 @@ TEST_CASE("the Jacobian is the derivative of the residual with its variance held
       const Eigen::Vector3d expected = numeric::central_differences(
           motion, 1e-4,
           [&](const Eigen::Vector3d& at) { return predicted_m(bearing_rad, at, mount.pose); });
-      const auto actual = doppler_residual(target, motion, mount.pose, kDt, options, 1.0);
+      const auto actual = residual_of(target, motion, mount.pose, kDt, options, 1.0);
       CHECK((actual.jacobian.transpose() * sigma_m - expected).norm() < 1e-8);
     }
   }
@@ -157,21 +173,21 @@ TEST_CASE("a mover is explained by the wide component") {
   DopplerOptions options;
   options.stamp_std_s = 0.0;
   const auto residual = [&](double doppler_mps) {
-    return doppler_residual(target_at(0.0, doppler_mps), motion, {}, kDt, options, 1.0);
+    return residual_of(target_at(0.0, doppler_mps), motion, {}, kDt, options, 1.0);
   };
   CHECK(residual(-10.0).is_static);
   CHECK(residual(-9.5).is_static);
   for (const double mover_mps : {-25.0, 0.0, 8.0}) {
-    const DopplerResidual mover = residual(mover_mps);
+    const Whitened mover = residual(mover_mps);
     CHECK_FALSE(mover.is_static);
     CHECK(mover.residual == Approx((-10.0 - mover_mps) / 100.0));
     CHECK(mover.jacobian.x() == Approx(-1.0 / (100.0 * kDt)));
   }
   // Scaled up, the static component reaches farther.
-  CHECK(doppler_residual(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
+  CHECK(residual_of(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
   CHECK_FALSE(residual(-8.0).is_static);
   // The component for movers does not grow with it.
-  const auto scaled = doppler_residual(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
+  const auto scaled = residual_of(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
   CHECK_FALSE(scaled.is_static);
   CHECK(scaled.residual == Approx(-50.0 / 100.0));
 }
@@ -197,7 +213,7 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
     };
     const double as_static = density(1.0 - options.moving_weight, target.doppler_std_mps);
     const double as_moving = density(options.moving_weight, options.moving_std_mps);
-    const auto actual = doppler_residual(target, motion, {}, kDt, options, 1.0);
+    const auto actual = residual_of(target, motion, {}, kDt, options, 1.0);
     CHECK(actual.is_static == (as_static >= as_moving));
     CHECK(actual.cost == Approx(-std::log(std::max(as_static, as_moving))));
     movers += actual.is_static ? 0 : 1;
@@ -208,7 +224,7 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
 
 TEST_CASE("the cost is continuous where a target turns into a mover") {
   const auto at = [](double speed_mps) {
-    return doppler_residual(target_at(0.0, -10.0), {speed_mps * kDt, 0.0, 0.0}, {}, kDt, {}, 1.0);
+    return residual_of(target_at(0.0, -10.0), {speed_mps * kDt, 0.0, 0.0}, {}, kDt, {}, 1.0);
   };
   double is_static = 10.0;
   double is_moving = 15.0;
@@ -224,7 +240,7 @@ TEST_CASE("the cost is continuous where a target turns into a mover") {
 
 TEST_CASE("without weight for movers none is taken for one") {
   const auto actual =
-      doppler_residual(target_at(0.0, 50.0), {1.0, 0.0, 0.0}, {}, kDt, plain_options(), 1.0);
+      residual_of(target_at(0.0, 50.0), {1.0, 0.0, 0.0}, {}, kDt, plain_options(), 1.0);
   CHECK(actual.is_static);
   CHECK(actual.residual == Approx(-6.0 / (0.2 * kDt)));
 }

@@ -63,10 +63,11 @@ NormalEquations linearise(const Problem& problem, const RegistrationPair& pair,
   }
   if (doppler.enabled) {
     for (const Target& target : problem.current) {
-      const DopplerResidual r =
-          doppler_residual(target, motion, pair.vehicle_from_radar, pair.dt_s, doppler, 1.0);
-      equations.information += r.jacobian.transpose() * r.jacobian;
-      equations.gradient += r.jacobian.transpose() * r.residual;
+      const DopplerGeometry geometry(target, motion, pair.vehicle_from_radar);
+      const DopplerResidual r = doppler_residual(target, geometry, pair.dt_s, doppler, 1.0);
+      const Eigen::RowVector3d jacobian = r.per_m * geometry.jacobian;
+      equations.information += jacobian.transpose() * jacobian;
+      equations.gradient += jacobian.transpose() * (r.per_m * r.error_m);
       equations.cost += r.cost;
     }
   }

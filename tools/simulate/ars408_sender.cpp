@@ -60,7 +60,7 @@ constexpr double kStandingDopplerMps = 0.5;
 double square(double value) { return value * value; }
 
 /// Variance that a code of table R stands for.
-double variance(std::uint8_t code) { return square(ars408_rms(code).value_or(0.0)); }
+double variance(std::uint8_t code) { return square(ars408_std(code).value_or(0.0)); }
 
 double rounding_variance(double step) { return step * step / 12.0; }
 
@@ -187,9 +187,9 @@ Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408R
   Ars408General target = cluster(measurement);
   const RadarView& view = measurement.echo.view;
   target.vx_mps = view.x_mps + speed_noise_std(rms.vx) * random().normal() +
-                  shared_doppler_mps() * std::cos(view.azimuth_rad);
+                  doppler_offset_mps() * std::cos(view.azimuth_rad);
   target.vy_mps = view.y_mps + speed_noise_std(rms.vy) * random().normal() +
-                  shared_doppler_mps() * std::sin(view.azimuth_rad);
+                  doppler_offset_mps() * std::sin(view.azimuth_rad);
   return target;
 }
 

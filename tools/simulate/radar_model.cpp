@@ -23,7 +23,7 @@ RadarModel::RadarModel(const RadarCharacter& character, const Pose2& vehicle_fro
 
 const std::vector<Echo>& RadarModel::observe(std::int64_t stamp_us) {
   const double time_s = scene_.seconds(stamp_us);
-  radar_ = radar_state(scene_.course().at(time_s), vehicle_from_radar_);
+  radar_ = radar_state(scene_.body(time_s), vehicle_from_radar_);
   echoes_.clear();
   detect_fixed();
   detect_vehicles(time_s);

@@ -8,14 +8,12 @@
 namespace cremed {
 namespace {
 
-/// Two streams for each radar, apart from those of the scene.
+/// Streams of each radar, apart from those of the scene and of other radars.
 constexpr std::uint64_t kFirstStream = 16;
+constexpr std::uint64_t kOffsetStream = 256;
 
 /// No measured range is smaller: an azimuth must stay defined.
 constexpr double kLeastMeasuredM = 0.3;
-
-/// Correlation of the shared Doppler error from scan to scan; real drives show 0.4 to 0.8.
-constexpr double kSharedCorrelation = 0.6;
 
 /// Power-on is so many cycles before the start: the counters do not begin at 0.
 constexpr std::size_t kGreatestFirstCycle = 65536;
@@ -30,11 +28,11 @@ RadarSender::RadarSender(const RadarCharacter& character, const ScanCycle& cycle
       setup_(setup),
       random_(setup.seed, kFirstStream + 2 * setup.radar),
       model_(character, setup.vehicle_from_radar, scene,
-             Random(setup.seed, kFirstStream + 2 * setup.radar + 1)) {
+             Random(setup.seed, kFirstStream + 2 * setup.radar + 1)),
+      slow_offset_(setup.doppler_offset_std_mps, Random(setup.seed, kOffsetStream + setup.radar)) {
   cycle_count_ = static_cast<std::uint32_t>(random_.index(kGreatestFirstCycle));
   const double phase = random_.uniform();
   next_scan_us_ = scene.start_us() + std::llround(phase * static_cast<double>(cycle_.least_us));
-  shared_doppler_mps_ = setup_.shared_doppler_std_mps * random_.normal();
   if (silent(next_scan_us_)) schedule_next();
 }
 
@@ -65,16 +63,16 @@ void RadarSender::start_scan(std::int64_t stamp_us) {
 }
 
 void RadarSender::measure(const std::vector<Echo>& echoes) {
-  shared_doppler_mps_ = kSharedCorrelation * shared_doppler_mps_ +
-                        std::sqrt(1.0 - kSharedCorrelation * kSharedCorrelation) *
-                            setup_.shared_doppler_std_mps * random_.normal();
+  const double time_s = scene_.seconds(scan_stamp_us_);
+  doppler_offset_mps_ =
+      rolling_share(scene_.course().at(time_s).speed_mps) * slow_offset_.at(time_s);
   targets_.clear();
   for (const Echo& echo : echoes) {
     const PolarStd std = noise(echo.view);
     Measurement target{echo, echo.view.range_m, echo.view.azimuth_rad, echo.view.doppler_mps};
     target.range_m = std::max(kLeastMeasuredM, target.range_m + std.range_m * random_.normal());
     target.azimuth_rad += std.azimuth_rad * random_.normal();
-    target.doppler_mps += std.doppler_mps * random_.normal() + shared_doppler_mps_;
+    target.doppler_mps += std.doppler_mps * random_.normal() + doppler_offset_mps_;
     targets_.push_back(target);
   }
   std::stable_sort(targets_.begin(), targets_.end(),

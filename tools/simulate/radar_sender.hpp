@@ -13,6 +13,7 @@
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/scene.hpp"
+#include "tools/simulate/slow_error.hpp"
 
 namespace cremed {
 
@@ -31,7 +32,7 @@ struct SenderSetup {
   Pose2 vehicle_from_radar;
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
-  double shared_doppler_std_mps = 0.0;  ///< An error that all targets of a scan share.
+  double doppler_offset_std_mps = 0.0;  ///< Of an error that all targets of a scan share.
   FaultOptions faults;
   ScanObserver observer;  ///< May be empty.
 };
@@ -80,7 +81,7 @@ class RadarSender : public BusSender {
   virtual void finish(CanFrame& frame, std::int64_t age_us);
 
   [[nodiscard]] Random& random() { return random_; }
-  [[nodiscard]] double shared_doppler_mps() const { return shared_doppler_mps_; }
+  [[nodiscard]] double doppler_offset_mps() const { return doppler_offset_mps_; }
 
  private:
   void start_scan(std::int64_t stamp_us);
@@ -98,7 +99,8 @@ class RadarSender : public BusSender {
   std::int64_t next_scan_us_ = 0;
   std::int64_t scan_stamp_us_ = 0;
   std::uint32_t cycle_count_ = 0;
-  double shared_doppler_mps_ = 0.0;
+  SlowError slow_offset_;
+  double doppler_offset_mps_ = 0.0;  // of the last scan
   std::vector<Measurement> targets_;
   std::vector<CanFrame> list_;
   std::size_t sent_ = 0;

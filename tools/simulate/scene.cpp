@@ -14,15 +14,24 @@ constexpr double kMarginS = 5.0;
 
 constexpr std::uint64_t kWorldStream = 1;
 constexpr std::uint64_t kTrafficStream = 2;
+constexpr std::uint64_t kBodyStream = 4;
 
 }  // namespace
 
-Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed)
+Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed,
+             double body_velocity_std_mps)
     : start_us_(start_us),
       end_us_(start_us + std::llround(duration_s * 1e6)),
       course_(scenario.course, duration_s + kMarginS),
       road_(course_),
       world_(road_, scenario.world, Random(seed, kWorldStream)),
-      traffic_(course_, road_, scenario.traffic, Random(seed, kTrafficStream)) {}
+      traffic_(course_, road_, scenario.traffic, Random(seed, kTrafficStream)),
+      body_speed_(body_velocity_std_mps, Random(seed, kBodyStream)) {}
+
+VehicleState Scene::body(double time_s) const {
+  VehicleState state = course_.at(time_s);
+  state.speed_mps += rolling_share(state.speed_mps) * body_speed_.at(time_s);
+  return state;
+}
 
 }  // namespace cremed

@@ -6,6 +6,7 @@
 
 #include "tools/simulate/road.hpp"
 #include "tools/simulate/scenario.hpp"
+#include "tools/simulate/slow_error.hpp"
 #include "tools/simulate/traffic.hpp"
 #include "tools/simulate/vehicle_course.hpp"
 #include "tools/simulate/world.hpp"
@@ -15,7 +16,9 @@ namespace cremed {
 /// What is there to be seen, and when: the drive, what stands along it, and the other cars.
 class Scene {
  public:
-  Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed);
+  /// `body_velocity_std_mps`: see SimulationOptions.
+  Scene(const Scenario& scenario, double duration_s, std::int64_t start_us, std::uint64_t seed,
+        double body_velocity_std_mps);
   Scene(const Scene&) = delete;  // Its parts refer to each other.
   Scene& operator=(const Scene&) = delete;
 
@@ -25,6 +28,9 @@ class Scene {
   [[nodiscard]] std::int64_t start_us() const { return start_us_; }
   [[nodiscard]] std::int64_t end_us() const { return end_us_; }
   [[nodiscard]] const VehicleCourse& course() const { return course_; }
+  /// The vehicle's body, which the radars are fixed to: it pitches on its springs, so that its
+  /// speed is not quite that of the rear axle.
+  [[nodiscard]] VehicleState body(double time_s) const;
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }
 
@@ -35,6 +41,7 @@ class Scene {
   Road road_;
   World world_;
   Traffic traffic_;
+  SlowError body_speed_;
 };
 
 }  // namespace cremed

@@ -52,9 +52,14 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
       ->capture_default_str();
-  app.add_option("--shared-doppler-std", arguments.options.shared_doppler_std_mps,
-                 "Standard deviation in m/s of a slowly varying Doppler error that all targets of "
-                 "a scan share and no radar reports")
+  app.add_option("--body-velocity-std", arguments.options.body_velocity_std_mps,
+                 "Standard deviation in m/s of the velocity of all radars over that of the rear "
+                 "axle while driving (pitch, suspension)")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  app.add_option("--doppler-offset-std", arguments.options.doppler_offset_std_mps,
+                 "Standard deviation in m/s of an error of all Doppler of a radar while driving, "
+                 "which no radar reports")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
 }

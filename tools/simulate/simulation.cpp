@@ -82,7 +82,8 @@ std::vector<RadarConfiguration> default_radars() {
 
 Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
                        const SimulationOptions& options, const ScanObserver& observer)
-    : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed),
+    : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed,
+             options.body_velocity_std_mps),
       frame_loss_(scenario.faults.frame_loss),
       loss_random_(options.seed, kLossStream) {
   for (std::size_t i = 0; i < radars.size(); ++i) {
@@ -90,7 +91,7 @@ Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfigur
     setup.radar = i;
     setup.vehicle_from_radar = radars[i].ego_motion.vehicle_from_radar;
     setup.seed = options.seed;
-    setup.shared_doppler_std_mps = options.shared_doppler_std_mps;
+    setup.doppler_offset_std_mps = options.doppler_offset_std_mps;
     setup.faults = scenario.faults;
     setup.observer = observer;
     CanBus& bus = bus_of(radars[i].interface);

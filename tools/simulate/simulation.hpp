@@ -22,7 +22,10 @@ struct SimulationOptions {
   std::uint64_t seed = 1;
   double duration_s = 0.0;                        ///< 0: that of the scenario.
   std::int64_t start_us = 1'700'000'000'000'000;  ///< Unix epoch.
-  double shared_doppler_std_mps = 0.0;            ///< See SenderSetup.
+  /// Of the velocity of all radars over that of the rear axle, which truth is of; slowly varying.
+  double body_velocity_std_mps = 0.1;
+  /// Of all Doppler of one radar; slowly varying, and no radar reports it.
+  double doppler_offset_std_mps = 0.04;
 };
 
 /// Those of config/demo.toml: an ARS408 in front on can0, a Bosch GPR that looks back on can1.

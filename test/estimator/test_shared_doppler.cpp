@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "estimator/shared_doppler.hpp"
+#include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using numeric::radians;
+using simulation::Random;
+using simulation::uniform;
+
+constexpr double kDt = 0.075;
+const Pose2 kMount{3.4, 0.3, 0.1};
+
+DopplerOptions no_movers() {
+  DopplerOptions options;
+  options.moving_weight = 0.0;
+  options.stamp_std_s = 0.0;
+  return options;
+}
+
+SharedErrorOptions no_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+
+/// What the radar sees of static targets while the vehicle moves with `velocity`; each Doppler is
+/// off by `noise_mps` times a number between -1 and 1.
+TargetSet seen(const Eigen::Vector3d& velocity, const Pose2& mount, int count, double noise_mps,
+               std::uint64_t seed, double half_view_rad = radians(50.0)) {
+  Random random(seed);
+  TargetSet set;
+  for (int i = 0; i < count; ++i) {
+    Detection detection;
+    detection.range_m = uniform(random, 5.0, 60.0);
+    detection.azimuth_rad = uniform(random, -half_view_rad, half_view_rad);
+    const double bearing_rad = detection.azimuth_rad + mount.yaw_rad;
+    detection.doppler_mps = -(velocity.x() - velocity.z() * mount.y_m) * std::cos(bearing_rad) -
+                            (velocity.y() + velocity.z() * mount.x_m) * std::sin(bearing_rad) +
+                            noise_mps * uniform(random, -1.0, 1.0);
+    detection.range_std_m = 0.2;
+    detection.azimuth_std_rad = 1e-4;
+    detection.doppler_std_mps = 0.1;
+    set.add(detection, mount);
+  }
+  return set;
+}
+
+/// Newton's method on Doppler alone, (x, yaw) free. Returns the motion and its covariance.
+struct Solution {
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+Solution solve(SharedDoppler& doppler, const TargetSet& previous, const TargetSet& current) {
+  Solution solution;
+  doppler.start(1.0);
+  for (int i = 0; i < 20; ++i) {
+    NormalEquations equations;
+    doppler.add(previous, current, solution.motion, kDt, equations);
+    const auto inverse = invert_information(equations.information, 2);
+    REQUIRE(inverse);
+    solution.covariance = *inverse;
+    solution.motion -= *inverse * equations.gradient;
+  }
+  return solution;
+}
+
+TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gives") {
+  // All seven unknowns at once, by numeric derivatives of the residuals that the header states.
+  const SharedErrorOptions errors{0.05, 0.01, 0.0, 0.0, 2.0, 0.5};
+  const Eigen::Vector3d motion(0.6, 0.0, 0.01);
+  const TargetSet previous = seen({7.9, 0.0, 0.10}, kMount, 30, 0.1, 1);
+  const TargetSet current = seen({8.2, 0.0, 0.13}, kMount, 40, 0.1, 2);
+  using Unknowns = Eigen::Matrix<double, 7, 1>;  // x, y, yaw, b, d, a, w
+  const auto error_m = [&](const Target& target, double side, const Unknowns& u) {
+    const double half = side * 0.5 * kDt * kDt;
+    const Eigen::Vector3d at = u.head<3>() + half * Eigen::Vector3d(u(5), 0.0, u(6));
+    const double bearing = target.bearing_rad + u(4);
+    return -(at.x() - at.z() * kMount.y_m) * std::cos(bearing) -
+           (at.y() + at.z() * kMount.x_m) * std::sin(bearing) - target.doppler_mps * kDt +
+           kDt * u(3);
+  };
+  Unknowns start = Unknowns::Zero();
+  start.head<3>() = motion;
+  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
+  Unknowns gradient = Unknowns::Zero();
+  information.diagonal().tail<4>() << 1 / (0.05 * 0.05), 1 / (0.01 * 0.01), 1 / 4.0, 1 / 0.25;
+  for (const double side : {-1.0, 1.0}) {
+    for (const Target& target : side < 0.0 ? previous : current) {
+      Unknowns jacobian;
+      for (int k = 0; k < 7; ++k) {
+        const Unknowns step = 1e-5 * Unknowns::Unit(k);
+        jacobian(k) =
+            (error_m(target, side, start + step) - error_m(target, side, start - step)) / 2e-5;
+      }
+      const DopplerGeometry geometry(target, motion, kMount);
+      const double bearing_m = geometry.per_bearing_m * target.bearing_std_rad;
+      const double weight =
+          1.0 / (std::pow(kDt * target.doppler_std_mps, 2) + bearing_m * bearing_m);
+      information += weight * jacobian * jacobian.transpose();
+      gradient += weight * error_m(target, side, start) * jacobian;
+    }
+  }
+  // y and yaw are nearly the same to a radar in front: x and yaw alone.
+  const std::vector<int> free{0, 2, 3, 4, 5, 6};
+  const Eigen::Matrix<double, 6, 6> covariance = information(free, free).inverse();
+  const Eigen::Matrix<double, 6, 1> step = -covariance * gradient(free);
+
+  SharedDoppler doppler(no_movers(), errors, kMount);
+  NormalEquations equations;
+  doppler.add(previous, current, motion, kDt, equations);
+  const auto inverse = invert_information(equations.information, 2);
+  REQUIRE(inverse);
+  const Eigen::Vector3d found = -*inverse * equations.gradient;
+  CHECK((*inverse)(0, 0) == Approx(covariance(0, 0)).epsilon(1e-5));
+  CHECK((*inverse)(0, 2) == Approx(covariance(0, 1)).epsilon(1e-5));
+  CHECK((*inverse)(2, 2) == Approx(covariance(1, 1)).epsilon(1e-5));
+  CHECK(found.x() == Approx(step(0)).epsilon(1e-5));
+  CHECK(found.z() == Approx(step(1)).epsilon(1e-5));
+}
+
+TEST_CASE("The gradient is the derivative of the cost") {
+  const SharedErrorOptions errors{0.05, 0.0, 0.0, 0.0, 2.0, 0.5};
+  const TargetSet previous = seen({7.9, 0.0, 0.10}, kMount, 30, 0.1, 3);
+  const TargetSet current = seen({8.2, 0.0, 0.13}, kMount, 40, 0.1, 4);
+  SharedDoppler doppler(no_movers(), errors, kMount);
+  const auto equations_at = [&](const Eigen::Vector3d& motion) {
+    doppler.start(1.0);
+    NormalEquations equations;
+    doppler.add(previous, current, motion, kDt, equations);
+    return equations;
+  };
+  const Eigen::Vector3d motion(0.62, 0.0, 0.012);
+  const Eigen::Vector3d expected = numeric::central_differences(
+      motion, 1e-6, [&](const Eigen::Vector3d& at) { return equations_at(at).cost; });
+  // The weight's own dependence on the motion, by the bearing's deviation, is left out.
+  CHECK((equations_at(motion).gradient - expected).norm() < 1e-3 * expected.norm());
+}
+
+TEST_CASE("An offset that all targets share does not average out") {
+  SharedErrorOptions errors = no_errors();
+  errors.doppler_offset_std_mps = 0.05;
+  SharedDoppler with(no_movers(), errors, {3.4, 0.0, 0.0});
+  SharedDoppler without(no_movers(), no_errors(), {3.4, 0.0, 0.0});
+  const double narrow_rad = radians(10.0);  // Wide apart, the targets would tell offset from speed.
+  for (const int count : {10, 50, 250}) {
+    CAPTURE(count);
+    const TargetSet scan = seen({8.0, 0.0, 0.0}, {3.4, 0.0, 0.0}, count, 0.1, 5, narrow_rad);
+    CHECK(std::sqrt(solve(with, scan, scan).covariance(0, 0)) > 0.95 * 0.05 * kDt);
+    CHECK(std::sqrt(solve(without, scan, scan).covariance(0, 0)) <
+          1.1 * 0.1 * kDt / std::sqrt(2.0 * count));
+  }
+}
+
+TEST_CASE("While the vehicle stands there is no offset") {
+  SharedErrorOptions errors = no_errors();
+  errors.doppler_offset_std_mps = 0.05;
+  SharedDoppler doppler(no_movers(), errors, {3.4, 0.0, 0.0});
+  const TargetSet scan = seen(Eigen::Vector3d::Zero(), {3.4, 0.0, 0.0}, 100, 0.1, 6, 0.2);
+  doppler.start(0.0);
+  NormalEquations equations;
+  doppler.add(scan, scan, Eigen::Vector3d::Zero(), kDt, equations);
+  CHECK(equations.information(0, 0) > 0.9 * 200.0 / std::pow(0.1 * kDt, 2));
+}
+
+TEST_CASE(
+    "An accelerating vehicle: both scans give the mean speed, one gives its own and says so") {
+  SharedErrorOptions errors = no_errors();
+  errors.acceleration_std_mps2 = 3.0;
+  errors.yaw_acceleration_std_radps2 = 0.5;
+  const TargetSet previous = seen({8.0, 0.0, 0.10}, kMount, 60, 0.0, 7);
+  const TargetSet current = seen({8.3, 0.0, 0.16}, kMount, 90, 0.0, 8);
+  const Eigen::Vector3d mean = kDt * Eigen::Vector3d(8.15, 0.0, 0.13);
+
+  SharedDoppler both(no_movers(), errors, kMount);
+  const Solution solution = solve(both, previous, current);
+  CHECK((solution.motion - mean).norm() < 2e-4);
+  CHECK(std::sqrt(solution.covariance(0, 0)) < 0.002);
+
+  DopplerOptions options = no_movers();
+  options.both_scans = false;
+  SharedDoppler one(options, errors, kMount);
+  const Solution alone = solve(one, previous, current);
+  CHECK(alone.motion.x() == Approx(kDt * 8.3).margin(5e-4));
+  const double sigma_m = std::sqrt(alone.covariance(0, 0));
+  CHECK(sigma_m > 0.9 * 0.5 * 3.0 * kDt * kDt);
+  CHECK(std::abs(alone.motion.x() - mean.x()) < 3.0 * sigma_m);
+}
+
+TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
+  SharedErrorOptions errors = no_errors();
+  errors.mount_yaw_std_rad = 0.01;
+  const Pose2 believed{3.4, 0.0, 0.0};
+  const Pose2 true_mount{3.4, 0.0, 0.01};
+  TargetSet scan;
+  Random random(9);
+  for (int i = 0; i < 200; ++i) {
+    Detection detection;
+    detection.range_m = 30.0;
+    detection.azimuth_rad = uniform(random, -0.9, 0.9);
+    detection.doppler_mps = -8.0 * std::cos(detection.azimuth_rad + true_mount.yaw_rad);
+    detection.range_std_m = 0.2;
+    detection.azimuth_std_rad = 1e-4;
+    detection.doppler_std_mps = 0.1;
+    scan.add(detection, believed);
+  }
+  SharedDoppler naive(no_movers(), no_errors(), believed);
+  SharedDoppler aware(no_movers(), errors, believed);
+  const Solution wrong = solve(naive, scan, scan);
+  const Solution right = solve(aware, scan, scan);
+  CHECK(std::abs(wrong.motion.z()) > 5.0 * std::sqrt(wrong.covariance(2, 2)));
+  CHECK(std::abs(right.motion.z()) < 2.0 * std::sqrt(right.covariance(2, 2)));
+}
+
+}  // namespace
+}  // namespace cremed

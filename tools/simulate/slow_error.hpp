@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "tools/simulate/random.hpp"
+
+namespace cremed {
+
+/// An error that varies with time, smoothly and at random: a sum of sines of 0.3 to 2 Hz, so that
+/// it is another one after some tenths of a second.
+class SlowError {
+ public:
+  SlowError(double standard_deviation, Random random);
+
+  [[nodiscard]] double at(double time_s) const;
+
+ private:
+  struct Sine {
+    double amplitude;
+    double radps;
+    double phase_rad;
+  };
+  std::array<Sine, 12> sines_;
+};
+
+/// How much of a driving vehicle's errors shows at a speed: none when it stands, all from 0.2 m/s.
+double rolling_share(double speed_mps);
+
+}  // namespace cremed

@@ -77,15 +77,6 @@ TEST_CASE("Doppler and the standard deviations of the line of sight are those of
   CHECK(target.bearing_std_rad == 0.01);
 }
 
-TEST_CASE(
-    "added speed is seen as by the bearing: closing ahead, receding behind, not at all abeam") {
-  for (const double bearing_rad : {0.0, kPi / 3, kPi / 2, kPi}) {
-    TargetSet set = simulation::targets({usable_detection(10.0, bearing_rad)}, {});
-    set.add_speed(2.0);
-    CHECK(set[0].doppler_mps == Approx(-3.0 - 2.0 * std::cos(bearing_rad)));
-  }
-}
-
 TEST_CASE("the covariance is the first-order one of polar noise, whatever the mount") {
   Random random(1);
   for (int i = 0; i < 200; ++i) {

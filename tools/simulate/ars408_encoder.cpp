@@ -39,7 +39,7 @@ std::uint8_t byte(std::uint32_t value) { return static_cast<std::uint8_t>(value 
 
 CanFrame frame(Ars408Message message, std::uint8_t sensor_id, std::uint8_t length) {
   CanFrame result;
-  result.id = ars408_id(message, sensor_id);
+  result.id = ars408_id(bits_of(message), sensor_id);
   result.length = length;
   return result;
 }

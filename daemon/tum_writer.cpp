@@ -9,7 +9,19 @@
 namespace cremed {
 
 void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
-  if (radar != radar_ || !motion.has_estimate()) {
+  if (radar == radar_) {
+    follow(motion);
+  }
+}
+
+void TumWriter::on_fused(const EgoMotion& motion, std::int32_t /*solve_us*/) {
+  if (radar_ == kFused) {
+    follow(motion);
+  }
+}
+
+void TumWriter::follow(const EgoMotion& motion) {
+  if (!motion.has_estimate()) {
     return;
   }
   if (!has_begun_) {

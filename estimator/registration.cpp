@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/rolling_share.hpp"
 #include "estimator/rotation.hpp"
 
 namespace cremed {
@@ -20,9 +21,6 @@ constexpr double kStuckStep = 0.1;
 Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
-
-/// Slower than this the vehicle's body comes to rest.
-constexpr double kRollingMps = 0.2;
 
 }  // namespace
 
@@ -124,7 +122,7 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
 
 /// 0 when the vehicle stands, 1 when it drives.
 double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
-  return std::min(motion.head<2>().norm() / (problem.dt_s * kRollingMps), 1.0);
+  return rolling_share(motion.head<2>().norm() / problem.dt_s);
 }
 
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
@@ -197,9 +195,18 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
+    keep_equations(equations, result);
     add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
+  }
+}
+
+void Registration::keep_equations(const NormalEquations& equations, RegistrationResult& result) {
+  result.gradient = equations.gradient;
+  if (const auto complete = invert_information(equations.information, 3)) {
+    const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
+    result.information = equations.information - likelihood_.missing_information(sigma);
   }
 }
 
@@ -210,6 +217,8 @@ void Registration::finish_gauss_newton(const Problem& problem, const Stage& stag
   const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);
   if (covariance) {
     result.covariance = *covariance;
+    result.information = equations.information;
+    result.gradient = equations.gradient;
   } else if (result.status != RegistrationStatus::non_finite) {
     result.status = RegistrationStatus::degenerate;
   }

@@ -278,7 +278,8 @@ TEST_CASE("few targets found again are enough for a motion that continues the on
 
 TEST_CASE("a departure that no vehicle can make is no continuation") {
   EgoMotionOptions options = options_at(kFront);
-  options.registration.doppler.enabled = false;  // It would tell that the vehicle goes on as before.
+  options.registration.doppler.enabled =
+      false;  // It would tell that the vehicle goes on as before.
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Drive drive({8.0, 0.0, 0.3}, kFront, seed, 120);

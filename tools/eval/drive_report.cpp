@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive_report.hpp"
 
+#include <cmath>
 #include <map>
 #include <numbers>
 
+#include "daemon/text_line.hpp"
 #include "daemon/tum_writer.hpp"
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/report_file.hpp"
@@ -22,32 +24,31 @@ double seconds(std::int64_t utime_us, const TrueTrajectory& truth) {
   return static_cast<double>(utime_us - truth.utime_us().front()) * 1e-6;
 }
 
-void print_drift_cells(std::FILE* file, const SourceEvaluation& source, const char* what,
-                       const char* format, double PathDrift::*value) {
-  std::fprintf(file, "# %-15s %-8s", source.source.c_str(), what);
-  for (const PathDrift& drift : source.drift) {
-    std::fprintf(file, format, drift.*value);
-  }
-  std::fprintf(file, format, mean_drift(source.drift).*value);
-  std::fprintf(file, "\n");
+std::string text(std::size_t count) { return std::to_string(count); }
+
+/// "-" where there was no segment.
+std::string text(double value, int decimals) {
+  return std::isnan(value) ? "-" : std::string(TextLine().fixed(value, decimals).view());
 }
 
-void print_drift_counts(std::FILE* file, const SourceEvaluation& source, const char* what,
-                        std::size_t PathDrift::*value) {
+/// A row of the table of drift: what `cell` says of each length, then of all.
+template <typename Cell>
+void print_drift_row(std::FILE* file, const SourceEvaluation& source, const char* what, Cell cell) {
   std::fprintf(file, "# %-15s %-8s", source.source.c_str(), what);
   for (const PathDrift& drift : source.drift) {
-    std::fprintf(file, " %7zu", drift.*value);
+    std::fprintf(file, " %7s", cell(drift).c_str());
   }
-  std::fprintf(file, " %7zu\n", mean_drift(source.drift).*value);
+  std::fprintf(file, " %7s\n", cell(mean_drift(source.drift)).c_str());
 }
 
 void print_drift(std::FILE* file, const SourceEvaluation& source) {
-  print_drift_cells(file, source, "%", " %7.2f", &PathDrift::translation_percent);
-  print_drift_cells(file, source, "deg/m", " %7.4f", &PathDrift::rotation_deg_per_m);
-  print_drift_counts(file, source, "segments", &PathDrift::segments);
+  const auto row = [&](const char* what, auto cell) { print_drift_row(file, source, what, cell); };
+  row("%", [](const PathDrift& d) { return text(d.translation_percent, 2); });
+  row("deg/m", [](const PathDrift& d) { return text(d.rotation_deg_per_m, 4); });
+  row("segments", [](const PathDrift& d) { return text(d.segments); });
   if (gaps(source) != 0) {
-    print_drift_counts(file, source, "left out", &PathDrift::across_gaps);
-    std::fprintf(file, "# %-15s %zu gaps without estimate; segments across them are left out\n",
+    row("left out", [](const PathDrift& d) { return text(d.across_gaps); });
+    std::fprintf(file, "# %-15s left out: segments across a gap without estimate; gaps: %zu\n",
                  source.source.c_str(), gaps(source));
   }
 }
@@ -59,7 +60,8 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources) 
   for (const SourceEvaluation& source : sources) {
     std::fprintf(file, "%s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
   }
-  std::fprintf(file, "# drift over segments of the true path (mean of all, as KITTI)\n# %-24s", "");
+  std::fprintf(file,
+               "# drift over segments of the true path, mean of all segments (KITTI)\n# %-24s", "");
   for (const double length_m : kDriftLengthsM) {
     std::fprintf(file, " %5.0f m", length_m);
   }
@@ -83,17 +85,23 @@ void write_sources_csv(const std::string& path, const std::vector<SourceEvaluati
   ReportFile file(path);
   std::fprintf(file.stream(),
                "source,dof,estimates,without_estimate,gaps,rmse_m,rmse_deg,anees,anees_low,"
-               "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw\n");
+               "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw,segments,across_gaps,"
+               "translation_percent,rotation_deg_per_m\n");
   for (const SourceEvaluation& source : sources) {
     const Credibility& c = source.credibility;
     const int dof = source.degrees_of_freedom;
     const Interval anees = anees_interval(c.count(), dof, 0.95);
     const Interval nees = anees_interval(1, dof, 0.95);
-    std::fprintf(file.stream(),
-                 "%s,%d,%zu,%zu,%zu,%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n",
-                 source.source.c_str(), dof, c.count(), source.without_estimate, gaps(source),
-                 c.rmse_m(), c.rmse_deg(), c.anees(), anees.low, anees.high, nees.low, nees.high,
-                 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3), 1.0 - c.coverage(2, 3));
+    const PathDrift drift = mean_drift(source.drift);
+    std::FILE* const out = file.stream();
+    std::fprintf(out, "%s,%d,%zu,%zu,%zu,", source.source.c_str(), dof, c.count(),
+                 source.without_estimate, gaps(source));
+    std::fprintf(out, "%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,", c.rmse_m(), c.rmse_deg(), c.anees(),
+                 anees.low, anees.high, nees.low, nees.high);
+    std::fprintf(out, "%.4f,%.4f,%.4f,", 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3),
+                 1.0 - c.coverage(2, 3));
+    std::fprintf(out, "%zu,%zu,%.5g,%.5g\n", drift.segments, drift.across_gaps,
+                 drift.translation_percent, drift.rotation_deg_per_m);
   }
   file.close();
 }

@@ -27,6 +27,7 @@ void compare_estimates(const std::vector<RecordedEstimate>& estimates, const Tru
 
 std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int dof) {
   std::vector<TimedNees> nees;
+  nees.reserve(errors.size());
   for (const EstimateError& error : errors) {
     nees.push_back({error.utime_us, error.nees});
   }

@@ -54,6 +54,7 @@ PathDrift drift_over(double length_m, const std::vector<PathPose>& path) {
 
 std::vector<PathDrift> path_drift(const std::vector<PathPose>& path) {
   std::vector<PathDrift> drifts;
+  drifts.reserve(kDriftLengthsM.size());
   for (const double length_m : kDriftLengthsM) {
     drifts.push_back(drift_over(length_m, path));
   }

@@ -9,13 +9,17 @@
 
 #include "daemon/odometry_sink.hpp"
 #include "daemon/output_file.hpp"
+#include "daemon/text_line.hpp"
 #include "estimator/pose2.hpp"
 
 namespace cremed {
 
-/// Trajectory of one radar's ego-motion, or of the fused one, in TUM format: `seconds x y z qx qy
-/// qz qw`, beginning at the origin. Where estimates do not join (a gap), the trajectory goes on
-/// from its last pose as if the vehicle had not moved; gaps() counts these places.
+/// A pose in TUM format: `seconds x y z qx qy qz qw` and a line end.
+TextLine tum_line(std::int64_t utime_us, const Pose2& pose);
+
+/// Trajectory of one radar's ego-motion, or of the fused one, in TUM format, beginning at the
+/// origin. Where estimates do not join (a gap), the trajectory goes on from its last pose as if the
+/// vehicle had not moved; gaps() counts these places.
 class TumWriter final : public OdometrySink {
  public:
   /// In place of a radar's index.

@@ -72,16 +72,22 @@ inline TrueTrajectory truth_of(const Drive& drive) {
   return TrueTrajectory(csv);
 }
 
-/// Compares estimates with truth, 2 DoF.
-inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
-                                  const TrueTrajectory& truth) {
-  Credibility credibility(2);
+/// Compares estimates with truth.
+inline void add(Credibility& credibility, const std::vector<EgoMotion>& motions,
+                const TrueTrajectory& truth) {
   for (const EgoMotion& motion : motions) {
     const auto true_motion = truth.motion(motion.utime_start_us, motion.utime_us);
     if (motion.has_estimate() && true_motion) {
       credibility.add(motion.motion, motion.covariance, *true_motion);
     }
   }
+}
+
+/// The same of one drive, 2 DoF.
+inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
+                                  const TrueTrajectory& truth) {
+  Credibility credibility(2);
+  add(credibility, motions, truth);
   return credibility;
 }
 

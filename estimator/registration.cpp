@@ -21,16 +21,13 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
-/// Slower than this the vehicle's body comes to rest.
-constexpr double kRollingMps = 0.2;
-
 }  // namespace
 
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
     : options_(options),
       vehicle_from_radar_(vehicle_from_radar),
       ray_(options.outlier_ray, vehicle_from_radar),
-      shared_doppler_(options.doppler, options.shared_errors, vehicle_from_radar) {}
+      shared_doppler_(options, vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
   mixture_.assign(targets, ray_);
@@ -122,11 +119,6 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
   return RegistrationStatus::no_convergence;
 }
 
-/// 0 when the vehicle stands, 1 when it drives.
-double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
-  return std::min(motion.head<2>().norm() / (problem.dt_s * kRollingMps), 1.0);
-}
-
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
@@ -175,7 +167,7 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
   const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
   result.covariance.noalias() += by_time * by_time.transpose();
   const double by_velocity_m =
-      rolling(problem, result.motion) * errors.velocity_std_mps * problem.dt_s;
+      rolling_part(result.motion, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
   const double variance_m2 = by_velocity_m * by_velocity_m;
   result.covariance(0, 0) += variance_m2;
   result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;
@@ -183,7 +175,7 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
 
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
-  shared_doppler_.start(rolling(problem, result.motion));
+  shared_doppler_.start();
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();

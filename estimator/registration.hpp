@@ -114,7 +114,6 @@ class Registration {
   NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
-  static double rolling(const Problem& problem, const Eigen::Vector3d& motion);
   void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,
                                      const RegistrationResult& result) const;

@@ -166,8 +166,9 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
   const SharedErrorOptions& errors = options_.shared_errors;
   const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
   result.covariance.noalias() += by_time * by_time.transpose();
+  const double noise_m = std::sqrt(result.covariance(0, 0));
   const double by_velocity_m =
-      rolling_part(result.motion, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
+      rolling_part(result.motion, noise_m, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
   const double variance_m2 = by_velocity_m * by_velocity_m;
   result.covariance(0, 0) += variance_m2;
   result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;

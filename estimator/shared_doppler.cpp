@@ -3,6 +3,7 @@
 #include "estimator/shared_doppler.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -34,8 +35,9 @@ void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
 
 }  // namespace
 
-double rolling_part(const Eigen::Vector3d& motion, double dt_s) {
-  return std::min(motion.head<2>().norm() / (dt_s * kRollingMps), 1.0);
+double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
+  const double distance_m = motion.head<2>().norm() - noise_m;
+  return std::clamp(distance_m / (dt_s * kRollingMps), 0.0, 1.0);
 }
 
 SharedDoppler::SharedDoppler(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
@@ -66,7 +68,8 @@ void SharedDoppler::add(const TargetSet& previous, const TargetSet& current,
   if (options_.both_scans) {
     add_scan(previous, half_way, dt_s, -1.0, sums);
   }
-  const SharedVector prior = prior_information(rolling_part(motion, dt_s));
+  const double noise_m = 1.0 / std::sqrt(sums.motion.information(0, 0));
+  const SharedVector prior = prior_information(rolling_part(motion, noise_m, dt_s));
   const SharedVector pull = prior.cwiseProduct(shared_);
   sums.shared.diagonal() += prior;
   sums.gradient += pull;

@@ -12,7 +12,8 @@
 namespace cremed {
 
 /// 0 when the vehicle stands, 1 when it drives: the part of a driving vehicle's errors that shows.
-double rolling_part(const Eigen::Vector3d& motion, double dt_s);
+/// A distance up to its noise is none.
+double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s);
 
 /// The Doppler of both scans, with the errors that their targets share. Each of these is an unknown
 /// of its own, known beforehand only to be small (SharedErrorOptions):
@@ -32,7 +33,7 @@ double rolling_part(const Eigen::Vector3d& motion, double dt_s);
 ///     H = H_mm - H_ms (H_ss + P^-1)^-1 H_sm       g = g_m - H_ms (H_ss + P^-1)^-1 g_s
 ///
 /// b and d are errors of a vehicle that drives: their deviations are those of SharedErrorOptions
-/// times rolling_part(m).
+/// times rolling_part(m), the noise of m by Doppler taken alone.
 class SharedDoppler {
  public:
   SharedDoppler(const RegistrationOptions& options, const Pose2& vehicle_from_radar);

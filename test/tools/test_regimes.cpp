@@ -107,6 +107,7 @@ struct Regime {
   int degrees_of_freedom;
   MotionStatus status;  ///< Of at least this share of the scans of both radars.
   double share;
+  double duration_s;  ///< 0: that of the scenario.
   Bound front;
   Bound rear;
 };
@@ -121,18 +122,18 @@ void check(const Joined& joined, const Bound& bound) {
 
 TEST_CASE("Regimes: the covariance is that of the errors") {
   using Status = MotionStatus;
-  const auto regime =
-      GENERATE(Regime{"standing", 2, Status::standing_still, 0.98, {0.0025, 0.11}, {0.0025, 0.19}},
-               Regime{"stop-and-go", 2, Status::ok, 0.6, {0.0075, 0.11}, {0.010, 0.21}},
-               Regime{"straight", 2, Status::ok, 0.99, {0.009, 0.14}, {0.012, 0.24}},
-               Regime{"desert", 2, Status::too_few_targets, 0.8, {0.07, 0.6}, {0.06, 0.6}},
-               Regime{"field", 2, Status::ok, 0.9, {0.020, 0.25}, {0.024, 0.6}},
-               Regime{"tunnel", 2, Status::ok, 0.9, {0.010, 0.26}, {0.013, 0.64}},
-               Regime{"reversing", 2, Status::ok, 0.85, {0.010, 0.10}, {0.019, 0.32}},
-               Regime{"braking", 2, Status::ok, 0.8, {0.009, 0.12}, {0.012, 0.22}},
-               Regime{"skid", 3, Status::ok, 0.99, {0.024, 0.34}, {0.021, 0.28}});
+  const auto regime = GENERATE(
+      Regime{"standing", 2, Status::standing_still, 0.98, 0.0, {0.0025, 0.11}, {0.0025, 0.19}},
+      Regime{"stop-and-go", 2, Status::ok, 0.6, 0.0, {0.0075, 0.11}, {0.010, 0.21}},
+      Regime{"straight", 2, Status::ok, 0.99, 0.0, {0.009, 0.14}, {0.012, 0.24}},
+      Regime{"desert", 2, Status::too_few_targets, 0.8, 240.0, {0.07, 0.6}, {0.06, 0.6}},
+      Regime{"field", 2, Status::ok, 0.9, 0.0, {0.020, 0.25}, {0.024, 0.6}},
+      Regime{"tunnel", 2, Status::ok, 0.9, 0.0, {0.010, 0.26}, {0.013, 0.64}},
+      Regime{"reversing", 2, Status::ok, 0.85, 0.0, {0.010, 0.10}, {0.019, 0.32}},
+      Regime{"braking", 2, Status::ok, 0.8, 0.0, {0.009, 0.12}, {0.012, 0.22}},
+      Regime{"skid", 3, Status::ok, 0.99, 0.0, {0.024, 0.34}, {0.021, 0.28}});
   CAPTURE(regime.name);
-  const auto joined = drives(regime.name, regime.degrees_of_freedom);
+  const auto joined = drives(regime.name, regime.degrees_of_freedom, true, regime.duration_s);
   check(joined[kFront], regime.front);
   check(joined[kRear], regime.rear);
   CHECK(joined[kFront].share(regime.status) >= regime.share);

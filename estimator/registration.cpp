@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "estimator/rolling_share.hpp"
 #include "estimator/rotation.hpp"
 
 namespace cremed {
@@ -28,7 +27,7 @@ Registration::Registration(const RegistrationOptions& options, const Pose2& vehi
     : options_(options),
       vehicle_from_radar_(vehicle_from_radar),
       ray_(options.outlier_ray, vehicle_from_radar),
-      shared_doppler_(options.doppler, options.shared_errors, vehicle_from_radar) {}
+      shared_doppler_(options, vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
   mixture_.assign(targets, ray_);
@@ -120,11 +119,6 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
   return RegistrationStatus::no_convergence;
 }
 
-/// 0 when the vehicle stands, 1 when it drives.
-double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
-  return rolling_share(motion.head<2>().norm() / problem.dt_s);
-}
-
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
@@ -172,8 +166,9 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
   const SharedErrorOptions& errors = options_.shared_errors;
   const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
   result.covariance.noalias() += by_time * by_time.transpose();
+  const double noise_m = std::sqrt(result.covariance(0, 0));
   const double by_velocity_m =
-      rolling(problem, result.motion) * errors.velocity_std_mps * problem.dt_s;
+      rolling_part(result.motion, noise_m, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
   const double variance_m2 = by_velocity_m * by_velocity_m;
   result.covariance(0, 0) += variance_m2;
   result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;
@@ -181,7 +176,7 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
 
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
-  shared_doppler_.start(rolling(problem, result.motion));
+  shared_doppler_.start();
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();

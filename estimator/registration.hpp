@@ -118,7 +118,6 @@ class Registration {
   NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
-  static double rolling(const Problem& problem, const Eigen::Vector3d& motion);
   void keep_equations(const NormalEquations& equations, RegistrationResult& result);
   void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,

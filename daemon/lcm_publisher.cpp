@@ -72,6 +72,15 @@ void fill_health(const RadarHealth& health, status_t& m) {
   m.radar_faults = static_cast<std::int32_t>(health.faults);
 }
 
+void fill_belief(const BeliefStatus& belief, status_t& m) {
+  m.innovation_doppler = static_cast<float>(belief.doppler_innovation);
+  m.innovation_next = static_cast<float>(belief.next_innovation);
+  m.innovation_radars = static_cast<float>(belief.radars_innovation);
+  m.doubts = static_cast<std::int32_t>(belief.doubts);
+  m.motions_fused = count(belief.motions_fused);
+  m.motions_left_out = count(belief.motions_left_out);
+}
+
 /// LCM sends with a socket that waits when its buffer is full, and gives no access to it: it is
 /// among the descriptors that lcm_create has opened. One that never waits costs a message, not the
 /// scans behind it.
@@ -210,6 +219,7 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   m.latency_p50_us = static_cast<std::int32_t>(status.latency.p50_us);
   m.latency_p99_us = static_cast<std::int32_t>(status.latency.p99_us);
   m.latency_max_us = static_cast<std::int32_t>(status.latency.max_us);
+  fill_belief(status.belief, m);
   fill_health(status.health, m);
   m.messages_not_published = count(failures_);
 

@@ -94,7 +94,7 @@ void Pipeline::publish_fused(const RadarChannel& radar, const EgoMotion& motion)
     return;
   }
   const std::int64_t begin_us = clock_.now_us();
-  if (const auto fused = fused_->update(radar.index, motion)) {
+  if (const auto fused = fused_->update(radar.index, motion, radar.self_check.is_believable())) {
     const auto solve_us = static_cast<std::int32_t>(clock_.now_us() - begin_us);
     for (OdometrySink* sink : sinks_) {
       sink->on_fused(*fused, solve_us);
@@ -115,6 +115,9 @@ void Pipeline::on_time(std::int64_t now_us) {
 void Pipeline::publish_status() {
   for (const auto& radar : radars_) {
     radar->begin_period();
+    if (fused_) {
+      radar->note_agreement(fused_->agreement(radar->index));
+    }
     const RadarStatus& status = radar->status(*time_us_, source_);
     for (OdometrySink* sink : sinks_) {
       sink->on_status(radar->index, status);
@@ -136,6 +139,7 @@ void Pipeline::on_clock_step() {
     radar->assembler.finish();
     publish_motions(*radar, clock_.now_us());
     radar->estimator.forget_reference();
+    radar->self_check.forget();
   }
   if (fused_) {
     fused_->forget();

@@ -26,7 +26,8 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
       interface(interface_index),
       decoder(std::visit(MakeDecoder{}, configuration.decoder)),
       assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6)),
-      estimator(configuration.ego_motion) {}
+      estimator(configuration.ego_motion),
+      self_check(configuration.ego_motion.registration) {}
 
 void RadarChannel::count(const EgoMotion& motion) {
   status_.last_motion_status = motion.status;
@@ -34,6 +35,14 @@ void RadarChannel::count(const EgoMotion& motion) {
   if (motion.has_estimate()) {
     status_.utime_last_estimate_us = motion.utime_us;
   }
+  self_check.add(motion);
+}
+
+void RadarChannel::note_agreement(const RadarAgreement& agreement) {
+  status_.belief.radars_innovation = agreement.innovation.mean();
+  status_.belief.motions_fused = agreement.used;
+  status_.belief.motions_left_out = agreement.left_out;
+  is_contradicted_ = agreement.contradicts;
 }
 
 void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
@@ -56,6 +65,10 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.decoder = decoder->counters();
   status_.assembler = assembler.counters();
   status_.selection = estimator.selection();
+  status_.belief.doppler_innovation = self_check.doppler().mean();
+  status_.belief.next_innovation = self_check.next().mean();
+  status_.belief.doubts =
+      self_check.doubts() | (is_contradicted_ ? std::uint32_t{other_radars_contradict} : 0U);
   return status_;
 }
 

@@ -15,6 +15,8 @@
 #include "daemon/latency_histogram.hpp"
 #include "daemon/radar_status.hpp"
 #include "estimator/ego_motion_estimator.hpp"
+#include "estimator/fused_estimator.hpp"
+#include "estimator/self_check.hpp"
 
 namespace cremed {
 
@@ -27,6 +29,8 @@ struct RadarChannel {
 
   /// Notes an estimate in the status.
   void count(const EgoMotion& motion);
+  /// Notes in the status how it compares with other radars, if there are.
+  void note_agreement(const RadarAgreement& agreement);
   /// Notes how long a scan took from its last frame to the end of its publication, and how much of
   /// that the estimate took.
   void note_duration(std::int64_t latency_us, std::int64_t solve_us);
@@ -40,12 +44,14 @@ struct RadarChannel {
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
+  SelfCheck self_check;
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 
  private:
   LatencyHistogram latency_;  // Since begin_period().
   RadarStatus status_;
+  bool is_contradicted_ = false;
 };
 
 /// Distinct names of the radars' interfaces, in order of first mention.

@@ -21,6 +21,17 @@ struct LatencySummary {
   std::int64_t max_us = 0;
 };
 
+/// Whether a radar's covariance can be believed, by SelfCheck and RadarAgreement. Means of
+/// normalised innovations squared over the last minute: 1 expected, 0 none yet.
+struct BeliefStatus {
+  double doppler_innovation = 0.0;  ///< Positions against Doppler.
+  double next_innovation = 0.0;     ///< Each motion against the one before.
+  double radars_innovation = 0.0;   ///< Against the other radars.
+  std::uint32_t doubts = 0;         ///< Doubt bits; 0: believable, as far as is known.
+  std::uint64_t motions_fused = 0;
+  std::uint64_t motions_left_out = 0;  ///< They contradicted those of other radars.
+};
+
 /// Everything countable about one radar's way through the pipeline.
 struct RadarStatus {
   std::int64_t utime_us = 0;
@@ -30,6 +41,7 @@ struct RadarStatus {
   BusStatus bus;
   RadarHealth health;
   LatencySummary latency;
+  BeliefStatus belief;
   DecoderCounters decoder;
   AssemblerCounters assembler;
   SelectionCounters selection;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "daemon/message_text.hpp"
+#include "estimator/self_check.hpp"
 
 namespace cremed {
 namespace {
@@ -235,6 +236,46 @@ void add_faults(const RadarHealth& health, Findings& findings) {
   }
 }
 
+/// "12.3".
+std::string decimal(double value) {
+  const std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 2);
+}
+
+struct DoubtText {
+  Doubt doubt;
+  double BeliefStatus::*innovation;
+  std::string_view what;
+  std::string_view remedy;
+};
+
+constexpr std::array<DoubtText, 4> kDoubts{{
+    {registration_contradicts_doppler, &BeliefStatus::doppler_innovation,
+     "the positions of its targets contradict their Doppler",
+     "check the mount's yaw and the sign of Doppler and azimuth: `cremed-eval calibrate`"},
+    {motions_contradict_each_other, &BeliefStatus::next_innovation,
+     "its motions jump more than a vehicle can",
+     "check mount and detections; `cremed-eval calibrate` tells its noise"},
+    {other_radars_contradict, &BeliefStatus::radars_innovation,
+     "it contradicts the other radars and is left out of \"fused\"",
+     "check its mount: was it knocked? `cremed-eval calibrate`"},
+    {covariance_too_large, &BeliefStatus::doppler_innovation,
+     "its errors are far smaller than its covariance says",
+     "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
+}};
+
+void add_doubts(const BeliefStatus& belief, Findings& findings) {
+  for (const DoubtText& text : kDoubts) {
+    if ((belief.doubts & text.doubt) != 0) {
+      findings.push_back({Severity::warning,
+                          concat({"its covariance is not to be believed: ", text.what,
+                                  " (normalised innovation squared ",
+                                  decimal(belief.*text.innovation), ", 1 expected)"}),
+                          std::string(text.remedy)});
+    }
+  }
+}
+
 }  // namespace
 
 std::uint64_t estimates(const RadarStatus& status) {
@@ -285,6 +326,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   const Findings health = health_findings(radar, status);
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);
+  add_doubts(status.belief, findings);
   return findings;
 }
 

@@ -105,6 +105,7 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     motion.covariance = result.covariance;
     motion.information = result.information;
     motion.gradient = result.gradient;
+    motion.doppler_innovation = result.doppler_innovation;
     last_velocity_ = result.motion / dt_s;
   }
   return status;

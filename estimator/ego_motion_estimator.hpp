@@ -53,6 +53,7 @@ struct EgoMotion {
   /// Of RegistrationResult, for FusedEstimator.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double doppler_innovation = kNothing;  ///< Of RegistrationResult, for SelfCheck.
 
   static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {

@@ -21,15 +21,11 @@ constexpr double kLeastSlipMps = 1e-3;
 /// Slower than this a car shows no slip.
 constexpr double kLeastRollingMps = 1.0;
 
-/// Motions that a radar's judgement rests on, and its mean innovation that tells it to be wrong: if
-/// all of its error stayed the same for a minute, chance would still exceed 5.4 once in 1000 only.
-constexpr std::uint64_t kEnoughMotions = 100;
+/// A radar's mean innovation that tells it to be wrong: if all of its error stayed the same for a
+/// minute, chance would still exceed 5.4 once in 1000 only.
 constexpr double kContradiction = 5.0;
 /// It is believed again below this.
 constexpr double kAgreement = 3.0;
-/// What one innovation counts for at most: a few wild ones make no contradiction.
-constexpr double kMostInnovation = 25.0;
-
 double seconds(std::int64_t from_us, std::int64_t to_us) {
   // In double, where no stamp overflows; stamps of this age of the world are exact in it.
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
@@ -64,9 +60,10 @@ void FusedEstimator::forget() {
   has_last_ = false;
 }
 
-std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMotion& motion) {
+std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMotion& motion,
+                                                bool is_believed) {
   if (has_end_ && motion.has_estimate()) {
-    note(radar, motion);
+    note(radar, motion, is_believed);
   }
   if (!leads(radar, motion.utime_us)) {
     return std::nullopt;
@@ -104,7 +101,7 @@ bool FusedEstimator::leads(std::size_t radar, std::int64_t utime_us) {
 }
 
 /// Keeps a motion for the next fused one.
-void FusedEstimator::note(std::size_t radar, const EgoMotion& motion) {
+void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_believed) {
   if (count_ == kMaxMotions) {
     std::move(measurements_.begin() + 1, measurements_.end(), measurements_.begin());
     --count_;
@@ -112,6 +109,7 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion) {
   const double dt_s = seconds(motion.utime_start_us, motion.utime_us);
   Measurement& m = measurements_[count_++];
   m.radar = radar;
+  m.is_believed = is_believed;
   m.status = motion.status;
   m.targets = motion.targets;
   m.twist.middle_s = seconds(end_us_, motion.utime_us) - 0.5 * dt_s;
@@ -166,7 +164,7 @@ void FusedEstimator::weigh(double dt_s) {
                                                      options_.yaw_acceleration_std_radps2);
     const auto information = invert_information(m.covariance, 3);
     m.information = information.value_or(Eigen::Matrix3d::Zero());
-    m.is_used = information.has_value() && !agreements_[m.radar].contradicts;
+    m.is_used = information && m.is_believed && !agreements_[m.radar].contradicts;
   }
 }
 
@@ -267,11 +265,9 @@ void FusedEstimator::leave_out_the_wrong(double dt_s, double velocity_mps) {
     const Measurement& m = measurements_[i];
     RadarAgreement& agreement = agreements_[m.radar];
     ++(m.is_used ? agreement.used : agreement.left_out);
-    agreement.innovation.add(last_scan_us_[m.radar],
-                             std::min(innovation(m, all, predicted), kMostInnovation));
-    const double limit = agreement.contradicts ? kAgreement : kContradiction;
+    agreement.innovation.add(last_scan_us_[m.radar], innovation(m, all, predicted));
     agreement.contradicts =
-        agreement.innovation.count() >= kEnoughMotions && agreement.innovation.mean() > limit;
+        agreement.innovation.exceeds(agreement.contradicts ? kAgreement : kContradiction);
   }
 }
 

@@ -69,8 +69,10 @@ class FusedEstimator {
   /// gap are those of the first.
   FusedEstimator(const FusedOptions& options, const EgoMotionOptions& first, std::size_t radars);
 
-  /// Takes a motion of radar number `radar`; a fused one if that was the leading radar's.
-  std::optional<EgoMotion> update(std::size_t radar, const EgoMotion& motion);
+  /// Takes a motion of radar number `radar`; a fused one if that was the leading radar's. One that
+  /// is not believed is compared with the others, but not used.
+  std::optional<EgoMotion> update(std::size_t radar, const EgoMotion& motion,
+                                  bool is_believed = true);
 
   /// The clock of the stamps was set: nothing before counts.
   void forget();
@@ -97,6 +99,7 @@ class FusedEstimator {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     MotionStatus status = MotionStatus::ok;
     int targets = 0;
+    bool is_believed = true;
     bool is_used = true;
   };
   /// Sums of information and information times mean.
@@ -107,7 +110,7 @@ class FusedEstimator {
   };
 
   bool leads(std::size_t radar, std::int64_t utime_us);
-  void note(std::size_t radar, const EgoMotion& motion);
+  void note(std::size_t radar, const EgoMotion& motion, bool is_believed);
   MotionStatus fuse(double dt_s, EgoMotion& fused);
   void weigh(double dt_s);
   [[nodiscard]] Sums prior(double velocity_mps) const;

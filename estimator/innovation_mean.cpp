@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/innovation_mean.hpp"
 
+#include <algorithm>
+
 namespace cremed {
 namespace {
 
@@ -18,7 +20,7 @@ void InnovationMean::add(std::int64_t utime_us, double innovation) {
   pass(utime_us / kUsPerSecond);
   Second& now = seconds_[static_cast<std::uint64_t>(second_) % kSeconds];
   ++now.count;
-  now.sum += innovation;
+  now.sum += std::min(innovation, kMost);
   ++count_;
 }
 

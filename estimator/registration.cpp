@@ -191,6 +191,7 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
   if (observed) {
     result.covariance = *observed;
     keep_equations(equations, result);
+    compare_with_doppler(problem, equations, result);
     add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
@@ -202,6 +203,24 @@ void Registration::keep_equations(const NormalEquations& equations, Registration
   if (const auto complete = invert_information(equations.information, 3)) {
     const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
     result.information = equations.information - likelihood_.missing_information(sigma);
+  }
+}
+
+/// With positions p and Doppler d, at a motion where their gradients g_p and g_d cancel: each by
+/// itself would go H^-1 g away from it, and the covariance of that difference is H_p^-1 + H_d^-1.
+void Registration::compare_with_doppler(const Problem& problem, const NormalEquations& equations,
+                                        RegistrationResult& result) {
+  if (!options_.doppler.enabled) {
+    return;
+  }
+  NormalEquations doppler;
+  shared_doppler_.add(previous_, problem.current, result.motion, problem.dt_s, doppler);
+  const int states = options_.degrees_of_freedom;
+  const auto by_doppler = invert_information(doppler.information, states);
+  const auto by_position = invert_information(equations.information - doppler.information, states);
+  if (by_doppler && by_position) {
+    const Eigen::Vector3d& g = doppler.gradient;
+    result.doppler_innovation = g.dot((*by_doppler + *by_position) * g) / states;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <Eigen/Core>
@@ -40,6 +41,10 @@ struct RegistrationResult {
   /// `motion` is g' d + d' H d / 2. Without the errors that no measurement shows.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  /// Normalised innovation squared, a degree of freedom, of the motion by the positions against
+  /// that by the Doppler alone: 1 on average. NaN if one of them does not fix it, or with
+  /// gauss_newton.
+  double doppler_innovation = std::numeric_limits<double>::quiet_NaN();
   double cost = 0.0;     ///< Negative log likelihood + constant of the covariance model.
   double matched = 0.0;  ///< Expected number of targets found again; 0 with gauss_newton.
   int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
@@ -119,6 +124,8 @@ class Registration {
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
   void keep_equations(const NormalEquations& equations, RegistrationResult& result);
+  void compare_with_doppler(const Problem& problem, const NormalEquations& equations,
+                            RegistrationResult& result);
   void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,
                                      const RegistrationResult& result) const;

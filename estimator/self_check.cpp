@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/self_check.hpp"
+
+#include <cmath>
+
+#include "estimator/normal_equations.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kTooGreat = 3.0;
+/// Where errors are a third of what is said, or less.
+constexpr double kTooSmall = 0.1;
+
+double duration_s(const EgoMotion& motion) {
+  return (static_cast<double>(motion.utime_us) - static_cast<double>(motion.utime_start_us)) * 1e-6;
+}
+
+Eigen::Vector3d squares_of_accelerations(const SharedErrorOptions& errors, double time_s) {
+  const Eigen::Vector3d change(errors.acceleration_std_mps2, errors.acceleration_std_mps2,
+                               errors.yaw_acceleration_std_radps2);
+  return (change * time_s).cwiseAbs2();
+}
+
+}  // namespace
+
+void SelfCheck::add(const EgoMotion& motion) {
+  if (motion.status == MotionStatus::ok) {
+    if (std::isfinite(motion.doppler_innovation)) {
+      doppler_.add(motion.utime_us, motion.doppler_innovation);
+    }
+    compare_with_last(motion);
+  }
+  last_ = motion;
+}
+
+void SelfCheck::forget() { last_ = EgoMotion(); }
+
+void SelfCheck::compare_with_last(const EgoMotion& motion) {
+  if (last_.status != MotionStatus::ok || last_.utime_us != motion.utime_start_us) {
+    return;
+  }
+  const double dt_s = duration_s(motion);
+  const double last_dt_s = duration_s(last_);
+  Eigen::Matrix3d covariance =
+      motion.covariance / (dt_s * dt_s) + last_.covariance / (last_dt_s * last_dt_s);
+  covariance.diagonal() +=
+      squares_of_accelerations(options_.shared_errors, 0.5 * (dt_s + last_dt_s));
+  const auto weight = invert_information(covariance, options_.degrees_of_freedom);
+  if (weight) {
+    const Eigen::Vector3d change = motion.motion / dt_s - last_.motion / last_dt_s;
+    next_.add(motion.utime_us, change.dot(*weight * change) / options_.degrees_of_freedom);
+  }
+}
+
+std::uint32_t SelfCheck::doubts() const {
+  std::uint32_t result = 0;
+  if (doppler_.exceeds(kTooGreat)) {
+    result |= registration_contradicts_doppler;
+  }
+  if (next_.exceeds(kTooGreat)) {
+    result |= motions_contradict_each_other;
+  }
+  if (doppler_.is_enough() && doppler_.mean() < kTooSmall) {
+    result |= covariance_too_large;
+  }
+  return result;
+}
+
+}  // namespace cremed

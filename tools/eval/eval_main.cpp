@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.hpp"
+#include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
 #include "tools/eval/drive_evaluation.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
@@ -189,6 +190,15 @@ CLI::App* add_drive(CLI::App& app, DriveArguments& arguments) {
   return command;
 }
 
+CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Mounts, offsets and noise of the radars from a recorded drive, as TOML");
+  command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
+  command->add_option("--config", arguments.config, "Configuration to start from")->required();
+  command->add_option("--truth", arguments.truth, "CSV, if there is one: utime,x_m,y_m,yaw_rad");
+  return command;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
@@ -196,8 +206,10 @@ int run(int argc, char** argv) {
   TableArguments table;
   PairsArguments pairs;
   DriveArguments drive;
+  cremed::CalibrateArguments calibrate;
   const CLI::App* table_command = add_table(app, table);
   const CLI::App* pairs_command = add_pairs(app, pairs);
+  const CLI::App* calibrate_command = add_calibrate(app, calibrate);
   add_drive(app, drive);
   try {
     app.parse(argc, argv);
@@ -206,6 +218,10 @@ int run(int argc, char** argv) {
   }
   if (table_command->parsed()) {
     cremed::run_table(table.options, table.plot);
+    return 0;
+  }
+  if (calibrate_command->parsed()) {
+    cremed::run_calibrate(calibrate);
     return 0;
   }
   return pairs_command->parsed() ? run_pairs(pairs) : run_drive(drive);

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "tools/eval/matched_targets.hpp"
+#include "tools/eval/recorded_drive.hpp"
+
+namespace cremed {
+namespace {
+
+/// How well a radar is known beforehand. Elevated targets make Doppler too low by some tenths of a
+/// per cent.
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.1, 0.005};
+/// Known no better, the configured value is kept: a tape measure does as well.
+constexpr CalibrationVector kWorstStd = {0.0175, 0.1, 0.1, 0.05, 0.01, 1.0};
+constexpr int kRounds = 4;
+constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
+constexpr double kSlackMps = 0.1;
+constexpr std::size_t kFewestForNoise = 12;  // Targets in a scan.
+
+CalibrationVector configured(const RadarConfiguration& radar) {
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  CalibrationVector state{};
+  state[kYaw] = mount.yaw_rad;
+  state[kX] = mount.x_m;
+  state[kY] = mount.y_m;
+  return state;
+}
+
+std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth) {
+  std::vector<FittedRadar> radars;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    radars.push_back({configured(radar), kPriorStd, configured(radar), {}});
+  }
+  if (!has_truth) {
+    for (const CalibrationState state : {kY, kStamp, kScale}) {
+      radars.front().prior_std[state] = 0.0;
+    }
+  }
+  return radars;
+}
+
+/// One calibration on its way.
+class Calibrator {
+ public:
+  Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
+             const TrueTrajectory* truth);
+
+  void refine();
+  void keep_unobserved();
+  [[nodiscard]] std::vector<RadarCalibration> result() const { return radars_; }
+
+ private:
+  [[nodiscard]] std::vector<VelocityMeasurement> velocities() const;
+  [[nodiscard]] std::optional<DopplerState> state_of(std::size_t radar,
+                                                     const RecordedScan& scan) const;
+  [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
+  [[nodiscard]] Configuration trial() const;
+  [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
+  void measure_noise(std::size_t radar);
+  void measure_matches(std::size_t radar);
+  void measure_doppler(std::size_t radar);
+  void solve();
+
+  const Configuration& configuration_;
+  const std::vector<std::string>& logs_;
+  std::vector<RecordedRadar> recorded_;
+  CalibrationFit fit_;
+  bool is_started_ = false;
+  std::vector<RadarCalibration> radars_;
+};
+
+Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
+                       const TrueTrajectory* truth)
+    : configuration_(configuration),
+      logs_(logs),
+      recorded_(record_drive(configuration, logs)),
+      fit_(start(configuration, truth != nullptr), {}),
+      radars_(configuration.radars.size()) {
+  fit_.set_truth(truth);
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    radars_[i].scans = recorded_[i].scans.size();
+    radars_[i].is_observed.fill(true);
+  }
+  solve();
+  is_started_ = true;
+}
+
+DopplerNoise Calibrator::noise(std::size_t radar) const {
+  return {
+      radars_[radar].doppler.value, radars_[radar].azimuth.value,
+      configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps};
+}
+
+/// At first a scan's own targets have to agree, later all radars know how the vehicle moves.
+std::optional<DopplerState> Calibrator::state_of(std::size_t radar,
+                                                 const RecordedScan& scan) const {
+  return is_started_ ? fit_.expected(radar, scan.stamp_us) : agreed_velocity(scan.targets);
+}
+
+std::vector<VelocityMeasurement> Calibrator::velocities() const {
+  std::vector<VelocityMeasurement> result;
+  for (std::size_t radar = 0; radar < recorded_.size(); ++radar) {
+    for (const RecordedScan& scan : recorded_[radar].scans) {
+      const auto state = state_of(radar, scan);
+      if (!state || state->head<2>().norm() < kSlowestMps) {
+        continue;
+      }
+      const auto targets = static_targets(scan.targets, *state, {}, kSlackMps);
+      result.push_back({radar, scan.stamp_us, doppler_equations(targets, *state, noise(radar))});
+    }
+  }
+  return result;
+}
+
+/// A wrong mount must not turn into yaw: all three degrees of freedom.
+Configuration Calibrator::trial() const {
+  Configuration result = calibrated(configuration_, radars_);
+  for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    result.radars[i].ego_motion.registration.degrees_of_freedom = 3;
+    result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
+  }
+  return result;
+}
+
+std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
+  std::vector<YawRateMeasurement> result;
+  const auto drive = record_drive(trial(), logs_);
+  for (std::size_t radar = 0; radar < drive.size(); ++radar) {
+    std::vector<ScaledError> errors;
+    const std::size_t first = result.size();
+    for (const EgoMotion& motion : drive[radar].motions) {
+      const double dt_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+      const std::int64_t middle_us = motion.utime_start_us + std::llround(dt_s * 0.5e6);
+      const auto expected = fit_.motion(radar, middle_us);
+      if (!expected) {
+        continue;
+      }
+      result.push_back(
+          {radar, middle_us, motion.motion.z() / dt_s, std::sqrt(motion.covariance(2, 2)) / dt_s});
+      errors.push_back({middle_us,
+                        (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
+                        0.0});
+    }
+    // Some radars promise more than they hold.
+    const double factor = std::max(noise_factor(errors).value, 1.0);
+    for (std::size_t i = first; i < result.size(); ++i) {
+      result[i].std_radps *= factor;
+    }
+  }
+  return result;
+}
+
+void Calibrator::solve() {
+  fit_.set_measurements(velocities(),
+                        is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
+  fit_.solve();
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    radars_[i].fit = fit_.radars()[i];
+  }
+}
+
+void Calibrator::refine() {
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    measure_noise(i);
+  }
+  solve();
+}
+
+void Calibrator::measure_noise(std::size_t radar) {
+  measure_matches(radar);
+  measure_doppler(radar);
+}
+
+void Calibrator::measure_matches(std::size_t radar) {
+  MatchErrors errors;
+  const std::vector<RecordedScan>& scans = recorded_[radar].scans;
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const double dt_s = static_cast<double>(scans[i].stamp_us - scans[i - 1].stamp_us) * 1e-6;
+    const std::int64_t middle_us = scans[i - 1].stamp_us + std::llround(dt_s * 0.5e6);
+    const auto state = fit_.expected(radar, middle_us);
+    const auto vehicle = fit_.motion(radar, middle_us);
+    if (!state || dt_s > 0.5) {
+      continue;
+    }
+    const double yaw_rad = vehicle->y() * dt_s;
+    const Eigen::Vector2d way =
+        Eigen::Rotation2Dd(0.5 * yaw_rad) * Eigen::Vector2d(state->head<2>()) * dt_s;
+    add_match_errors(scans[i - 1], scans[i], {way.x(), way.y(), yaw_rad}, errors);
+  }
+  radars_[radar].range = noise_factor(errors.range);
+  radars_[radar].azimuth = noise_factor(errors.azimuth);
+}
+
+/// The Doppler of a scan against the motion that fits this scan best: errors that its targets share
+/// are no noise.
+void Calibrator::measure_doppler(std::size_t radar) {
+  std::vector<ScaledError> errors;
+  DopplerNoise independent = noise(radar);
+  independent.shared_std_mps = 0.0;
+  for (const RecordedScan& scan : recorded_[radar].scans) {
+    const auto expected = fit_.expected(radar, scan.stamp_us);
+    if (!expected || scan.targets.size() < kFewestForNoise) {
+      continue;
+    }
+    const auto targets = static_targets(scan.targets, *expected, {}, kSlackMps);
+    if (targets.size() < kFewestForNoise) {
+      continue;
+    }
+    const DopplerEquations equations = doppler_equations(targets, *expected, independent);
+    const DopplerState state = equations.root.fullPivHouseholderQr().solve(equations.measured);
+    const auto count = static_cast<double>(targets.size());
+    const double lost = std::sqrt(count / (count - 3.0));
+    for (const Target& target : targets) {
+      const double by_azimuth = radars_[radar].azimuth.value *
+                                doppler_std_by_azimuth_mps(target, state) / target.doppler_std_mps;
+      errors.push_back(
+          {scan.stamp_us,
+           lost * (target.doppler_mps - doppler_row(target) * state) / target.doppler_std_mps,
+           by_azimuth * by_azimuth});
+    }
+  }
+  radars_[radar].doppler = noise_factor(errors);
+}
+
+void Calibrator::keep_unobserved() {
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    for (std::size_t state = 0; state < kCalibrationStates; ++state) {
+      const FittedRadar& fit = radars_[i].fit;
+      if (fit.prior_std[state] == 0.0 || fit.std[state] > kWorstStd[state]) {
+        radars_[i].is_observed[state] = false;
+        fit_.hold(i, static_cast<CalibrationState>(state));
+      }
+    }
+  }
+  solve();
+}
+
+}  // namespace
+
+std::vector<RadarCalibration> calibrate(const Configuration& configuration,
+                                        const std::vector<std::string>& logs,
+                                        const TrueTrajectory* truth) {
+  Calibrator calibrator(configuration, logs, truth);
+  for (int round = 0; round < kRounds; ++round) {
+    calibrator.refine();
+  }
+  calibrator.keep_unobserved();
+  return calibrator.result();
+}
+
+Configuration calibrated(const Configuration& configuration,
+                         const std::vector<RadarCalibration>& calibrations) {
+  Configuration result = configuration;
+  for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    RadarConfiguration& radar = result.radars[i];
+    const RadarCalibration& found = calibrations[i];
+    const CalibrationVector& value = found.fit.value;
+    radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
+    radar.stamp_offset_s += value[kStamp];
+    DetectionCorrection& correction = radar.ego_motion.correction;
+    correction.doppler_offset_mps += value[kOffset];
+    correction.range_std_factor *= found.range.value;
+    correction.azimuth_std_factor *= found.azimuth.value;
+    correction.doppler_std_factor *= found.doppler.value;
+  }
+  return result;
+}
+
+}  // namespace cremed

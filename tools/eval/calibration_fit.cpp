@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/calibration_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <ceres/ceres.h>
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kNodeUs = 100'000;
+constexpr double kNodeS = 0.1;
+constexpr std::int64_t kBlockUs = 2'000'000;
+constexpr double kHeldStd = 1e-6;
+constexpr double kTruthSpeedStdMps = 0.04;
+constexpr double kTruthYawRateStdRadps = 0.01;
+constexpr double kHuber = 3.0;
+
+template <typename T>
+T between(const T* before, const T* after, const T& share, int i) {
+  return before[i] + share * (after[i] - before[i]);
+}
+
+/// The radar's (vx, vy, b) for the vehicle's (v, w).
+template <typename T>
+Eigen::Matrix<T, 3, 1> doppler_state(const T& v, const T& w, const T* radar) {
+  using std::cos;
+  using std::sin;
+  const T x = (v - w * radar[kY]) * (1.0 + radar[kScale]);
+  const T y = w * radar[kX] * (1.0 + radar[kScale]);
+  const T c = cos(radar[kYaw]);
+  const T s = sin(radar[kYaw]);
+  return {c * x + s * y, c * y - s * x, radar[kOffset]};
+}
+
+struct VelocityResidual {
+  DopplerEquations equations;
+  double share;  // Of the way from node to node, without stamp offset.
+
+  template <typename T>
+  bool operator()(const T* before, const T* after, const T* radar, T* residual) const {
+    const T at = share + radar[kStamp] / kNodeS;
+    const auto state =
+        doppler_state(between(before, after, at, 0), between(before, after, at, 1), radar);
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> result(residual);
+    result = equations.root.cast<T>() * state - equations.measured.cast<T>();
+    return true;
+  }
+};
+
+struct YawRateResidual {
+  YawRateMeasurement measured;
+  double share;
+
+  template <typename T>
+  bool operator()(const T* before, const T* after, const T* radar, T* residual) const {
+    const T at = share + radar[kStamp] / kNodeS;
+    residual[0] = (between(before, after, at, 1) - measured.yaw_rate_radps) / measured.std_radps;
+    return true;
+  }
+};
+
+/// Two nodes that follow on each other: the vehicle cannot change at will.
+struct ChangeResidual {
+  double v_std;
+  double w_std;
+
+  template <typename T>
+  bool operator()(const T* before, const T* after, T* residual) const {
+    residual[0] = (after[0] - before[0]) / v_std;
+    residual[1] = (after[1] - before[1]) / w_std;
+    return true;
+  }
+};
+
+struct TruthResidual {
+  double v_mps;
+  double w_radps;
+
+  template <typename T>
+  bool operator()(const T* node, T* residual) const {
+    residual[0] = (node[0] - v_mps) / kTruthSpeedStdMps;
+    residual[1] = (node[1] - w_radps) / kTruthYawRateStdRadps;
+    return true;
+  }
+};
+
+struct PriorResidual {
+  CalibrationVector prior;
+  CalibrationVector std;
+
+  template <typename T>
+  bool operator()(const T* radar, T* residual) const {
+    for (std::size_t i = 0; i < kCalibrationStates; ++i) {
+      residual[i] = (radar[i] - prior[i]) / std::max(std[i], kHeldStd);
+    }
+    return true;
+  }
+};
+
+/// Rows that the covariance takes as one: those of one block of time, or a prior.
+struct Group {
+  int rows;
+  std::int64_t block;
+};
+constexpr std::int64_t kNoBlock = -1;
+
+}  // namespace
+
+/// The terms of one solve(). Ceres owns what is added.
+struct CalibrationProblem {
+  CalibrationFit& fit;
+  ceres::Problem problem;
+  std::vector<Group> groups;
+
+  explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_all(); }
+
+  void add_all();
+  void add_velocity(const VelocityMeasurement& measurement);
+  void add_yaw_rate(const YawRateMeasurement& measurement);
+  void add_changes();
+  void add_truth();
+  void add_priors();
+  [[nodiscard]] std::vector<double*> parameters();
+  void set_std();
+
+  void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kBlockUs}); }
+};
+
+void CalibrationProblem::add_all() {
+  for (const VelocityMeasurement& measurement : fit.velocities_) {
+    add_velocity(measurement);
+  }
+  for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
+    add_yaw_rate(measurement);
+  }
+  add_changes();
+  if (fit.truth_ != nullptr) {
+    add_truth();
+  }
+  add_priors();
+}
+
+void CalibrationProblem::add_velocity(const VelocityMeasurement& measurement) {
+  const auto at = fit.place(measurement.radar, measurement.stamp_us);
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<VelocityResidual, 3, 2, 2, kCalibrationStates>(
+          new VelocityResidual{measurement.equations, at.share_without_offset}),
+      new ceres::HuberLoss(kHuber), fit.nodes_[at.node].data(), fit.nodes_[at.node + 1].data(),
+      fit.radars_[measurement.radar].value.data());
+  note(3, measurement.stamp_us);
+}
+
+void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
+  const auto at = fit.place(measurement.radar, measurement.stamp_us);
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<YawRateResidual, 1, 2, 2, kCalibrationStates>(
+          new YawRateResidual{measurement, at.share_without_offset}),
+      new ceres::HuberLoss(1.0), fit.nodes_[at.node].data(), fit.nodes_[at.node + 1].data(),
+      fit.radars_[measurement.radar].value.data());
+  note(1, measurement.stamp_us);
+}
+
+void CalibrationProblem::add_changes() {
+  for (auto& [number, node] : fit.nodes_) {
+    if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<ChangeResidual, 2, 2, 2>(
+              new ChangeResidual{fit.prior_.acceleration_std_mps2 * kNodeS,
+                                 fit.prior_.yaw_acceleration_std_radps2 * kNodeS}),
+          nullptr, node.data(), next->second.data());
+      note(2, number * kNodeUs);
+    }
+  }
+}
+
+void CalibrationProblem::add_truth() {
+  for (auto& [number, node] : fit.nodes_) {
+    const std::int64_t stamp_us = number * kNodeUs;
+    if (const auto motion = fit.truth_->motion(stamp_us - kNodeUs, stamp_us + kNodeUs)) {
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<TruthResidual, 2, 2>(
+              new TruthResidual{motion->x() / (2 * kNodeS), motion->z() / (2 * kNodeS)}),
+          nullptr, node.data());
+      note(2, stamp_us);
+    }
+  }
+}
+
+void CalibrationProblem::add_priors() {
+  for (FittedRadar& radar : fit.radars_) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<PriorResidual, kCalibrationStates, kCalibrationStates>(
+            new PriorResidual{radar.prior, radar.prior_std}),
+        nullptr, radar.value.data());
+    groups.push_back({kCalibrationStates, kNoBlock});
+  }
+}
+
+/// Nodes first, radars last.
+std::vector<double*> CalibrationProblem::parameters() {
+  std::vector<double*> blocks;
+  for (auto& [number, node] : fit.nodes_) {
+    blocks.push_back(node.data());
+  }
+  for (FittedRadar& radar : fit.radars_) {
+    blocks.push_back(radar.value.data());
+  }
+  return blocks;
+}
+
+namespace {
+
+/// J' r of each block of time.
+Eigen::MatrixXd block_gradients(const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian,
+                                const std::vector<double>& residuals,
+                                const std::vector<Group>& groups) {
+  std::map<std::int64_t, Eigen::VectorXd> sums;
+  Eigen::Index row = 0;
+  for (const Group& group : groups) {
+    auto& sum = sums.try_emplace(group.block, Eigen::VectorXd::Zero(jacobian.cols())).first->second;
+    for (int i = 0; i < group.rows; ++i, ++row) {
+      sum += jacobian.row(row).transpose() * residuals[static_cast<std::size_t>(row)];
+    }
+  }
+  sums.erase(kNoBlock);
+  Eigen::MatrixXd gradients(jacobian.cols(), static_cast<Eigen::Index>(sums.size()));
+  Eigen::Index column = 0;
+  for (const auto& [block, sum] : sums) {
+    gradients.col(column++) = sum;
+  }
+  return gradients;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> to_eigen(ceres::CRSMatrix& matrix) {
+  return Eigen::Map<Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+      matrix.num_rows, matrix.num_cols, static_cast<Eigen::Index>(matrix.values.size()),
+      matrix.rows.data(), matrix.cols.data(), matrix.values.data());
+}
+
+}  // namespace
+
+void CalibrationProblem::set_std() {
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = parameters();
+  problem.GetResidualBlocks(&options.residual_blocks);
+  std::vector<double> residuals;
+  ceres::CRSMatrix crs;
+  problem.Evaluate(options, nullptr, &residuals, nullptr, &crs);
+  const auto jacobian = to_eigen(crs);
+
+  const Eigen::Index all = jacobian.cols();
+  const auto wanted = static_cast<Eigen::Index>(fit.radars_.size() * kCalibrationStates);
+  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(information);
+  Eigen::MatrixXd units = Eigen::MatrixXd::Zero(all, wanted);
+  units.bottomRows(wanted).setIdentity();
+  const Eigen::MatrixXd columns = factors.solve(units);
+  const Eigen::MatrixXd shifts = columns.transpose() * block_gradients(jacobian, residuals, groups);
+  const auto blocks = static_cast<double>(shifts.cols());
+  for (Eigen::Index i = 0; i < wanted; ++i) {
+    const double model = columns(all - wanted + i, i);
+    const double between_blocks =
+        shifts.row(i).squaredNorm() * blocks / std::max(blocks - 1.0, 1.0);
+    const auto at = static_cast<std::size_t>(i);
+    fit.radars_[at / kCalibrationStates].std[at % kCalibrationStates] =
+        std::sqrt(std::max(model, between_blocks));
+  }
+}
+
+CalibrationFit::CalibrationFit(std::vector<FittedRadar> radars, const MotionPrior& prior)
+    : radars_(std::move(radars)), prior_(prior) {}
+
+void CalibrationFit::set_measurements(std::vector<VelocityMeasurement> velocities,
+                                      std::vector<YawRateMeasurement> yaw_rates) {
+  velocities_ = std::move(velocities);
+  yaw_rates_ = std::move(yaw_rates);
+}
+
+CalibrationFit::Place CalibrationFit::place(std::size_t radar, std::int64_t stamp_us) const {
+  const auto shift_us = std::llround(radars_[radar].value[kStamp] * 1e6);
+  const std::int64_t node = (stamp_us + shift_us) / kNodeUs;
+  return {node, static_cast<double>(stamp_us - node * kNodeUs) / kNodeUs};
+}
+
+void CalibrationFit::solve() {
+  CalibrationProblem problem(*this);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 50;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem.problem, &summary);
+  if (!summary.IsSolutionUsable()) {
+    throw std::runtime_error("the calibration has no solution: " + summary.message);
+  }
+  problem.set_std();
+}
+
+std::optional<Eigen::Vector2d> CalibrationFit::motion(std::size_t radar,
+                                                      std::int64_t stamp_us) const {
+  const Place at = place(radar, stamp_us);
+  const auto before = nodes_.find(at.node);
+  const auto after = nodes_.find(at.node + 1);
+  if (before == nodes_.end() || after == nodes_.end()) {
+    return std::nullopt;
+  }
+  const double share = at.share_without_offset + radars_[radar].value[kStamp] / kNodeS;
+  const Eigen::Vector2d a(before->second.data());
+  const Eigen::Vector2d b(after->second.data());
+  return a + share * (b - a);
+}
+
+std::optional<DopplerState> CalibrationFit::expected(std::size_t radar,
+                                                     std::int64_t stamp_us) const {
+  const auto vehicle = motion(radar, stamp_us);
+  if (!vehicle) {
+    return std::nullopt;
+  }
+  return doppler_state(vehicle->x(), vehicle->y(), radars_[radar].value.data());
+}
+
+}  // namespace cremed

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "estimator/pose2.hpp"
+#include "tools/eval/noise_factor.hpp"
+#include "tools/eval/recorded_drive.hpp"
+
+namespace cremed {
+
+/// Errors of targets that were found in two scans, in reported standard deviations of both.
+struct MatchErrors {
+  std::vector<ScaledError> range;
+  std::vector<ScaledError> azimuth;
+};
+
+/// Adds the errors of pairs that have no other candidate within the gate. `motion` is the pose of
+/// the radar at the current scan in its frame at the previous one.
+void add_match_errors(const RecordedScan& previous, const RecordedScan& current,
+                      const Pose2& motion, MatchErrors& errors);
+
+}  // namespace cremed

@@ -16,11 +16,10 @@
 namespace cremed {
 namespace {
 
-/// How well a radar is known beforehand. Elevated targets make Doppler too low by some tenths of a
-/// per cent.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.1, 0.005};
+/// How well a radar is known beforehand.
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.05, 0.03, 0.005, 0.01};
 /// Known no better, the configured value is kept: a tape measure does as well.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.1, 0.1, 0.05, 0.01, 1.0};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.1, 0.1, 0.025, 0.01, 1.0, 1.0};
 constexpr int kRounds = 4;
 constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
@@ -218,14 +217,14 @@ void Calibrator::measure_doppler(std::size_t radar) {
     const DopplerEquations equations = doppler_equations(targets, *expected, independent);
     const DopplerState state = equations.root.fullPivHouseholderQr().solve(equations.measured);
     const auto count = static_cast<double>(targets.size());
-    const double lost = std::sqrt(count / (count - 3.0));
+    const double lost = std::sqrt(count / (count - 4.0));
     for (const Target& target : targets) {
       const double by_azimuth = radars_[radar].azimuth.value *
                                 doppler_std_by_azimuth_mps(target, state) / target.doppler_std_mps;
-      errors.push_back(
-          {scan.stamp_us,
-           lost * (target.doppler_mps - doppler_row(target) * state) / target.doppler_std_mps,
-           by_azimuth * by_azimuth});
+      errors.push_back({scan.stamp_us,
+                        lost * (target.doppler_mps - doppler_row(target, state) * state) /
+                            target.doppler_std_mps,
+                        by_azimuth * by_azimuth});
     }
   }
   radars_[radar].doppler = noise_factor(errors);

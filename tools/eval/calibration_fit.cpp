@@ -27,16 +27,16 @@ T between(const T* before, const T* after, const T& share, int i) {
   return before[i] + share * (after[i] - before[i]);
 }
 
-/// The radar's (vx, vy, b) for the vehicle's (v, w).
+/// The radar's for the vehicle's (v, w).
 template <typename T>
-Eigen::Matrix<T, 3, 1> doppler_state(const T& v, const T& w, const T* radar) {
+Eigen::Matrix<T, 4, 1> doppler_state(const T& v, const T& w, const T* radar) {
   using std::cos;
   using std::sin;
   const T x = (v - w * radar[kY]) * (1.0 + radar[kScale]);
   const T y = w * radar[kX] * (1.0 + radar[kScale]);
   const T c = cos(radar[kYaw]);
   const T s = sin(radar[kYaw]);
-  return {c * x + s * y, c * y - s * x, radar[kOffset]};
+  return {c * x + s * y, c * y - s * x, radar[kOffset], radar[kAzimuth]};
 }
 
 struct VelocityResidual {
@@ -48,7 +48,7 @@ struct VelocityResidual {
     const T at = share + radar[kStamp] / kNodeS;
     const auto state =
         doppler_state(between(before, after, at, 0), between(before, after, at, 1), radar);
-    Eigen::Map<Eigen::Matrix<T, 3, 1>> result(residual);
+    Eigen::Map<Eigen::Matrix<T, 4, 1>> result(residual);
     result = equations.root.cast<T>() * state - equations.measured.cast<T>();
     return true;
   }
@@ -150,11 +150,11 @@ void CalibrationProblem::add_all() {
 void CalibrationProblem::add_velocity(const VelocityMeasurement& measurement) {
   const auto at = fit.place(measurement.radar, measurement.stamp_us);
   problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<VelocityResidual, 3, 2, 2, kCalibrationStates>(
+      new ceres::AutoDiffCostFunction<VelocityResidual, 4, 2, 2, kCalibrationStates>(
           new VelocityResidual{measurement.equations, at.share_without_offset}),
       new ceres::HuberLoss(kHuber), fit.nodes_[at.node].data(), fit.nodes_[at.node + 1].data(),
       fit.radars_[measurement.radar].value.data());
-  note(3, measurement.stamp_us);
+  note(4, measurement.stamp_us);
 }
 
 void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
@@ -175,7 +175,7 @@ void CalibrationProblem::add_changes() {
               new ChangeResidual{fit.prior_.acceleration_std_mps2 * kNodeS,
                                  fit.prior_.yaw_acceleration_std_radps2 * kNodeS}),
           nullptr, node.data(), next->second.data());
-      note(2, number * kNodeUs);
+      groups.push_back({2, kNoBlock});
     }
   }
 }
@@ -217,25 +217,45 @@ std::vector<double*> CalibrationProblem::parameters() {
 
 namespace {
 
-/// J' r of each block of time.
-Eigen::MatrixXd block_gradients(const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian,
-                                const std::vector<double>& residuals,
-                                const std::vector<Group>& groups) {
-  std::map<std::int64_t, Eigen::VectorXd> sums;
-  Eigen::Index row = 0;
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+/// Rows of each block of time: the Jacobian with all others zero.
+std::map<std::int64_t, RowMatrix> blocks_of(const RowMatrix& jacobian,
+                                            const std::vector<Group>& groups) {
+  std::map<std::int64_t, std::vector<Eigen::Triplet<double>>> entries;
+  int row = 0;
   for (const Group& group : groups) {
-    auto& sum = sums.try_emplace(group.block, Eigen::VectorXd::Zero(jacobian.cols())).first->second;
     for (int i = 0; i < group.rows; ++i, ++row) {
-      sum += jacobian.row(row).transpose() * residuals[static_cast<std::size_t>(row)];
+      for (RowMatrix::InnerIterator at(jacobian, row); group.block != kNoBlock && at; ++at) {
+        entries[group.block].emplace_back(row, static_cast<int>(at.col()), at.value());
+      }
     }
   }
-  sums.erase(kNoBlock);
-  Eigen::MatrixXd gradients(jacobian.cols(), static_cast<Eigen::Index>(sums.size()));
-  Eigen::Index column = 0;
-  for (const auto& [block, sum] : sums) {
-    gradients.col(column++) = sum;
+  std::map<std::int64_t, RowMatrix> blocks;
+  for (const auto& [block, triplets] : entries) {
+    RowMatrix& rows = blocks.try_emplace(block, jacobian.rows(), jacobian.cols()).first->second;
+    rows.setFromTriplets(triplets.begin(), triplets.end());
   }
-  return gradients;
+  return blocks;
+}
+
+/// Variances of the last `wanted` unknowns by leaving out one block after the other; each new
+/// solution is one Gauss-Newton step away.
+Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& residuals,
+                          const std::vector<Group>& groups, Eigen::Index wanted) {
+  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
+  const auto blocks = blocks_of(jacobian, groups);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(wanted);
+  for (const auto& [block, rows] : blocks) {
+    const Eigen::SparseMatrix<double> own = rows.transpose() * rows;
+    const Factors rest(information - own);
+    const Eigen::VectorXd gradient = rows.transpose() * residuals;
+    const Eigen::VectorXd step = rest.solve(gradient);
+    squares += step.tail(wanted).cwiseAbs2();
+  }
+  const auto count = static_cast<double>(blocks.size());
+  return squares * ((count - 1.0) / count);
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> to_eigen(ceres::CRSMatrix& matrix) {
@@ -257,20 +277,17 @@ void CalibrationProblem::set_std() {
 
   const Eigen::Index all = jacobian.cols();
   const auto wanted = static_cast<Eigen::Index>(fit.radars_.size() * kCalibrationStates);
-  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(information);
+  const Factors factors(Eigen::SparseMatrix<double>(jacobian.transpose() * jacobian));
   Eigen::MatrixXd units = Eigen::MatrixXd::Zero(all, wanted);
   units.bottomRows(wanted).setIdentity();
   const Eigen::MatrixXd columns = factors.solve(units);
-  const Eigen::MatrixXd shifts = columns.transpose() * block_gradients(jacobian, residuals, groups);
-  const auto blocks = static_cast<double>(shifts.cols());
+  const Eigen::VectorXd by_model = columns.bottomRows(wanted).diagonal();
+  const Eigen::VectorXd by_blocks = jackknife(
+      jacobian, Eigen::Map<Eigen::VectorXd>(residuals.data(), jacobian.rows()), groups, wanted);
   for (Eigen::Index i = 0; i < wanted; ++i) {
-    const double model = columns(all - wanted + i, i);
-    const double between_blocks =
-        shifts.row(i).squaredNorm() * blocks / std::max(blocks - 1.0, 1.0);
     const auto at = static_cast<std::size_t>(i);
     fit.radars_[at / kCalibrationStates].std[at % kCalibrationStates] =
-        std::sqrt(std::max(model, between_blocks));
+        std::sqrt(std::max(by_model[i], by_blocks[i]));
   }
 }
 

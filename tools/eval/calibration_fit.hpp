@@ -17,14 +17,15 @@ namespace cremed {
 
 /// What is estimated of a radar, in this order.
 enum CalibrationState : std::size_t {
-  kYaw,     ///< Of the mount, rad.
-  kX,       ///< Of the mount, m.
-  kY,       ///< Of the mount, m.
-  kOffset,  ///< Of all Doppler, m/s.
-  kStamp,   ///< To add to the radar's stamps, s.
-  kScale,   ///< Doppler over true Doppler - 1; a nuisance, which is not told.
+  kYaw,      ///< Of the mount, rad.
+  kX,        ///< Of the mount, m.
+  kY,        ///< Of the mount, m.
+  kOffset,   ///< Of all Doppler, m/s.
+  kStamp,    ///< To add to the radar's stamps, s.
+  kScale,    ///< Doppler over true Doppler - 1; a nuisance, which is not told.
+  kAzimuth,  ///< Azimuth over true azimuth - 1; the same.
 };
-inline constexpr std::size_t kCalibrationStates = 6;
+inline constexpr std::size_t kCalibrationStates = 7;
 using CalibrationVector = std::array<double, kCalibrationStates>;
 
 /// A radar before and after the fit.
@@ -65,9 +66,9 @@ struct MotionPrior {
 /// at the times of its scans, shifted by its stamp offset. Registrations measure w. The motion is
 /// unknown: Doppler of several radars, or truth, fixes it.
 ///
-/// Standard deviations are the larger of two: that of the least squares, and that of what blocks of
-/// 2 s contribute to the result (errors last for some tenths of a second, which the former does not
-/// know).
+/// Standard deviations are the larger of two: that of the least squares, and that by leaving out
+/// one block of 2 s after the other (jackknife): errors last for some tenths of a second, which the
+/// former does not know.
 class CalibrationFit {
  public:
   CalibrationFit(std::vector<FittedRadar> radars, const MotionPrior& prior);

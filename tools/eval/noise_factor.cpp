@@ -14,6 +14,7 @@ constexpr std::int64_t kBlockUs = 2'000'000;
 constexpr std::size_t kFewestErrors = 30;
 constexpr int kSteps = 50;
 constexpr double kLeastVariance = 1e-4;
+constexpr double kLeastFactor = 0.1;
 
 /// Expectation maximisation; each step raises the likelihood.
 double most_likely_factor(const std::vector<ScaledError>& errors) {
@@ -49,6 +50,9 @@ NoiseFactor noise_factor(const std::vector<ScaledError>& errors) {
     blocks[error.stamp_us / kBlockUs].push_back(error);
   }
   const double value = most_likely_factor(errors);
+  if (value < kLeastFactor) {
+    return {};  // Other errors explain all there is.
+  }
   double squares = 0.0;
   double weights = 0.0;
   for (const auto& [number, block] : blocks) {

@@ -23,7 +23,7 @@ double std_mps(const Target& target, const DopplerState& state, const DopplerNoi
 }
 
 double residual_mps(const Target& target, const DopplerState& state) {
-  return target.doppler_mps - doppler_row(target) * state;
+  return target.doppler_mps - doppler_row(target, state) * state;
 }
 
 /// The velocity that two targets fix.
@@ -34,7 +34,7 @@ std::optional<DopplerState> velocity_of(const Target& a, const Target& b) {
   }
   return DopplerState{(a.sin_bearing * b.doppler_mps - b.sin_bearing * a.doppler_mps) / determinant,
                       (b.cos_bearing * a.doppler_mps - a.cos_bearing * b.doppler_mps) / determinant,
-                      0.0};
+                      0.0, 0.0};
 }
 
 double disagreement(std::span<const Target> targets, const DopplerState& state) {
@@ -47,8 +47,9 @@ double disagreement(std::span<const Target> targets, const DopplerState& state) 
 
 }  // namespace
 
-Eigen::RowVector3d doppler_row(const Target& target) {
-  return {-target.cos_bearing, -target.sin_bearing, 1.0};
+Eigen::RowVector4d doppler_row(const Target& target, const DopplerState& near) {
+  const double turned = near.x() * target.sin_bearing - near.y() * target.cos_bearing;
+  return {-target.cos_bearing, -target.sin_bearing, 1.0, -turned * target.bearing_rad};
 }
 
 double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& state) {
@@ -89,26 +90,26 @@ std::vector<Target> static_targets(std::span<const Target> targets, const Dopple
 
 DopplerEquations doppler_equations(std::span<const Target> targets, const DopplerState& near,
                                    const DopplerNoise& noise) {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (const Target& target : targets) {
     const double std = std_mps(target, near, noise);
-    const Eigen::RowVector3d row = doppler_row(target) / std;
+    const Eigen::RowVector4d row = doppler_row(target, near) / std;
     information += row.transpose() * row;
     right += row.transpose() * (target.doppler_mps / std);
   }
   // The shared error is an unknown along the offset, with a prior of its own, eliminated.
   const double shared = noise.shared_std_mps * noise.shared_std_mps;
-  const Eigen::Vector3d along = information.col(2);
+  const Eigen::Vector4d along = information.col(2);
   const double gain = shared / (1.0 + shared * along.z());
   const double sum = right.z();
   information -= gain * along * along.transpose();
   right -= gain * along * sum;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
-  const Eigen::Vector3d root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(information);
+  const Eigen::Vector4d root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   DopplerEquations equations;
-  for (int i = 0; i < 3; ++i) {
-    if (root[i] > 1e-6 * root[2]) {  // Less is rounding: few targets leave directions open.
+  for (int i = 0; i < 4; ++i) {
+    if (root[i] > 1e-6 * root[3]) {  // Less is rounding: few targets leave directions open.
       equations.root.row(i) = root[i] * eigen.eigenvectors().col(i).transpose();
       equations.measured[i] = eigen.eigenvectors().col(i).dot(right) / root[i];
     }

@@ -13,9 +13,13 @@
 
 namespace cremed {
 
-/// Velocity of a radar in its own frame and the offset of its Doppler, (vx, vy, b) in m/s: a target
-/// that stands has the Doppler -(vx cos azimuth + vy sin azimuth) + b.
-using DopplerState = Eigen::Vector3d;
+/// Velocity of a radar in its own frame, the offset of its Doppler and the relative error of its
+/// azimuths, (vx, vy, b, e) in m/s and 1: a target that stands has the Doppler
+///
+///     -(vx cos((1 - e) azimuth) + vy sin((1 - e) azimuth)) + b
+///
+/// Without e, azimuths that are wrong by a per cent would look like an offset of Doppler.
+using DopplerState = Eigen::Vector4d;
 
 /// How well the Doppler of one radar is known.
 struct DopplerNoise {
@@ -24,8 +28,8 @@ struct DopplerNoise {
   double shared_std_mps = 0.0;  ///< Of an error that all targets of a scan share.
 };
 
-/// The line of sight's part in a target's Doppler: what is multiplied with the state.
-Eigen::RowVector3d doppler_row(const Target& target);
+/// A target's Doppler over the state; with small e, the Doppler is this times the state.
+Eigen::RowVector4d doppler_row(const Target& target, const DopplerState& near);
 
 /// Standard deviation of a target's Doppler through its azimuth, as reported.
 double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& state);
@@ -41,8 +45,8 @@ std::vector<Target> static_targets(std::span<const Target> targets, const Dopple
 /// What a scan says about the state, however few its targets: root * state = measured, with errors
 /// of standard deviation 1.
 struct DopplerEquations {
-  Eigen::Matrix3d root = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d measured = Eigen::Vector3d::Zero();
+  Eigen::Matrix4d root = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d measured = Eigen::Vector4d::Zero();
 };
 
 /// Of targets that stand; `near` is a state good enough to weight them by.

@@ -17,12 +17,13 @@ namespace cremed {
 namespace {
 
 /// How well a radar is known beforehand.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.05, 0.03, 0.005, 0.01};
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.05, 0.03, 0.005, 0.01, 0.03};
 /// Known no better, the configured value is kept: a tape measure does as well.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.1, 0.1, 0.025, 0.01, 1.0, 1.0};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.025, 0.005, 1.0, 1.0, 1.0};
 constexpr int kRounds = 4;
 constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
+constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
 constexpr std::size_t kFewestForNoise = 12;  // Targets in a scan.
 
 CalibrationVector configured(const RadarConfiguration& radar) {
@@ -74,6 +75,7 @@ class Calibrator {
   std::vector<RecordedRadar> recorded_;
   CalibrationFit fit_;
   bool is_started_ = false;
+  int round_ = 0;
   std::vector<RadarCalibration> radars_;
 };
 
@@ -120,11 +122,14 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
   return result;
 }
 
-/// A wrong mount must not turn into yaw: all three degrees of freedom.
+/// A wrong mount would turn into yaw. So sideways motion is free until the mounts are about right;
+/// then it would only cost yaw its precision.
 Configuration Calibrator::trial() const {
   Configuration result = calibrated(configuration_, radars_);
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
-    result.radars[i].ego_motion.registration.degrees_of_freedom = 3;
+    if (round_ == 0) {
+      result.radars[i].ego_motion.registration.degrees_of_freedom = 3;
+    }
     result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
   }
   return result;
@@ -144,7 +149,7 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
         continue;
       }
       result.push_back(
-          {radar, middle_us, motion.motion.z() / dt_s, std::sqrt(motion.covariance(2, 2)) / dt_s});
+          {radar, middle_us, motion.motion.z() / dt_s, std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
       errors.push_back({middle_us,
                         (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
                         0.0});
@@ -172,6 +177,7 @@ void Calibrator::refine() {
     measure_noise(i);
   }
   solve();
+  ++round_;
 }
 
 void Calibrator::measure_noise(std::size_t radar) {
@@ -205,12 +211,13 @@ void Calibrator::measure_doppler(std::size_t radar) {
   std::vector<ScaledError> errors;
   DopplerNoise independent = noise(radar);
   independent.shared_std_mps = 0.0;
+  const double gate = kErrorGate / kGateSigma;
   for (const RecordedScan& scan : recorded_[radar].scans) {
     const auto expected = fit_.expected(radar, scan.stamp_us);
-    if (!expected || scan.targets.size() < kFewestForNoise) {
+    if (!expected) {
       continue;
     }
-    const auto targets = static_targets(scan.targets, *expected, {}, kSlackMps);
+    const auto targets = static_targets(scan.targets, *expected, {gate, gate, 0.0}, kSlackMps);
     if (targets.size() < kFewestForNoise) {
       continue;
     }

@@ -20,6 +20,8 @@ constexpr std::int64_t kBlockUs = 2'000'000;
 constexpr double kHeldStd = 1e-6;
 constexpr double kTruthSpeedStdMps = 0.04;
 constexpr double kTruthYawRateStdRadps = 0.01;
+constexpr double kAnySpeedMps = 100.0;
+constexpr double kAnyYawRateRadps = 10.0;
 constexpr double kHuber = 3.0;
 
 template <typename T>
@@ -61,7 +63,8 @@ struct YawRateResidual {
   template <typename T>
   bool operator()(const T* before, const T* after, const T* radar, T* residual) const {
     const T at = share + radar[kStamp] / kNodeS;
-    residual[0] = (between(before, after, at, 1) - measured.yaw_rate_radps) / measured.std_radps;
+    const T turn = (1.0 + radar[kTurn]) * between(before, after, at, 1);
+    residual[0] = (turn - measured.yaw_rate_radps) / measured.std_radps;
     return true;
   }
 };
@@ -79,14 +82,17 @@ struct ChangeResidual {
   }
 };
 
-struct TruthResidual {
+/// What is known of a node by itself.
+struct NodeResidual {
   double v_mps;
   double w_radps;
+  double v_std;
+  double w_std;
 
   template <typename T>
   bool operator()(const T* node, T* residual) const {
-    residual[0] = (node[0] - v_mps) / kTruthSpeedStdMps;
-    residual[1] = (node[1] - w_radps) / kTruthYawRateStdRadps;
+    residual[0] = (node[0] - v_mps) / v_std;
+    residual[1] = (node[1] - w_radps) / w_std;
     return true;
   }
 };
@@ -167,8 +173,13 @@ void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
   note(1, measurement.stamp_us);
 }
 
+/// Next to nothing is known of nodes without a measurement, when the vehicle stands.
 void CalibrationProblem::add_changes() {
   for (auto& [number, node] : fit.nodes_) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<NodeResidual, 2, 2>(
+                                 new NodeResidual{0.0, 0.0, kAnySpeedMps, kAnyYawRateRadps}),
+                             nullptr, node.data());
+    groups.push_back({2, kNoBlock});
     if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
       problem.AddResidualBlock(
           new ceres::AutoDiffCostFunction<ChangeResidual, 2, 2, 2>(
@@ -185,8 +196,9 @@ void CalibrationProblem::add_truth() {
     const std::int64_t stamp_us = number * kNodeUs;
     if (const auto motion = fit.truth_->motion(stamp_us - kNodeUs, stamp_us + kNodeUs)) {
       problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<TruthResidual, 2, 2>(
-              new TruthResidual{motion->x() / (2 * kNodeS), motion->z() / (2 * kNodeS)}),
+          new ceres::AutoDiffCostFunction<NodeResidual, 2, 2>(
+              new NodeResidual{motion->x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
+                               kTruthSpeedStdMps, kTruthYawRateStdRadps}),
           nullptr, node.data());
       note(2, stamp_us);
     }

@@ -24,8 +24,9 @@ enum CalibrationState : std::size_t {
   kStamp,    ///< To add to the radar's stamps, s.
   kScale,    ///< Doppler over true Doppler - 1; a nuisance, which is not told.
   kAzimuth,  ///< Azimuth over true azimuth - 1; the same.
+  kTurn,     ///< Yaw rate of its registrations over the true one - 1; the same.
 };
-inline constexpr std::size_t kCalibrationStates = 7;
+inline constexpr std::size_t kCalibrationStates = 8;
 using CalibrationVector = std::array<double, kCalibrationStates>;
 
 /// A radar before and after the fit.

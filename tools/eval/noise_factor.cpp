@@ -11,7 +11,8 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kBlockUs = 2'000'000;
-constexpr std::size_t kFewestErrors = 30;
+constexpr std::size_t kFewestErrors = 200;
+constexpr std::size_t kFewestInBlock = 20;
 constexpr int kSteps = 50;
 constexpr double kLeastVariance = 1e-4;
 constexpr double kLeastFactor = 0.1;
@@ -56,7 +57,7 @@ NoiseFactor noise_factor(const std::vector<ScaledError>& errors) {
   double squares = 0.0;
   double weights = 0.0;
   for (const auto& [number, block] : blocks) {
-    if (block.size() >= kFewestErrors) {
+    if (block.size() >= kFewestInBlock) {
       const auto weight = static_cast<double>(block.size());
       const double difference = most_likely_factor(block) - value;
       squares += weight * weight * difference * difference;

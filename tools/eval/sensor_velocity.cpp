@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t kFewestTargets = 6;
 constexpr int kTrials = 60;
 constexpr double kNarrowestRad = 0.1;  // Between two targets that shall tell a velocity.
-constexpr double kGateSigma = 3.0;
 constexpr double kFastestMps = 100.0;
 
 double std_mps(const Target& target, const DopplerState& state, const DopplerNoise& noise) {

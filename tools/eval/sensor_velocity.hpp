@@ -38,7 +38,10 @@ double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& stat
 /// in too narrow a sector, to tell. The same targets give the same answer.
 std::optional<DopplerState> agreed_velocity(std::span<const Target> targets);
 
-/// Targets whose Doppler is within three standard deviations and `slack_mps` of what is expected.
+inline constexpr double kGateSigma = 3.0;
+
+/// Targets whose Doppler is within kGateSigma standard deviations and `slack_mps` of what is
+/// expected.
 std::vector<Target> static_targets(std::span<const Target> targets, const DopplerState& expected,
                                    const DopplerNoise& noise, double slack_mps);
 

@@ -17,14 +17,17 @@ namespace cremed {
 namespace {
 
 /// How well a radar is known beforehand.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.05, 0.03, 0.005, 0.01, 0.03};
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.3, 0.03, 0.005, 0.01, 0.03};
 /// Known no better, the configured value is kept: a tape measure does as well.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.025, 0.005, 1.0, 1.0, 1.0};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.15, 0.005, 0.0, 0.0, 0.0};
+/// Errors that depend on azimuth look like an offset: estimates of real radars scatter by it.
+constexpr double kLeastOffsetStdMps = 0.1;
+constexpr double kSignificant = 3.0;  // Standard deviations.
 constexpr int kRounds = 4;
 constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
 constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
-constexpr std::size_t kFewestForNoise = 12;  // Targets in a scan.
+constexpr std::size_t kFewestForNoise = 12;      // Targets in a scan.
 
 CalibrationVector configured(const RadarConfiguration& radar) {
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
@@ -48,6 +51,19 @@ std::vector<FittedRadar> start(const Configuration& configuration, bool has_trut
   return radars;
 }
 
+/// The estimator takes sideways motion for none, so a mount's yaw is never known too well.
+bool is_better(const FittedRadar& radar, CalibrationState state) {
+  const double change = std::abs(radar.value[state] - radar.prior[state]);
+  return radar.prior_std[state] > 0.0 && radar.std[state] <= kWorstStd[state] &&
+         (state == kYaw || change > kSignificant * radar.std[state]);
+}
+
+/// What scatters less than it says is left alone: a few large errors count more than many small
+/// ones, and estimates would promise too much.
+double above_one(const NoiseFactor& factor) {
+  return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
+}
+
 /// One calibration on its way.
 class Calibrator {
  public:
@@ -55,7 +71,7 @@ class Calibrator {
              const TrueTrajectory* truth);
 
   void refine();
-  void keep_unobserved();
+  void keep_what_is_no_better();
   [[nodiscard]] std::vector<RadarCalibration> result() const { return radars_; }
 
  private:
@@ -89,7 +105,6 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
   fit_.set_truth(truth);
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     radars_[i].scans = recorded_[i].scans.size();
-    radars_[i].is_observed.fill(true);
   }
   solve();
   is_started_ = true;
@@ -149,7 +164,8 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
         continue;
       }
       result.push_back(
-          {radar, middle_us, motion.motion.z() / dt_s, std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
+          {radar, middle_us, motion.motion.z() / dt_s,
+           std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
       errors.push_back({middle_us,
                         (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
                         0.0});
@@ -168,7 +184,8 @@ void Calibrator::solve() {
                         is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
   fit_.solve();
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].fit = fit_.radars()[i];
+    FittedRadar& radar = radars_[i].fit = fit_.radars()[i];
+    radar.std[kOffset] = std::hypot(radar.std[kOffset], kLeastOffsetStdMps);
   }
 }
 
@@ -227,9 +244,10 @@ void Calibrator::measure_doppler(std::size_t radar) {
     const double lost = std::sqrt(count / (count - 4.0));
     for (const Target& target : targets) {
       const double by_azimuth = radars_[radar].azimuth.value *
-                                doppler_std_by_azimuth_mps(target, state) / target.doppler_std_mps;
+                                doppler_std_by_azimuth_mps(target, *expected) /
+                                target.doppler_std_mps;
       errors.push_back({scan.stamp_us,
-                        lost * (target.doppler_mps - doppler_row(target, state) * state) /
+                        lost * (target.doppler_mps - doppler_row(target, *expected) * state) /
                             target.doppler_std_mps,
                         by_azimuth * by_azimuth});
     }
@@ -237,13 +255,13 @@ void Calibrator::measure_doppler(std::size_t radar) {
   radars_[radar].doppler = noise_factor(errors);
 }
 
-void Calibrator::keep_unobserved() {
+void Calibrator::keep_what_is_no_better() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    for (std::size_t state = 0; state < kCalibrationStates; ++state) {
-      const FittedRadar& fit = radars_[i].fit;
-      if (fit.prior_std[state] == 0.0 || fit.std[state] > kWorstStd[state]) {
-        radars_[i].is_observed[state] = false;
-        fit_.hold(i, static_cast<CalibrationState>(state));
+    radars_[i].free = radars_[i].fit;
+    for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
+      radars_[i].is_changed[state] = is_better(radars_[i].free, state);
+      if (!radars_[i].is_changed[state]) {
+        fit_.hold(i, state);
       }
     }
   }
@@ -259,7 +277,7 @@ std::vector<RadarCalibration> calibrate(const Configuration& configuration,
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
   }
-  calibrator.keep_unobserved();
+  calibrator.keep_what_is_no_better();
   return calibrator.result();
 }
 
@@ -274,9 +292,9 @@ Configuration calibrated(const Configuration& configuration,
     radar.stamp_offset_s += value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;
     correction.doppler_offset_mps += value[kOffset];
-    correction.range_std_factor *= found.range.value;
-    correction.azimuth_std_factor *= found.azimuth.value;
-    correction.doppler_std_factor *= found.doppler.value;
+    correction.range_std_factor *= above_one(found.range);
+    correction.azimuth_std_factor *= above_one(found.azimuth);
+    correction.doppler_std_factor *= above_one(found.doppler);
   }
   return result;
 }

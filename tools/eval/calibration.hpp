@@ -17,9 +17,10 @@ namespace cremed {
 /// What a recorded drive says about a radar. Offset, stamp and factors are on top of those that the
 /// configuration has.
 struct RadarCalibration {
-  FittedRadar fit;
-  /// false: the drive does not tell; the configured value was kept.
-  std::array<bool, kCalibrationStates> is_observed{};
+  FittedRadar free;  ///< With all states unknown.
+  FittedRadar fit;   ///< With the configured value where the drive does not say better.
+  /// false: the configured value was kept.
+  std::array<bool, kCalibrationStates> is_changed{};
   NoiseFactor range;
   NoiseFactor azimuth;
   NoiseFactor doppler;

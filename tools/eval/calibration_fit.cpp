@@ -195,11 +195,10 @@ void CalibrationProblem::add_truth() {
   for (auto& [number, node] : fit.nodes_) {
     const std::int64_t stamp_us = number * kNodeUs;
     if (const auto motion = fit.truth_->motion(stamp_us - kNodeUs, stamp_us + kNodeUs)) {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<NodeResidual, 2, 2>(
-              new NodeResidual{motion->x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
-                               kTruthSpeedStdMps, kTruthYawRateStdRadps}),
-          nullptr, node.data());
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<NodeResidual, 2, 2>(new NodeResidual{
+                                   motion->x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
+                                   kTruthSpeedStdMps, kTruthYawRateStdRadps}),
+                               nullptr, node.data());
       note(2, stamp_us);
     }
   }

@@ -17,13 +17,13 @@ namespace cremed {
 namespace {
 
 /// How well a radar is known beforehand.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.3, 0.03, 0.005, 0.01, 0.03};
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.005, 0.01, 0.03};
 /// Known no better, the configured value is kept: a tape measure does as well.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.15, 0.005, 0.0, 0.0, 0.0};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.15, 0.006, 0.0, 0.0, 0.0};
 /// Errors that depend on azimuth look like an offset: estimates of real radars scatter by it.
 constexpr double kLeastOffsetStdMps = 0.1;
 constexpr double kSignificant = 3.0;  // Standard deviations.
-constexpr int kRounds = 4;
+constexpr int kRounds = 3;
 constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
 constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
@@ -71,7 +71,7 @@ class Calibrator {
              const TrueTrajectory* truth);
 
   void refine();
-  void keep_what_is_no_better();
+  void finish();
   [[nodiscard]] std::vector<RadarCalibration> result() const { return radars_; }
 
  private:
@@ -81,6 +81,7 @@ class Calibrator {
   [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
   [[nodiscard]] Configuration trial() const;
   [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
+  void choose_changes();
   void measure_noise(std::size_t radar);
   void measure_matches(std::size_t radar);
   void measure_doppler(std::size_t radar);
@@ -107,6 +108,7 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
     radars_[i].scans = recorded_[i].scans.size();
   }
   solve();
+  choose_changes();
   is_started_ = true;
 }
 
@@ -194,6 +196,7 @@ void Calibrator::refine() {
     measure_noise(i);
   }
   solve();
+  choose_changes();
   ++round_;
 }
 
@@ -203,6 +206,9 @@ void Calibrator::measure_noise(std::size_t radar) {
 }
 
 void Calibrator::measure_matches(std::size_t radar) {
+  RadarCalibration& found = radars_[radar];
+  const AssumedFactors assumed{std::max(found.range.value, 1.0),
+                               std::max(found.azimuth.value, 1.0)};
   MatchErrors errors;
   const std::vector<RecordedScan>& scans = recorded_[radar].scans;
   for (std::size_t i = 1; i < scans.size(); ++i) {
@@ -216,10 +222,10 @@ void Calibrator::measure_matches(std::size_t radar) {
     const double yaw_rad = vehicle->y() * dt_s;
     const Eigen::Vector2d way =
         Eigen::Rotation2Dd(0.5 * yaw_rad) * Eigen::Vector2d(state->head<2>()) * dt_s;
-    add_match_errors(scans[i - 1], scans[i], {way.x(), way.y(), yaw_rad}, errors);
+    add_match_errors(scans[i - 1], scans[i], {way.x(), way.y(), yaw_rad}, assumed, errors);
   }
-  radars_[radar].range = noise_factor(errors.range);
-  radars_[radar].azimuth = noise_factor(errors.azimuth);
+  found.range = noise_factor(errors.range, assumed.range);
+  found.azimuth = noise_factor(errors.azimuth, assumed.azimuth);
 }
 
 /// The Doppler of a scan against the motion that fits this scan best: errors that its targets share
@@ -228,7 +234,8 @@ void Calibrator::measure_doppler(std::size_t radar) {
   std::vector<ScaledError> errors;
   DopplerNoise independent = noise(radar);
   independent.shared_std_mps = 0.0;
-  const double gate = kErrorGate / kGateSigma;
+  const double assumed = std::max(radars_[radar].doppler.value, 1.0);
+  const double gate = assumed * kErrorGate / kGateSigma;
   for (const RecordedScan& scan : recorded_[radar].scans) {
     const auto expected = fit_.expected(radar, scan.stamp_us);
     if (!expected) {
@@ -243,23 +250,28 @@ void Calibrator::measure_doppler(std::size_t radar) {
     const auto count = static_cast<double>(targets.size());
     const double lost = std::sqrt(count / (count - 4.0));
     for (const Target& target : targets) {
-      const double by_azimuth = radars_[radar].azimuth.value *
-                                doppler_std_by_azimuth_mps(target, *expected) /
-                                target.doppler_std_mps;
-      errors.push_back({scan.stamp_us,
-                        lost * (target.doppler_mps - doppler_row(target, *expected) * state) /
-                            target.doppler_std_mps,
-                        by_azimuth * by_azimuth});
+      const double std_mps = assumed * target.doppler_std_mps;
+      const double by_azimuth =
+          radars_[radar].azimuth.value * doppler_std_by_azimuth_mps(target, *expected) / std_mps;
+      const double error_mps = target.doppler_mps - doppler_row(target, *expected) * state;
+      errors.push_back({scan.stamp_us, lost * error_mps / std_mps, by_azimuth * by_azimuth});
     }
   }
-  radars_[radar].doppler = noise_factor(errors);
+  radars_[radar].doppler = noise_factor(errors, assumed);
 }
 
-void Calibrator::keep_what_is_no_better() {
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].free = radars_[i].fit;
+void Calibrator::choose_changes() {
+  for (RadarCalibration& radar : radars_) {
+    radar.free = radar.fit;
     for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
-      radars_[i].is_changed[state] = is_better(radars_[i].free, state);
+      radar.is_changed[state] = is_better(radar.free, state);
+    }
+  }
+}
+
+void Calibrator::finish() {
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
       if (!radars_[i].is_changed[state]) {
         fit_.hold(i, state);
       }
@@ -277,7 +289,7 @@ std::vector<RadarCalibration> calibrate(const Configuration& configuration,
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
   }
-  calibrator.keep_what_is_no_better();
+  calibrator.finish();
   return calibrator.result();
 }
 
@@ -287,7 +299,10 @@ Configuration calibrated(const Configuration& configuration,
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     RadarConfiguration& radar = result.radars[i];
     const RadarCalibration& found = calibrations[i];
-    const CalibrationVector& value = found.fit.value;
+    CalibrationVector value = found.fit.prior;
+    for (std::size_t state = 0; state < kCalibrationStates; ++state) {
+      value[state] = found.is_changed[state] ? found.fit.value[state] : value[state];
+    }
     radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
     radar.stamp_offset_s += value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;

@@ -17,7 +17,7 @@ struct PolarTarget {
   double azimuth_variance_rad2 = 0.0;
 };
 
-PolarTarget polar(const Target& target, const Pose2& pose) {
+PolarTarget polar(const Target& target, const Pose2& pose, const AssumedFactors& assumed) {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
   const double x_m = pose.x_m + c * target.x_m - s * target.y_m;
@@ -25,9 +25,11 @@ PolarTarget polar(const Target& target, const Pose2& pose) {
   const Symmetric2& covariance = target.covariance_m2;
   const double cb = target.cos_bearing;
   const double sb = target.sin_bearing;
+  const double range_variance_m2 =
+      cb * cb * covariance.xx + 2.0 * cb * sb * covariance.xy + sb * sb * covariance.yy;
+  const double azimuth_std_rad = assumed.azimuth * target.bearing_std_rad;
   return {std::hypot(x_m, y_m), std::atan2(y_m, x_m),
-          cb * cb * covariance.xx + 2.0 * cb * sb * covariance.xy + sb * sb * covariance.yy,
-          target.bearing_std_rad * target.bearing_std_rad};
+          assumed.range * assumed.range * range_variance_m2, azimuth_std_rad * azimuth_std_rad};
 }
 
 struct PolarError {
@@ -56,11 +58,12 @@ struct Candidates {
   PolarError error;
 };
 
-std::vector<PolarTarget> all_polar(const std::vector<Target>& targets, const Pose2& pose) {
+std::vector<PolarTarget> all_polar(const std::vector<Target>& targets, const Pose2& pose,
+                                   const AssumedFactors& assumed) {
   std::vector<PolarTarget> result;
   result.reserve(targets.size());
   for (const Target& target : targets) {
-    result.push_back(polar(target, pose));
+    result.push_back(polar(target, pose, assumed));
   }
   return result;
 }
@@ -68,9 +71,9 @@ std::vector<PolarTarget> all_polar(const std::vector<Target>& targets, const Pos
 }  // namespace
 
 void add_match_errors(const RecordedScan& previous, const RecordedScan& current,
-                      const Pose2& motion, MatchErrors& errors) {
-  const auto before = all_polar(previous.targets, {});
-  const auto after = all_polar(current.targets, motion);
+                      const Pose2& motion, const AssumedFactors& assumed, MatchErrors& errors) {
+  const auto before = all_polar(previous.targets, {}, assumed);
+  const auto after = all_polar(current.targets, motion, assumed);
   std::vector<int> suitors(before.size());
   std::vector<Candidates> found(after.size());
   for (std::size_t i = 0; i < after.size(); ++i) {

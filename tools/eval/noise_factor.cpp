@@ -42,7 +42,7 @@ double most_likely_factor(const std::vector<ScaledError>& errors) {
 
 }  // namespace
 
-NoiseFactor noise_factor(const std::vector<ScaledError>& errors) {
+NoiseFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
   if (errors.size() < kFewestErrors) {
     return {};
   }
@@ -67,7 +67,7 @@ NoiseFactor noise_factor(const std::vector<ScaledError>& errors) {
   // Beside it, what as many independent errors would leave.
   const double least = value / std::sqrt(2.0 * static_cast<double>(errors.size()));
   const double by_blocks = weights > 0.0 ? std::sqrt(squares) / weights : value;
-  return {value, std::max(least, by_blocks)};
+  return {assumed * value, assumed * std::max(least, by_blocks)};
 }
 
 }  // namespace cremed

@@ -25,7 +25,8 @@ inline constexpr double kErrorGate = 5.0;
 
 /// Errors are Gaussian with `factor` for standard deviation, or nonsense (evenly spread up to the
 /// gate): the most likely factor and share of nonsense. Its standard deviation comes from how
-/// blocks of 2 s disagree.
-NoiseFactor noise_factor(const std::vector<ScaledError>& errors);
+/// blocks of 2 s disagree. `assumed` is a factor that the errors' standard deviations already have;
+/// the result includes it.
+NoiseFactor noise_factor(const std::vector<ScaledError>& errors, double assumed = 1.0);
 
 }  // namespace cremed

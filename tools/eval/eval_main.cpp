@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/configuration.hpp"
 #include "daemon/version.hpp"
 #include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
@@ -232,6 +233,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const cremed::ConfigurationError& error) {
+    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-eval: %s\n", error.what());
     return 1;

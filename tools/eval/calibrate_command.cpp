@@ -58,9 +58,9 @@ void print_table(const Configuration& configuration, const std::vector<RadarCali
     for (const Column& column : kColumns) {
       print_state(radars[i], column);
     }
-    print_factor("range std factor", radars[i].range);
-    print_factor("azimuth std factor", radars[i].azimuth);
-    print_factor("Doppler std factor", radars[i].doppler);
+    print_factor("range std factor", radars[i].noise.range);
+    print_factor("azimuth std factor", radars[i].noise.azimuth);
+    print_factor("Doppler std factor", radars[i].noise.doppler);
   }
 }
 

@@ -10,7 +10,6 @@
 
 #include <Eigen/Dense>
 
-#include "tools/eval/matched_targets.hpp"
 #include "tools/eval/recorded_drive.hpp"
 
 namespace cremed {
@@ -27,7 +26,6 @@ constexpr int kRounds = 3;
 constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
 constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
-constexpr std::size_t kFewestForNoise = 12;      // Targets in a scan.
 
 CalibrationVector configured(const RadarConfiguration& radar) {
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
@@ -49,6 +47,11 @@ std::vector<FittedRadar> start(const Configuration& configuration, bool has_trut
     }
   }
   return radars;
+}
+
+MotionPrior motion_prior(const Configuration& configuration) {
+  const auto& errors = configuration.radars.front().ego_motion.registration.shared_errors;
+  return {errors.acceleration_std_mps2, errors.yaw_acceleration_std_radps2};
 }
 
 /// The estimator takes sideways motion for none, so a mount's yaw is never known too well.
@@ -82,9 +85,6 @@ class Calibrator {
   [[nodiscard]] Configuration trial() const;
   [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
   void choose_changes();
-  void measure_noise(std::size_t radar);
-  void measure_matches(std::size_t radar);
-  void measure_doppler(std::size_t radar);
   void solve();
 
   const Configuration& configuration_;
@@ -101,7 +101,7 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
     : configuration_(configuration),
       logs_(logs),
       recorded_(record_drive(configuration, logs)),
-      fit_(start(configuration, truth != nullptr), {}),
+      fit_(start(configuration, truth != nullptr), motion_prior(configuration)),
       radars_(configuration.radars.size()) {
   fit_.set_truth(truth);
   for (std::size_t i = 0; i < radars_.size(); ++i) {
@@ -114,7 +114,7 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
 
 DopplerNoise Calibrator::noise(std::size_t radar) const {
   return {
-      radars_[radar].doppler.value, radars_[radar].azimuth.value,
+      radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
       configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps};
 }
 
@@ -193,71 +193,11 @@ void Calibrator::solve() {
 
 void Calibrator::refine() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    measure_noise(i);
+    radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);
   }
   solve();
   choose_changes();
   ++round_;
-}
-
-void Calibrator::measure_noise(std::size_t radar) {
-  measure_matches(radar);
-  measure_doppler(radar);
-}
-
-void Calibrator::measure_matches(std::size_t radar) {
-  RadarCalibration& found = radars_[radar];
-  const AssumedFactors assumed{std::max(found.range.value, 1.0),
-                               std::max(found.azimuth.value, 1.0)};
-  MatchErrors errors;
-  const std::vector<RecordedScan>& scans = recorded_[radar].scans;
-  for (std::size_t i = 1; i < scans.size(); ++i) {
-    const double dt_s = static_cast<double>(scans[i].stamp_us - scans[i - 1].stamp_us) * 1e-6;
-    const std::int64_t middle_us = scans[i - 1].stamp_us + std::llround(dt_s * 0.5e6);
-    const auto state = fit_.expected(radar, middle_us);
-    const auto vehicle = fit_.motion(radar, middle_us);
-    if (!state || dt_s > 0.5) {
-      continue;
-    }
-    const double yaw_rad = vehicle->y() * dt_s;
-    const Eigen::Vector2d way =
-        Eigen::Rotation2Dd(0.5 * yaw_rad) * Eigen::Vector2d(state->head<2>()) * dt_s;
-    add_match_errors(scans[i - 1], scans[i], {way.x(), way.y(), yaw_rad}, assumed, errors);
-  }
-  found.range = noise_factor(errors.range, assumed.range);
-  found.azimuth = noise_factor(errors.azimuth, assumed.azimuth);
-}
-
-/// The Doppler of a scan against the motion that fits this scan best: errors that its targets share
-/// are no noise.
-void Calibrator::measure_doppler(std::size_t radar) {
-  std::vector<ScaledError> errors;
-  DopplerNoise independent = noise(radar);
-  independent.shared_std_mps = 0.0;
-  const double assumed = std::max(radars_[radar].doppler.value, 1.0);
-  const double gate = assumed * kErrorGate / kGateSigma;
-  for (const RecordedScan& scan : recorded_[radar].scans) {
-    const auto expected = fit_.expected(radar, scan.stamp_us);
-    if (!expected) {
-      continue;
-    }
-    const auto targets = static_targets(scan.targets, *expected, {gate, gate, 0.0}, kSlackMps);
-    if (targets.size() < kFewestForNoise) {
-      continue;
-    }
-    const DopplerEquations equations = doppler_equations(targets, *expected, independent);
-    const DopplerState state = equations.root.fullPivHouseholderQr().solve(equations.measured);
-    const auto count = static_cast<double>(targets.size());
-    const double lost = std::sqrt(count / (count - 4.0));
-    for (const Target& target : targets) {
-      const double std_mps = assumed * target.doppler_std_mps;
-      const double by_azimuth =
-          radars_[radar].azimuth.value * doppler_std_by_azimuth_mps(target, *expected) / std_mps;
-      const double error_mps = target.doppler_mps - doppler_row(target, *expected) * state;
-      errors.push_back({scan.stamp_us, lost * error_mps / std_mps, by_azimuth * by_azimuth});
-    }
-  }
-  radars_[radar].doppler = noise_factor(errors, assumed);
 }
 
 void Calibrator::choose_changes() {
@@ -307,9 +247,9 @@ Configuration calibrated(const Configuration& configuration,
     radar.stamp_offset_s += value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;
     correction.doppler_offset_mps += value[kOffset];
-    correction.range_std_factor *= above_one(found.range);
-    correction.azimuth_std_factor *= above_one(found.azimuth);
-    correction.doppler_std_factor *= above_one(found.doppler);
+    correction.range_std_factor *= above_one(found.noise.range);
+    correction.azimuth_std_factor *= above_one(found.noise.azimuth);
+    correction.doppler_std_factor *= above_one(found.noise.doppler);
   }
   return result;
 }

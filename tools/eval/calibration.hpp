@@ -9,7 +9,7 @@
 
 #include "daemon/configuration.hpp"
 #include "tools/eval/calibration_fit.hpp"
-#include "tools/eval/noise_factor.hpp"
+#include "tools/eval/sensor_noise.hpp"
 #include "tools/eval/true_trajectory.hpp"
 
 namespace cremed {
@@ -21,9 +21,7 @@ struct RadarCalibration {
   FittedRadar fit;   ///< With the configured value where the drive does not say better.
   /// false: the configured value was kept.
   std::array<bool, kCalibrationStates> is_changed{};
-  NoiseFactor range;
-  NoiseFactor azimuth;
-  NoiseFactor doppler;
+  SensorNoise noise;
   std::size_t scans = 0;
 };
 

@@ -83,7 +83,7 @@ TEST_CASE("mounts that are two degrees off are found again, without truth") {
     CAPTURE(found.radars[i].name, off_deg, std_deg);
     CHECK(calibrations[i].is_changed[kYaw]);
     CHECK(off_deg < kGoalDeg);
-    CHECK(off_deg < 3.5 * std_deg);  // Of 12.
+    CHECK(off_deg < 3.0 * std_deg);
     CHECK(std_deg < 0.2);
   }
 }

@@ -20,6 +20,12 @@ constexpr double kLongestS = 0.5;  // Between two scans that are compared.
 constexpr double kSlackMps = 0.1;
 constexpr std::size_t kFewestTargets = 12;  // In a scan whose Doppler is compared.
 
+constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not see all kinds.
+
+NoiseFactor of_any_drive(const NoiseFactor& factor) {
+  return {factor.value, factor.std > 0.0 ? std::hypot(factor.std, kLeastFactorStd) : 0.0};
+}
+
 double at_least_one(const NoiseFactor& factor) { return std::max(factor.value, 1.0); }
 
 /// Pose of the radar at the second stamp in its frame at the first.
@@ -78,8 +84,8 @@ SensorNoise measured_noise(const std::vector<RecordedScan>& scans, const Calibra
   const AssumedFactors assumed{at_least_one(before.range), at_least_one(before.azimuth)};
   const MatchErrors matches = match_errors(scans, fit, radar, assumed);
   SensorNoise result;
-  result.range = noise_factor(matches.range, assumed.range);
-  result.azimuth = noise_factor(matches.azimuth, assumed.azimuth);
+  result.range = of_any_drive(noise_factor(matches.range, assumed.range));
+  result.azimuth = of_any_drive(noise_factor(matches.azimuth, assumed.azimuth));
   const DopplerNoise noise{at_least_one(before.doppler), result.azimuth.value, 0.0};
   std::vector<ScaledError> errors;
   for (const RecordedScan& scan : scans) {
@@ -87,7 +93,7 @@ SensorNoise measured_noise(const std::vector<RecordedScan>& scans, const Calibra
       add_doppler_errors(scan, *expected, noise, errors);
     }
   }
-  result.doppler = noise_factor(errors, noise.doppler_std_factor);
+  result.doppler = of_any_drive(noise_factor(errors, noise.doppler_std_factor));
   return result;
 }
 

@@ -12,6 +12,16 @@ namespace {
 constexpr double kMaxAccelerationMps2 = 10.0;
 constexpr double kMaxYawAccelerationRadps2 = 2.0;
 
+/// Another speed is a rival in at least so many places and so large a share of those that fit.
+struct RivalLimits {
+  std::size_t places;
+  double share;
+};
+constexpr RivalLimits kRival{5, 0.25};
+/// The same while it is not known which world is the road, which ends after so many scans without.
+constexpr RivalLimits kDoubtfulRival{3, 0.1};
+constexpr int kClearScans = 10;
+
 /// Reorders the range, which must not be empty.
 template <typename Iterator>
 double median(Iterator first, Iterator last) {
@@ -31,7 +41,9 @@ std::string_view to_string(MotionStatus status) {
 }
 
 EgoMotionEstimator::EgoMotionEstimator(const EgoMotionOptions& options)
-    : options_(options), registration_(options.registration, options.vehicle_from_radar) {}
+    : options_(options),
+      registration_(options.registration, options.vehicle_from_radar),
+      rival_speed_(options.vehicle_from_radar) {}
 
 EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   EgoMotion motion;
@@ -92,6 +104,8 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
   if (has_velocity_) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
+    motion.information = result.information;
+    motion.gradient = result.gradient;
     last_velocity_ = result.motion / dt_s;
   }
   return status;
@@ -125,6 +139,9 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
       std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
     return MotionStatus::implausible;
   }
+  if (has_rival(result, dt_s)) {
+    return MotionStatus::ambiguous;
+  }
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
@@ -136,6 +153,24 @@ bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return has_velocity_ && sigma.x() > 0.0 &&
          (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
+}
+
+/// The motion before settles it if it leads to this one and not to the other.
+bool EgoMotionEstimator::has_rival(const RegistrationResult& result, double dt_s) {
+  const SpeedVotes votes =
+      rival_speed_.count(targets_, result.motion / dt_s, 0.5 * kMaxAccelerationMps2 * dt_s);
+  const RivalLimits& limits = doubtful_scans_ > 0 ? kDoubtfulRival : kRival;
+  RegistrationResult other = result;
+  other.motion.x() = votes.rival_mps * dt_s;
+  const bool is_rival =
+      votes.rival >= limits.places &&
+      static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
+  if (is_rival && (continues(other, dt_s) || !continues(result, dt_s))) {
+    doubtful_scans_ = kClearScans;
+  } else if (doubtful_scans_ > 0) {
+    --doubtful_scans_;
+  }
+  return doubtful_scans_ > 0;
 }
 
 /// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
@@ -159,14 +194,11 @@ double EgoMotionEstimator::median_normalised_doppler() {
 /// Speed along x that most targets agree on if they stand still and the vehicle turns as before.
 /// Targets abeam say nothing about it.
 double EgoMotionEstimator::doppler_speed_mps() {
-  const double yaw_rate_radps = has_velocity_ ? last_velocity_.z() : 0.0;
-  const Pose2& mount = options_.vehicle_from_radar;
+  const Eigen::Vector3d turning(0.0, 0.0, has_velocity_ ? last_velocity_.z() : 0.0);
   auto last = scratch_.begin();
   for (const Target& target : targets_) {
-    const double along = target.cos_bearing;
-    if (std::abs(along) > 0.5) {
-      const double turn_mps = yaw_rate_radps * (mount.x_m * target.sin_bearing - mount.y_m * along);
-      *last++ = -(target.doppler_mps + turn_mps) / along;
+    if (std::abs(target.cos_bearing) > 0.5) {
+      *last++ = speed_along_x_mps(target, turning, options_.vehicle_from_radar);
     }
   }
   return last == scratch_.begin() ? 0.0 : median(scratch_.begin(), last);

@@ -12,6 +12,7 @@
 #include "can_decoders/radar_scan.hpp"
 #include "estimator/ego_motion_options.hpp"
 #include "estimator/registration.hpp"
+#include "estimator/rival_speed.hpp"
 #include "estimator/target_set.hpp"
 
 namespace cremed {
@@ -29,8 +30,9 @@ enum class MotionStatus : std::uint8_t {
   no_convergence = 7,   ///< A limit on iterations or work cut in before the end.
   non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
-  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well, and
-                        ///< the motion does not continue that of the scan before.
+  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well or
+                        ///< has the Doppler of many targets, and only one motion can be the
+                        ///< continuation of the scan before: not this one, or both.
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 
@@ -48,6 +50,9 @@ struct EgoMotion {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
   int targets = 0;     ///< Usable targets in the current scan.
   int iterations = 0;  ///< Gauss-Newton steps.
+  /// Of RegistrationResult, for FusedEstimator.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 
   static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {
@@ -77,9 +82,11 @@ class EgoMotionEstimator {
   bool is_standing(const RegistrationResult& result, double dt_s);
   double median_normalised_doppler();
   double doppler_speed_mps();
+  bool has_rival(const RegistrationResult& result, double dt_s);
 
   EgoMotionOptions options_;
   Registration registration_;
+  RivalSpeed rival_speed_;
   TargetSet targets_;
   SelectionCounters selection_;
   std::array<double, kMaxDetections> scratch_{};
@@ -87,6 +94,7 @@ class EgoMotionEstimator {
   std::int64_t reference_stamp_us_ = 0;
   bool has_reference_ = false;
   bool has_velocity_ = false;  // last_velocity_ is that of the scan before
+  int doubtful_scans_ = 0;     // to come, unless another speed has a part of the Doppler again
 };
 
 }  // namespace cremed

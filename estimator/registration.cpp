@@ -21,16 +21,13 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
-/// Slower than this the vehicle's body comes to rest.
-constexpr double kRollingMps = 0.2;
-
 }  // namespace
 
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
     : options_(options),
       vehicle_from_radar_(vehicle_from_radar),
       ray_(options.outlier_ray, vehicle_from_radar),
-      shared_doppler_(options.doppler, options.shared_errors, vehicle_from_radar) {}
+      shared_doppler_(options, vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
   mixture_.assign(targets, ray_);
@@ -122,11 +119,6 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
   return RegistrationStatus::no_convergence;
 }
 
-/// 0 when the vehicle stands, 1 when it drives.
-double Registration::rolling(const Problem& problem, const Eigen::Vector3d& motion) {
-  return std::min(motion.head<2>().norm() / (problem.dt_s * kRollingMps), 1.0);
-}
-
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
                                                   const Eigen::Vector3d& motion) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
@@ -174,8 +166,9 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
   const SharedErrorOptions& errors = options_.shared_errors;
   const Eigen::Vector3d by_time = result.motion * (errors.stamp_std_s / problem.dt_s);
   result.covariance.noalias() += by_time * by_time.transpose();
+  const double noise_m = std::sqrt(result.covariance(0, 0));
   const double by_velocity_m =
-      rolling(problem, result.motion) * errors.velocity_std_mps * problem.dt_s;
+      rolling_part(result.motion, noise_m, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
   const double variance_m2 = by_velocity_m * by_velocity_m;
   result.covariance(0, 0) += variance_m2;
   result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;
@@ -183,7 +176,7 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
 
 void Registration::finish_exclusive(const Problem& problem, RegistrationResult& result) {
   NormalEquations equations;
-  shared_doppler_.start(rolling(problem, result.motion));
+  shared_doppler_.start();
   result.status = climb(problem, result, equations);
   result.cost = equations.cost;
   result.matched = likelihood_.matched();
@@ -197,9 +190,18 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
+    keep_equations(equations, result);
     add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
+  }
+}
+
+void Registration::keep_equations(const NormalEquations& equations, RegistrationResult& result) {
+  result.gradient = equations.gradient;
+  if (const auto complete = invert_information(equations.information, 3)) {
+    const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
+    result.information = equations.information - likelihood_.missing_information(sigma);
   }
 }
 
@@ -210,6 +212,8 @@ void Registration::finish_gauss_newton(const Problem& problem, const Stage& stag
   const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);
   if (covariance) {
     result.covariance = *covariance;
+    result.information = equations.information;
+    result.gradient = equations.gradient;
   } else if (result.status != RegistrationStatus::non_finite) {
     result.status = RegistrationStatus::degenerate;
   }

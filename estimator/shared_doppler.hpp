@@ -11,26 +11,35 @@
 
 namespace cremed {
 
+/// 0 when the vehicle stands, 1 when it drives: the part of a driving vehicle's errors that shows.
+/// A distance up to its noise is none.
+double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s);
+
 /// The Doppler of both scans, with the errors that their targets share. Each of these is an unknown
 /// of its own, known beforehand only to be small (SharedErrorOptions):
 ///
-///     e_i = u_i(m) - v_i dt + dt b + du_i/dphi d +- dt^2/2 (du_i/dx a + du_i/dyaw w)
+///     e_i = u_i(c) - v_i dt + dt b + du_i/dphi d +- dt^2/2 (du_i/dx a + du_i/dy l + du_i/dyaw w)
 ///
 /// with the residual u_i - v_i dt of DopplerResidual, the offset b of all Doppler of the radar, the
-/// error d of its mounting yaw, and the accelerations a and w along x and of the yaw: Doppler tells
-/// the velocity when a scan is taken (+ current, - previous scan), while the motion m is the mean
-/// of the time between. b, d, a, w are Gaussian around zero; for a given m their best values follow
-/// from a linear equation, and eliminating them (Schur complement) leaves the equations of m alone:
+/// error d of its mounting yaw, and the accelerations a and l along x and y and w of the yaw:
+/// Doppler tells the velocity when a scan is taken (+ current, - previous scan), in the vehicle's
+/// frame of that moment. The mean of both is what the vehicle makes of the motion m half way
+/// through the turn: c = (R(-yaw/2) (x, y), yaw), but in 2 DoF, where it never moves sideways,
+/// c = m and l = 0.
+///
+/// b, d, a, l, w are Gaussian around zero; for a given m their best values follow from a linear
+/// equation, and eliminating them (Schur complement) leaves the equations of m alone:
 ///
 ///     H = H_mm - H_ms (H_ss + P^-1)^-1 H_sm       g = g_m - H_ms (H_ss + P^-1)^-1 g_s
+///
+/// b and d are errors of a vehicle that drives: their deviations are those of SharedErrorOptions
+/// times rolling_part(m), the noise of m by Doppler taken alone.
 class SharedDoppler {
  public:
-  SharedDoppler(const DopplerOptions& options, const SharedErrorOptions& errors,
-                const Pose2& vehicle_from_radar);
+  SharedDoppler(const RegistrationOptions& options, const Pose2& vehicle_from_radar);
 
-  /// Begins a registration: shared errors are unknown again. `rolling` (0..1) is the part of offset
-  /// and mounting error that shows at the vehicle's speed.
-  void start(double rolling);
+  /// Begins a registration: shared errors are unknown again.
+  void start() { shared_.setZero(); }
 
   /// Adds to `equations` what the Doppler says about `motion`. Which targets move is told by the
   /// shared errors found at the call before.
@@ -38,7 +47,7 @@ class SharedDoppler {
            double dt_s, NormalEquations& equations);
 
  private:
-  static constexpr int kShared = 4;  // b, d, a, w
+  static constexpr int kShared = 5;  // b, d, a, l, w
   using SharedVector = Eigen::Matrix<double, kShared, 1>;
   using SharedMatrix = Eigen::Matrix<double, kShared, kShared>;
 
@@ -50,13 +59,15 @@ class SharedDoppler {
     SharedVector gradient = SharedVector::Zero();
   };
   /// `side`: 1 for the current scan, -1 for the previous.
-  void add_scan(const TargetSet& targets, const Eigen::Vector3d& motion, double dt_s, double side,
+  void add_scan(const TargetSet& targets, const Eigen::Vector3d& half_way, double dt_s, double side,
                 Sums& sums) const;
+  /// P^-1, which is diagonal.
+  [[nodiscard]] SharedVector prior_information(double rolling) const;
 
+  int degrees_of_freedom_;
   DopplerOptions options_;
   SharedErrorOptions errors_;
   Pose2 vehicle_from_radar_;
-  SharedVector prior_information_ = SharedVector::Zero();  // P^-1, which is diagonal.
   SharedVector shared_ = SharedVector::Zero();
 };
 

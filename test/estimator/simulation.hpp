@@ -120,13 +120,19 @@ inline Points scatter(Random& random, std::size_t count, double min_range_m, dou
   return points;
 }
 
-/// Settings with which the paper's simulated problem is solved (Doppler, 2 DoF).
+/// Every target errs on its own.
+inline SharedErrorOptions no_shared_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+
+/// Settings with which the paper's simulated problem is solved (Doppler of the current scan, 2
+/// DoF).
 inline RegistrationOptions paper_options() {
   RegistrationOptions options;
   options.start_scale = 6.0;
   options.start_doppler_scale = 1.0;
   options.outlier_ray.weight = 0.2;
   options.doppler.stamp_std_s = 0.0;
+  options.doppler.both_scans = false;
+  options.shared_errors = no_shared_errors();
   return options;
 }
 

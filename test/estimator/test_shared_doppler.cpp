@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "estimator/shared_doppler.hpp"
@@ -29,6 +30,15 @@ DopplerOptions no_movers() {
 }
 
 SharedErrorOptions no_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+
+SharedDoppler shared_doppler(const DopplerOptions& doppler, const SharedErrorOptions& errors,
+                             const Pose2& mount, int degrees_of_freedom = 2) {
+  RegistrationOptions options;
+  options.degrees_of_freedom = degrees_of_freedom;
+  options.doppler = doppler;
+  options.shared_errors = errors;
+  return {options, mount};
+}
 
 /// What the radar sees of static targets while the vehicle moves with `velocity`; each Doppler is
 /// off by `noise_mps` times a number between -1 and 1.
@@ -60,7 +70,7 @@ struct Solution {
 
 Solution solve(SharedDoppler& doppler, const TargetSet& previous, const TargetSet& current) {
   Solution solution;
-  doppler.start(1.0);
+  doppler.start();
   for (int i = 0; i < 20; ++i) {
     NormalEquations equations;
     doppler.add(previous, current, solution.motion, kDt, equations);
@@ -113,7 +123,7 @@ TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gi
   const Eigen::Matrix<double, 6, 6> covariance = information(free, free).inverse();
   const Eigen::Matrix<double, 6, 1> step = -covariance * gradient(free);
 
-  SharedDoppler doppler(no_movers(), errors, kMount);
+  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
   NormalEquations equations;
   doppler.add(previous, current, motion, kDt, equations);
   const auto inverse = invert_information(equations.information, 2);
@@ -130,9 +140,9 @@ TEST_CASE("The gradient is the derivative of the cost") {
   const SharedErrorOptions errors{0.05, 0.0, 0.0, 0.0, 2.0, 0.5};
   const TargetSet previous = seen({7.9, 0.0, 0.10}, kMount, 30, 0.1, 3);
   const TargetSet current = seen({8.2, 0.0, 0.13}, kMount, 40, 0.1, 4);
-  SharedDoppler doppler(no_movers(), errors, kMount);
+  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
   const auto equations_at = [&](const Eigen::Vector3d& motion) {
-    doppler.start(1.0);
+    doppler.start();
     NormalEquations equations;
     doppler.add(previous, current, motion, kDt, equations);
     return equations;
@@ -147,8 +157,8 @@ TEST_CASE("The gradient is the derivative of the cost") {
 TEST_CASE("An offset that all targets share does not average out") {
   SharedErrorOptions errors = no_errors();
   errors.doppler_offset_std_mps = 0.05;
-  SharedDoppler with(no_movers(), errors, {3.4, 0.0, 0.0});
-  SharedDoppler without(no_movers(), no_errors(), {3.4, 0.0, 0.0});
+  SharedDoppler with = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
+  SharedDoppler without = shared_doppler(no_movers(), no_errors(), {3.4, 0.0, 0.0});
   const double narrow_rad = radians(10.0);  // Wide apart, the targets would tell offset from speed.
   for (const int count : {10, 50, 250}) {
     CAPTURE(count);
@@ -162,9 +172,8 @@ TEST_CASE("An offset that all targets share does not average out") {
 TEST_CASE("While the vehicle stands there is no offset") {
   SharedErrorOptions errors = no_errors();
   errors.doppler_offset_std_mps = 0.05;
-  SharedDoppler doppler(no_movers(), errors, {3.4, 0.0, 0.0});
+  SharedDoppler doppler = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
   const TargetSet scan = seen(Eigen::Vector3d::Zero(), {3.4, 0.0, 0.0}, 100, 0.1, 6, 0.2);
-  doppler.start(0.0);
   NormalEquations equations;
   doppler.add(scan, scan, Eigen::Vector3d::Zero(), kDt, equations);
   CHECK(equations.information(0, 0) > 0.9 * 200.0 / std::pow(0.1 * kDt, 2));
@@ -179,19 +188,53 @@ TEST_CASE(
   const TargetSet current = seen({8.3, 0.0, 0.16}, kMount, 90, 0.0, 8);
   const Eigen::Vector3d mean = kDt * Eigen::Vector3d(8.15, 0.0, 0.13);
 
-  SharedDoppler both(no_movers(), errors, kMount);
+  SharedDoppler both = shared_doppler(no_movers(), errors, kMount);
   const Solution solution = solve(both, previous, current);
   CHECK((solution.motion - mean).norm() < 2e-4);
   CHECK(std::sqrt(solution.covariance(0, 0)) < 0.002);
 
   DopplerOptions options = no_movers();
   options.both_scans = false;
-  SharedDoppler one(options, errors, kMount);
+  SharedDoppler one = shared_doppler(options, errors, kMount);
   const Solution alone = solve(one, previous, current);
   CHECK(alone.motion.x() == Approx(kDt * 8.3).margin(5e-4));
   const double sigma_m = std::sqrt(alone.covariance(0, 0));
   CHECK(sigma_m > 0.9 * 0.5 * 3.0 * kDt * kDt);
   CHECK(std::abs(alone.motion.x() - mean.x()) < 3.0 * sigma_m);
+}
+
+TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerates sideways") {
+  SharedErrorOptions errors = no_errors();
+  errors.acceleration_std_mps2 = 5.0;
+  errors.yaw_acceleration_std_radps2 = 0.5;
+  // Yaw and side are the same to one radar; told the yaw, it finds the side.
+  const TargetSet previous = seen({10.0, -1.9, 0.5}, kMount, 60, 0.0, 10);
+  const TargetSet current = seen({10.0, -2.1, 0.5}, kMount, 90, 0.0, 11);
+  const double turn_rad = 0.5 * kDt;
+  Eigen::Vector3d expected(10.0 * kDt, -2.0 * kDt, turn_rad);
+  expected.head<2>() = Eigen::Rotation2Dd(0.5 * turn_rad) * expected.head<2>();
+
+  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount, 3);
+  Eigen::Vector3d motion(0.7, 0.0, turn_rad);
+  for (int i = 0; i < 20; ++i) {
+    NormalEquations equations;
+    equations.information(2, 2) = 1e12;
+    equations.gradient.z() = 1e12 * (motion.z() - turn_rad);
+    doppler.add(previous, current, motion, kDt, equations);
+    const auto inverse = invert_information(equations.information, 3);
+    REQUIRE(inverse);
+    motion -= *inverse * equations.gradient;
+  }
+  CHECK((motion - expected).norm() < 5e-4);
+}
+
+TEST_CASE("A vehicle rolls as far as its motion is beyond noise") {
+  const Eigen::Vector3d forward(0.01, 0.0, 0.0);
+  CHECK(rolling_part(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
+  CHECK(rolling_part(forward, 0.02, 0.1) == 0.0);
+  CHECK(rolling_part(forward, 0.0, 0.1) == Approx(0.5));
+  CHECK(rolling_part(-forward, 0.005, 0.1) == Approx(0.25));
+  CHECK(rolling_part(100.0 * forward, 0.005, 0.1) == 1.0);
 }
 
 TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
@@ -211,8 +254,8 @@ TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
     detection.doppler_std_mps = 0.1;
     scan.add(detection, believed);
   }
-  SharedDoppler naive(no_movers(), no_errors(), believed);
-  SharedDoppler aware(no_movers(), errors, believed);
+  SharedDoppler naive = shared_doppler(no_movers(), no_errors(), believed);
+  SharedDoppler aware = shared_doppler(no_movers(), errors, believed);
   const Solution wrong = solve(naive, scan, scan);
   const Solution right = solve(aware, scan, scan);
   CHECK(std::abs(wrong.motion.z()) > 5.0 * std::sqrt(wrong.covariance(2, 2)));

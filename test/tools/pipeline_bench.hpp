@@ -27,12 +27,14 @@ class RecordingSink final : public OdometrySink {
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
     motions[radar].push_back(motion);
   }
+  void on_fused(const EgoMotion& motion, std::int32_t) override { fused.push_back(motion); }
   void on_status(std::size_t radar, const RadarStatus& status) override {
     statuses[radar].push_back(status);
   }
   [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<std::vector<EgoMotion>> motions;
+  std::vector<EgoMotion> fused;
   std::vector<std::vector<RadarStatus>> statuses;
   std::vector<std::vector<RadarScan>> scans;
 };
@@ -72,16 +74,22 @@ inline TrueTrajectory truth_of(const Drive& drive) {
   return TrueTrajectory(csv);
 }
 
-/// Compares estimates with truth, 2 DoF.
-inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
-                                  const TrueTrajectory& truth) {
-  Credibility credibility(2);
+/// Compares estimates with truth.
+inline void add(Credibility& credibility, const std::vector<EgoMotion>& motions,
+                const TrueTrajectory& truth) {
   for (const EgoMotion& motion : motions) {
     const auto true_motion = truth.motion(motion.utime_start_us, motion.utime_us);
     if (motion.has_estimate() && true_motion) {
       credibility.add(motion.motion, motion.covariance, *true_motion);
     }
   }
+}
+
+/// The same of one drive, 2 DoF.
+inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
+                                  const TrueTrajectory& truth) {
+  Credibility credibility(2);
+  add(credibility, motions, truth);
   return credibility;
 }
 

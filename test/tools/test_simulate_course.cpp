@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -33,6 +34,29 @@ Motion motion(const Pose2& from, const Pose2& to, double dt_s) {
   const double dy = to.y_m - from.y_m;
   return {(std::cos(yaw) * dx + std::sin(yaw) * dy) / dt_s,
           (std::cos(yaw) * dy - std::sin(yaw) * dx) / dt_s, (to.yaw_rad - from.yaw_rad) / dt_s};
+}
+
+/// How a scenario may drive.
+struct CarLimits {
+  double sideways_mps = 1e-4;
+  double slowest_mps = 0.0;
+  double along_mps2 = 3.3;
+  double across_mps2 = 3.7;
+  double jerk_mps3 = 8.0;
+};
+
+CarLimits limits_of(std::string_view name) {
+  CarLimits limits;
+  if (name == "reversing") limits.slowest_mps = -5.0;
+  if (name == "braking") {
+    limits.along_mps2 = 8.8;
+    limits.jerk_mps3 = 11.0;
+  }
+  if (name == "skid") {
+    limits.sideways_mps = 2.51;
+    limits.across_mps2 = 7.0;
+  }
+  return limits;
 }
 
 std::string truth_csv(const std::string& name) {
@@ -106,11 +130,12 @@ TEST_CASE("every scenario drives as a car can") {
   for (std::size_t i = 1; i < accelerations.size(); ++i) {
     jerk_mps3 = std::max(jerk_mps3, std::abs(accelerations[i] - accelerations[i - 1]) / 0.01);
   }
-  CHECK(sideways_mps < 1e-4);
-  CHECK(slowest_mps > -1e-6);
-  CHECK(along_mps2 < 3.3);
-  CHECK(across_mps2 < 3.7);
-  CHECK(jerk_mps3 < 8.0);
+  const CarLimits limits = limits_of(scenario.name);
+  CHECK(sideways_mps < limits.sideways_mps);
+  CHECK(slowest_mps > limits.slowest_mps - 1e-6);
+  CHECK(along_mps2 < limits.along_mps2);
+  CHECK(across_mps2 < limits.across_mps2);
+  CHECK(jerk_mps3 < limits.jerk_mps3);
   CHECK(curvature_1pm < 0.15);
 }
 
@@ -122,7 +147,8 @@ TEST_CASE("scenarios move at the speeds they promise") {
   };
   const auto row =
       GENERATE(Row{"straight", 14.0, 20.0}, Row{"bends", 5.0, 16.0}, Row{"stop-and-go", 0.0, 11.0},
-               Row{"standing", 0.0, 0.0}, Row{"city", 0.0, 19.0});
+               Row{"standing", 0.0, 0.0}, Row{"city", 0.0, 19.0}, Row{"tunnel", 15.0, 20.0},
+               Row{"jam", 0.0, 6.0}, Row{"reversing", -5.0, 3.0}, Row{"braking", 0.0, 20.0});
   CAPTURE(row.name);
   const VehicleCourse course(cremed::test::scenario(row.name).course,
                              cremed::test::scenario(row.name).duration_s);
@@ -131,6 +157,18 @@ TEST_CASE("scenarios move at the speeds they promise") {
       [](const VehicleState& a, const VehicleState& b) { return a.speed_mps < b.speed_mps; });
   CHECK(slowest->speed_mps == Approx(row.slowest_mps).margin(1e-9));
   CHECK(fastest->speed_mps == Approx(row.fastest_mps).epsilon(0.03).margin(1e-9));
+}
+
+TEST_CASE("a skidding vehicle's path is not where it looks to") {
+  const CoursePlan plan{10.0, 0.0, {{2.0, 10.0, 0.0, -2.0}, {3.0, 10.0, 0.0, -2.0}}};
+  const VehicleCourse course(plan, 5.0);
+  const VehicleState before = course.at(2.0);
+  const VehicleState after = course.at(5.0);
+  CHECK(after.side_speed_mps == -2.0);
+  CHECK(after.pose.yaw_rad == 0.0);
+  CHECK(after.pose.x_m - before.pose.x_m == Approx(30.0));
+  CHECK(after.pose.y_m - before.pose.y_m == Approx(-6.0));
+  CHECK(after.distance_m - before.distance_m == Approx(3.0 * std::hypot(10.0, 2.0)));
 }
 
 TEST_CASE("standing truly stands, straight is straight, bends go both ways") {
@@ -151,7 +189,7 @@ TEST_CASE("standing truly stands, straight is straight, bends go both ways") {
   CHECK(left->yaw_rate_radps > 0.25);
 }
 
-TEST_CASE("a line between two rows of the truth is off by less than 0.1 mm") {
+TEST_CASE("a line between two rows of the truth is off by what accelerations make it") {
   const auto& scenario = GENERATE(from_range(cremed::scenarios()));
   CAPTURE(std::string(scenario.name));
   const cremed::SimulationOptions options;
@@ -169,6 +207,9 @@ TEST_CASE("a line between two rows of the truth is off by less than 0.1 mm") {
     worst_rad = std::max(worst_rad, std::abs(line.yaw_rad - exact.yaw_rad));
   }
   CAPTURE(worst_m, worst_rad);
-  CHECK(worst_m < 1e-4);
+  // A chord of 10 ms; a car that skids accelerates sideways on top of that.
+  const CarLimits limits = limits_of(scenario.name);
+  const double greatest_mps2 = limits.along_mps2 + limits.across_mps2;
+  CHECK(worst_m < greatest_mps2 * 0.01 * 0.01 / 8.0);
   CHECK(worst_rad < 2e-5);
 }

@@ -133,6 +133,7 @@ std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t r
     cremed::SimulationOptions options;
     options.seed = seed;
     options.doppler_offset_std_mps = doppler_offset_std_mps;
+    options.body_velocity_std_mps = 0.0;
     const Drive drive = cremed::test::drive(cremed::test::scenario(name),
                                             {cremed::test::one_of_each_kind()[radar]}, options);
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));

@@ -3,13 +3,11 @@
 #include "tools/eval/calibrate_command.hpp"
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 
 #include "daemon/configuration.hpp"
-#include "daemon/message_text.hpp"
 #include "tools/eval/calibration.hpp"
+#include "tools/eval/input_file.hpp"
 
 namespace cremed {
 namespace {
@@ -88,11 +86,8 @@ std::unique_ptr<TrueTrajectory> read_truth(const std::string& path) {
   if (path.empty()) {
     return nullptr;
   }
-  std::ifstream file(path);
-  if (!file) {
-    throw std::runtime_error(concat({"cannot read ", path}));
-  }
-  return std::make_unique<TrueTrajectory>(file);
+  return with_input(path,
+                    [](std::istream& input) { return std::make_unique<TrueTrajectory>(input); });
 }
 
 }  // namespace

@@ -54,7 +54,9 @@ void RadarSender::finish(CanFrame& /*frame*/, std::int64_t /*age_us*/) {}
 
 void RadarSender::start_scan(std::int64_t stamp_us) {
   scan_stamp_us_ = stamp_us;
-  measure(model_.observe(stamp_us));
+  const FaultOptions& faults = setup_.faults;
+  const bool blind = at_end_of(faults.blind_period_s, faults.blind_s, stamp_us);
+  measure(blind ? std::vector<Echo>() : model_.observe(stamp_us));
   list_.clear();
   sent_ = 0;
   encode(targets_, cycle_count_, list_);
@@ -88,12 +90,13 @@ void RadarSender::schedule_next() {
   } while (silent(next_scan_us_) && next_scan_us_ < scene_.end_us());
 }
 
-/// The silence is at the end of each period, so that a drive begins with scans.
 bool RadarSender::silent(std::int64_t stamp_us) const {
-  const FaultOptions& faults = setup_.faults;
-  if (faults.silence_period_s <= 0.0) return false;
-  return std::fmod(scene_.seconds(stamp_us), faults.silence_period_s) >=
-         faults.silence_period_s - faults.silence_s;
+  return at_end_of(setup_.faults.silence_period_s, setup_.faults.silence_s, stamp_us);
+}
+
+/// Faults are at the end of each period, so that a drive begins without.
+bool RadarSender::at_end_of(double period_s, double part_s, std::int64_t stamp_us) const {
+  return period_s > 0.0 && std::fmod(scene_.seconds(stamp_us), period_s) >= period_s - part_s;
 }
 
 void RadarSender::report_truth() const {

@@ -88,6 +88,7 @@ class RadarSender : public BusSender {
   void measure(const std::vector<Echo>& echoes);
   void schedule_next();
   [[nodiscard]] bool silent(std::int64_t stamp_us) const;
+  [[nodiscard]] bool at_end_of(double period_s, double part_s, std::int64_t stamp_us) const;
   void report_truth() const;
 
   ScanCycle cycle_;

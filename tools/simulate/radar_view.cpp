@@ -14,8 +14,10 @@ RadarState radar_state(const VehicleState& vehicle, const Pose2& vehicle_from_ra
   const double arm_y_m = sin_yaw * mount.x_m + cos_yaw * mount.y_m;
   return {{vehicle.pose.x_m + arm_x_m, vehicle.pose.y_m + arm_y_m,
            vehicle.pose.yaw_rad + mount.yaw_rad},
-          vehicle.speed_mps * cos_yaw - vehicle.yaw_rate_radps * arm_y_m,
-          vehicle.speed_mps * sin_yaw + vehicle.yaw_rate_radps * arm_x_m};
+          vehicle.speed_mps * cos_yaw - vehicle.side_speed_mps * sin_yaw -
+              vehicle.yaw_rate_radps * arm_y_m,
+          vehicle.speed_mps * sin_yaw + vehicle.side_speed_mps * cos_yaw +
+              vehicle.yaw_rate_radps * arm_x_m};
 }
 
 RadarView view_of(const RadarState& radar, const WorldPoint& point) {

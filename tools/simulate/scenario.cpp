@@ -77,6 +77,74 @@ CoursePlan city_course() {
                      {4.0, 0.0, 0.0}}};
 }
 
+/// Out of a parking place, backwards round corners both ways, and forwards again.
+CoursePlan reversing_course() {
+  return {0.0,
+          0.0,
+          {{1.0, 0.0, 0.0},
+           {3.0, -3.0, 0.0},
+           {2.0, -3.0, 0.1},
+           {3.0, -3.0, 0.1},
+           {3.0, -5.0, -0.05},
+           {3.0, -5.0, -0.05},
+           {4.0, 0.0, 0.0},
+           {3.0, 3.0, 0.05},
+           {2.0, 3.0, -0.05},
+           {3.0, 0.0, 0.0}}};
+}
+
+/// As hard as tyres allow: 8.7 m/s^2 at the peak.
+CoursePlan braking_course() {
+  return {20.0,
+          0.0,
+          {{1.0, 20.0, 0.0},
+           {4.3, 0.0, 0.0},
+           {1.0, 0.0, 0.0},
+           {8.0, 12.0, 0.0},
+           {1.0, 12.0, 0.01},
+           {2.6, 0.0, 0.01},
+           {1.0, 0.0, 0.0},
+           {12.1, 20.0, 0.0}}};
+}
+
+/// The rear breaks out in bends both ways, by up to 14 degrees, and is caught again.
+CoursePlan skid_course() {
+  return {10.0,
+          0.0,
+          {{2.0, 11.0, 0.02, 0.0},
+           {1.0, 11.0, 0.05, -2.5},
+           {1.0, 10.0, 0.05, -2.5},
+           {1.0, 10.0, 0.0, 0.5},
+           {1.0, 10.0, 0.0, 0.0},
+           {2.0, 11.0, -0.02, 0.0},
+           {1.0, 11.0, -0.05, 2.5},
+           {1.0, 10.0, -0.04, 2.0},
+           {1.5, 10.0, 0.0, 0.0}}};
+}
+
+CoursePlan tunnel_course() {
+  return {15.0,
+          0.0,
+          {{6.0, 20.0, 0.0},
+           {4.0, 20.0, 0.004},
+           {4.0, 18.0, 0.004},
+           {5.0, 15.0, -0.004},
+           {5.0, 15.0, 0.0}}};
+}
+
+CoursePlan jam_course() {
+  return {0.0,
+          0.0,
+          {{3.0, 0.0, 0.0},
+           {4.0, 4.0, 0.0},
+           {3.0, 5.0, 0.0},
+           {3.0, 1.0, 0.004},
+           {2.0, 1.0, 0.004},
+           {4.0, 6.0, -0.004},
+           {4.0, 5.0, 0.0},
+           {4.0, 0.0, 0.0}}};
+}
+
 Scenario drive(std::string_view name, std::string_view description, double duration_s,
                CoursePlan course, const WorldOptions& world = {},
                const TrafficOptions& traffic = {}, const FaultOptions& faults = {}) {
@@ -86,12 +154,25 @@ Scenario drive(std::string_view name, std::string_view description, double durat
 std::vector<Scenario> all_scenarios() {
   const WorldOptions sparse{.built_share = 0.3, .clutter_per_m = 0.1};
   const WorldOptions desert{.built_share = 0.03, .clutter_per_m = 0.01};
+  const WorldOptions field{.built_share = 0.0, .clutter_per_m = 0.5};
+  const WorldOptions tunnel{.built_share = 0.0, .clutter_per_m = 0.0, .tunnel = true};
   const TrafficOptions crowd{
       .oncoming_interval_s = 1.5, .same_way_interval_s = 2.5, .leader = true};
   const TrafficOptions no_traffic{
       .oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false};
-  const FaultOptions lossy{.frame_loss = 1e-3, .silence_period_s = 0.0, .silence_s = 0.0};
-  const FaultOptions silent{.frame_loss = 0.0, .silence_period_s = 20.0, .silence_s = 2.0};
+  const TrafficOptions jam{
+      .oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false, .jam_cars = 18};
+  FaultOptions lossy;
+  lossy.frame_loss = 1e-3;
+  FaultOptions silent;
+  silent.silence_period_s = 20.0;
+  silent.silence_s = 2.0;
+  FaultOptions gaps;
+  gaps.silence_period_s = 1.5;
+  gaps.silence_s = 0.3;
+  FaultOptions blind;
+  blind.blind_period_s = 2.0;
+  blind.blind_s = 0.25;
   return {
       drive("straight", "a straight road, 14 to 20 m/s", 60.0, straight_course()),
       drive("bends", "bends both ways, wide and tight, at 5 to 16 m/s", 60.0, bends_course()),
@@ -106,6 +187,20 @@ std::vector<Scenario> all_scenarios() {
             lossy),
       drive("silent", "the town, but all radars are silent for 2 s out of 20", 150.0, city_course(),
             {}, {}, silent),
+      drive("gaps", "the town, but all radars are silent for 0.3 s out of 1.5", 150.0,
+            city_course(), {}, {}, gaps),
+      drive("empty", "the town, but all radars see nothing for 0.25 s out of 2", 150.0,
+            city_course(), {}, {}, blind),
+      drive("field", "bends in an open field: a few things, here and there", 60.0, bends_course(),
+            field, no_traffic),
+      drive("tunnel", "smooth walls, at 15 to 20 m/s", 60.0, tunnel_course(), tunnel, no_traffic),
+      drive("jam", "creeping among cars that drive as we do; little stands still", 60.0,
+            jam_course(), sparse, jam),
+      drive("reversing", "backwards round corners both ways, and forwards again", 54.0,
+            reversing_course(), {}, no_traffic),
+      drive("braking", "from 20 and 12 m/s to a stop with up to 8.7 m/s^2", 62.0, braking_course()),
+      drive("skid", "the rear breaks out; for degrees_of_freedom = 3", 46.0, skid_course(), {},
+            no_traffic),
   };
 }
 

@@ -16,6 +16,8 @@ struct FaultOptions {
   double frame_loss = 0.0;        ///< Probability that a frame does not reach the log.
   double silence_period_s = 0.0;  ///< Every so often all radars send no scan; 0: never.
   double silence_s = 0.0;         ///< For so long.
+  double blind_period_s = 0.0;    ///< Every so often all radars see nothing; 0: never.
+  double blind_s = 0.0;           ///< For so long.
 };
 
 /// One drive that can be asked for by name.

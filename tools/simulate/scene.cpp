@@ -15,6 +15,7 @@ constexpr double kMarginS = 5.0;
 constexpr std::uint64_t kWorldStream = 1;
 constexpr std::uint64_t kTrafficStream = 2;
 constexpr std::uint64_t kBodyStream = 4;
+constexpr std::uint64_t kBodySideStream = 5;
 
 }  // namespace
 
@@ -26,11 +27,13 @@ Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us,
       road_(course_),
       world_(road_, scenario.world, Random(seed, kWorldStream)),
       traffic_(course_, road_, scenario.traffic, Random(seed, kTrafficStream)),
-      body_speed_(body_velocity_std_mps, Random(seed, kBodyStream)) {}
+      body_speed_(body_velocity_std_mps, Random(seed, kBodyStream)),
+      body_side_speed_(body_velocity_std_mps, Random(seed, kBodySideStream)) {}
 
 VehicleState Scene::body(double time_s) const {
   VehicleState state = course_.at(time_s);
   state.speed_mps += rolling_share(state.speed_mps) * body_speed_.at(time_s);
+  state.side_speed_mps += rolling_share(state.side_speed_mps) * body_side_speed_.at(time_s);
   return state;
 }
 

@@ -28,8 +28,8 @@ class Scene {
   [[nodiscard]] std::int64_t start_us() const { return start_us_; }
   [[nodiscard]] std::int64_t end_us() const { return end_us_; }
   [[nodiscard]] const VehicleCourse& course() const { return course_; }
-  /// The vehicle's body, which the radars are fixed to: it pitches on its springs, so that its
-  /// speed is not quite that of the rear axle.
+  /// The vehicle's body, which the radars are fixed to: it pitches on its springs, and rolls when
+  /// it skids, so that its speed is not quite that of the rear axle.
   [[nodiscard]] VehicleState body(double time_s) const;
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }
@@ -42,6 +42,7 @@ class Scene {
   World world_;
   Traffic traffic_;
   SlowError body_speed_;
+  SlowError body_side_speed_;
 };
 
 }  // namespace cremed

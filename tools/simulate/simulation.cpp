@@ -64,6 +64,8 @@ Ars408RadarState radar_state(const Ars408Options& options) {
 RadarConfiguration radar_at(const std::string& name, const std::string& interface,
                             const Pose2& vehicle_from_radar) {
   RadarConfiguration radar;
+  // All targets of a simulated scan are measured at one time.
+  radar.ego_motion.registration.doppler.stamp_std_s = 0.0;
   radar.name = name;
   radar.interface = interface;
   radar.ego_motion.vehicle_from_radar = vehicle_from_radar;

@@ -14,6 +14,8 @@ constexpr double kSameWayLaneM = 3.5;
 constexpr double kSightM = 250.0;  ///< Cars farther along the road are left out.
 constexpr double kLeaderTimeS = 2.0;
 constexpr double kLeaderGapM = 9.0;  ///< Distance to the leader when all stand.
+constexpr double kJamMomentS =
+    0.7;  ///< Cars of a jam drive as we do up to so much later or sooner.
 
 /// Where a car reflects: its corners, from its centre, forward and left.
 constexpr std::array<std::array<double, 2>, 4> kCornersM{
@@ -26,6 +28,17 @@ Traffic::Traffic(const VehicleCourse& course, const Road& road, const TrafficOpt
     : course_(course), road_(road), leader_(options.leader) {
   add_cars(options.oncoming_interval_s, kOncomingLaneM, true, random);
   add_cars(options.same_way_interval_s, kSameWayLaneM, false, random);
+  add_jam(options.jam_cars, random);
+}
+
+/// On our lane and both to the left of it, before and behind us in turn.
+void Traffic::add_jam(int count, Random& random) {
+  for (int i = 0; i < count; ++i) {
+    const double left_m = kSameWayLaneM * (i / 2 % 3);
+    const double gap_m = kLeaderGapM * (1 + i / 6) + random.uniform(0.0, 3.0);
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    jam_.push_back({side * gap_m, random.uniform(-kJamMomentS, kJamMomentS), left_m});
+  }
 }
 
 void Traffic::add_cars(double mean_interval_s, double left_m, bool oncoming, Random& random) {
@@ -47,6 +60,10 @@ void Traffic::reflectors_at(double time_s, std::vector<MovingReflector>& reflect
     const double distance_m = car.meeting_m + car.speed_mps * (time_s - car.meeting_s);
     if (std::abs(distance_m - ours_m) > kSightM) continue;
     append(distance_m, car.left_m, car.speed_mps, reflectors);
+  }
+  for (const JamCar& car : jam_) {
+    const VehicleState then = course_.at(time_s + car.ahead_s);
+    append(then.distance_m + car.ahead_m, car.left_m, then.speed_mps, reflectors);
   }
   if (!leader_) return;
   const VehicleState ahead = course_.at(time_s + kLeaderTimeS);

@@ -23,10 +23,11 @@ struct TrafficOptions {
   double oncoming_interval_s = 8.0;   ///< Mean time between two oncoming cars; 0: none.
   double same_way_interval_s = 20.0;  ///< Mean time between two cars beside us; 0: none.
   bool leader = true;                 ///< A car in front drives as we do, two seconds ahead.
+  int jam_cars = 0;                   ///< So many around us drive as we do, a moment off.
 };
 
-/// Other cars on the road: oncoming and same direction, each at its own constant speed, and one
-/// that we follow.
+/// Other cars on the road: oncoming and same direction, each at its own constant speed, one that we
+/// follow, and those of a jam.
 class Traffic {
  public:
   Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
@@ -43,6 +44,14 @@ class Traffic {
     double speed_mps;  ///< Along the road, negative when oncoming.
   };
 
+  /// One that drives as we do.
+  struct JamCar {
+    double ahead_m;
+    double ahead_s;
+    double left_m;
+  };
+
+  void add_jam(int count, Random& random);
   void add_cars(double mean_interval_s, double left_m, bool oncoming, Random& random);
   void append(double distance_m, double left_m, double speed_mps,
               std::vector<MovingReflector>& reflectors) const;
@@ -51,6 +60,7 @@ class Traffic {
   const Road& road_;
   bool leader_;
   std::vector<Car> cars_;
+  std::vector<JamCar> jam_;
 };
 
 }  // namespace cremed

@@ -9,12 +9,13 @@
 
 namespace cremed {
 
-/// Speed and curvature that the vehicle reaches at the end of a leg, starting smoothly from those
+/// Speeds and curvature that the vehicle reaches at the end of a leg, starting smoothly from those
 /// at its beginning.
 struct CourseLeg {
-  double duration_s = 0.0;  ///< A multiple of VehicleCourse::kStepS.
-  double speed_mps = 0.0;
-  double curvature_1pm = 0.0;  ///< Of the rear axle's path, positive to the left.
+  double duration_s = 0.0;      ///< A multiple of VehicleCourse::kStepS.
+  double speed_mps = 0.0;       ///< Along x, negative when reversing.
+  double curvature_1pm = 0.0;   ///< Yaw rate over speed, positive to the left.
+  double side_speed_mps = 0.0;  ///< Of the rear axle to the left: it skids.
 };
 
 /// Driven leg after leg, and from the first leg again until the time is over.
@@ -24,12 +25,13 @@ struct CoursePlan {
   std::vector<CourseLeg> legs;
 };
 
-/// The vehicle at one moment. Its rear axle never slips sideways: speed is along x.
+/// The vehicle at one moment.
 struct VehicleState {
-  Pose2 pose;  ///< Centre of the rear axle in the world.
-  double speed_mps = 0.0;
+  Pose2 pose;                   ///< Centre of the rear axle in the world.
+  double speed_mps = 0.0;       ///< Along x.
+  double side_speed_mps = 0.0;  ///< Along y; 0 unless it skids.
   double yaw_rate_radps = 0.0;
-  double distance_m = 0.0;  ///< Driven since the start.
+  double distance_m = 0.0;  ///< Length of the way since the start, forwards and backwards.
 };
 
 /// How a car drives a plan, starting at the world's origin along x.
@@ -55,6 +57,11 @@ class VehicleCourse {
     double to_speed_mps;
     double from_curvature_1pm;
     double to_curvature_1pm;
+    double from_side_speed_mps;
+    double to_side_speed_mps;
+
+    /// Speeds and yaw rate at a time since the start.
+    [[nodiscard]] VehicleState at(double time_s) const;
   };
 
   static VehicleState advanced(const Leg& leg, const VehicleState& from, double from_s,

@@ -17,6 +17,11 @@ constexpr double kClutterReachM = 80.0;  ///< To both sides: something is to be 
 constexpr double kRoadSpacingM = 1.0;
 constexpr double kCellM = 25.0;
 
+/// A tunnel's wall reflects at a few of very many places, at others in each scan.
+constexpr double kTunnelSpacingM = 0.25;
+constexpr double kTunnelOffsetM = 1.5;
+constexpr double kTunnelProbability = 0.03;
+
 /// A stretch of one side of the road that is built in one way.
 struct BlockKind {
   double least_length_m;
@@ -55,6 +60,15 @@ class Builder {
       const double length_m = random_.uniform(kind.least_length_m, kind.greatest_length_m);
       if (random_.chance(options_.built_share)) build_block(kind, side, start_m, length_m);
       start_m += length_m;
+    }
+  }
+
+  void build_tunnel_side(double side) {
+    const double offset_m = kClearanceM + (side > 0.0 ? kLeftLanesM : 0.0) + kTunnelOffsetM;
+    for (double along_m = -kReachM; along_m < road_.length_m() + kReachM;
+         along_m += kTunnelSpacingM) {
+      const RoadPoint point = road_.at(along_m + random_.uniform(0.0, kTunnelSpacingM));
+      place(beside(point, side * offset_m), -2.0 + 3.0 * random_.normal(), kTunnelProbability);
     }
   }
 
@@ -112,8 +126,13 @@ class Builder {
 
 World::World(const Road& road, const WorldOptions& options, Random random) : grid_(kCellM) {
   Builder builder(road, options, random);
-  builder.build_side(1.0);
-  builder.build_side(-1.0);
+  for (const double side : {1.0, -1.0}) {
+    if (options.tunnel) {
+      builder.build_tunnel_side(side);
+    } else {
+      builder.build_side(side);
+    }
+  }
   builder.scatter_clutter();
   reflectors_ = builder.take();
   for (std::size_t i = 0; i < reflectors_.size(); ++i) {

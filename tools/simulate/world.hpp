@@ -21,6 +21,7 @@ struct Reflector {
 struct WorldOptions {
   double built_share = 0.8;    ///< Share of the roadside that holds walls, rails, cars, trees.
   double clutter_per_m = 1.2;  ///< Single reflectors for each metre of the road.
+  bool tunnel = false;         ///< Smooth walls on both sides: no place of them stands out.
 };
 
 /// All that stands still: walls, guard rails, parked cars and trees along the road, and clutter

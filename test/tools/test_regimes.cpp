@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Every regime of driving: is the covariance that of the errors, and does the status say what the
+// radar cannot know? Drives are drawn from what the estimator assumes, mounts included.
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/pipeline_bench.hpp"
+#include "tools/simulate/random.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+constexpr std::uint64_t kSeeds = 3;
+constexpr std::uint64_t kMountStream = 512;
+constexpr double kMountYawStdRad = 0.005;
+
+/// Where the radars really are: turned a little from where the estimator believes them.
+std::vector<RadarConfiguration> as_mounted(std::vector<RadarConfiguration> radars,
+                                           std::uint64_t seed) {
+  Random random(seed, kMountStream);
+  for (RadarConfiguration& radar : radars) {
+    radar.ego_motion.vehicle_from_radar.yaw_rad += kMountYawStdRad * random.normal();
+  }
+  return radars;
+}
+
+std::vector<RadarConfiguration> radars_in(int degrees_of_freedom, bool with_doppler = true) {
+  std::vector<RadarConfiguration> radars = default_radars();
+  for (RadarConfiguration& radar : radars) {
+    radar.ego_motion.registration.degrees_of_freedom = degrees_of_freedom;
+    radar.ego_motion.registration.doppler.enabled = with_doppler;
+  }
+  return radars;
+}
+
+constexpr std::size_t kFront = 0;
+constexpr std::size_t kRear = 1;
+
+/// Several drives of one radar.
+struct Joined {
+  explicit Joined(int degrees_of_freedom) : all(degrees_of_freedom), spanning(degrees_of_freedom) {}
+
+  [[nodiscard]] std::size_t count(MotionStatus status) const {
+    return count_status(motions, status);
+  }
+  [[nodiscard]] double share(MotionStatus status) const {
+    return static_cast<double>(count(status)) / static_cast<double>(motions.size());
+  }
+
+  Credibility all;
+  Credibility spanning;  ///< Estimates over more than one cycle.
+  std::vector<EgoMotion> motions;
+};
+
+std::vector<Joined> drives(const char* name, int degrees_of_freedom = 2, bool with_doppler = true,
+                           double duration_s = 0.0) {
+  constexpr std::int64_t kCycleUs = 110'000;
+  const auto radars = radars_in(degrees_of_freedom, with_doppler);
+  std::vector<Joined> joined(radars.size(), Joined(degrees_of_freedom));
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    SimulationOptions options;
+    options.seed = seed;
+    options.duration_s = duration_s;
+    const Drive simulated = drive(scenario(name), as_mounted(radars, seed), options);
+    const RecordingSink sink = run_pipeline(radars, simulated.frames);
+    const TrueTrajectory truth = truth_of(simulated);
+    for (std::size_t i = 0; i < radars.size(); ++i) {
+      std::vector<EgoMotion> spanning;
+      for (const EgoMotion& motion : sink.motions[i]) {
+        joined[i].motions.push_back(motion);
+        if (motion.utime_us - motion.utime_start_us > kCycleUs) spanning.push_back(motion);
+      }
+      add(joined[i].all, sink.motions[i], truth);
+      add(joined[i].spanning, spanning, truth);
+    }
+  }
+  for (std::size_t i = 0; i < radars.size(); ++i) {
+    std::printf("%-11s %-5s of %zu: %s\n", name, radars[i].name.c_str(), joined[i].motions.size(),
+                to_line(joined[i].all).c_str());
+  }
+  return joined;
+}
+
+void check_credible(const Credibility& credibility) {
+  CAPTURE(to_line(credibility));
+  CHECK(credibility.anees() >= 0.8);
+  CHECK(credibility.anees() <= 1.25);
+}
+
+/// What one radar must reach.
+struct Bound {
+  double rmse_m;
+  double rmse_deg;
+};
+
+struct Regime {
+  const char* name;
+  int degrees_of_freedom;
+  MotionStatus status;  ///< Of at least this share of the scans of both radars.
+  double share;
+  double duration_s;  ///< 0: that of the scenario.
+  Bound front;
+  Bound rear;
+};
+
+void check(const Joined& joined, const Bound& bound) {
+  check_credible(joined.all);
+  CHECK(joined.all.rmse_m() <= bound.rmse_m);
+  CHECK(joined.all.rmse_deg() <= bound.rmse_deg);
+}
+
+}  // namespace
+
+TEST_CASE("Regimes: the covariance is that of the errors") {
+  using Status = MotionStatus;
+  const auto regime = GENERATE(
+      Regime{"standing", 2, Status::standing_still, 0.98, 0.0, {0.0025, 0.11}, {0.0025, 0.19}},
+      Regime{"stop-and-go", 2, Status::ok, 0.6, 0.0, {0.0075, 0.11}, {0.010, 0.21}},
+      Regime{"straight", 2, Status::ok, 0.99, 0.0, {0.009, 0.14}, {0.012, 0.24}},
+      Regime{"desert", 2, Status::too_few_targets, 0.8, 240.0, {0.07, 0.6}, {0.06, 0.6}},
+      Regime{"field", 2, Status::ok, 0.9, 0.0, {0.020, 0.25}, {0.024, 0.6}},
+      Regime{"tunnel", 2, Status::ok, 0.9, 0.0, {0.010, 0.26}, {0.013, 0.64}},
+      Regime{"reversing", 2, Status::ok, 0.85, 0.0, {0.010, 0.10}, {0.019, 0.32}},
+      Regime{"braking", 2, Status::ok, 0.8, 0.0, {0.009, 0.12}, {0.012, 0.22}},
+      Regime{"skid", 3, Status::ok, 0.99, 0.0, {0.024, 0.34}, {0.021, 0.28}});
+  CAPTURE(regime.name);
+  const auto joined = drives(regime.name, regime.degrees_of_freedom, true, regime.duration_s);
+  check(joined[kFront], regime.front);
+  check(joined[kRear], regime.rear);
+  CHECK(joined[kFront].share(regime.status) >= regime.share);
+  CHECK(joined[kRear].share(regime.status) >= regime.share);
+}
+
+TEST_CASE("Regimes: empty scans and gaps are spanned, and what spans them is credible") {
+  const auto* const name = GENERATE("empty", "gaps");
+  for (const Joined& joined : drives(name, 2, true, 90.0)) {
+    check(joined, {0.028, 0.26});
+    CHECK(joined.all.count() >= joined.motions.size() * 8 / 10);
+    CHECK(joined.spanning.count() >= 100);
+    CHECK(joined.spanning.anees() <= 1.25);
+    // The body's velocity errors do not last as long as the gap, which makes these too wide.
+    CHECK(joined.spanning.anees() >= 0.6);
+  }
+}
+
+TEST_CASE("Regimes: a silence longer than max_gap_s is not spanned") {
+  for (const Joined& joined : drives("silent", 2, true, 50.0)) {
+    check(joined, {0.013, 0.27});
+    CHECK(joined.count(MotionStatus::gap_too_long) == 6);
+  }
+}
+
+TEST_CASE("Regimes: a tunnel's walls alone do not tell how far") {
+  for (const Joined& joined : drives("tunnel", 2, false, 30.0)) {
+    CHECK(joined.all.count() <= joined.motions.size() / 100);
+    CHECK(joined.share(MotionStatus::ambiguous) >= 0.9);
+  }
+}
+
+TEST_CASE("Regimes: among cars that drive as we do, a radar without a motion flag refuses") {
+  const auto* const name = GENERATE("jam", "crowd");
+  const auto joined = drives(name);
+  check(joined[kFront], {0.010, 0.25});
+  CHECK(joined[kFront].all.count() >= joined[kFront].motions.size() * 95 / 100);
+  const Joined& rear = joined[kRear];
+  CHECK(rear.share(MotionStatus::ambiguous) >= 0.7);
+  // When all start at once, nothing tells for some scans that it is not the road that rests: these
+  // few are off by more than they say, if only by centimetres.
+  CHECK(rear.share(MotionStatus::ok) <= 0.02);
+  if (rear.all.count() > 0) CHECK(rear.all.rmse_m() <= 0.006);
+}

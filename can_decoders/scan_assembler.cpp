@@ -7,16 +7,25 @@
 namespace cremed {
 namespace {
 
-/// Stamps come from outside, so their difference may not fit a signed number.
+/// Stamps come from outside, so their difference and sum may not fit a signed number.
 std::uint64_t distance(std::int64_t a, std::int64_t b) {
   const auto [low, high] = std::minmax(a, b);
   return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
 }
 
+std::int64_t shifted(std::int64_t stamp_us, std::int64_t offset_us) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_us) +
+                                   static_cast<std::uint64_t>(offset_us));
+}
+
 }  // namespace
 
-ScanAssembler::ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us)
-    : decoder_(&decoder), framing_(decoder.framing()), timeout_us_(timeout_us) {}
+ScanAssembler::ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us,
+                             std::int64_t stamp_offset_us)
+    : decoder_(&decoder),
+      framing_(decoder.framing()),
+      timeout_us_(timeout_us),
+      stamp_offset_us_(stamp_offset_us) {}
 
 void ScanAssembler::add(const ScanPart& part) {
   if (part.kind == ScanPart::Kind::none) {
@@ -235,7 +244,7 @@ void ScanAssembler::close() {
 }
 
 void ScanAssembler::fill(RadarScan& scan) const {
-  scan.stamp_us = open_.stamp_us;
+  scan.stamp_us = shifted(open_.stamp_us, stamp_offset_us_);
   scan.counter = open_.counter;
   scan.status = status();
   scan.announced = open_.announced;

@@ -56,8 +56,9 @@ struct AssemblerCounters {
 class ScanAssembler {
  public:
   /// `decoder` must outlive the assembler. An open scan closes as incomplete when `timeout_us`
-  /// pass without a part of it.
-  ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us);
+  /// pass without a part of it. `stamp_offset_us` is added to the stamps of scans.
+  ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us,
+                std::int64_t stamp_offset_us = 0);
 
   void add(const ScanPart& part);
 
@@ -120,6 +121,7 @@ class ScanAssembler {
   const RadarDecoder* decoder_;
   ScanFraming framing_;
   std::int64_t timeout_us_;
+  std::int64_t stamp_offset_us_;
   AssemblerCounters counters_;
   std::optional<std::int64_t> last_stamp_us_;
 

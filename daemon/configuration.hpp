@@ -32,6 +32,7 @@ struct RadarConfiguration {
   std::variant<Ars408Options, BoschGprOptions> decoder;
   bool motion_feedback = false;  ///< ARS408: sends the estimate back to the sensor (0x300, 0x301).
   double scan_timeout_s = 0.03;  ///< An open scan with no new part for this long is closed.
+  double stamp_offset_s = 0.0;   ///< Added to the stamps of its scans.
   EgoMotionOptions ego_motion;
 };
 

@@ -118,6 +118,16 @@ void read_limits(TomlReader reader, DetectionLimits& limits) {
   reader.finish();
 }
 
+void read_calibration(TomlReader reader, RadarConfiguration& radar) {
+  DetectionCorrection& correction = radar.ego_motion.correction;
+  reader.number("stamp_offset_s", radar.stamp_offset_s, {-0.5, 0.5});
+  reader.number("doppler_offset_mps", correction.doppler_offset_mps, {-5.0, 5.0});
+  reader.number("range_std_factor", correction.range_std_factor, {0.1, 10.0});
+  reader.number("azimuth_std_factor", correction.azimuth_std_factor, {0.1, 10.0});
+  reader.number("doppler_std_factor", correction.doppler_std_factor, {0.1, 10.0});
+  reader.finish();
+}
+
 }  // namespace
 
 PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
@@ -129,6 +139,7 @@ PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
   reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 0.06});
   read_decoder(reader, radar);
   read_mount(reader.table("mount"), radar.ego_motion.vehicle_from_radar);
+  read_calibration(reader.table("calibration"), radar);
   read_limits(reader.table("limits"), radar.ego_motion.limits);
   read_estimator(reader.table("estimator"), radar.ego_motion);
   reader.finish();

@@ -25,7 +25,8 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
     : index(radar_index),
       interface(interface_index),
       decoder(std::visit(MakeDecoder{}, configuration.decoder)),
-      assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6)),
+      assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6),
+                std::llround(configuration.stamp_offset_s * 1e6)),
       estimator(configuration.ego_motion),
       self_check(configuration.ego_motion.registration) {}
 

@@ -83,7 +83,8 @@ MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
   if (scan.status != ScanStatus::complete) {
     return MotionStatus::incomplete_scan;
   }
-  targets_.assign(scan, options_.vehicle_from_radar, options_.limits, selection_);
+  targets_.assign(scan, options_.vehicle_from_radar, options_.limits, selection_,
+                  options_.correction);
   if (!targets_.is_finite()) {
     return MotionStatus::non_finite;
   }

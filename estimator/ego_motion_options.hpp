@@ -15,10 +15,20 @@ struct DetectionLimits {
   double min_rcs_dbm2 = -100.0;
 };
 
+/// What a radar's detections are put right by before they are used, as calibration finds it.
+struct DetectionCorrection {
+  double doppler_offset_mps = 0.0;  ///< All Doppler has so much too much.
+  /// Factors on what the sensor reports.
+  double range_std_factor = 1.0;
+  double azimuth_std_factor = 1.0;
+  double doppler_std_factor = 1.0;
+};
+
 /// Settings of one radar's ego-motion.
 struct EgoMotionOptions {
   Pose2 vehicle_from_radar;  ///< Mount: pose of the radar in the vehicle frame (rear axle).
   DetectionLimits limits;
+  DetectionCorrection correction;
   RegistrationOptions registration;
   int min_targets = 5;              ///< Fewer usable targets in a scan: too_few_targets.
   double max_gap_s = 0.5;           ///< Longer time between two scans: gap_too_long.

@@ -58,6 +58,15 @@ bool is_finite_target(const Target& t) {
 
 }  // namespace
 
+Detection corrected(const Detection& detection, const DetectionCorrection& correction) {
+  Detection result = detection;
+  result.doppler_mps -= correction.doppler_offset_mps;
+  result.range_std_m *= correction.range_std_factor;
+  result.azimuth_std_rad *= correction.azimuth_std_factor;
+  result.doppler_std_mps *= correction.doppler_std_factor;
+  return result;
+}
+
 Symmetric2 polar_covariance(double range_m, double bearing_rad, double range_std_m,
                             double azimuth_std_rad) {
   const double c = std::cos(bearing_rad);
@@ -96,12 +105,13 @@ void TargetSet::add(const Detection& detection, const Pose2& vehicle_from_radar)
 }
 
 void TargetSet::assign(const RadarScan& scan, const Pose2& vehicle_from_radar,
-                       const DetectionLimits& limits, SelectionCounters& counters) {
+                       const DetectionLimits& limits, SelectionCounters& counters,
+                       const DetectionCorrection& correction) {
   clear();
   const std::size_t count = std::min<std::size_t>(scan.count, scan.detections.size());
   for (std::size_t i = 0; i < count; ++i) {
     if (is_selected(scan.detections[i], limits, counters)) {
-      add(scan.detections[i], vehicle_from_radar);
+      add(corrected(scan.detections[i], correction), vehicle_from_radar);
     }
   }
 }

@@ -57,9 +57,9 @@ class TargetSet {
   /// Adds the target a detection stands for, seen by a radar at `vehicle_from_radar`. A full set
   /// ignores it: a scan never holds more detections than the set has room for.
   void add(const Detection& detection, const Pose2& vehicle_from_radar);
-  /// Replaces the content by the usable detections of a scan.
+  /// Replaces the content by the usable detections of a scan, put right.
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
-              SelectionCounters& counters);
+              SelectionCounters& counters, const DetectionCorrection& correction = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Target& operator[](std::size_t i) const { return targets_[i]; }
@@ -72,6 +72,9 @@ class TargetSet {
   std::array<Target, kMaxDetections> targets_{};
   std::size_t size_ = 0;
 };
+
+/// The detection without the offset, with the standard deviations that its errors have.
+Detection corrected(const Detection& detection, const DetectionCorrection& correction);
 
 /// Covariance of a point given in polar coordinates: J diag(range^2, azimuth^2) J' with J at the
 /// measurement, in the frame in which `bearing_rad` is counted.

@@ -98,6 +98,21 @@ TEST_CASE("Scans nobody takes are overwritten, oldest first") {
   CHECK(assembler.counters().scans == 3);
 }
 
+TEST_CASE("A radar's stamp offset is in the stamps of its scans, and nowhere else") {
+  const PlainDecoder decoder({true, 65536, 256});
+  for (const std::int64_t offset_us : {std::int64_t{-30'000}, std::int64_t{0}, kTimeoutUs * 3}) {
+    ScanAssembler assembler(decoder, kTimeoutUs, offset_us);
+    const std::int64_t stamp_us = 1'000'000;
+    assembler.add({.kind = ScanPart::Kind::header, .target_count = 1, .stamp_us = stamp_us});
+    assembler.expire(stamp_us + kTimeoutUs);
+    CHECK(assembler.next() == nullptr);
+    assembler.expire(stamp_us + kTimeoutUs + 1);
+    const RadarScan* scan = assembler.next();
+    REQUIRE(scan != nullptr);
+    CHECK(scan->stamp_us == stamp_us + offset_us);
+  }
+}
+
 TEST_CASE("The end of input closes the open scan") {
   ScanBench bench(kWithHeader);
   bench.finish();

@@ -42,6 +42,11 @@ keep_invalid_states = [0, 31]
 keep_dyn_props = [7]
 min_existence_code = 3
 limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_rcs_dbm2 = -20 }
+calibration.stamp_offset_s = -0.02
+calibration.doppler_offset_mps = 0.3
+calibration.range_std_factor = 1.5
+calibration.azimuth_std_factor = 2
+calibration.doppler_std_factor = 2.5
 )");
   const RadarConfiguration& radar = configuration.radars.at(0);
   CHECK(radar.scan_timeout_s == 0.04);
@@ -56,6 +61,12 @@ limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_
   CHECK(limits.max_range_m == 80.0);
   CHECK(limits.max_abs_azimuth_rad == 1.25);
   CHECK(limits.min_rcs_dbm2 == -20.0);
+  CHECK(radar.stamp_offset_s == -0.02);
+  const DetectionCorrection& correction = radar.ego_motion.correction;
+  CHECK(correction.doppler_offset_mps == 0.3);
+  CHECK(correction.range_std_factor == 1.5);
+  CHECK(correction.azimuth_std_factor == 2.0);
+  CHECK(correction.doppler_std_factor == 2.5);
 }
 
 TEST_CASE("every key of a GPR is taken") {

@@ -52,10 +52,13 @@ void write(std::ostream& out, const RegistrationOptions& options) {
 }
 
 void write(std::ostream& out, const EgoMotionOptions& options) {
-  const auto& [mount, limits, registration, min_targets, gap, standstill, speed, yaw_rate, std_m,
-               std_rad] = options;
+  const auto& [mount, limits, correction, registration, min_targets, gap, standstill, speed,
+               yaw_rate, std_m, std_rad] = options;
   const auto& [x, y, yaw] = mount;
   const auto& [min_range, max_range, azimuth, rcs] = limits;
+  const auto& [doppler_offset, range_factor, azimuth_factor, doppler_factor] = correction;
+  out << "correction " << doppler_offset << ' ' << range_factor << ' ' << azimuth_factor << ' '
+      << doppler_factor << '\n';
   out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
       << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
       << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';
@@ -65,8 +68,9 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
 std::string text_of(const RadarConfiguration& radar) {
   std::ostringstream out;
   out.precision(17);
-  const auto& [name, interface, decoder, feedback, timeout, ego_motion] = radar;
-  out << name << ' ' << interface << ' ' << feedback << ' ' << timeout << '\n';
+  const auto& [name, interface, decoder, feedback, timeout, stamp_offset, ego_motion] = radar;
+  out << name << ' ' << interface << ' ' << feedback << ' ' << timeout << ' ' << stamp_offset
+      << '\n';
   std::visit([&](const auto& options) { write(out, options); }, decoder);
   write(out, ego_motion);
   return out.str();

@@ -9,7 +9,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/configuration.hpp"
 #include "daemon/version.hpp"
+#include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
 #include "tools/eval/drive_command.hpp"
 #include "tools/eval/input_file.hpp"
@@ -145,6 +147,15 @@ CLI::App* add_drive(CLI::App& app, cremed::DriveFiles& files) {
   return command;
 }
 
+CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Mounts, offsets and noise of the radars from a recorded drive, as TOML");
+  command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
+  command->add_option("--config", arguments.config, "Configuration to start from")->required();
+  command->add_option("--truth", arguments.truth, "CSV, if there is one: utime,x_m,y_m,yaw_rad");
+  return command;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
@@ -152,8 +163,10 @@ int run(int argc, char** argv) {
   TableArguments table;
   PairsArguments pairs;
   cremed::DriveFiles drive;
+  cremed::CalibrateArguments calibrate;
   const CLI::App* table_command = add_table(app, table);
   const CLI::App* pairs_command = add_pairs(app, pairs);
+  const CLI::App* calibrate_command = add_calibrate(app, calibrate);
   add_drive(app, drive);
   try {
     app.parse(argc, argv);
@@ -162,6 +175,10 @@ int run(int argc, char** argv) {
   }
   if (table_command->parsed()) {
     cremed::run_table(table.options, table.plot);
+    return 0;
+  }
+  if (calibrate_command->parsed()) {
+    cremed::run_calibrate(calibrate);
     return 0;
   }
   if (pairs_command->parsed()) {
@@ -176,6 +193,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const cremed::ConfigurationError& error) {
+    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-eval: %s\n", error.what());
     return 1;

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/data_tests/shared_data.hpp"
+#include "tools/eval/calibration.hpp"
+#include "tools/eval/temporary_folder.hpp"
+
+using namespace cremed;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kGoalDeg = 0.3;
+constexpr double kWrongDeg = 2.0;
+
+struct City {
+  const char* configuration;
+  std::vector<const char*> scenes;
+};
+
+Configuration configuration_of(const City& city) {
+  return load_configuration(std::string(CREMED_SOURCE_DIR "/config/") + city.configuration);
+}
+
+/// The odd radars to one side, the even ones to the other.
+Configuration disturbed(Configuration configuration) {
+  double sign = 1.0;
+  for (RadarConfiguration& radar : configuration.radars) {
+    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * kWrongDeg * kDegree;
+    sign = -sign;
+  }
+  return configuration;
+}
+
+std::vector<double> yaws_deg(const Configuration& configuration, const std::string& log) {
+  std::vector<double> yaws;
+  for (const RadarCalibration& radar : calibrate(configuration, {log}, nullptr)) {
+    yaws.push_back(radar.fit.value[kYaw] / kDegree);
+  }
+  return yaws;
+}
+
+}  // namespace
+
+// What is found differs from the data set's mounts by up to 1.4 degrees, the same way in both
+// drives of a city, and it lowers the front radar's yaw error by up to a fifth: the data set's
+// mounts are not the way that the car goes.
+TEST_CASE("Real drives: mounts that are two degrees off are found again, without truth") {
+  const auto city = GENERATE(City{"nuscenes-singapore.toml", {"scene-0061", "scene-0796"}},
+                             City{"nuscenes-boston.toml", {"scene-0103", "scene-0655"}});
+  const Configuration configuration = configuration_of(city);
+  std::vector<std::vector<double>> found;
+  for (const char* scene : city.scenes) {
+    const TemporaryFolder folder;
+    const std::string log = folder.file("can.log");
+    std::ofstream(log) << read_shared(std::string("data/nuscenes/") + scene + "/can.log.xz");
+    const std::vector<double> undisturbed = yaws_deg(configuration, log);
+    found.push_back(yaws_deg(disturbed(configuration), log));
+    for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+      const double mount_deg =
+          configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad / kDegree;
+      CAPTURE(scene, configuration.radars[i].name, mount_deg, found.back()[i]);
+      std::printf("%s %s: data set %.2f, found %.2f, from 2 degrees off %.2f deg\n", scene,
+                  configuration.radars[i].name.c_str(), mount_deg, undisturbed[i], found.back()[i]);
+      CHECK(std::abs(found.back()[i] - undisturbed[i]) < kGoalDeg);
+      CHECK(std::abs(found.back()[i] - mount_deg) < 1.6);
+    }
+  }
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    CAPTURE(configuration.radars[i].name);
+    CHECK(std::abs(found[0][i] - found[1][i]) < 0.6);
+  }
+}

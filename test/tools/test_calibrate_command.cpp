@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/configuration.hpp"
+#include "test/tools/tool_run.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+const std::string kHead = "[[radar]]\nname = \"front\"\ntype = \"ars408\"\ninterface = \"can0\"\n";
+
+/// A configuration with one radar; `rest` are lines of its table.
+std::string write_configuration(const TemporaryFolder& folder, const std::string& name,
+                                const std::string& rest) {
+  std::ofstream(folder.file(name)) << kHead << rest;
+  return folder.file(name);
+}
+
+TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
+  const TemporaryFolder folder;
+  const std::string right =
+      write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
+  const std::string wrong = write_configuration(
+      folder, "wrong.toml",
+      "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 }\ncalibration.doppler_std_factor = 0.5");
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration 30 --config " + right + " --output " + log)
+              .status == 0);
+  const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  for (const char* words : {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference",
+                            "Doppler offset m/s ", "stamp offset ms ", "range std factor "}) {
+    CHECK_THAT(result.error, Catch::Contains(words));
+  }
+  const RadarConfiguration found =
+      parse_configuration(kHead + result.output, "calibrated").radars.at(0);
+  CHECK(found.ego_motion.vehicle_from_radar.x_m == 3.4);
+  CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.1).margin(0.005));
+  CHECK(found.ego_motion.correction.doppler_std_factor == Approx(1.0).margin(0.15));
+}
+
+TEST_CASE("cremed-eval calibrate says what is wrong") {
+  struct Row {
+    std::string arguments;
+    int status;
+    std::string message;
+  };
+  const auto row =
+      GENERATE(Row{"calibrate", 2, "LOG"}, Row{"calibrate /dev/null", 2, "--config"},
+               Row{"calibrate /dev/null --config /no/such.toml", 2, "/no/such.toml"},
+               Row{"calibrate /no/such.log --config CONFIG", 1, "/no/such.log"},
+               Row{"calibrate /dev/null --config CONFIG", 1, "no whole scan"},
+               Row{"calibrate /dev/null --config CONFIG --truth /no/such.csv", 1, "/no/such.csv"});
+  CAPTURE(row.arguments);
+  const TemporaryFolder folder;
+  std::string arguments = row.arguments;
+  if (const auto place = arguments.find("CONFIG"); place != std::string::npos) {
+    arguments.replace(
+        place, 6,
+        write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }"));
+  }
+  const ToolRun result = run_tool("cremed-eval", folder, arguments);
+  CAPTURE(result.error);
+  CHECK(result.status == row.status);
+  CHECK_THAT(result.error, Catch::Contains(row.message));
+}
+
+}  // namespace

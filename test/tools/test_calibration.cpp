@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Simulated drives, calibrated from a configuration that is wrong: what was done to it is found.
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/pipeline_bench.hpp"
+#include "tools/eval/calibration.hpp"
+#include "tools/eval/temporary_folder.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kGoalDeg = 0.3;
+
+/// Ahead, to the left, back; the last one a GPR if asked for.
+std::vector<RadarConfiguration> three_radars(bool with_gpr) {
+  std::vector<RadarConfiguration> radars = {
+      radar("front", "can0", {3.4, 0.0, 0.02}, Ars408Options{}),
+      radar("left", "can1", {2.4, 0.8, 1.55}, Ars408Options{}),
+      radar("rear", "can2", {-0.6, -0.6, -3.05}, Ars408Options{})};
+  if (with_gpr) {
+    radars[2].decoder = BoschGprOptions{};
+  }
+  return radars;
+}
+
+/// A drive on disk, and what its radars really are.
+struct RecordedDrive {
+  TemporaryFolder folder;
+  std::vector<RadarConfiguration> radars;
+  std::string log;
+  std::unique_ptr<TrueTrajectory> truth;
+
+  RecordedDrive(const char* name, unsigned seed, double duration_s, bool with_gpr = false)
+      : radars(three_radars(with_gpr)), log(folder.file("drive.log")) {
+    SimulationOptions options;
+    options.seed = seed;
+    options.duration_s = duration_s;
+    const Drive simulated = drive(scenario(name), radars, options);
+    std::ofstream(log) << simulated.log;
+    truth = std::make_unique<TrueTrajectory>(truth_of(simulated));
+  }
+};
+
+double degrees_off(const RadarConfiguration& found, const RadarConfiguration& truth) {
+  const double off_rad =
+      found.ego_motion.vehicle_from_radar.yaw_rad - truth.ego_motion.vehicle_from_radar.yaw_rad;
+  return std::abs(std::remainder(off_rad, 2.0 * std::numbers::pi)) / kDegree;
+}
+
+TEST_CASE("mounts that are two degrees off are found again, without truth") {
+  struct Row {
+    const char* scenario;
+    unsigned seed;
+    bool with_gpr;
+  };
+  const auto row = GENERATE(Row{"city", 1, false}, Row{"bends", 2, true}, Row{"straight", 3, false},
+                            Row{"bends", 4, false});
+  CAPTURE(row.scenario, row.seed);
+  const RecordedDrive recorded(row.scenario, row.seed, 40.0, row.with_gpr);
+  Configuration wrong = configuration_of(recorded.radars);
+  double sign = 1.0;
+  for (RadarConfiguration& radar : wrong.radars) {
+    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * 2.0 * kDegree;
+    sign = -sign;
+  }
+  const auto calibrations = calibrate(wrong, {recorded.log}, nullptr);
+  const Configuration found = calibrated(wrong, calibrations);
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    const double off_deg = degrees_off(found.radars[i], recorded.radars[i]);
+    const double std_deg = calibrations[i].fit.std[kYaw] / kDegree;
+    CAPTURE(found.radars[i].name, off_deg, std_deg);
+    CHECK(calibrations[i].is_changed[kYaw]);
+    CHECK(off_deg < kGoalDeg);
+    CHECK(off_deg < 3.0 * std_deg);
+    CHECK(std_deg < 0.2);
+  }
+}
+
+TEST_CASE("each fault of a radar shows in what is found for it, and in nothing else") {
+  const RecordedDrive recorded("bends", 5, 60.0);
+  Configuration wrong = configuration_of(recorded.radars);
+  RadarConfiguration& front = wrong.radars[0];
+  RadarConfiguration& left = wrong.radars[1];
+  RadarConfiguration& rear = wrong.radars[2];
+  front.ego_motion.correction.azimuth_std_factor = 0.5;
+  left.stamp_offset_s = 0.03;
+  left.ego_motion.correction.range_std_factor = 0.6;
+  rear.ego_motion.correction.doppler_offset_mps = 0.6;
+  rear.ego_motion.correction.doppler_std_factor = 0.5;
+  const auto calibrations = calibrate(wrong, {recorded.log}, nullptr);
+  const Configuration found = calibrated(wrong, calibrations);
+
+  const auto correction = [&](std::size_t i) { return found.radars[i].ego_motion.correction; };
+  CHECK(correction(0).azimuth_std_factor == Approx(1.0).margin(0.1));
+  CHECK(found.radars[1].stamp_offset_s == Approx(0.0).margin(0.012));
+  CHECK(correction(1).range_std_factor == Approx(1.0).margin(0.1));
+  CHECK(correction(2).doppler_offset_mps == Approx(0.0).margin(0.1));
+  CHECK(correction(2).doppler_std_factor == Approx(1.0).margin(0.1));
+
+  CHECK(correction(0).doppler_offset_mps == 0.0);
+  CHECK(correction(1).doppler_offset_mps == 0.0);
+  CHECK(found.radars[2].stamp_offset_s == 0.0);
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    CHECK(degrees_off(found.radars[i], recorded.radars[i]) < kGoalDeg);
+  }
+}
+
+TEST_CASE("with truth, lever arms come out as well") {
+  const RecordedDrive recorded("bends", 6, 60.0);
+  Configuration wrong = configuration_of(recorded.radars);
+  for (RadarConfiguration& radar : wrong.radars) {
+    radar.ego_motion.vehicle_from_radar.x_m += 0.25;
+  }
+  wrong.radars[0].ego_motion.vehicle_from_radar.y_m -= 0.2;
+  const auto calibrations = calibrate(wrong, {recorded.log}, recorded.truth.get());
+  const Configuration found = calibrated(wrong, calibrations);
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    const CalibrationVector& std = calibrations[i].fit.std;
+    CAPTURE(found.radars[i].name, std[kX], std[kY]);
+    CHECK(found.radars[i].ego_motion.vehicle_from_radar.x_m ==
+          Approx(recorded.radars[i].ego_motion.vehicle_from_radar.x_m).margin(3.5 * std[kX]));
+    CHECK(std[kX] < 0.03);
+  }
+  CHECK(found.radars[0].ego_motion.vehicle_from_radar.y_m ==
+        Approx(0.0).margin(3.5 * calibrations[0].fit.std[kY]));
+}
+
+TEST_CASE("with truth, so does the clock that all radars share") {
+  const RecordedDrive recorded("stop-and-go", 8, 50.0);
+  Configuration wrong = configuration_of(recorded.radars);
+  for (RadarConfiguration& radar : wrong.radars) {
+    radar.stamp_offset_s = -0.04;
+  }
+  const auto calibrations = calibrate(wrong, {recorded.log}, recorded.truth.get());
+  const Configuration found = calibrated(wrong, calibrations);
+  for (const std::size_t i : {0U, 2U}) {  // Sideways there is no speed to compare.
+    CAPTURE(found.radars[i].name, calibrations[i].fit.std[kStamp]);
+    CHECK(found.radars[i].stamp_offset_s ==
+          Approx(0.0).margin(3.5 * calibrations[i].fit.std[kStamp]));
+    CHECK(calibrations[i].is_changed[kStamp]);
+  }
+}
+
+TEST_CASE("a drive that tells nothing changes nothing") {
+  const RecordedDrive recorded("standing", 7, 10.0);
+  const Configuration configuration = configuration_of(recorded.radars);
+  const Configuration found =
+      calibrated(configuration, calibrate(configuration, {recorded.log}, nullptr));
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    const Pose2& mount = found.radars[i].ego_motion.vehicle_from_radar;
+    const Pose2& before = recorded.radars[i].ego_motion.vehicle_from_radar;
+    CHECK(mount.x_m == before.x_m);
+    CHECK(mount.y_m == before.y_m);
+    CHECK(mount.yaw_rad == before.yaw_rad);
+    CHECK(found.radars[i].stamp_offset_s == 0.0);
+    CHECK(found.radars[i].ego_motion.correction.doppler_offset_mps == 0.0);
+  }
+}
+
+}  // namespace

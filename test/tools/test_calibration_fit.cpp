@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tools/eval/calibration_fit.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kBeginUs = 1'700'000'000'000'000;
+constexpr CalibrationVector kWide = {0.5, 0.5, 0.5, 0.5, 0.05, 1e-3, 1e-3, 1e-3};
+
+struct Vehicle {
+  static double v_mps(double t_s) { return 8.0 + 2.0 * std::sin(0.7 * t_s); }
+  static double w_radps(double t_s) { return 0.3 * std::sin(0.5 * t_s); }
+};
+
+/// A minute of three radars with independent noise; what they are is `truths`.
+class Drive {
+ public:
+  Drive(std::vector<CalibrationVector> truths, unsigned seed)
+      : truths_(std::move(truths)), random_(seed) {
+    for (std::size_t radar = 0; radar < truths_.size(); ++radar) {
+      for (std::int64_t us = 20'000 * static_cast<std::int64_t>(radar + 1); us < 60'000'000;
+           us += 75'000) {
+        add(radar, us);
+      }
+    }
+  }
+
+  [[nodiscard]] CalibrationFit fit(const CalibrationVector& error) const {
+    std::vector<FittedRadar> radars;
+    for (std::size_t radar = 0; radar < truths_.size(); ++radar) {
+      CalibrationVector start = truths_[radar];
+      CalibrationVector std = kWide;
+      for (std::size_t i = 0; i < start.size(); ++i) {
+        const bool is_reference = radar == 0 && (i == kY || i == kStamp);
+        start[i] += is_reference ? 0.0 : error[i];
+        std[i] = is_reference ? 0.0 : std[i];
+      }
+      radars.push_back({start, std, start, {}});
+    }
+    CalibrationFit result(radars, {});
+    result.set_measurements(velocities_, yaw_rates_);
+    return result;
+  }
+
+ private:
+  void add(std::size_t radar, std::int64_t us) {
+    const CalibrationVector& truth = truths_[radar];
+    const double t_s = static_cast<double>(us) * 1e-6 + truth[kStamp];
+    const double v = Vehicle::v_mps(t_s);
+    const double w = Vehicle::w_radps(t_s);
+    const double x = v - w * truth[kY];
+    const double y = w * truth[kX];
+    const double c = std::cos(truth[kYaw]);
+    const double s = std::sin(truth[kYaw]);
+    const DopplerState state{c * x + s * y, c * y - s * x, truth[kOffset], 0.0};
+    DopplerEquations equations;
+    equations.root = 1.0 / 0.03 * Eigen::Matrix4d::Identity();
+    equations.measured = equations.root * state;
+    for (int i = 0; i < 4; ++i) {
+      equations.measured[i] += normal_(random_);
+    }
+    velocities_.push_back({radar, kBeginUs + us, equations});
+    yaw_rates_.push_back({radar, kBeginUs + us, w + 0.02 * normal_(random_), 0.02});
+  }
+
+  std::vector<CalibrationVector> truths_;
+  std::mt19937 random_;
+  std::normal_distribution<double> normal_;
+  std::vector<VelocityMeasurement> velocities_;
+  std::vector<YawRateMeasurement> yaw_rates_;
+};
+
+const std::vector<CalibrationVector> kTruths = {
+    {0.02, 3.4, 0.1, 0.0, 0.0}, {1.6, 2.4, 0.8, 0.1, 0.02}, {-3.0, -0.6, -0.5, -0.2, -0.01}};
+
+TEST_CASE("the fit finds every state of every radar, as well as it says") {
+  const CalibrationVector error = {0.2, 0.3, -0.2, 0.1, 0.01, 0.0, 0.0, 0.0};
+  double squares = 0.0;
+  double worst = 0.0;
+  int count = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    CalibrationFit fit = Drive(kTruths, seed).fit(error);
+    fit.solve();
+    for (std::size_t radar = 0; radar < kTruths.size(); ++radar) {
+      const FittedRadar& found = fit.radars()[radar];
+      for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
+        if (found.prior_std[state] == 0.0) {
+          CHECK(found.value[state] == Approx(kTruths[radar][state]).margin(1e-5));
+          continue;
+        }
+        const double z = (found.value[state] - kTruths[radar][state]) / found.std[state];
+        CAPTURE(seed, radar, state, found.value[state], found.std[state]);
+        CHECK(std::abs(z) < 4.5);
+        CHECK(found.std[state] < 0.02);
+        squares += z * z;
+        worst = std::max(worst, std::abs(z));
+        ++count;
+      }
+    }
+  }
+  CHECK(squares / count < 1.3);
+  CHECK(squares / count > 0.4);  // The larger of two standard deviations: somewhat below 1.
+}
+
+TEST_CASE("what is held stays, and the vehicle's motion comes out") {
+  CalibrationFit fit = Drive(kTruths, 1).fit({});
+  fit.hold(1, kX);
+  fit.solve();
+  CHECK(fit.radars()[1].value[kX] == Approx(2.4).margin(1e-6));
+  const auto motion = fit.motion(0, kBeginUs + 30'000'000);
+  REQUIRE(motion);
+  CHECK(motion->x() == Approx(Vehicle::v_mps(30.0)).margin(0.05));
+  CHECK(motion->y() == Approx(Vehicle::w_radps(30.0)).margin(0.03));
+  CHECK_FALSE(fit.motion(0, kBeginUs - 10'000'000));
+}
+
+}  // namespace
+}  // namespace cremed

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cremed {
+
+struct CalibrateArguments {
+  std::vector<std::string> logs;
+  std::string config;
+  std::string truth;  ///< Empty: none.
+};
+
+/// cremed-eval calibrate: a table for people on standard error, TOML to paste on standard output.
+/// Throws std::runtime_error.
+void run_calibrate(const CalibrateArguments& arguments);
+
+}  // namespace cremed

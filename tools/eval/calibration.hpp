@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "daemon/configuration.hpp"
+#include "tools/eval/calibration_fit.hpp"
+#include "tools/eval/sensor_noise.hpp"
+#include "tools/eval/true_trajectory.hpp"
+
+namespace cremed {
+
+/// What a recorded drive says about a radar. Offset, stamp and factors are on top of those that the
+/// configuration has.
+struct RadarCalibration {
+  FittedRadar free;  ///< With all states unknown.
+  FittedRadar fit;   ///< With the configured value where the drive does not say better.
+  /// false: the configured value was kept.
+  std::array<bool, kCalibrationStates> is_changed{};
+  SensorNoise noise;
+  std::size_t scans = 0;
+};
+
+/// Calibrates all radars of the configuration together. `truth` may be null: then the first radar's
+/// y and stamps are what those of the others are compared with. Throws std::runtime_error.
+std::vector<RadarCalibration> calibrate(const Configuration& configuration,
+                                        const std::vector<std::string>& logs,
+                                        const TrueTrajectory* truth);
+
+/// The configuration with what was found.
+Configuration calibrated(const Configuration& configuration,
+                         const std::vector<RadarCalibration>& calibrations);
+
+}  // namespace cremed

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/recorded_drive.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "daemon/candump_log.hpp"
+#include "daemon/message_text.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/replay.hpp"
+
+namespace cremed {
+namespace {
+
+class RecordingSink final : public OdometrySink {
+ public:
+  explicit RecordingSink(const Configuration& configuration)
+      : configuration_(configuration), radars_(configuration.radars.size()) {}
+
+  void on_scan(std::size_t radar, const RadarScan& scan) override {
+    const EgoMotionOptions& options = configuration_.radars[radar].ego_motion;
+    if (scan.status != ScanStatus::complete) {
+      return;
+    }
+    targets_.assign(scan, {}, options.limits, counters_, options.correction);
+    if (targets_.is_finite()) {
+      radars_[radar].scans.push_back({scan.stamp_us, {targets_.begin(), targets_.end()}});
+    }
+  }
+
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
+    if (motion.has_estimate()) {
+      radars_[radar].motions.push_back(motion);
+    }
+  }
+
+  [[nodiscard]] std::uint64_t failures() const override { return 0; }
+
+  std::vector<RecordedRadar> take() { return std::move(radars_); }
+
+ private:
+  const Configuration& configuration_;
+  std::vector<RecordedRadar> radars_;
+  TargetSet targets_;
+  SelectionCounters counters_;
+};
+
+std::int64_t no_clock() { return 0; }
+
+void check_logs(const Replay& replay) {
+  for (const auto& log : replay.logs()) {
+    if (log->read_error() != 0) {
+      throw std::runtime_error(concat({log->path(), ": ", std::strerror(log->read_error())}));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<RecordedRadar> record_drive(const Configuration& configuration,
+                                        const std::vector<std::string>& logs) {
+  const volatile std::sig_atomic_t stop = 0;
+  std::vector<std::unique_ptr<CandumpLog>> sources;
+  for (const std::string& path : logs) {
+    sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
+  }
+  Replay replay(std::move(sources), 0.0, &stop);
+  RecordingSink sink(configuration);
+  Pipeline pipeline(configuration, replay, {&sink}, {&no_clock});
+  while (pipeline.take_next(replay)) {
+  }
+  pipeline.finish();
+  check_logs(replay);
+  std::vector<RecordedRadar> radars = sink.take();
+  if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
+    throw std::runtime_error(
+        concat({logs.front(), ": no whole scan of any radar; `cremed-doctor --replay` says why"}));
+  }
+  return radars;
+}
+
+}  // namespace cremed

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/configuration.hpp"
+#include "estimator/ego_motion_estimator.hpp"
+#include "estimator/target_set.hpp"
+
+namespace cremed {
+
+/// The targets of one scan that an estimate would use, in the radar's own frame: their bearing is
+/// the azimuth.
+struct RecordedScan {
+  std::int64_t stamp_us = 0;
+  std::vector<Target> targets;
+};
+
+/// What the pipeline makes of one radar's frames.
+struct RecordedRadar {
+  std::vector<RecordedScan> scans;  ///< Complete ones.
+  std::vector<EgoMotion> motions;   ///< Estimates only.
+};
+
+/// Sends recorded drives through the pipeline: one RecordedRadar for each of the configuration.
+/// Throws std::runtime_error if a log cannot be read or no radar sent a scan.
+std::vector<RecordedRadar> record_drive(const Configuration& configuration,
+                                        const std::vector<std::string>& logs);
+
+}  // namespace cremed

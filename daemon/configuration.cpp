@@ -30,12 +30,14 @@ bool is_any(std::string_view /*text*/) { return true; }
 
 constexpr TextRule kLcmUrl = {is_lcm_url, kLcmUrlWanted};
 constexpr TextRule kPath = {is_any, "a path, or \"\" for none"};
-constexpr TextRule kSource = {is_any, "the name of a radar, or \"\" for the first"};
+constexpr TextRule kSource = {
+    is_any, "the name of a radar, \"fused\" where there are two or more, or \"\" for the first"};
 
 void check_output(TomlReader& reader, const Configuration& configuration) {
   const OutputConfiguration& output = configuration.output;
   const auto& radars = configuration.radars;
-  if (!output.tum_source.empty() &&
+  const bool is_that_of_all = output.tum_source == kFusedSource && is_fused(configuration);
+  if (!output.tum_source.empty() && !is_that_of_all &&
       std::none_of(radars.begin(), radars.end(),
                    [&](const auto& radar) { return radar.name == output.tum_source; })) {
     reader.report("tum_source",
@@ -52,6 +54,16 @@ void read_output(TomlReader& reader, OutputConfiguration& output) {
   reader.text("tum", output.tum, kPath);
   reader.text("tum_source", output.tum_source, kSource);
   reader.boolean("publish_scans", output.publish_scans);
+  reader.finish();
+}
+
+void read_fused(TomlReader reader, FusedOptions& fused) {
+  reader.boolean("enabled", fused.enabled);
+  reader.number("acceleration_std_mps2", fused.acceleration_std_mps2, {0.0, 100.0});
+  reader.number("yaw_acceleration_std_radps2", fused.yaw_acceleration_std_radps2, {0.0, 100.0});
+  reader.number("side_slip_std_rad", fused.side_slip_std_rad, {0.0, 1.0});
+  reader.number("side_slip_walk_radps", fused.side_slip_walk_radps, {0.0, 1.0});
+  reader.number("max_innovation", fused.max_innovation, {1.0, 1000.0});
   reader.finish();
 }
 
@@ -97,6 +109,7 @@ Configuration read_configuration(const toml::table& table, ReadContext& context)
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
   }
+  read_fused(reader.table("fused"), configuration.fused);
   TomlReader output = reader.table("output");
   read_output(output, configuration.output);
   read_live(reader.table("live"), configuration.live);
@@ -120,6 +133,10 @@ struct CloseFile {
 }
 
 }  // namespace
+
+bool is_fused(const Configuration& configuration) {
+  return configuration.fused.enabled && configuration.radars.size() > 1;
+}
 
 bool is_lcm_url(std::string_view text) {
   const std::size_t colon = text.find("://");

@@ -15,11 +15,15 @@
 #include "can_decoders/bosch_gpr.hpp"
 #include "daemon/can_socket.hpp"
 #include "estimator/ego_motion_options.hpp"
+#include "estimator/fused_estimator.hpp"
 
 namespace cremed {
 
 /// More is refused: a bus has at most eight ARS408.
 inline constexpr std::size_t kMaxRadars = 16;
+
+/// What the motion of all radars is named in messages and files; no radar may be.
+inline constexpr std::string_view kFusedSource = "fused";
 
 /// One [[radar]] table.
 struct RadarConfiguration {
@@ -35,7 +39,7 @@ struct OutputConfiguration {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  ///< "none": no LCM.
   std::string csv;             ///< Path of the odometry CSV; empty: none.
   std::string tum;             ///< Path of the trajectory; empty: none. One radar: see tum_source.
-  std::string tum_source;      ///< Radar whose motion the trajectory follows; empty: the first.
+  std::string tum_source;      ///< Radar the trajectory follows, or "fused"; empty: the first.
   bool publish_scans = false;  ///< radar_scan_t on CREMED_SCAN_<RADAR>.
 };
 
@@ -61,6 +65,7 @@ struct LoggingConfiguration {
 /// All of one TOML file, validated.
 struct Configuration {
   std::vector<RadarConfiguration> radars;
+  FusedOptions fused;
   OutputConfiguration output;
   LiveConfiguration live;
   LoggingConfiguration logging;
@@ -72,6 +77,9 @@ class ConfigurationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Whether there is an estimate from all radars together.
+bool is_fused(const Configuration& configuration);
 
 /// Parses and validates everything before anything is opened. `file_name` is for messages only.
 Configuration parse_configuration(std::string_view toml, const std::string& file_name);

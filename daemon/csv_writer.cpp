@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "daemon/configuration.hpp"
+
 namespace cremed {
 
 TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us) {
@@ -24,13 +26,17 @@ TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std:
   return line;
 }
 
-CsvWriter::CsvWriter(const std::string& path, std::vector<std::string> sources)
-    : file_(path), sources_(std::move(sources)) {
+CsvWriter::CsvWriter(const std::string& path, std::vector<std::string> radars)
+    : file_(path), radars_(std::move(radars)) {
   file_.write(kOdometryCsvHeader);
 }
 
 void CsvWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
-  file_.write(odometry_csv_row(sources_[radar], motion, solve_us).view());
+  file_.write(odometry_csv_row(radars_[radar], motion, solve_us).view());
+}
+
+void CsvWriter::on_fused(const EgoMotion& motion, std::int32_t solve_us) {
+  file_.write(odometry_csv_row(kFusedSource, motion, solve_us).view());
 }
 
 }  // namespace cremed

@@ -20,18 +20,19 @@ inline constexpr std::string_view kOdometryCsvHeader =
 /// One row under that header; without estimate it has nan for the motion.
 TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us);
 
-/// Odometry as CSV, one row a scan of each radar.
+/// Odometry as CSV, one row a scan of each radar, and one a fused motion.
 class CsvWriter final : public OdometrySink {
  public:
-  /// `sources`: names of the radars. Throws std::runtime_error if the file cannot be made.
-  CsvWriter(const std::string& path, std::vector<std::string> sources);
+  /// `radars`: their names. Throws std::runtime_error if the file cannot be made.
+  CsvWriter(const std::string& path, std::vector<std::string> radars);
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
 
  private:
   OutputFile file_;
-  std::vector<std::string> sources_;
+  std::vector<std::string> radars_;
 };
 
 }  // namespace cremed

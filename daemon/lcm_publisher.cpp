@@ -106,6 +106,8 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     : url_(std::move(url)),
       publish_scans_(configuration.output.publish_scans),
       messages_(configuration.radars.size()) {
+  fused_.source = kFusedSource;
+  fused_.seq = 0;
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     const std::string& name = configuration.radars[i].name;
     Messages& messages = messages_[i];
@@ -148,7 +150,15 @@ void LcmPublisher::publish(const char* channel, const Message& message) {
 }
 
 void LcmPublisher::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
-  ego_motion_t& message = messages_[radar].motion;
+  publish_motion(motion, solve_us, messages_[radar].motion);
+}
+
+void LcmPublisher::on_fused(const EgoMotion& motion, std::int32_t solve_us) {
+  publish_motion(motion, solve_us, fused_);
+}
+
+void LcmPublisher::publish_motion(const EgoMotion& motion, std::int32_t solve_us,
+                                  ego_motion_t& message) {
   message.utime = motion.utime_us;
   message.utime_start = motion.utime_start_us;
   message.status = static_cast<std::int8_t>(motion.status);

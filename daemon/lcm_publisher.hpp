@@ -34,6 +34,7 @@ class LcmPublisher final : public OdometrySink {
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
   [[nodiscard]] std::uint64_t failures() const override { return failures_; }
 
@@ -51,6 +52,7 @@ class LcmPublisher final : public OdometrySink {
     status_t status;
     std::string scan_channel;
   };
+  void publish_motion(const EgoMotion& motion, std::int32_t solve_us, ego_motion_t& message);
   template <typename Message>
   void publish(const char* channel, const Message& message);
 
@@ -58,6 +60,7 @@ class LcmPublisher final : public OdometrySink {
   std::unique_ptr<lcm_t, Destroy> lcm_;
   bool publish_scans_;
   std::vector<Messages> messages_;
+  ego_motion_t fused_;
   std::array<std::uint8_t, 16384> buffer_{};
   std::uint64_t failures_ = 0;
 };

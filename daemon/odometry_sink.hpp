@@ -19,6 +19,8 @@ class OdometrySink {
 
   virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
   virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
+  /// The motion of all radars together, where there are more than one.
+  virtual void on_fused(const EgoMotion& /*motion*/, std::int32_t /*solve_us*/) {}
   virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
 
   /// Results that could not be delivered.

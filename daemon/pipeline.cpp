@@ -21,6 +21,9 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
     radars_.push_back(
         std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
+  if (is_fused(configuration)) {
+    fused_.emplace(configuration.fused, configuration.radars[0].ego_motion, radars_.size());
+  }
 }
 
 bool Pipeline::take_next(FrameSource& source) {
@@ -80,8 +83,22 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
     sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
   }
   radar.note_duration(clock_.now_us() - begin_us, solve_us);
+  publish_fused(radar, motion);
   for (OdometrySink* sink : sinks_) {
     sink->on_scan(radar.index, scan);
+  }
+}
+
+void Pipeline::publish_fused(const RadarChannel& radar, const EgoMotion& motion) {
+  if (!fused_) {
+    return;
+  }
+  const std::int64_t begin_us = clock_.now_us();
+  if (const auto fused = fused_->update(radar.index, motion)) {
+    const auto solve_us = static_cast<std::int32_t>(clock_.now_us() - begin_us);
+    for (OdometrySink* sink : sinks_) {
+      sink->on_fused(*fused, solve_us);
+    }
   }
 }
 
@@ -119,6 +136,9 @@ void Pipeline::on_clock_step() {
     radar->assembler.finish();
     publish_motions(*radar, clock_.now_us());
     radar->estimator.forget_reference();
+  }
+  if (fused_) {
+    fused_->forget();
   }
 }
 

@@ -13,6 +13,7 @@
 #include "daemon/frame_source.hpp"
 #include "daemon/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
+#include "estimator/fused_estimator.hpp"
 
 namespace cremed {
 
@@ -27,6 +28,8 @@ struct PipelineClock {
 /// The whole way from a frame to a message:
 ///
 ///     FrameSource -> RadarDecoder -> ScanAssembler -> EgoMotionEstimator -> OdometrySink
+///                                                          |                    |
+///                                           of all radars  +-> FusedEstimator --+
 ///
 /// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. After
 /// construction nothing allocates, locks or logs.
@@ -60,12 +63,14 @@ class Pipeline {
   void on_time(std::int64_t now_us);
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
+  void publish_fused(const RadarChannel& radar, const EgoMotion& motion);
   void publish_status();
 
   const FrameSource& source_;
   std::vector<OdometrySink*> sinks_;
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
+  std::optional<FusedEstimator> fused_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::int64_t next_status_us_ = 0;
 };

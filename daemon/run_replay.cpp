@@ -35,6 +35,9 @@ std::vector<std::string> radar_names(const Configuration& configuration) {
 }
 
 std::size_t tum_radar(const Configuration& configuration) {
+  if (configuration.output.tum_source == kFusedSource) {
+    return TumWriter::kFused;
+  }
   const std::vector<std::string> names = radar_names(configuration);
   const auto found = std::find(names.begin(), names.end(), configuration.output.tum_source);
   return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin());

@@ -4,12 +4,22 @@
 
 #include <cmath>
 
-#include "daemon/text_line.hpp"
-
 namespace cremed {
 
 void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
-  if (radar != radar_ || !motion.has_estimate()) {
+  if (radar == radar_) {
+    follow(motion);
+  }
+}
+
+void TumWriter::on_fused(const EgoMotion& motion, std::int32_t /*solve_us*/) {
+  if (radar_ == kFused) {
+    follow(motion);
+  }
+}
+
+void TumWriter::follow(const EgoMotion& motion) {
+  if (!motion.has_estimate()) {
     return;
   }
   if (!has_begun_) {
@@ -29,13 +39,16 @@ void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32
 }
 
 void TumWriter::write_pose(std::int64_t utime_us) {
-  const Pose2& pose = start_from_vehicle_;
+  file_.write(tum_line(utime_us, start_from_vehicle_).view());
+}
+
+TextLine tum_line(std::int64_t utime_us, const Pose2& pose) {
   TextLine line;
   line.fixed(static_cast<double>(utime_us) * 1e-6, 6);
   line.text(" ").fixed(pose.x_m, 6).text(" ").fixed(pose.y_m, 6).text(" 0 0 0 ");
   line.fixed(std::sin(pose.yaw_rad / 2.0), 9).text(" ").fixed(std::cos(pose.yaw_rad / 2.0), 9);
   line.text("\n");
-  file_.write(line.view());
+  return line;
 }
 
 }  // namespace cremed

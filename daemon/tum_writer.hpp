@@ -2,28 +2,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "daemon/odometry_sink.hpp"
 #include "daemon/output_file.hpp"
+#include "daemon/text_line.hpp"
 #include "estimator/pose2.hpp"
 
 namespace cremed {
 
-/// Trajectory of one radar's ego-motion in TUM format: `seconds x y z qx qy qz qw`, beginning at
-/// the origin. Where estimates do not join (a gap), the trajectory goes on from its last pose as if
-/// the vehicle had not moved; gaps() counts these places.
+/// A pose in TUM format: `seconds x y z qx qy qz qw` and a line end.
+TextLine tum_line(std::int64_t utime_us, const Pose2& pose);
+
+/// Trajectory of one radar's ego-motion, or of the fused one, in TUM format, beginning at the
+/// origin. Where estimates do not join (a gap), the trajectory goes on from its last pose as if the
+/// vehicle had not moved; gaps() counts these places.
 class TumWriter final : public OdometrySink {
  public:
-  /// Follows the radar with index `radar`. Throws std::runtime_error if the file cannot be made.
+  /// In place of a radar's index.
+  static constexpr std::size_t kFused = std::numeric_limits<std::size_t>::max();
+
+  /// Follows the radar with index `radar`, or kFused. Throws std::runtime_error if the file cannot
+  /// be made.
   TumWriter(const std::string& path, std::size_t radar) : file_(path), radar_(radar) {}
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
   [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
 
  private:
+  void follow(const EgoMotion& motion);
   void write_pose(std::int64_t utime_us);
 
   OutputFile file_;

@@ -103,6 +103,8 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
   if (has_velocity_) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
+    motion.information = result.information;
+    motion.gradient = result.gradient;
     last_velocity_ = result.motion / dt_s;
   }
   return status;

@@ -50,6 +50,9 @@ struct EgoMotion {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
   int targets = 0;     ///< Usable targets in the current scan.
   int iterations = 0;  ///< Gauss-Newton steps.
+  /// Of RegistrationResult, for FusedEstimator.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 
   static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {

@@ -190,9 +190,18 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
+    keep_equations(equations, result);
     add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
+  }
+}
+
+void Registration::keep_equations(const NormalEquations& equations, RegistrationResult& result) {
+  result.gradient = equations.gradient;
+  if (const auto complete = invert_information(equations.information, 3)) {
+    const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
+    result.information = equations.information - likelihood_.missing_information(sigma);
   }
 }
 
@@ -203,6 +212,8 @@ void Registration::finish_gauss_newton(const Problem& problem, const Stage& stag
   const auto covariance = invert_information(equations.information, options_.degrees_of_freedom);
   if (covariance) {
     result.covariance = *covariance;
+    result.information = equations.information;
+    result.gradient = equations.gradient;
   } else if (result.status != RegistrationStatus::non_finite) {
     result.status = RegistrationStatus::degenerate;
   }

@@ -36,6 +36,10 @@ struct RegistrationResult {
   RegistrationStatus status = RegistrationStatus::non_finite;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< y row and column 0 in 2 DoF.
+  /// What the two scans say about all three states, whatever the degrees of freedom: the cost near
+  /// `motion` is g' d + d' H d / 2. Without the errors that no measurement shows.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double cost = 0.0;     ///< Negative log likelihood + constant of the covariance model.
   double matched = 0.0;  ///< Expected number of targets found again; 0 with gauss_newton.
   int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
@@ -114,6 +118,7 @@ class Registration {
   NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
+  void keep_equations(const NormalEquations& equations, RegistrationResult& result);
   void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,
                                      const RegistrationResult& result) const;

@@ -72,9 +72,17 @@ std::string text_of(const RadarConfiguration& radar) {
   return out.str();
 }
 
+std::string text_of(const FusedOptions& fused) {
+  std::ostringstream out;
+  const auto& [enabled, acceleration, yaw_acceleration, slip, walk, innovation] = fused;
+  out << enabled << ' ' << acceleration << ' ' << yaw_acceleration << ' ' << slip << ' ' << walk
+      << ' ' << innovation << '\n';
+  return out.str();
+}
+
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, output, live, logging] = configuration;
-  std::string text;
+  const auto& [radars, fused, output, live, logging] = configuration;
+  std::string text = text_of(fused);
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
   }

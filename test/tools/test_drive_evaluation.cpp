@@ -80,6 +80,27 @@ TEST_CASE("A covariance with y is evaluated in three degrees of freedom") {
   CHECK(sources[0].credibility.anees() == Approx(1.0 / 3.0).margin(1e-6));
 }
 
+TEST_CASE("Each estimate's error, sigma and NEES are told, with the path they make") {
+  const auto sources = evaluate(
+      "1000000,1100000,front,1.1,0,0.03,0.01,0,0,0,0,0.0001,ok,50,6,0\n"
+      "1100000,1200000,front,1.0,0,0.01,0.01,0,0,0,0,0.0001,ok,50,6,0\n"
+      "1300000,1400000,front,1.0,0,0.01,0.01,0,0,0,0,0.0001,ok,50,6,0\n");
+  const SourceEvaluation& front = sources[0];
+  CHECK(front.degrees_of_freedom == 2);
+  REQUIRE(front.errors.size() == 3);
+  CHECK(front.errors[0].utime_us == 1'100'000);
+  CHECK(front.errors[0].error.x() == Approx(0.1).margin(1e-6));
+  CHECK(front.errors[0].error.z() == Approx(0.02));
+  CHECK(front.errors[0].sigma.x() == Approx(0.1));
+  CHECK(front.errors[0].sigma.z() == Approx(0.01));
+  CHECK(front.errors[0].nees == Approx((1.0 + 4.0) / 2.0).epsilon(1e-5));
+  REQUIRE(front.mean_nees.size() == 3);
+  CHECK(front.mean_nees[2].mean == Approx(front.credibility.anees()));
+  REQUIRE(front.path.size() == 5);
+  CHECK(front.path.back().gaps == 1);
+  CHECK(front.drift.size() == 10);
+}
+
 TEST_CASE("What is no odometry or no truth is refused with the place") {
   CHECK_THROWS_WITH(evaluate("1,2,3\n"), Catch::Contains("line 2"));
   CHECK_THROWS_WITH(evaluate("1000000,1100000,front,x,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n"),

@@ -50,7 +50,82 @@ std::string write_pairs(const TemporaryFolder& folder) {
   return folder.file("pairs.csv");
 }
 
+/// Odometry of these sources, 20 m straight on at 10 m/s with a scale error of 1 %, and its truth.
+std::string write_drive(const TemporaryFolder& folder, const std::vector<std::string>& sources) {
+  std::ofstream truth(folder.file("truth.csv"));
+  truth << "utime,x_m,y_m,yaw_rad\n1000000,50,60,0\n3000000,70,60,0\n";
+  std::ofstream odometry(folder.file("odometry.csv"));
+  odometry << "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
+              "cov_yawyaw,status,targets,iterations,solve_us\n";
+  for (const std::string& source : sources) {
+    const char* const variance_y = source == "sideways" ? "1e-4" : "0";
+    odometry << "1000000,1000000," << source << ",nan,nan,nan,nan,nan,nan,nan,nan,nan,"
+             << (source == "blind" ? "too_few_targets" : "no_reference") << ",9,0,0\n";
+    for (int step = 0; step < 20 && source != "blind"; ++step) {
+      odometry << 1'000'000 + 100'000 * step << ',' << 1'100'000 + 100'000 * step << ',' << source
+               << ",1.01,0,0,1e-4,0,0," << variance_y << ",0,1e-6,ok,50,5,0\n";
+    }
+  }
+  return "drive " + folder.file("odometry.csv") + " " + folder.file("truth.csv");
+}
+
 }  // namespace
+
+TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands in comments") {
+  const TemporaryFolder folder;
+  const ToolRun result = run(folder, write_drive(folder, {"front", "sideways"}));
+  REQUIRE(result.status == 0);
+  const auto rows = cells(result.output);
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0][0] == "front");
+  CHECK(rows[0][1] == "20");
+  CHECK(rows[0][2] == "0.01000");
+  CHECK(rows[0][4] == "0.5000");
+  CHECK(rows[1][4] == "0.3333");
+  std::istringstream output(result.output);
+  std::vector<std::string> drift;
+  for (std::string line; std::getline(output, line);) {
+    if (line.find("# front") == 0) drift.push_back(line.substr(26));
+  }
+  REQUIRE(drift.size() == 3);
+  CHECK(drift[0].find("    1.00       -       -") == 0);
+  CHECK(drift[1].find("  0.0000       -       -") == 0);
+  CHECK(drift[2].find("      10       0       0") == 0);
+}
+
+TEST_CASE("cremed-eval drive draws one source and many, without an estimate too") {
+  const TemporaryFolder folder;
+  const auto sources = GENERATE(
+      std::vector<std::string>{"front"}, std::vector<std::string>{"blind"},
+      std::vector<std::string>{"a", "b", "blind", "sideways", "d", "e", "f", "g", "h", "fused"});
+  const std::string picture = folder.file("picture.svg");
+  const ToolRun result = run(folder, write_drive(folder, sources) + " --plot " + picture);
+  CAPTURE(sources.size(), result.error);
+  CHECK(result.status == 0);
+  CHECK(result.error.find("Warning") == std::string::npos);
+  const std::string svg = content(picture);
+  CHECK(svg.find("</svg>") != std::string::npos);
+  // Matplotlib tells each text that it draws in a comment.
+  const bool has_estimates = sources.front() != "blind";
+  CHECK((svg.find("error of x [m], 0.0 % outside 3 sigma") != std::string::npos) == has_estimates);
+  CHECK((svg.find("ANEES 0.50 (95 % band") != std::string::npos) == has_estimates);
+  CHECK((svg.find("drift 1.00 %, 0.0000 deg/m") != std::string::npos) == has_estimates);
+}
+
+TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM") {
+  const TemporaryFolder folder;
+  const std::string tum = folder.file("truth.tum");
+  REQUIRE(run(folder, write_drive(folder, {"front"}) + " --truth-tum " + tum).status == 0);
+  std::istringstream lines(content(tum));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "1.000000 50.000000 60.000000 0 0 0 0.000000000 1.000000000");
+  std::getline(lines, line);
+  CHECK(line == "1.100000 51.000000 60.000000 0 0 0 0.000000000 1.000000000");
+  int count = 2;
+  while (std::getline(lines, line)) ++count;
+  CHECK(count == 21);
+}
 
 TEST_CASE("cremed-eval table prints a row for every problem and method") {
   const TemporaryFolder folder;
@@ -117,7 +192,9 @@ TEST_CASE("cremed-eval says what is wrong") {
                Row{"pairs /dev/null --profile sim --method other", 2, "--method"},
                Row{"pairs /no/such/file --profile sim", 1, "/no/such/file"},
                Row{"pairs PAIRS --profile sim --output /no/such/folder/a.csv", 1, "cannot write"},
-               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"});
+               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"},
+               Row{"drive /no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
+               Row{"drive /no/such/file", 2, "TRUTH"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   std::string arguments = row.arguments;

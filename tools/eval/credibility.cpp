@@ -17,17 +17,17 @@ double mean(double sum, std::size_t count) {
   return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
 }
 
-Eigen::Vector3d difference(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth) {
+}  // namespace
+
+Eigen::Vector3d estimation_error(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth) {
   Eigen::Vector3d error = estimate - truth;
   error.z() = std::remainder(error.z(), 2.0 * std::numbers::pi);
   return error;
 }
 
-}  // namespace
-
 double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                                 const Eigen::Vector3d& truth, int degrees_of_freedom) {
-  const Eigen::Vector3d error = difference(estimate, truth);
+  const Eigen::Vector3d error = estimation_error(estimate, truth);
   if (degrees_of_freedom == 3) {
     return error.dot(covariance.ldlt().solve(error));
   }
@@ -39,7 +39,7 @@ double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Ma
 
 void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                       const Eigen::Vector3d& truth) {
-  const Eigen::Vector3d error = difference(estimate, truth);
+  const Eigen::Vector3d error = estimation_error(estimate, truth);
   ++count_;
   squared_position_m2_ += error.head<2>().squaredNorm();
   squared_yaw_rad2_ += error.z() * error.z();

@@ -10,8 +10,11 @@
 
 namespace cremed {
 
-/// e' C^-1 e over the estimated states of e = estimate - truth, its yaw wrapped to (-pi, pi]:
-/// chi-square with as many degrees of freedom, if the covariance is credible.
+/// estimate - truth, its yaw wrapped to (-pi, pi].
+Eigen::Vector3d estimation_error(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth);
+
+/// e' C^-1 e over the estimated states of e = estimation_error(): chi-square with as many degrees
+/// of freedom, if the covariance is credible.
 double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                                 const Eigen::Vector3d& truth, int degrees_of_freedom);
 

@@ -2,81 +2,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive_evaluation.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <optional>
-#include <stdexcept>
-
-#include "tools/eval/csv_table.hpp"
+#include "tools/eval/recorded_odometry.hpp"
 
 namespace cremed {
 namespace {
 
-struct Estimate {
-  std::int64_t start_us = 0;
-  std::int64_t end_us = 0;
-  Eigen::Vector3d motion;
-  Eigen::Matrix3d covariance;
-};
-
-struct SourceRows {
-  std::string source;
-  std::vector<Estimate> estimates;
-  std::size_t without_estimate = 0;
-};
-
-bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
-
-Estimate read_estimate(const CsvTable& table, std::size_t row) {
-  const auto number = [&](const char* name) { return table.number(row, table.column(name)); };
-  Estimate estimate;
-  estimate.start_us = table.integer(row, table.column("utime_start"));
-  estimate.end_us = table.integer(row, table.column("utime"));
-  estimate.motion << number("x_m"), number("y_m"), number("yaw_rad");
-  const double xy = number("cov_xy");
-  const double xyaw = number("cov_xyaw");
-  const double yyaw = number("cov_yyaw");
-  estimate.covariance << number("cov_xx"), xy, xyaw,  //
-      xy, number("cov_yy"), yyaw,                     //
-      xyaw, yyaw, number("cov_yawyaw");
-  if (!estimate.motion.allFinite() || !estimate.covariance.allFinite()) {
-    throw std::runtime_error("row " + std::to_string(row + 1) + ": an estimate that is not finite");
-  }
-  return estimate;
+EstimateError compare(const RecordedEstimate& estimate, const Eigen::Vector3d& truth, int dof) {
+  return {estimate.end_us, estimation_error(estimate.motion, truth),
+          estimate.covariance.diagonal().cwiseSqrt(),
+          normalised_error_squared(estimate.motion, estimate.covariance, truth, dof) / dof};
 }
 
-std::vector<SourceRows> read_odometry(std::istream& input) {
-  const CsvTable table(input);
-  const std::size_t source = table.column("source");
-  const std::size_t status = table.column("status");
-  std::vector<SourceRows> sources;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& name = table.text(row, source);
-    auto rows = std::find_if(sources.begin(), sources.end(),
-                             [&](const SourceRows& s) { return s.source == name; });
-    if (rows == sources.end()) {
-      rows = sources.insert(sources.end(), SourceRows{name, {}, 0});
-    }
-    if (is_estimate(table.text(row, status))) {
-      rows->estimates.push_back(read_estimate(table, row));
-    } else {
-      ++rows->without_estimate;
-    }
-  }
-  return sources;
-}
-
-SourceEvaluation evaluate_source(const SourceRows& rows, const TrueTrajectory& truth) {
-  const bool two_dof = std::all_of(rows.estimates.begin(), rows.estimates.end(),
-                                   [](const Estimate& e) { return e.covariance(1, 1) == 0.0; });
-  SourceEvaluation result{rows.source, Credibility(two_dof ? 2 : 3), rows.without_estimate, 0};
-  for (const Estimate& estimate : rows.estimates) {
+void compare_estimates(const std::vector<RecordedEstimate>& estimates, const TrueTrajectory& truth,
+                       SourceEvaluation& result) {
+  for (const RecordedEstimate& estimate : estimates) {
     if (const auto motion = truth.motion(estimate.start_us, estimate.end_us)) {
       result.credibility.add(estimate.motion, estimate.covariance, *motion);
+      result.errors.push_back(compare(estimate, *motion, result.degrees_of_freedom));
     } else {
       ++result.outside_truth;
     }
   }
+}
+
+std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int dof) {
+  std::vector<TimedNees> nees;
+  nees.reserve(errors.size());
+  for (const EstimateError& error : errors) {
+    nees.push_back({error.utime_us, error.nees});
+  }
+  return running_nees(nees, dof, kNeesWindowUs);
+}
+
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const TrueTrajectory& truth) {
+  SourceEvaluation result;
+  result.source = odometry.source;
+  result.degrees_of_freedom = degrees_of_freedom(odometry);
+  result.credibility = Credibility(result.degrees_of_freedom);
+  result.without_estimate = odometry.without_estimate;
+  compare_estimates(odometry.estimates, truth, result);
+  result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);
+  result.path = driven_path(odometry.estimates, truth);
+  result.drift = path_drift(result.path);
   return result;
 }
 
@@ -84,8 +51,8 @@ SourceEvaluation evaluate_source(const SourceRows& rows, const TrueTrajectory& t
 
 std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry, const TrueTrajectory& truth) {
   std::vector<SourceEvaluation> result;
-  for (const SourceRows& rows : read_odometry(odometry)) {
-    result.push_back(evaluate_source(rows, truth));
+  for (const RecordedOdometry& source : read_odometry(odometry)) {
+    result.push_back(evaluate_source(source, truth));
   }
   return result;
 }

@@ -3,22 +3,43 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "tools/eval/credibility.hpp"
+#include "tools/eval/driven_path.hpp"
+#include "tools/eval/path_drift.hpp"
+#include "tools/eval/running_nees.hpp"
 #include "tools/eval/true_trajectory.hpp"
 
 namespace cremed {
 
+/// An estimate against truth. Order of states: (x_m, y_m, yaw_rad).
+struct EstimateError {
+  std::int64_t utime_us = 0;
+  Eigen::Vector3d error;
+  Eigen::Vector3d sigma;
+  double nees = 0.0;  ///< Per degree of freedom.
+};
+
 /// One source's odometry against truth.
 struct SourceEvaluation {
   std::string source;
-  Credibility credibility;
-  std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
-  std::size_t outside_truth = 0;     ///< Estimates that truth does not cover in time.
+  int degrees_of_freedom = 2;
+  Credibility credibility{2};
+  std::size_t without_estimate = 0;    ///< Rows whose status says that there is no estimate.
+  std::size_t outside_truth = 0;       ///< Estimates that truth does not cover in time.
+  std::vector<EstimateError> errors;   ///< Of the others.
+  std::vector<RunningNees> mean_nees;  ///< For each error, over kNeesWindowUs.
+  std::vector<PathPose> path;
+  std::vector<PathDrift> drift;
 };
+
+inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
 /// Reads odometry CSV as cremed writes it and compares every estimate with truth; sources in order
 /// of appearance. A source whose cov_yy is 0 throughout is taken as 2 DoF. Throws

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,7 +11,8 @@
 
 #include "daemon/version.hpp"
 #include "tools/eval/correspondence_counts.hpp"
-#include "tools/eval/drive_evaluation.hpp"
+#include "tools/eval/drive_command.hpp"
+#include "tools/eval/input_file.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/profile.hpp"
@@ -38,29 +37,6 @@ struct PairsArguments {
   std::string plot;
   bool doppler = false;
 };
-
-struct DriveArguments {
-  std::string odometry;
-  std::string truth;
-  std::string plot;
-};
-
-/// Opens a file ("-": standard input) and hands it to `read`; errors name the file.
-template <typename Read>
-auto with_input(const std::string& path, Read read) {
-  std::ifstream file;
-  if (path != "-") {
-    file.open(path);
-    if (!file) {
-      throw std::runtime_error("cannot read " + path);
-    }
-  }
-  try {
-    return read(path == "-" ? std::cin : static_cast<std::istream&>(file));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
-}
 
 void write_pairs(const std::string& path, const std::vector<cremed::PairResult>& results) {
   cremed::ReportFile file(path);
@@ -88,7 +64,7 @@ int run_pairs(const PairsArguments& arguments) {
       cremed::profile(arguments.profile, arguments.doppler,
                       arguments.covariance == "exclusive" ? cremed::CovarianceModel::exclusive
                                                           : cremed::CovarianceModel::gauss_newton);
-  const auto pairs = with_input(arguments.file, cremed::read_registration_pairs);
+  const auto pairs = cremed::with_input(arguments.file, cremed::read_registration_pairs);
   if (pairs.empty()) {
     throw std::runtime_error(arguments.file + ": no pairs");
   }
@@ -116,29 +92,6 @@ int run_pairs(const PairsArguments& arguments) {
   }
   if (!arguments.plot.empty()) {
     plot_pairs(pairs, arguments.plot);
-  }
-  return 0;
-}
-
-int run_drive(const DriveArguments& arguments) {
-  const auto truth = with_input(arguments.truth,
-                                [](std::istream& input) { return cremed::TrueTrajectory(input); });
-  const auto sources = with_input(arguments.odometry, [&](std::istream& input) {
-    return cremed::evaluate_drive(input, truth);
-  });
-  if (sources.empty()) {
-    throw std::runtime_error(arguments.odometry + ": no odometry");
-  }
-  std::printf("# source %s\n", cremed::kCredibilityColumns);
-  for (const cremed::SourceEvaluation& source : sources) {
-    std::printf("%s %s\n", source.source.c_str(), cremed::to_line(source.credibility).c_str());
-    if (source.without_estimate + source.outside_truth != 0) {
-      std::fprintf(stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time\n",
-                   source.source.c_str(), source.without_estimate, source.outside_truth);
-    }
-  }
-  if (!arguments.plot.empty()) {
-    cremed::draw_plot("plot_drive", {arguments.odometry, arguments.truth}, arguments.plot);
   }
   return 0;
 }
@@ -181,11 +134,14 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
   return command;
 }
 
-CLI::App* add_drive(CLI::App& app, DriveArguments& arguments) {
+CLI::App* add_drive(CLI::App& app, cremed::DriveFiles& files) {
   CLI::App* command = app.add_subcommand("drive", "Compare the odometry of a drive with truth");
-  command->add_option("ODOMETRY", arguments.odometry, "CSV that cremed wrote")->required();
-  command->add_option("TRUTH", arguments.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
-  command->add_option("--plot", arguments.plot, "Draw a picture of the trajectories (PNG, SVG)");
+  command->add_option("ODOMETRY", files.odometry, "CSV that cremed wrote")->required();
+  command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
+  command->add_option("--plot", files.plot,
+                      "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");
+  command->add_option("--truth-tum", files.truth_tum,
+                      "Write truth at the times of the estimates in TUM format, for evo");
   return command;
 }
 
@@ -195,7 +151,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   TableArguments table;
   PairsArguments pairs;
-  DriveArguments drive;
+  cremed::DriveFiles drive;
   const CLI::App* table_command = add_table(app, table);
   const CLI::App* pairs_command = add_pairs(app, pairs);
   add_drive(app, drive);
@@ -208,7 +164,11 @@ int run(int argc, char** argv) {
     cremed::run_table(table.options, table.plot);
     return 0;
   }
-  return pairs_command->parsed() ? run_pairs(pairs) : run_drive(drive);
+  if (pairs_command->parsed()) {
+    return run_pairs(pairs);
+  }
+  cremed::run_drive(drive);
+  return 0;
 }
 
 }  // namespace

@@ -67,4 +67,11 @@ Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end) {
   return {c * dx + s * dy, -s * dx + c * dy, wrap(end.yaw_rad - start.yaw_rad)};
 }
 
+Pose2 moved(const Pose2& start, const Eigen::Vector3d& motion) {
+  const double c = std::cos(start.yaw_rad);
+  const double s = std::sin(start.yaw_rad);
+  return {start.x_m + c * motion.x() - s * motion.y(), start.y_m + s * motion.x() + c * motion.y(),
+          start.yaw_rad + motion.z()};
+}
+
 }  // namespace cremed

@@ -25,6 +25,9 @@ class TrueTrajectory {
   /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
+  /// All that was recorded, and when.
+  [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }
+  [[nodiscard]] const std::vector<std::int64_t>& utime_us() const { return utime_us_; }
 
  private:
   std::vector<std::int64_t> utime_us_;
@@ -33,5 +36,7 @@ class TrueTrajectory {
 
 /// Pose `end` in the frame of pose `start`: (x_m, y_m, yaw_rad).
 Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end);
+/// Its inverse: where `motion`, seen in the frame of `start`, leads.
+Pose2 moved(const Pose2& start, const Eigen::Vector3d& motion);
 
 }  // namespace cremed

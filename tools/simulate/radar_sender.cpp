@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/rolling_share.hpp"
+
 namespace cremed {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "estimator/rolling_share.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed {

@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fused_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/normal_equations.hpp"
+#include "estimator/rolling_share.hpp"
+
+namespace cremed {
+namespace {
+
+/// A radar that says nothing for this long does not lead: several cycles.
+constexpr std::int64_t kSilenceUs = 250'000;
+
+/// Sideways motion of a radar that cannot tell.
+constexpr double kUnknownM = 1.0;
+/// How well a vehicle that stands is known not to slip, so that nothing becomes infinite.
+constexpr double kLeastSlipMps = 1e-3;
+/// Slower than this a car shows no slip.
+constexpr double kLeastRollingMps = 1.0;
+
+/// Motions that a radar's judgement rests on, and its mean innovation that tells it to be wrong: if
+/// all of its error stayed the same for a minute, chance would still exceed 5.4 once in 1000 only.
+constexpr std::uint64_t kEnoughMotions = 100;
+constexpr double kContradiction = 5.0;
+/// It is believed again below this.
+constexpr double kAgreement = 3.0;
+/// What one innovation counts for at most: a few wild ones make no contradiction.
+constexpr double kMostInnovation = 25.0;
+
+double seconds(std::int64_t from_us, std::int64_t to_us) {
+  // In double, where no stamp overflows; stamps of this age of the world are exact in it.
+  return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
+}
+
+Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
+
+Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double yaw_radps2) {
+  const Eigen::Vector3d change = time_s * Eigen::Vector3d(along_mps2, along_mps2, yaw_radps2);
+  return change.cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+void FusedEstimator::Sums::add(const Eigen::Matrix3d& more, const Eigen::Vector3d& mean) {
+  information += more;
+  weighted += more * mean;
+}
+
+FusedEstimator::FusedEstimator(const FusedOptions& options, const EgoMotionOptions& first,
+                               std::size_t radars)
+    : options_(options),
+      first_(first),
+      radars_(std::min(radars, kMaxFusedRadars)),
+      leader_(radars_),
+      slip_variance_rad2_(options.side_slip_std_rad * options.side_slip_std_rad) {}
+
+void FusedEstimator::forget() {
+  count_ = 0;
+  leader_ = radars_;
+  has_end_ = false;
+  has_last_ = false;
+}
+
+std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMotion& motion) {
+  if (has_end_ && motion.has_estimate()) {
+    note(radar, motion);
+  }
+  if (!leads(radar, motion.utime_us)) {
+    return std::nullopt;
+  }
+  EgoMotion fused;
+  fused.utime_us = motion.utime_us;
+  fused.utime_start_us = has_end_ ? end_us_ : motion.utime_us;
+  const double dt_s = seconds(fused.utime_start_us, fused.utime_us);
+  if (!has_end_ || (!has_last_ && count_ == 0)) {
+    fused.status = MotionStatus::no_reference;
+  } else if (!(dt_s > 0.0 && dt_s <= first_.max_gap_s)) {
+    fused.status = MotionStatus::gap_too_long;
+  } else {
+    fused.status = count_ == 0 ? motion.status : fuse(dt_s, fused);
+    if (!fused.has_estimate()) {
+      fused.motion.setConstant(EgoMotion::kNothing);
+      fused.covariance.setConstant(EgoMotion::kNothing);
+      return fused;  // The next one spans this interval too.
+    }
+  }
+  has_last_ = fused.has_estimate();
+  count_ = 0;
+  end_us_ = fused.utime_us;
+  has_end_ = true;
+  return fused;
+}
+
+/// The first radar that is alive leads: its scans end the fused motions.
+bool FusedEstimator::leads(std::size_t radar, std::int64_t utime_us) {
+  last_scan_us_[radar] = utime_us;
+  if (radar < leader_ || seconds(last_scan_us_[leader_], utime_us) * 1e6 > kSilenceUs) {
+    leader_ = radar;
+  }
+  return radar == leader_;
+}
+
+/// Keeps a motion for the next fused one.
+void FusedEstimator::note(std::size_t radar, const EgoMotion& motion) {
+  if (count_ == kMaxMotions) {
+    std::move(measurements_.begin() + 1, measurements_.end(), measurements_.begin());
+    --count_;
+  }
+  const double dt_s = seconds(motion.utime_start_us, motion.utime_us);
+  Measurement& m = measurements_[count_++];
+  m.radar = radar;
+  m.status = motion.status;
+  m.targets = motion.targets;
+  m.twist.middle_s = seconds(end_us_, motion.utime_us) - 0.5 * dt_s;
+  Eigen::Vector3d free = motion.motion;
+  if (const auto complete = invert_information(motion.information, 3)) {
+    free -= *complete * motion.gradient;
+    m.twist.covariance = *complete;
+  } else {
+    m.twist.covariance = motion.covariance;
+    m.twist.covariance(1, 1) = kUnknownM * kUnknownM;
+  }
+  free.y() -= 0.5 * free.x() * free.z();
+  m.twist.mean = free / dt_s;
+  m.twist.covariance /= dt_s * dt_s;
+  const SharedErrorOptions& errors = first_.registration.shared_errors;
+  m.twist.covariance += outer(m.twist.mean * (errors.stamp_std_s / dt_s));
+}
+
+MotionStatus FusedEstimator::fuse(double dt_s, EgoMotion& fused) {
+  weigh(dt_s);
+  if (used() == 0) {
+    return MotionStatus::ambiguous;
+  }
+  const double velocity_mps = this->velocity_mps();
+  leave_out_the_wrong(dt_s, velocity_mps);
+  const Sums sums = sum_of_used(velocity_mps);
+  const auto covariance = invert_information(sums.information, 3);
+  if (!covariance) {
+    return MotionStatus::degenerate;
+  }
+  finish(dt_s, {*covariance * sums.weighted, *covariance, 0.5 * dt_s}, fused);
+  const Eigen::Vector3d sigma = fused.covariance.diagonal().cwiseSqrt();
+  if (!fused.motion.allFinite() || !fused.covariance.allFinite()) {
+    return MotionStatus::non_finite;
+  }
+  if (sigma.head<2>().maxCoeff() > first_.max_std_m || sigma.z() > first_.max_std_rad) {
+    return MotionStatus::degenerate;
+  }
+  const bool stands = std::all_of(
+      measurements_.begin(), measurements_.begin() + static_cast<std::ptrdiff_t>(count_),
+      [](const Measurement& m) { return !m.is_used || m.status == MotionStatus::standing_still; });
+  return stands ? MotionStatus::standing_still : MotionStatus::ok;
+}
+
+/// How much each motion says about the interval; those of radars that are not believed nothing.
+void FusedEstimator::weigh(double dt_s) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    Measurement& m = measurements_[i];
+    m.covariance =
+        m.twist.covariance + acceleration_covariance(m.twist.middle_s - 0.5 * dt_s,
+                                                     options_.acceleration_std_mps2,
+                                                     options_.yaw_acceleration_std_radps2);
+    const auto information = invert_information(m.covariance, 3);
+    m.information = information.value_or(Eigen::Matrix3d::Zero());
+    m.is_used = information.has_value() && !agreements_[m.radar].contradicts;
+  }
+}
+
+/// What is known before of a car's sideways velocity.
+FusedEstimator::Sums FusedEstimator::prior(double velocity_mps) const {
+  Sums sums;
+  if (first_.registration.degrees_of_freedom == 2) {
+    const double variance =
+        std::max(slip_variance_rad2_ * velocity_mps * velocity_mps, kLeastSlipMps * kLeastSlipMps);
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    information(1, 1) = 1.0 / variance;
+    sums.add(information, {0.0, slip_rad_ * velocity_mps, 0.0});
+  }
+  return sums;
+}
+
+/// Slip shows better the faster the car is.
+void FusedEstimator::learn_slip(double dt_s, const Twist& twist) {
+  const double velocity_mps = twist.mean.x();
+  const double initial = options_.side_slip_std_rad * options_.side_slip_std_rad;
+  const double walk = options_.side_slip_walk_radps * options_.side_slip_walk_radps * dt_s;
+  if (std::abs(velocity_mps) > kLeastRollingMps) {
+    slip_rad_ = twist.mean.y() / velocity_mps;
+    slip_variance_rad2_ = twist.covariance(1, 1) / (velocity_mps * velocity_mps);
+  }
+  slip_variance_rad2_ = std::min(slip_variance_rad2_ + walk, initial);
+}
+
+FusedEstimator::Sums FusedEstimator::sum_of_used(double velocity_mps) const {
+  Sums sums = prior(velocity_mps);
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (measurements_[i].is_used) {
+      sums.add(measurements_[i].information, measurements_[i].twist.mean);
+    }
+  }
+  return sums;
+}
+
+/// What the vehicle did before, and may have changed since.
+std::optional<FusedEstimator::Twist> FusedEstimator::prediction(double dt_s) const {
+  if (!has_last_) {
+    return std::nullopt;
+  }
+  const SharedErrorOptions& errors = first_.registration.shared_errors;
+  Twist twist = last_;
+  twist.covariance +=
+      acceleration_covariance(0.5 * dt_s - last_.middle_s, errors.acceleration_std_mps2,
+                              errors.yaw_acceleration_std_radps2);
+  return twist;
+}
+
+/// Normalised innovation squared, a degree of freedom, of a motion against the other used ones
+/// (`all`: with it, if it is used) and the prediction; 0 if there is nothing to compare with.
+double FusedEstimator::innovation(const Measurement& measurement, const Sums& all,
+                                  const std::optional<Twist>& predicted) const {
+  Sums rest = all;
+  if (measurement.is_used) {
+    rest.add(-measurement.information, measurement.twist.mean);
+  }
+  if (predicted) {
+    if (const auto information = invert_information(predicted->covariance, 3)) {
+      rest.add(*information, predicted->mean);
+    }
+  }
+  const auto covariance = invert_information(rest.information, 3);
+  if (!covariance) {
+    return 0.0;
+  }
+  const Eigen::Vector3d difference = measurement.twist.mean - *covariance * rest.weighted;
+  const auto weight = invert_information(*covariance + measurement.covariance, 3);
+  return weight ? difference.dot(*weight * difference) / 3.0 : 0.0;
+}
+
+/// One after another, the worst first, as long as one is left; then notes how all compare.
+void FusedEstimator::leave_out_the_wrong(double dt_s, double velocity_mps) {
+  const std::optional<Twist> predicted = prediction(dt_s);
+  for (std::size_t left = used(); left > 1; --left) {
+    const Sums all = sum_of_used(velocity_mps);
+    Measurement* worst = nullptr;
+    double largest = options_.max_innovation;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!measurements_[i].is_used) {
+        continue;
+      }
+      const double nis = innovation(measurements_[i], all, predicted);
+      if (nis > largest) {
+        largest = nis;
+        worst = &measurements_[i];
+      }
+    }
+    if (worst == nullptr) {
+      break;
+    }
+    worst->is_used = false;
+  }
+  const Sums all = sum_of_used(velocity_mps);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Measurement& m = measurements_[i];
+    RadarAgreement& agreement = agreements_[m.radar];
+    ++(m.is_used ? agreement.used : agreement.left_out);
+    agreement.innovation.add(last_scan_us_[m.radar],
+                             std::min(innovation(m, all, predicted), kMostInnovation));
+    const double limit = agreement.contradicts ? kAgreement : kContradiction;
+    agreement.contradicts =
+        agreement.innovation.count() >= kEnoughMotions && agreement.innovation.mean() > limit;
+  }
+}
+
+void FusedEstimator::finish(double dt_s, const Twist& twist, EgoMotion& fused) {
+  last_ = twist;
+  last_.middle_s = -0.5 * dt_s;  // As seen from the end.
+  const Eigen::Vector3d moved = twist.mean * dt_s;
+  fused.motion = moved;
+  fused.motion.y() += 0.5 * moved.x() * moved.z();
+  Eigen::Matrix3d arc = Eigen::Matrix3d::Identity();
+  arc(1, 0) = 0.5 * moved.z();
+  arc(1, 2) = 0.5 * moved.x();
+  const Eigen::Matrix3d covariance = arc * twist.covariance * arc.transpose() * (dt_s * dt_s);
+  fused.covariance = 0.5 * (covariance + covariance.transpose());
+  const double velocity_m = rolling_share(twist.mean.head<2>().norm()) *
+                            first_.registration.shared_errors.velocity_std_mps * dt_s;
+  fused.covariance(0, 0) += velocity_m * velocity_m;
+  if (first_.registration.degrees_of_freedom == 3) {
+    fused.covariance(1, 1) += velocity_m * velocity_m;
+  } else {
+    learn_slip(dt_s, twist);
+    const double mounts_m = moved.x() * first_.registration.shared_errors.mount_yaw_std_rad;
+    fused.covariance(1, 1) += mounts_m * mounts_m;
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    fused.targets += measurements_[i].is_used ? measurements_[i].targets : 0;
+    fused.iterations += measurements_[i].is_used ? 1 : 0;
+  }
+}
+
+/// Along x, by the radar that is most certain of it.
+double FusedEstimator::velocity_mps() const {
+  double velocity_mps = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Measurement& m = measurements_[i];
+    if (m.is_used && m.information(0, 0) > most) {
+      most = m.information(0, 0);
+      velocity_mps = m.twist.mean.x();
+    }
+  }
+  return velocity_mps;
+}
+
+std::size_t FusedEstimator::used() const {
+  return static_cast<std::size_t>(std::count_if(
+      measurements_.begin(), measurements_.begin() + static_cast<std::ptrdiff_t>(count_),
+      [](const Measurement& m) { return m.is_used; }));
+}
+
+}  // namespace cremed

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace cremed {
+
+/// Mean of normalised innovations squared, a degree of freedom, over the last minute: 1 where the
+/// covariances of the two estimates that are compared are true, above 1 where they are too small.
+class InnovationMean {
+ public:
+  /// `utime_us` may go back, which begins anew.
+  void add(std::int64_t utime_us, double innovation);
+  void clear();
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  /// 0 without any.
+  [[nodiscard]] double mean() const;
+
+ private:
+  static constexpr std::size_t kSeconds = 60;
+  struct Second {
+    std::uint64_t count = 0;
+    double sum = 0.0;
+  };
+  void pass(std::int64_t second);
+
+  std::array<Second, kSeconds> seconds_{};
+  std::int64_t second_ = 0;  // The newest; of utime.
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace cremed

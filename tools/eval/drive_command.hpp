@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace cremed {
+
+struct DriveFiles {
+  std::string odometry;   ///< CSV that cremed wrote.
+  std::string truth;      ///< CSV: utime,x_m,y_m,yaw_rad.
+  std::string plot;       ///< Picture to draw; empty: none.
+  std::string truth_tum;  ///< Truth to write in TUM format; empty: none.
+};
+
+/// cremed-eval drive: prints how far the odometry of a drive is from truth and draws it. Throws
+/// std::runtime_error.
+void run_drive(const DriveFiles& files);
+
+}  // namespace cremed

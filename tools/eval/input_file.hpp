@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace cremed {
+
+/// Opens a file ("-": standard input) and hands it to `read`; errors name the file.
+template <typename Read>
+auto with_input(const std::string& path, Read read) {
+  std::ifstream file;
+  if (path != "-") {
+    file.open(path);
+    if (!file) {
+      throw std::runtime_error("cannot read " + path);
+    }
+  }
+  try {
+    return read(path == "-" ? std::cin : static_cast<std::istream&>(file));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
+}  // namespace cremed

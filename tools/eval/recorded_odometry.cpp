@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/recorded_odometry.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/eval/csv_table.hpp"
+
+namespace cremed {
+namespace {
+
+bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
+
+RecordedEstimate read_estimate(const CsvTable& table, std::size_t row) {
+  const auto number = [&](const char* name) { return table.number(row, table.column(name)); };
+  RecordedEstimate estimate;
+  estimate.start_us = table.integer(row, table.column("utime_start"));
+  estimate.end_us = table.integer(row, table.column("utime"));
+  estimate.motion << number("x_m"), number("y_m"), number("yaw_rad");
+  const double xy = number("cov_xy");
+  const double xyaw = number("cov_xyaw");
+  const double yyaw = number("cov_yyaw");
+  estimate.covariance << number("cov_xx"), xy, xyaw,  //
+      xy, number("cov_yy"), yyaw,                     //
+      xyaw, yyaw, number("cov_yawyaw");
+  if (!estimate.motion.allFinite() || !estimate.covariance.allFinite()) {
+    throw std::runtime_error("row " + std::to_string(row + 1) + ": an estimate that is not finite");
+  }
+  return estimate;
+}
+
+RecordedOdometry& odometry_of(std::vector<RecordedOdometry>& sources, const std::string& name) {
+  const auto found = std::find_if(sources.begin(), sources.end(),
+                                  [&](const RecordedOdometry& s) { return s.source == name; });
+  return found != sources.end() ? *found : sources.emplace_back(RecordedOdometry{name, {}, 0});
+}
+
+}  // namespace
+
+std::vector<RecordedOdometry> read_odometry(std::istream& input) {
+  const CsvTable table(input);
+  const std::size_t source = table.column("source");
+  const std::size_t status = table.column("status");
+  std::vector<RecordedOdometry> sources;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    RecordedOdometry& odometry = odometry_of(sources, table.text(row, source));
+    if (is_estimate(table.text(row, status))) {
+      odometry.estimates.push_back(read_estimate(table, row));
+    } else {
+      ++odometry.without_estimate;
+    }
+  }
+  return sources;
+}
+
+int degrees_of_freedom(const RecordedOdometry& odometry) {
+  const bool two_dof =
+      std::all_of(odometry.estimates.begin(), odometry.estimates.end(),
+                  [](const RecordedEstimate& e) { return e.covariance(1, 1) == 0.0; });
+  return two_dof ? 2 : 3;
+}
+
+}  // namespace cremed

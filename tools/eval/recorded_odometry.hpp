@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace cremed {
+
+/// A row of odometry CSV that holds an estimate. Order of states: (x_m, y_m, yaw_rad).
+struct RecordedEstimate {
+  std::int64_t start_us = 0;
+  std::int64_t end_us = 0;
+  Eigen::Vector3d motion;
+  Eigen::Matrix3d covariance;
+};
+
+/// What one source wrote, in order of its rows.
+struct RecordedOdometry {
+  std::string source;
+  std::vector<RecordedEstimate> estimates;
+  std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
+};
+
+/// Reads odometry CSV as cremed writes it; sources in order of appearance. Throws
+/// std::runtime_error.
+std::vector<RecordedOdometry> read_odometry(std::istream& input);
+
+/// 2 if no estimate has a variance of y, else 3.
+int degrees_of_freedom(const RecordedOdometry& odometry);
+
+}  // namespace cremed

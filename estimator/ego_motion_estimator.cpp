@@ -156,6 +156,9 @@ bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s
 
 /// The motion before settles it if it leads to this one and not to the other.
 bool EgoMotionEstimator::has_rival(const RegistrationResult& result, double dt_s) {
+  if (!options_.registration.doppler.enabled) {
+    return false;
+  }
   const SpeedVotes votes =
       rival_speed_.count(targets_, result.motion / dt_s, 0.5 * kMaxAccelerationMps2 * dt_s);
   const RivalLimits& limits = doubtful_scans_ > 0 ? kDoubtfulRival : kRival;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "estimator/normal_equations.hpp"
-#include "estimator/rolling_share.hpp"
+#include "estimator/shared_doppler.hpp"
 
 namespace cremed {
 namespace {
@@ -286,7 +286,7 @@ void FusedEstimator::finish(double dt_s, const Twist& twist, EgoMotion& fused) {
   arc(1, 2) = 0.5 * moved.x();
   const Eigen::Matrix3d covariance = arc * twist.covariance * arc.transpose() * (dt_s * dt_s);
   fused.covariance = 0.5 * (covariance + covariance.transpose());
-  const double velocity_m = rolling_share(twist.mean.head<2>().norm()) *
+  const double velocity_m = rolling_part(moved, std::sqrt(fused.covariance(0, 0)), dt_s) *
                             first_.registration.shared_errors.velocity_std_mps * dt_s;
   fused.covariance(0, 0) += velocity_m * velocity_m;
   if (first_.registration.degrees_of_freedom == 3) {

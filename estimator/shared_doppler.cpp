@@ -8,11 +8,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "estimator/rolling_share.hpp"
-
 namespace cremed {
 
 namespace {
+
+/// Slower than this the vehicle's body comes to rest.
+constexpr double kRollingMps = 0.2;
 
 /// An error of zero deviation is none: it is held fast.
 constexpr double kLeastStd = 1e-9;
@@ -35,7 +36,8 @@ void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
 }  // namespace
 
 double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
-  return rolling_share(std::max(motion.head<2>().norm() - noise_m, 0.0) / dt_s);
+  const double distance_m = motion.head<2>().norm() - noise_m;
+  return std::clamp(distance_m / (dt_s * kRollingMps), 0.0, 1.0);
 }
 
 SharedDoppler::SharedDoppler(const RegistrationOptions& options, const Pose2& vehicle_from_radar)

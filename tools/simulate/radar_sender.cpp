@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/rolling_share.hpp"
-
 namespace cremed {
 namespace {
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "estimator/rolling_share.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/slow_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kLowestHz = 0.3;
 constexpr double kHighestHz = 2.0;
+constexpr double kRollingMps = 0.2;
 
 }  // namespace
 
@@ -28,5 +30,7 @@ double SlowError::at(double time_s) const {
   }
   return sum;
 }
+
+double rolling_share(double speed_mps) { return std::min(std::abs(speed_mps) / kRollingMps, 1.0); }
 
 }  // namespace cremed

@@ -156,10 +156,12 @@ bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s
          (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
 }
 
-/// The motion before settles it if it leads to this one and not to the other.
+/// Asks Doppler even where it takes no part in the estimate. The motion before settles it if it
+/// leads to this one and not to the other.
 bool EgoMotionEstimator::has_rival(const RegistrationResult& result, double dt_s) {
-  const SpeedVotes votes =
-      rival_speed_.count(targets_, result.motion / dt_s, 0.5 * kMaxAccelerationMps2 * dt_s);
+  const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
+  const SpeedVotes votes = rival_speed_.count(targets_, result.motion / dt_s,
+                                              0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps);
   const RivalLimits& limits = doubtful_scans_ > 0 ? kDoubtfulRival : kRival;
   RegistrationResult other = result;
   other.motion.x() = votes.rival_mps * dt_s;

@@ -30,8 +30,8 @@ class RivalSpeed {
  public:
   explicit RivalSpeed(const Pose2& vehicle_from_radar) : vehicle_from_radar_(vehicle_from_radar) {}
 
-  /// `velocity`: along x, along y, of the yaw; the mean of a time in which the speed along x may
-  /// have changed by twice `change_mps`. Targets abeam have no vote.
+  /// `velocity`: along x, along y, of the yaw; the mean of a time at whose end the speed along x
+  /// may be another by `change_mps`. Targets abeam have no vote.
   SpeedVotes count(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps);
 
  private:

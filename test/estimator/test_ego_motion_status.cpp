@@ -87,48 +87,6 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
   }
 }
 
-/// One radar, two worlds: each sees its own of two drives.
-RadarScan both(RadarScan scan, const RadarScan& other) {
-  for (std::size_t i = 0; i < other.count; ++i) {
-    scan.detections[scan.count++] = other.detections[i];
-  }
-  return scan;
-}
-
-TEST_CASE("two worlds are ambiguous, until one is gone or if the last motion tells") {
-  struct Row {
-    std::string what;
-    Eigen::Vector3d road;
-    int scans_before;  // of the road alone
-    MotionStatus status;
-  };
-  const std::vector<Row> rows = {
-      {"from the start", {8.0, 0.0, 0.0}, 0, MotionStatus::ambiguous},
-      {"the last motion tells", {8.0, 0.0, 0.0}, 2, MotionStatus::ok},
-      {"near each other, it does not", {0.8, 0.0, 0.0}, 2, MotionStatus::ambiguous},
-  };
-  for (const Row& row : rows) {
-    CAPTURE(row.what);
-    const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(kFront));
-    Drive road(row.road, kFront, 5, 150);
-    Drive jam(Eigen::Vector3d::Zero(), kFront, 6, 80);
-    for (int i = 0; i < row.scans_before; ++i) {
-      jam.next();
-      estimator->update(road.next());
-    }
-    EgoMotion motion;
-    for (int i = 0; i < 3; ++i) {
-      motion = estimator->update(both(road.next(), jam.next()));
-    }
-    CHECK(motion.status == row.status);
-    for (int i = 0; i < 12; ++i) {
-      motion = estimator->update(road.next());
-    }
-    CHECK(motion.status == MotionStatus::ok);
-    CHECK(motion.motion.x() == Approx(row.road.x() * kPeriod).margin(0.03));
-  }
-}
-
 TEST_CASE("an empty scan is never enough") {
   EgoMotionOptions options = options_at(kFront);
   options.min_targets = 0;

@@ -133,7 +133,7 @@ Scans full_scans() {
   simulation::perturb(first, random);
   simulation::perturb(second, random);
   for (std::size_t i = 0; i < kMaxDetections; i += 5) {
-    second[i].doppler_mps += 12.0;
+    second[i].doppler_mps += i % 2 == 0 ? 12.0 : -12.0;
     first[i].range_m += 7.0;
   }
   return {simulation::scan(first, 1000000), simulation::scan(second, 1100000)};

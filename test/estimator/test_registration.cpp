@@ -91,6 +91,23 @@ Points landmarks(Random& random, const Pose2& mount) {
   return points;
 }
 
+/// The paper takes a motion over its time for the velocity. In fact the vehicle's frame turns on
+/// the way, and the velocity it keeps in that frame is the motion seen from half of the turn.
+Eigen::Vector3d half_way(Eigen::Vector3d motion) {
+  motion.head<2>() = Eigen::Rotation2Dd(-0.5 * motion.z()) * motion.head<2>();
+  return motion;
+}
+
+void set_doppler(Detections& detections, const Eigen::Vector3d& velocity, const Pose2& mount) {
+  const Eigen::Vector2d sensor_velocity(velocity.x() - velocity.z() * mount.y_m,
+                                        velocity.y() + velocity.z() * mount.x_m);
+  for (Detection& detection : detections) {
+    const double bearing_rad = detection.azimuth_rad + mount.yaw_rad;
+    detection.doppler_mps =
+        -sensor_velocity.dot(Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad)));
+  }
+}
+
 /// Runs `check` for every regime, mount, number of states, with and without Doppler, on data
 /// without noise.
 template <typename Check>
@@ -105,9 +122,12 @@ void for_all_regimes(const Check& check) {
           const Points points = landmarks(random, mount);
           const Detections previous =
               simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {});
-          const Detections current = simulation::observe_all(points, regime.motion, kDt, mount, {});
           for (const CovarianceModel model : kModels) {
             CAPTURE(model);
+            Detections current = simulation::observe_all(points, regime.motion, kDt, mount, {});
+            if (degrees_of_freedom == 3 && model == CovarianceModel::exclusive) {
+              set_doppler(current, half_way(regime.motion) / kDt, mount);
+            }
             check(options_of(degrees_of_freedom, has_doppler, model), mount, previous, current,
                   regime.motion);
           }

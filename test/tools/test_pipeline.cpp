@@ -57,7 +57,7 @@ TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accu
       GENERATE(Row{"straight", 0.01, 0.35}, Row{"bends", 0.02, 0.35}, Row{"stop-and-go", 0.01, 0.3},
                Row{"standing", 0.006, 0.25}, Row{"city", 0.012, 0.35});
   CAPTURE(row.scenario);
-  const Drive simulated = drive(scenario(row.scenario), default_radars(), options(7, 25.0));
+  const Drive simulated = drive(scenario(row.scenario), default_radars(), options(8, 25.0));
   const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
   check_invariants(sink);
 

@@ -49,7 +49,7 @@ inline Eigen::Vector3d true_motion(const Course& course, std::int64_t start_us,
 /// One radar, and how well it sees.
 struct DrawnRadar {
   std::int64_t period_us = 75'000;
-  std::int64_t phase_us = 0;  ///< First scan.
+  std::int64_t phase_us = 0;                ///< First scan.
   Eigen::Vector3d std{0.006, 0.02, 0.003};  ///< Of a motion, its own and independent: m, m, rad.
 };
 
@@ -110,8 +110,8 @@ class DrawnVehicle {
   void draw(DrawnMotion& drawn) {
     EgoMotion& motion = drawn.motion;
     const SharedErrorOptions& errors = options_.registration.shared_errors;
-    const double dt_s = seconds_since_start(motion.utime_us) -
-                        seconds_since_start(motion.utime_start_us);
+    const double dt_s =
+        seconds_since_start(motion.utime_us) - seconds_since_start(motion.utime_start_us);
     const double rolling = rolling_part(drawn.truth, 0.0, dt_s);
     const double lateral_m = drawn.truth.x() * errors.mount_yaw_std_rad;
     Eigen::Matrix3d covariance = radars_[drawn.radar].std.cwiseAbs2().asDiagonal();
@@ -131,7 +131,8 @@ class DrawnVehicle {
 
   /// As a registration says it: with two degrees of freedom the best motion with y = 0, and where
   /// the best without would be.
-  void say(const Eigen::Vector3d& seen, const Eigen::Matrix3d& covariance, EgoMotion& motion) const {
+  void say(const Eigen::Vector3d& seen, const Eigen::Matrix3d& covariance,
+           EgoMotion& motion) const {
     motion.information = covariance.inverse();
     motion.motion = seen;
     motion.covariance = covariance;

@@ -99,12 +99,12 @@ void drive(const Regime& regime, std::size_t radars, std::uint64_t seed, Outcome
 // Less than 0.8 where a vehicle that stands or keeps its speed might have accelerated between two
 // radars' scans, as far as they know.
 TEST_CASE("fused: in every regime credible, and better than any radar alone") {
-  const auto regime = GENERATE(
-      Regime{"standing", 2, standing, 0.5}, Regime{"straight", 2, simulation::straight_on},
-      Regime{"bends", 2, simulation::in_bends}, Regime{"braking", 2, braking},
-      Regime{"reversing", 2, reversing, 0.75}, Regime{"standing", 3, standing, 0.65},
-      Regime{"straight", 3, simulation::straight_on, 0.75}, Regime{"skid", 3, skidding},
-      Regime{"braking", 3, braking});
+  const auto regime =
+      GENERATE(Regime{"standing", 2, standing, 0.5}, Regime{"straight", 2, simulation::straight_on},
+               Regime{"bends", 2, simulation::in_bends}, Regime{"braking", 2, braking},
+               Regime{"reversing", 2, reversing, 0.75}, Regime{"standing", 3, standing, 0.65},
+               Regime{"straight", 3, simulation::straight_on, 0.75}, Regime{"skid", 3, skidding},
+               Regime{"braking", 3, braking});
   const std::size_t radars = GENERATE(1U, 2U, 5U);
   Outcome outcome{{}, std::vector<Errors>(radars), 0};
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {

@@ -18,6 +18,7 @@ struct DetectionLimits {
 /// What a radar's detections are put right by before they are used, as calibration finds it.
 struct DetectionCorrection {
   double doppler_offset_mps = 0.0;  ///< All Doppler has so much too much.
+  double doppler_scale = 1.0;       ///< Factor on Doppler, once that is taken off.
   /// Factors on what the sensor reports.
   double range_std_factor = 1.0;
   double azimuth_std_factor = 1.0;

@@ -60,7 +60,8 @@ bool is_finite_target(const Target& t) {
 
 Detection corrected(const Detection& detection, const DetectionCorrection& correction) {
   Detection result = detection;
-  result.doppler_mps -= correction.doppler_offset_mps;
+  result.doppler_mps =
+      (detection.doppler_mps - correction.doppler_offset_mps) * correction.doppler_scale;
   result.range_std_m *= correction.range_std_factor;
   result.azimuth_std_rad *= correction.azimuth_std_factor;
   result.doppler_std_mps *= correction.doppler_std_factor;

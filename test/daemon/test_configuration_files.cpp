@@ -56,9 +56,10 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
                yaw_rate, std_m, std_rad] = options;
   const auto& [x, y, yaw] = mount;
   const auto& [min_range, max_range, azimuth, rcs] = limits;
-  const auto& [doppler_offset, range_factor, azimuth_factor, doppler_factor] = correction;
-  out << "correction " << doppler_offset << ' ' << range_factor << ' ' << azimuth_factor << ' '
-      << doppler_factor << '\n';
+  const auto& [doppler_offset, doppler_scale, range_factor, azimuth_factor, doppler_factor] =
+      correction;
+  out << "correction " << doppler_offset << ' ' << doppler_scale << ' ' << range_factor << ' '
+      << azimuth_factor << ' ' << doppler_factor << '\n';
   out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
       << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
       << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';

@@ -190,10 +190,10 @@ TEST_CASE("assigning a scan replaces the targets and adds to the counters") {
 TEST_CASE("targets are put right as they are taken") {
   TargetSet set;
   SelectionCounters counters;
-  const DetectionCorrection correction{0.5, 2.0, 3.0, 4.0};
+  const DetectionCorrection correction{0.5, 1.5, 2.0, 3.0, 4.0};
   set.assign(simulation::scan({usable_detection(10.0, 0.0)}, 0), {}, {}, counters, correction);
   REQUIRE(set.size() == 1);
-  CHECK(set[0].doppler_mps == Approx(-3.5));
+  CHECK(set[0].doppler_mps == Approx(-5.25));
   CHECK(set[0].doppler_std_mps == Approx(0.4));
   CHECK(set[0].bearing_std_rad == Approx(0.03));
   CHECK(set[0].covariance_m2.xx == Approx(0.16));

@@ -36,6 +36,12 @@ void judge(RadarAgreement& agreement) {
       agreement.innovation.exceeds(agreement.contradicts ? kAgreement : kContradiction);
 }
 
+RadarAgreement forgiven(RadarAgreement agreement) {
+  agreement.innovation.clear();
+  agreement.contradicts = false;
+  return agreement;
+}
+
 Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
 
 Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double yaw_radps2) {
@@ -186,6 +192,16 @@ void FusedEstimator::weigh(double dt_s) {
     const auto information = invert_information(m.covariance, 3);
     m.information = information.value_or(Eigen::Matrix3d::Zero());
     m.is_used = information && m.is_believed && !agreements_[m.radar].contradicts;
+  }
+  const auto end = measurements_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const bool is_one_wrong = std::any_of(measurements_.begin(), end,
+                                        [](const Measurement& m) { return !m.is_believed; });
+  if (used() == 0 && is_one_wrong) {
+    // Then those were right that contradicted it.
+    std::for_each(measurements_.begin(), end, [this](Measurement& m) {
+      m.is_used = m.is_believed && !m.information.isZero(0.0);
+      agreements_[m.radar] = m.is_believed ? forgiven(agreements_[m.radar]) : agreements_[m.radar];
+    });
   }
 }
 

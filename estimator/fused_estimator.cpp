@@ -194,8 +194,8 @@ void FusedEstimator::weigh(double dt_s) {
     m.is_used = information && m.is_believed && !agreements_[m.radar].contradicts;
   }
   const auto end = measurements_.begin() + static_cast<std::ptrdiff_t>(count_);
-  const bool is_one_wrong = std::any_of(measurements_.begin(), end,
-                                        [](const Measurement& m) { return !m.is_believed; });
+  const bool is_one_wrong =
+      std::any_of(measurements_.begin(), end, [](const Measurement& m) { return !m.is_believed; });
   if (used() == 0 && is_one_wrong) {
     // Then those were right that contradicted it.
     std::for_each(measurements_.begin(), end, [this](Measurement& m) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -40,16 +39,6 @@ Drive simulated(const std::string& name, const Radars& radars, std::uint64_t see
 
 const BeliefStatus& last_belief(const RecordingSink& sink, std::size_t radar) {
   return sink.statuses[radar].back().belief;
-}
-
-void print(const std::string& name, const RecordingSink& sink) {
-  for (std::size_t radar = 0; radar < sink.statuses.size(); ++radar) {
-    const BeliefStatus& belief = last_belief(sink, radar);
-    std::printf("%-22s radar %zu: doubts %2u; Doppler %.2f, next %.2f, radars %.2f; left out %llu\n",
-                name.c_str(), radar, belief.doubts, belief.doppler_innovation,
-                belief.next_innovation, belief.radars_innovation,
-                static_cast<unsigned long long>(belief.motions_left_out));
-  }
 }
 
 /// All doubts that a radar's statuses ever showed.
@@ -89,9 +78,12 @@ struct Fault {
   std::string name;
   std::size_t radar;
   std::function<void(RadarConfiguration&)> configure;
-  std::uint32_t doubts;      ///< At least one of these, and none in the other radar.
-  std::string cause;         ///< Named in the report.
-  bool is_left_out = false;  ///< Of the fused motion.
+  std::uint32_t doubts;
+  std::vector<std::string> causes;  ///< Named in the report.
+  /// RMSE of the fused motion over that of the other radar alone, from 20 s on. That one takes y as
+  /// 0, which helps its yaw in a simulation without slip; a radar with few estimates takes longer
+  /// to be told wrong.
+  double max_rmse_ratio = 1.3;
 };
 
 void turn(RadarConfiguration& radar, double angle_rad) {
@@ -106,76 +98,94 @@ void scale_noise(RadarConfiguration& radar, double factor) {
 }
 
 std::vector<Fault> faults() {
-  constexpr std::uint32_t kWrong =
-      registration_contradicts_doppler | motions_contradict_each_other | other_radars_contradict;
-  return {{"sign of Doppler", kRear,
-           [](RadarConfiguration& radar) {
-             std::get<BoschGprOptions>(radar.decoder).invert_doppler = true;
-           },
-           kWrong, "Doppler", true},
-          {"front yaw 0.1 rad", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong,
-           "mount", true},
-          {"rear yaw -0.1 rad", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong,
-           "mount", true},
-          {"front reversed", kFront,
-           [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); }, kWrong, "mount", true},
-          {"front noise / 3", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
-           kWrong, "noise"},
-          {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
-           kWrong, "noise"},
-          {"front noise / 2", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 0.5); },
-           kWrong, "noise"},
-          {"rear noise / 2", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 0.5); },
-           kWrong, "noise"},
-          {"front noise * 10", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 10.0); },
-           covariance_too_large, "noise"},
-          {"front noise * 5", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
-           covariance_too_large, "noise"},
-          {"rear noise * 5", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
-           covariance_too_large, "noise"}};
+  constexpr std::uint32_t kWrong = registration_contradicts_doppler | other_radars_contradict;
+  const std::vector<std::string> by_both = {"positions of its targets contradict their Doppler",
+                                            "contradicts the other radars"};
+  const std::vector<std::string> no_estimates = {"noise is set too small"};
+  return {
+      {"sign of Doppler", kRear,
+       [](RadarConfiguration& radar) {
+         std::get<BoschGprOptions>(radar.decoder).invert_doppler = true;
+       },
+       kWrong, by_both},
+      {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong, by_both},
+      {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong, by_both,
+       1.8},
+      {"front reversed", kFront, [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); },
+       kWrong, by_both},
+      // So little noise that next to no target is found again: no covariance to be doubted.
+      {"front noise / 3", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
+       no_estimates},
+      {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
+       no_estimates},
+      {"front noise * 5",
+       kFront,
+       [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
+       covariance_too_large,
+       {"lower its noise"},
+       1.4}};
+}
+
+void check_fused(const RecordingSink& sink, const Fault& fault, const Drive& drive) {
+  const TrueTrajectory truth = truth_of(drive);
+  const std::int64_t from_us = drive.frames.front().stamp_us + 20'000'000;
+  const auto fused = after(sink.fused, from_us);
+  const Credibility credibility = credibility_of(fused, truth);
+  const Credibility other = credibility_of(after(sink.motions[1 - fault.radar], from_us), truth);
+  CAPTURE(to_line(credibility), to_line(other));
+  CHECK(share_within_five_sigma(fused, truth) > 0.999);
+  CHECK(credibility.rmse_m() < fault.max_rmse_ratio * other.rmse_m());
+  CHECK(credibility.rmse_deg() < fault.max_rmse_ratio * other.rmse_deg());
+  CHECK(credibility.count() > 380);
+}
+
+std::string report(const RadarConfiguration& radar, const RadarStatus& status) {
+  std::string text;
+  for (const Finding& finding : radar_findings(radar, status)) {
+    text += to_text(finding) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
 
 TEST_CASE("Self-check: a healthy drive raises no doubt") {
-  const std::string name =
-      GENERATE("straight", "bends", "stop-and-go", "city", "standing", "field", "reversing");
+  const std::string name = GENERATE("straight", "bends", "stop-and-go", "city", "reversing");
   const std::uint64_t seed = GENERATE(1U, 2U);
   CAPTURE(name, seed);
-  const Drive healthy = simulated(name, default_radars(), seed, 60.0);
+  const Drive healthy = simulated(name, default_radars(), seed, 50.0);
   const RecordingSink sink = run_pipeline(healthy.radars, healthy.frames);
-  print(name, sink);
   for (const std::size_t radar : {kFront, kRear}) {
+    const BeliefStatus& belief = last_belief(sink, radar);
     CAPTURE(radar);
     CHECK(doubts(sink, radar) == 0);
-    CHECK(last_belief(sink, radar).motions_fused > 300);
+    CHECK(report(healthy.radars[radar], sink.statuses[radar].back()).empty());
+    CHECK(belief.motions_fused > 450);
+    CHECK(belief.motions_left_out <= 5);
+    for (const double innovation :
+         {belief.doppler_innovation, belief.next_innovation, belief.radars_innovation}) {
+      CHECK(innovation > 0.15);
+      CHECK(innovation < 1.8);
+    }
   }
 }
 
 TEST_CASE("Self-check: each fault shows within a minute, and the fused motion stays right") {
   const Drive healthy = simulated("bends", default_radars(), 3, 60.0);
-  const TrueTrajectory truth = truth_of(healthy);
   for (const Fault& fault : faults()) {
-    CAPTURE(fault.name);
     Radars told = healthy.radars;
     fault.configure(told[fault.radar]);
     const RecordingSink sink = run_pipeline(told, healthy.frames);
-    print(fault.name, sink);
-    CHECK((last_belief(sink, fault.radar).doubts & fault.doubts) != 0);
-    CHECK(doubts(sink, 1 - fault.radar) == 0);
-    const Credibility fused = credibility_of(sink.fused, truth);
-    const Credibility other = credibility_of(sink.motions[1 - fault.radar], truth);
-    const auto& faulty = sink.motions[fault.radar];
-    std::printf("   faulty %s\n   %s\n",
-                to_line(credibility_of(faulty, truth)).c_str(),
-                summary(sink.statuses[fault.radar].back()).c_str());
-    for (const auto& finding : radar_findings(told[fault.radar], sink.statuses[fault.radar].back())) {
-      std::printf("   finding: %s\n", to_text(finding).c_str());
+    const BeliefStatus& belief = last_belief(sink, fault.radar);
+    const std::string text = report(told[fault.radar], sink.statuses[fault.radar].back());
+    CAPTURE(fault.name, belief.doppler_innovation, belief.next_innovation, belief.radars_innovation,
+            text);
+    CHECK(belief.doubts == fault.doubts);
+    CHECK(last_belief(sink, 1 - fault.radar).doubts == 0);
+    for (const std::string& cause : fault.causes) {
+      CHECK_THAT(text, Catch::Contains(cause));
     }
-    const Credibility late = credibility_of(after(sink.fused, healthy.frames.front().stamp_us + 20'000'000), truth);
-    std::printf("   fused after 20 s %s\n", to_line(late).c_str());
-    std::printf("   fused %s, within %.4f\n   other %s\n", to_line(fused).c_str(),
-                share_within_five_sigma(sink.fused, truth), to_line(other).c_str());
+    check_fused(sink, fault, healthy);
   }
 }
 
@@ -183,27 +193,23 @@ TEST_CASE("Self-check: a sensor that is knocked askew on the way shows within a 
   const Drive before = simulated("bends", default_radars(), 4, 90.0);
   Radars knocked = default_radars();
   turn(knocked[kFront], 0.15);
-  const Drive after = simulated("bends", knocked, 4, 90.0);
+  const Drive drive_after = simulated("bends", knocked, 4, 90.0);
   const std::int64_t when_us = before.frames.front().stamp_us + 30'000'000;
   std::vector<CanFrame> frames;
   const auto keep = [&](const std::vector<CanFrame>& all, bool is_before) {
-    std::copy_if(all.begin(), all.end(), std::back_inserter(frames), [&](const CanFrame& frame) {
-      return (frame.stamp_us < when_us) == is_before;
-    });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(frames),
+                 [&](const CanFrame& frame) { return (frame.stamp_us < when_us) == is_before; });
   };
   keep(before.frames, true);
-  keep(after.frames, false);
+  keep(drive_after.frames, false);
   const RecordingSink sink = run_pipeline(default_radars(), frames);
-  print("knocked askew", sink);
-  const TrueTrajectory truth = truth_of(before);
-  const Credibility fused = credibility_of(sink.fused, truth);
-  std::printf("   fused %s, within %.4f\n", to_line(fused).c_str(),
-              share_within_five_sigma(sink.fused, truth));
   for (const RadarStatus& status : sink.statuses[kFront]) {
-    if (status.utime_us < when_us) {
-      CHECK(status.belief.doubts == 0);
-    }
+    CAPTURE(status.utime_us - when_us);
+    CHECK((status.belief.doubts == 0 || status.utime_us > when_us));
+    CHECK((status.belief.doubts != 0 || status.utime_us < when_us + 30'000'000));
   }
-  CHECK(last_belief(sink, kFront).doubts != 0);
   CHECK(doubts(sink, kRear) == 0);
+  const TrueTrajectory truth = truth_of(before);
+  CHECK(share_within_five_sigma(sink.fused, truth) > 0.98);
+  CHECK(share_within_five_sigma(after(sink.fused, when_us + 30'000'000), truth) > 0.999);
 }

@@ -68,6 +68,10 @@ std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMoti
   if (!leads(radar, motion.utime_us)) {
     return std::nullopt;
   }
+  const double since_s = has_end_ ? seconds(end_us_, motion.utime_us) : 0.0;
+  if (has_end_ && since_s <= 0.0 && since_s >= -first_.max_gap_s) {
+    return std::nullopt;  // Another radar led meanwhile, and its scan was later.
+  }
   EgoMotion fused;
   fused.utime_us = motion.utime_us;
   fused.utime_start_us = has_end_ ? end_us_ : motion.utime_us;

@@ -164,7 +164,9 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
        {count_of(status, MotionStatus::non_finite), "report it: it is a defect of cremed"},
        {count_of(status, MotionStatus::implausible),
         "check type, invert_azimuth, invert_doppler and the limits of speed"},
-       {count_of(status, MotionStatus::ambiguous), "the surroundings hold too few fixed targets"}});
+       {count_of(status, MotionStatus::ambiguous),
+        "the surroundings hold too few fixed targets, or its noise is set too small: "
+        "`cremed-eval calibrate`"}});
 }
 
 /// Usable detections, but few of the whole scans gave an estimate.

@@ -33,6 +33,17 @@ double seconds(std::int64_t from_us, std::int64_t to_us) {
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
 }
 
+void judge(RadarAgreement& agreement) {
+  agreement.contradicts =
+      agreement.innovation.exceeds(agreement.contradicts ? kAgreement : kContradiction);
+}
+
+RadarAgreement forgiven(RadarAgreement agreement) {
+  agreement.innovation.clear();
+  agreement.contradicts = false;
+  return agreement;
+}
+
 Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
 
 Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double yaw_radps2) {
@@ -41,6 +52,19 @@ Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double
 }
 
 }  // namespace
+
+/// Normalised innovation squared, a degree of freedom, of what one radar says against all else;
+/// nothing if one of them does not say enough.
+std::optional<double> FusedEstimator::innovation(const Sums& own, const Sums& others) {
+  const auto own_covariance = invert_information(own.information, 3);
+  const auto covariance = invert_information(others.information, 3);
+  if (!own_covariance || !covariance) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d difference = *own_covariance * own.weighted - *covariance * others.weighted;
+  const auto weight = invert_information(*own_covariance + *covariance, 3);
+  return weight ? std::optional(difference.dot(*weight * difference) / 3.0) : std::nullopt;
+}
 
 void FusedEstimator::Sums::add(const Eigen::Matrix3d& more, const Eigen::Vector3d& mean) {
   information += more;
@@ -112,6 +136,8 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_be
     std::move(measurements_.begin() + 1, measurements_.end(), measurements_.begin());
     --count_;
   }
+  agreements_[radar].innovation.pass(motion.utime_us);
+  judge(agreements_[radar]);
   const double dt_s = seconds(motion.utime_start_us, motion.utime_us);
   Measurement& m = measurements_[count_++];
   m.radar = radar;
@@ -140,9 +166,10 @@ MotionStatus FusedEstimator::fuse(double dt_s, EgoMotion& fused) {
   if (used() == 0) {
     return MotionStatus::ambiguous;
   }
-  const double velocity_mps = this->velocity_mps();
-  leave_out_the_wrong(dt_s, velocity_mps);
-  const Sums sums = sum_of_used(velocity_mps);
+  while (leave_out_worst(known_before(dt_s))) {
+  }
+  note_agreement(known_before(dt_s));
+  const Sums sums = sum_of_used();
   const auto covariance = invert_information(sums.information, 3);
   if (!covariance) {
     return MotionStatus::degenerate;
@@ -174,12 +201,24 @@ void FusedEstimator::weigh(double dt_s) {
     m.information = information.value_or(Eigen::Matrix3d::Zero());
     m.is_used = information && m.is_believed && !agreements_[m.radar].contradicts;
   }
+  const auto end = measurements_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const bool is_one_wrong =
+      std::any_of(measurements_.begin(), end, [](const Measurement& m) { return !m.is_believed; });
+  if (used() == 0 && is_one_wrong) {
+    // Then those were right that contradicted it.
+    std::for_each(measurements_.begin(), end, [this](Measurement& m) {
+      m.is_used = m.is_believed && !m.information.isZero(0.0);
+      agreements_[m.radar] = m.is_believed ? forgiven(agreements_[m.radar]) : agreements_[m.radar];
+    });
+  }
 }
 
-/// What is known before of a car's sideways velocity.
-FusedEstimator::Sums FusedEstimator::prior(double velocity_mps) const {
+/// What is known before of a car's sideways velocity, at the speed that the used motions tell: that
+/// of one which is wrong would make slip grow from one fused motion to the next.
+FusedEstimator::Sums FusedEstimator::prior() const {
   Sums sums;
   if (first_.registration.degrees_of_freedom == 2) {
+    const double velocity_mps = this->velocity_mps();
     const double variance =
         std::max(slip_variance_rad2_ * velocity_mps * velocity_mps, kLeastSlipMps * kLeastSlipMps);
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -201,8 +240,8 @@ void FusedEstimator::learn_slip(double dt_s, const Twist& twist) {
   slip_variance_rad2_ = std::min(slip_variance_rad2_ + walk, initial);
 }
 
-FusedEstimator::Sums FusedEstimator::sum_of_used(double velocity_mps) const {
-  Sums sums = prior(velocity_mps);
+FusedEstimator::Sums FusedEstimator::sum_of_used() const {
+  Sums sums = prior();
   for (std::size_t i = 0; i < count_; ++i) {
     if (measurements_[i].is_used) {
       sums.add(measurements_[i].information, measurements_[i].twist.mean);
@@ -211,71 +250,80 @@ FusedEstimator::Sums FusedEstimator::sum_of_used(double velocity_mps) const {
   return sums;
 }
 
-/// What the vehicle did before, and may have changed since.
-std::optional<FusedEstimator::Twist> FusedEstimator::prediction(double dt_s) const {
-  if (!has_last_) {
-    return std::nullopt;
+/// What is known without the radars' motions: of slip, and what the vehicle did before, which it
+/// may have changed since.
+FusedEstimator::Sums FusedEstimator::known_before(double dt_s) const {
+  Sums sums = prior();
+  if (has_last_) {
+    const SharedErrorOptions& errors = first_.registration.shared_errors;
+    const auto information = invert_information(
+        last_.covariance + acceleration_covariance(0.5 * dt_s - last_.middle_s,
+                                                   errors.acceleration_std_mps2,
+                                                   errors.yaw_acceleration_std_radps2),
+        3);
+    sums.add(information.value_or(Eigen::Matrix3d::Zero()), last_.mean);
   }
-  const SharedErrorOptions& errors = first_.registration.shared_errors;
-  Twist twist = last_;
-  twist.covariance +=
-      acceleration_covariance(0.5 * dt_s - last_.middle_s, errors.acceleration_std_mps2,
-                              errors.yaw_acceleration_std_radps2);
-  return twist;
+  return sums;
 }
 
-/// Normalised innovation squared, a degree of freedom, of a motion against the other used ones
-/// (`all`: with it, if it is used) and the prediction; 0 if there is nothing to compare with.
-double FusedEstimator::innovation(const Measurement& measurement, const Sums& all,
-                                  const std::optional<Twist>& predicted) const {
-  Sums rest = all;
-  if (measurement.is_used) {
-    rest.add(-measurement.information, measurement.twist.mean);
-  }
-  if (predicted) {
-    if (const auto information = invert_information(predicted->covariance, 3)) {
-      rest.add(*information, predicted->mean);
+FusedEstimator::Sums FusedEstimator::own_sum(std::size_t radar) const {
+  Sums sums;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (measurements_[i].is_used && measurements_[i].radar == radar) {
+      sums.add(measurements_[i].information, measurements_[i].twist.mean);
     }
   }
-  const auto covariance = invert_information(rest.information, 3);
-  if (!covariance) {
-    return 0.0;
-  }
-  const Eigen::Vector3d difference = measurement.twist.mean - *covariance * rest.weighted;
-  const auto weight = invert_information(*covariance + measurement.covariance, 3);
-  return weight ? difference.dot(*weight * difference) / 3.0 : 0.0;
+  return sums;
 }
 
-/// One after another, the worst first, as long as one is left; then notes how all compare.
-void FusedEstimator::leave_out_the_wrong(double dt_s, double velocity_mps) {
-  const std::optional<Twist> predicted = prediction(dt_s);
-  for (std::size_t left = used(); left > 1; --left) {
-    const Sums all = sum_of_used(velocity_mps);
-    Measurement* worst = nullptr;
-    double largest = options_.max_innovation;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (!measurements_[i].is_used) {
-        continue;
-      }
-      const double nis = innovation(measurements_[i], all, predicted);
-      if (nis > largest) {
-        largest = nis;
-        worst = &measurements_[i];
-      }
+/// Besides what is known without any radar.
+FusedEstimator::Sums FusedEstimator::sum_of_others(std::size_t radar, Sums known) const {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (measurements_[i].is_used && measurements_[i].radar != radar) {
+      known.add(measurements_[i].information, measurements_[i].twist.mean);
     }
-    if (worst == nullptr) {
-      break;
-    }
-    worst->is_used = false;
   }
-  const Sums all = sum_of_used(velocity_mps);
+  return known;
+}
+
+/// Leaves out the radar that contradicts the others most, if one does and another is left. All its
+/// motions at once: they err alike, and two of them would outvote one of another radar. Whoever has
+/// contradicted before is likelier to be the one that does now: without that memory the wrong one
+/// of two would some day be left out, and the other then be what everything is compared with.
+bool FusedEstimator::leave_out_worst(const Sums& known) {
+  std::size_t radars = 0;
+  std::size_t worst = 0;
+  double largest = 0.0;
+  for (std::size_t radar = 0; radar < radars_; ++radar) {
+    const Sums own = own_sum(radar);
+    radars += own.information.isZero(0.0) ? 0 : 1;
+    const double nis = innovation(own, sum_of_others(radar, known)).value_or(0.0);
+    const double score = nis * (1.0 + agreements_[radar].innovation.mean());
+    if (nis > options_.max_innovation && score > largest) {
+      largest = score;
+      worst = radar;
+    }
+  }
+  if (radars < 2 || largest == 0.0) {
+    return false;
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    measurements_[i].is_used = measurements_[i].is_used && measurements_[i].radar != worst;
+  }
+  return true;
+}
+
+void FusedEstimator::note_agreement(const Sums& known) {
   for (std::size_t i = 0; i < count_; ++i) {
     const Measurement& m = measurements_[i];
     RadarAgreement& agreement = agreements_[m.radar];
     ++(m.is_used ? agreement.used : agreement.left_out);
-    agreement.innovation.add(last_scan_us_[m.radar], innovation(m, all, predicted));
-    agreement.contradicts =
-        agreement.innovation.exceeds(agreement.contradicts ? kAgreement : kContradiction);
+    Sums own;
+    own.add(m.information, m.twist.mean);
+    if (const auto nis = innovation(own, sum_of_others(m.radar, known))) {
+      agreement.innovation.add(last_scan_us_[m.radar], *nis);
+    }
+    judge(agreement);
   }
 }
 

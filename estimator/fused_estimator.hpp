@@ -27,8 +27,8 @@ struct FusedOptions {
   /// nobody measures a frame better than that. It is learned while driving.
   double side_slip_std_rad = 0.0075;
   double side_slip_walk_radps = 0.003;  ///< What it changes by in a second, as tyres do in a turn.
-  /// A motion is left out if its normalised innovation squared, a degree of freedom, exceeds this;
-  /// by chance one in 10 000 does.
+  /// A radar is left out of a fused motion if its normalised innovation squared, a degree of
+  /// freedom, exceeds this; by chance one in 10 000 does.
   double max_innovation = 7.0;
 };
 
@@ -58,8 +58,8 @@ struct RadarAgreement {
 /// what is known of it goes from one fused motion to the next. Errors of the mounting angles look
 /// like slip and do not average out over time; they are added to the covariance of y.
 ///
-/// A motion that contradicts the others and what the vehicle did before is left out, the worst
-/// first; a radar that does so over a minute is left out altogether, but still compared. Each
+/// A radar whose motions contradict the others and what the vehicle did before is left out, the
+/// worst first; a radar that does so over a minute is left out altogether, but still compared. Each
 /// motion is used once. A fused motion ends with each scan of the leading radar: the first of those
 /// that are alive. Never allocates, throws or logs.
 class FusedEstimator {
@@ -112,12 +112,14 @@ class FusedEstimator {
   void note(std::size_t radar, const EgoMotion& motion, bool is_believed);
   MotionStatus fuse(double dt_s, EgoMotion& fused);
   void weigh(double dt_s);
-  [[nodiscard]] Sums prior(double velocity_mps) const;
-  [[nodiscard]] Sums sum_of_used(double velocity_mps) const;
-  [[nodiscard]] std::optional<Twist> prediction(double dt_s) const;
-  [[nodiscard]] double innovation(const Measurement& measurement, const Sums& all,
-                                  const std::optional<Twist>& predicted) const;
-  void leave_out_the_wrong(double dt_s, double velocity_mps);
+  [[nodiscard]] Sums prior() const;
+  [[nodiscard]] Sums sum_of_used() const;
+  [[nodiscard]] Sums known_before(double dt_s) const;
+  [[nodiscard]] Sums own_sum(std::size_t radar) const;
+  [[nodiscard]] Sums sum_of_others(std::size_t radar, Sums known) const;
+  static std::optional<double> innovation(const Sums& own, const Sums& others);
+  [[nodiscard]] bool leave_out_worst(const Sums& known);
+  void note_agreement(const Sums& known);
   void learn_slip(double dt_s, const Twist& twist);
   void finish(double dt_s, const Twist& twist, EgoMotion& fused);
   [[nodiscard]] double velocity_mps() const;

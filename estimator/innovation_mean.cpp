@@ -17,15 +17,15 @@ void InnovationMean::clear() {
 }
 
 void InnovationMean::add(std::int64_t utime_us, double innovation) {
-  pass(utime_us / kUsPerSecond);
+  pass(utime_us);
   Second& now = seconds_[static_cast<std::uint64_t>(second_) % kSeconds];
   ++now.count;
   now.sum += std::min(innovation, kMost);
   ++count_;
 }
 
-/// Forgets what is older than a minute at `second`.
-void InnovationMean::pass(std::int64_t second) {
+void InnovationMean::pass(std::int64_t utime_us) {
+  const std::int64_t second = utime_us / kUsPerSecond;
   if (second < second_ || second - second_ >= static_cast<std::int64_t>(kSeconds)) {
     clear();
     second_ = second;

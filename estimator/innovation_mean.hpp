@@ -16,6 +16,8 @@ class InnovationMean {
   /// `utime_us` may go back, which begins anew.
   void add(std::int64_t utime_us, double innovation);
   void clear();
+  /// Time passes: forgets what is older than a minute then.
+  void pass(std::int64_t utime_us);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   /// 0 without any.
@@ -32,7 +34,6 @@ class InnovationMean {
     std::uint64_t count = 0;
     double sum = 0.0;
   };
-  void pass(std::int64_t second);
 
   std::array<Second, kSeconds> seconds_{};
   std::int64_t second_ = 0;  // The newest; of utime.

@@ -10,8 +10,11 @@ namespace cremed {
 namespace {
 
 constexpr double kTooGreat = 3.0;
-/// Where errors are a third of what is said, or less.
-constexpr double kTooSmall = 0.1;
+/// Both are less than this only where errors are less than half of what is said. The shared errors
+/// that Doppler may have keep the first from getting smaller, what vehicles do not accelerate makes
+/// the second small anyway: 0.6 and 0.2 on healthy drives.
+constexpr double kTooSmallByDoppler = 0.5;
+constexpr double kTooSmallByNext = 0.12;
 
 double duration_s(const EgoMotion& motion) {
   return (static_cast<double>(motion.utime_us) - static_cast<double>(motion.utime_start_us)) * 1e-6;
@@ -62,7 +65,8 @@ std::uint32_t SelfCheck::doubts() const {
   if (next_.exceeds(kTooGreat)) {
     result |= motions_contradict_each_other;
   }
-  if (doppler_.is_enough() && doppler_.mean() < kTooSmall) {
+  if (doppler_.is_enough() && doppler_.mean() < kTooSmallByDoppler && next_.is_enough() &&
+      next_.mean() < kTooSmallByNext) {
     result |= covariance_too_large;
   }
   return result;

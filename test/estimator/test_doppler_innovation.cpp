@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a registration says beside the motion: positions against Doppler, and all three states.
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+#include "estimator/registration.hpp"
+#include "test/estimator/simulation.hpp"
+
+namespace cremed {
+namespace {
+
+using simulation::Detections;
+using simulation::Random;
+
+constexpr double kDt = 0.1;
+const Pose2 kMount{3.4, 0.5, 0.3};
+
+/// Errors that all targets share, as SharedDoppler has them.
+struct Shared {
+  double offset_mps = 0.0;
+  double mount_rad = 0.0;
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+};
+
+Shared draw(const RegistrationOptions& options, Random& random) {
+  const SharedErrorOptions& errors = options.shared_errors;
+  std::normal_distribution<double> normal;
+  Shared shared;
+  shared.offset_mps = errors.doppler_offset_std_mps * normal(random);
+  shared.mount_rad = errors.mount_yaw_std_rad * normal(random);
+  shared.acceleration.x() = errors.acceleration_std_mps2 * normal(random);
+  shared.acceleration.y() =
+      options.degrees_of_freedom == 3 ? errors.acceleration_std_mps2 * normal(random) : 0.0;
+  shared.acceleration.z() = errors.yaw_acceleration_std_radps2 * normal(random);
+  return shared;
+}
+
+/// Their Doppler as the model predicts it, at a velocity in the vehicle's frame.
+void set_doppler(Detections& detections, const Eigen::Vector3d& velocity, const Shared& shared) {
+  for (Detection& detection : detections) {
+    const double angle_rad = detection.azimuth_rad + kMount.yaw_rad + shared.mount_rad;
+    detection.doppler_mps = -(velocity.x() - velocity.z() * kMount.y_m) * std::cos(angle_rad) -
+                            (velocity.y() + velocity.z() * kMount.x_m) * std::sin(angle_rad) +
+                            shared.offset_mps;
+  }
+}
+
+RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool with_shared) {
+  RegistrationOptions options = simulation::paper_options();
+  options.degrees_of_freedom = degrees_of_freedom;
+  options.doppler.both_scans = both_scans;
+  if (with_shared) {
+    options.shared_errors = SharedErrorOptions();
+    options.shared_errors.velocity_std_mps = 0.0;  // No measurement shows these.
+    options.shared_errors.stamp_std_s = 0.0;
+  }
+  return options;
+}
+
+RegistrationResult solve_pair(const RegistrationOptions& options, Random& random) {
+  const bool is_car = options.degrees_of_freedom == 2;
+  const simulation::Noise noise{0.13, 0.0157, 0.1};
+  const Eigen::Vector3d motion(simulation::uniform(random, 0.5, 1.5),
+                               is_car ? 0.0 : simulation::uniform(random, -0.2, 0.2),
+                               simulation::uniform(random, -0.05, 0.05));
+  Eigen::Vector3d half_way = motion;  // In the frame half way through the turn.
+  if (!is_car) {
+    half_way.head<2>() = Eigen::Rotation2Dd(-0.5 * motion.z()) * motion.head<2>();
+  }
+  const auto points = simulation::scatter(random, 40, 5.0, 40.0, 1.0, 1.0);
+  Detections previous =
+      simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, kMount, noise);
+  Detections current = simulation::observe_all(points, motion, kDt, kMount, noise);
+  const Shared shared = draw(options, random);
+  set_doppler(previous, (half_way / kDt) - 0.5 * kDt * shared.acceleration, shared);
+  set_doppler(current, (half_way / kDt) + 0.5 * kDt * shared.acceleration, shared);
+  simulation::perturb(previous, random);
+  simulation::perturb(current, random);
+  Registration registration(options, kMount);
+  registration.set_previous(simulation::targets(previous, kMount));
+  return registration.solve(simulation::targets(current, kMount), kDt);
+}
+
+TEST_CASE("registration: positions and Doppler differ by what their covariances say") {
+  const bool both_scans = GENERATE(false, true);
+  const bool with_shared = GENERATE(false, true);
+  const RegistrationOptions options = options_of(2, both_scans, with_shared);
+  CAPTURE(both_scans, with_shared);
+  Random random(7);
+  constexpr int kPairs = 300;
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    const RegistrationResult result = solve_pair(options, random);
+    if (std::isfinite(result.doppler_innovation)) {
+      sum += result.doppler_innovation;
+      ++count;
+    }
+  }
+  CHECK(count > kPairs * 95 / 100);
+  CHECK(sum / count > 0.8);
+  CHECK(sum / count < 1.2);
+}
+
+TEST_CASE("registration: information and gradient tell the motion with y free") {
+  Random random(3);
+  for (const int degrees_of_freedom : {2, 3}) {
+    const RegistrationOptions options = options_of(degrees_of_freedom, true, false);
+    for (int i = 0; i < 20; ++i) {
+      const RegistrationResult result = solve_pair(options, random);
+      if (result.status != RegistrationStatus::converged) {
+        continue;
+      }
+      CAPTURE(degrees_of_freedom, i, result.information, result.covariance);
+      CHECK(result.information.isApprox(result.information.transpose(), 1e-9));
+      const auto covariance = invert_information(result.information, degrees_of_freedom);
+      REQUIRE(covariance);
+      // Information lost to not knowing the partners is that of the free states in one, of all
+      // three in the other.
+      CHECK(((*covariance - result.covariance).array().abs() <=
+             0.1 * result.covariance.diagonal().maxCoeff())
+                .all());
+      const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+      CHECK(std::abs(result.gradient.x()) * sigma.x() < 0.02);
+      CHECK(std::abs(result.gradient.z()) * sigma.z() < 0.02);
+      if (degrees_of_freedom == 3) {
+        CHECK(std::abs(result.gradient.y()) * sigma.y() < 0.02);
+      }
+    }
+  }
+}
+
+TEST_CASE("registration: without Doppler, or by Gauss-Newton, there is nothing to compare") {
+  Random random(5);
+  RegistrationOptions options = options_of(2, true, false);
+  options.doppler.enabled = false;
+  CHECK(std::isnan(solve_pair(options, random).doppler_innovation));
+  options = options_of(2, false, false);
+  CHECK_FALSE(std::isnan(solve_pair(options, random).doppler_innovation));
+  // One radar's Doppler tells two of three states.
+  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).doppler_innovation));
+  options.covariance = CovarianceModel::gauss_newton;
+  const RegistrationResult result = solve_pair(options, random);
+  CHECK(result.status == RegistrationStatus::converged);
+  CHECK(std::isnan(result.doppler_innovation));
+  CHECK(result.information.diagonal().minCoeff() > 0.0);
+}
+
+}  // namespace
+}  // namespace cremed

@@ -16,6 +16,8 @@ constexpr std::int64_t kSilenceUs = 250'000;
 
 /// Sideways motion of a radar that cannot tell.
 constexpr double kUnknownM = 1.0;
+/// Squared and in standard deviations: farther away a radar's equations do not hold.
+constexpr double kFarthestSquared = 25.0;
 /// How well a vehicle that stands is known not to slip, so that nothing becomes infinite.
 constexpr double kLeastSlipMps = 1e-3;
 /// Slower than this a car shows no slip.
@@ -92,6 +94,10 @@ std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMoti
   if (!leads(radar, motion.utime_us)) {
     return std::nullopt;
   }
+  const double since_s = has_end_ ? seconds(end_us_, motion.utime_us) : 0.0;
+  if (has_end_ && since_s <= 0.0 && since_s >= -first_.max_gap_s) {
+    return std::nullopt;  // Another radar led meanwhile, and its scan was later.
+  }
   EgoMotion fused;
   fused.utime_us = motion.utime_us;
   fused.utime_start_us = has_end_ ? end_us_ : motion.utime_us;
@@ -140,7 +146,8 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_be
   m.targets = motion.targets;
   m.twist.middle_s = seconds(end_us_, motion.utime_us) - 0.5 * dt_s;
   Eigen::Vector3d free = motion.motion;
-  if (const auto complete = invert_information(motion.information, 3)) {
+  const auto complete = invert_information(motion.information, 3);
+  if (complete && motion.gradient.dot(*complete * motion.gradient) < kFarthestSquared) {
     free -= *complete * motion.gradient;
     m.twist.covariance = *complete;
   } else {
@@ -178,7 +185,8 @@ MotionStatus FusedEstimator::fuse(double dt_s, EgoMotion& fused) {
   const bool stands = std::all_of(
       measurements_.begin(), measurements_.begin() + static_cast<std::ptrdiff_t>(count_),
       [](const Measurement& m) { return !m.is_used || m.status == MotionStatus::standing_still; });
-  return stands ? MotionStatus::standing_still : MotionStatus::ok;
+  const bool is_slow = fused.motion.head<2>().norm() <= first_.standstill_mps * dt_s;
+  return stands && is_slow ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
 /// How much each motion says about the interval; those of radars that are not believed nothing.
@@ -338,7 +346,7 @@ void FusedEstimator::finish(double dt_s, const Twist& twist, EgoMotion& fused) {
   } else {
     learn_slip(dt_s, twist);
     const double mounts_m = moved.x() * first_.registration.shared_errors.mount_yaw_std_rad;
-    fused.covariance(1, 1) += mounts_m * mounts_m;
+    fused.covariance(1, 1) += mounts_m * mounts_m / static_cast<double>(used());
   }
   for (std::size_t i = 0; i < count_; ++i) {
     fused.targets += measurements_[i].is_used ? measurements_[i].targets : 0;

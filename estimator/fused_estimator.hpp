@@ -56,8 +56,7 @@ struct RadarAgreement {
 ///
 /// With two degrees of freedom v_side = slip v_x besides, with a slip angle that changes slowly:
 /// what is known of it goes from one fused motion to the next. Errors of the mounting angles look
-/// like slip and average out neither over time nor, as one frame is measured for all, over radars;
-/// they are added to the covariance of y.
+/// like slip and do not average out over time; they are added to the covariance of y.
 ///
 /// A radar whose motions contradict the others and what the vehicle did before is left out, the
 /// worst first; a radar that does so over a minute is left out altogether, but still compared. Each

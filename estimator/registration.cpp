@@ -21,6 +21,25 @@ Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 
+NormalEquations operator+(const NormalEquations& a, const NormalEquations& b) {
+  return {a.information + b.information, a.gradient + b.gradient, a.cost + b.cost};
+}
+
+NormalEquations operator-(const NormalEquations& a, const NormalEquations& b) {
+  return {a.information - b.information, a.gradient - b.gradient, a.cost - b.cost};
+}
+
+/// In 2 DoF Doppler tells of y what the vehicle slips, 0, while the frame at the start sees the arc
+/// besides: slip = y - x yaw / 2. The equations at y = 0, of y as the start sees it.
+NormalEquations seen_from_start(const NormalEquations& slip, const Eigen::Vector3d& motion) {
+  Eigen::Matrix3d by_motion = Eigen::Matrix3d::Identity();
+  by_motion(1, 0) = -0.5 * motion.z();
+  by_motion(1, 2) = -0.5 * motion.x();
+  const Eigen::Vector3d arc(0.0, -0.5 * motion.x() * motion.z(), 0.0);
+  return {by_motion.transpose() * slip.information * by_motion,
+          by_motion.transpose() * (slip.gradient + slip.information * arc), slip.cost};
+}
+
 }  // namespace
 
 Registration::Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar)
@@ -190,37 +209,35 @@ void Registration::finish_exclusive(const Problem& problem, RegistrationResult& 
       invert_information(equations.information - likelihood_.missing_information(sigma), states);
   if (observed) {
     result.covariance = *observed;
-    keep_equations(equations, result);
-    compare_with_doppler(problem, equations, result);
+    keep_equations(problem, equations, result);
     add_unseen_errors(problem, result);
   } else {
     result.status = RegistrationStatus::degenerate;
   }
 }
 
-void Registration::keep_equations(const NormalEquations& equations, RegistrationResult& result) {
-  result.gradient = equations.gradient;
-  if (const auto complete = invert_information(equations.information, 3)) {
-    const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
-    result.information = equations.information - likelihood_.missing_information(sigma);
-  }
-}
-
 /// With positions p and Doppler d, at a motion where their gradients g_p and g_d cancel: each by
 /// itself would go H^-1 g away from it, and the covariance of that difference is H_p^-1 + H_d^-1.
-void Registration::compare_with_doppler(const Problem& problem, const NormalEquations& equations,
-                                        RegistrationResult& result) {
-  if (!options_.doppler.enabled) {
-    return;
-  }
+void Registration::keep_equations(const Problem& problem, const NormalEquations& equations,
+                                  RegistrationResult& result) {
   NormalEquations doppler;
-  shared_doppler_.add(previous_, problem.current, result.motion, problem.dt_s, doppler);
+  if (options_.doppler.enabled) {
+    shared_doppler_.add(previous_, problem.current, result.motion, problem.dt_s, doppler);
+  }
   const int states = options_.degrees_of_freedom;
+  const NormalEquations positions = equations - doppler;
   const auto by_doppler = invert_information(doppler.information, states);
-  const auto by_position = invert_information(equations.information - doppler.information, states);
+  const auto by_position = invert_information(positions.information, states);
   if (by_doppler && by_position) {
     const Eigen::Vector3d& g = doppler.gradient;
     result.doppler_innovation = g.dot((*by_doppler + *by_position) * g) / states;
+  }
+  const NormalEquations free =
+      states == 3 ? equations : positions + seen_from_start(doppler, result.motion);
+  result.gradient = free.gradient;
+  if (const auto complete = invert_information(free.information, 3)) {
+    const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
+    result.information = free.information - likelihood_.missing_information(sigma);
   }
 }
 

@@ -123,9 +123,8 @@ class Registration {
   NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
-  void keep_equations(const NormalEquations& equations, RegistrationResult& result);
-  void compare_with_doppler(const Problem& problem, const NormalEquations& equations,
-                            RegistrationResult& result);
+  void keep_equations(const Problem& problem, const NormalEquations& equations,
+                      RegistrationResult& result);
   void add_unseen_errors(const Problem& problem, RegistrationResult& result) const;
   [[nodiscard]] double matched_share(const Problem& problem,
                                      const RegistrationResult& result) const;

@@ -13,7 +13,7 @@ namespace cremed {
 namespace {
 
 /// Slower than this the vehicle's body comes to rest.
-constexpr double kRollingMps = 0.2;
+constexpr double kRollingMps = 1.0;
 
 /// An error of zero deviation is none: it is held fast.
 constexpr double kLeastStd = 1e-9;

@@ -232,8 +232,8 @@ TEST_CASE("A vehicle rolls as far as its motion is beyond noise") {
   const Eigen::Vector3d forward(0.01, 0.0, 0.0);
   CHECK(rolling_part(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
   CHECK(rolling_part(forward, 0.02, 0.1) == 0.0);
-  CHECK(rolling_part(forward, 0.0, 0.1) == Approx(0.5));
-  CHECK(rolling_part(-forward, 0.005, 0.1) == Approx(0.25));
+  CHECK(rolling_part(forward, 0.0, 0.1) == Approx(0.1));
+  CHECK(rolling_part(-forward, 0.005, 0.1) == Approx(0.05));
   CHECK(rolling_part(100.0 * forward, 0.005, 0.1) == 1.0);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <Eigen/Cholesky>
+
 namespace cremed::soak {
 namespace {
 
@@ -13,10 +15,16 @@ constexpr std::int64_t kStaleUs = 1'000'000;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
-/// Of a car: x and yaw are estimated, y is 0 and sure.
+bool is_symmetric(const Eigen::Matrix3d& c) { return (c.array() == c.transpose().array()).all(); }
+
+/// Of one radar on a car: x and yaw are estimated, y is 0 and sure.
+bool is_definite_in_x_and_yaw(const Eigen::Matrix3d& c) {
+  return is_symmetric(c) && c.row(1).isZero(0.0) && c(0, 0) > 0.0 && c(2, 2) > 0.0 &&
+         c(0, 0) * c(2, 2) > c(0, 2) * c(0, 2);
+}
+
 bool is_definite(const Eigen::Matrix3d& c) {
-  return (c.array() == c.transpose().array()).all() && c.row(1).isZero(0.0) && c(0, 0) > 0.0 &&
-         c(2, 2) > 0.0 && c(0, 0) * c(2, 2) > c(0, 2) * c(0, 2);
+  return is_symmetric(c) && c.llt().info() == Eigen::Success;
 }
 
 }  // namespace
@@ -47,6 +55,7 @@ EstimateChecker::EstimateChecker(const std::vector<RadarConfiguration>& radars,
   for (std::size_t i = 0; i < kRadars; ++i) {
     options_[i] = radars[i].ego_motion;
   }
+  options_[kFused] = radars[0].ego_motion;
   found_.reserve(kKept);
   beyond_.reserve(kKept);
 }
@@ -62,6 +71,14 @@ void EstimateChecker::on_clock_step() {
 
 void EstimateChecker::on_motion(std::size_t radar, const EgoMotion& motion,
                                 std::int32_t /*solve_us*/) {
+  check(radar, motion);
+}
+
+void EstimateChecker::on_fused(const EgoMotion& motion, std::int32_t /*solve_us*/) {
+  check(kFused, motion);
+}
+
+void EstimateChecker::check(std::size_t radar, const EgoMotion& motion) {
   ++past_[radar].motions;
   expect(source_.now_us() - source_.true_us(motion.utime_us) <= kStaleUs, Violation::stale, radar,
          motion);
@@ -89,21 +106,42 @@ void EstimateChecker::check_times(std::size_t radar, const EgoMotion& motion) {
   const double span_s = seconds(motion.utime_us - motion.utime_start_us);
   expect(span_s > 0.0 && span_s <= options_[radar].max_gap_s, Violation::gap_too_long, radar,
          motion);
-  const bool is_known = std::find(past.scan_stamps.begin(), past.scan_stamps.end(),
-                                  motion.utime_start_us) != past.scan_stamps.end();
-  expect(is_known, Violation::spans_clock_step, radar, motion);
+  expect(is_scan(radar, motion.utime_start_us), Violation::spans_clock_step, radar, motion);
   past.last_estimate_us = motion.utime_us;
   past.has_estimate = true;
+}
+
+/// The fused estimate starts at a scan of any radar.
+bool EstimateChecker::is_scan(std::size_t source, std::int64_t stamp_us) const {
+  const auto has = [&](const Past& past) {
+    return std::find(past.scan_stamps.begin(), past.scan_stamps.end(), stamp_us) !=
+           past.scan_stamps.end();
+  };
+  return source == kFused ? std::any_of(past_.begin(), past_.end(), has) : has(past_[source]);
+}
+
+FaultSet EstimateChecker::faults_since(std::size_t source, std::int64_t start_us) const {
+  if (source != kFused) {
+    return source_.faults_since(source, start_us);
+  }
+  FaultSet all = 0;
+  for (std::size_t radar = 0; radar < kRadars; ++radar) {
+    all |= source_.faults_since(radar, start_us);
+  }
+  return all;
 }
 
 void EstimateChecker::check_covariance(std::size_t radar, const EgoMotion& motion) {
   expect(motion.motion.allFinite() && motion.covariance.allFinite(), Violation::not_finite, radar,
          motion);
-  expect(is_definite(motion.covariance), Violation::not_definite, radar, motion);
+  expect(radar == kFused ? is_definite(motion.covariance)
+                         : is_definite_in_x_and_yaw(motion.covariance),
+         Violation::not_definite, radar, motion);
   const double span_s = seconds(motion.utime_us - motion.utime_start_us);
   const double speed_mps = std::abs(motion.motion.x()) / span_s;
   const bool stands = motion.status == MotionStatus::standing_still;
-  expect(motion.motion.y() == 0.0 && speed_mps <= options_[radar].max_speed_mps &&
+  expect((radar == kFused || motion.motion.y() == 0.0) &&
+             speed_mps <= options_[radar].max_speed_mps &&
              (!stands || speed_mps <= options_[radar].standstill_mps * (1.0 + 1e-9)),
          Violation::status_contradicts, radar, motion);
 }
@@ -126,7 +164,7 @@ void EstimateChecker::compare(std::size_t radar, const EgoMotion& motion) {
   c.x_error_sigma = error.x() / c.x_sigma_m;
   c.yaw_error_sigma = error.z() / c.yaw_sigma_rad;
   c.targets = motion.targets;
-  c.faults = source_.faults_since(radar, start_us);
+  c.faults = faults_since(radar, start_us);
 
   RadarTallies& tallies = tallies_[radar];
   tallies.by_scenario[c.scenario].add(c);

@@ -42,6 +42,10 @@ inline constexpr std::array<std::string_view, 9> kViolationNames{
     "number of results is not that of scans",
 };
 
+/// The fused estimate comes after those of the radars.
+inline constexpr std::size_t kFused = kRadars;
+inline constexpr std::size_t kSources = kRadars + 1;
+
 /// An estimate beside truth.
 struct Comparison {
   std::size_t radar = 0;
@@ -95,12 +99,13 @@ class EstimateChecker final : public OdometrySink {
   void on_clock_step();
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
   [[nodiscard]] std::uint64_t failures() const override { return violations(); }
 
   [[nodiscard]] std::uint64_t violations() const;
-  [[nodiscard]] const std::array<RadarTallies, kRadars>& tallies() const { return tallies_; }
+  [[nodiscard]] const std::array<RadarTallies, kSources>& tallies() const { return tallies_; }
   [[nodiscard]] const std::array<std::uint64_t, kViolationNames.size()>& counts() const {
     return counts_;
   }
@@ -122,6 +127,9 @@ class EstimateChecker final : public OdometrySink {
     std::uint64_t motions = 0;
   };
 
+  void check(std::size_t source, const EgoMotion& motion);
+  [[nodiscard]] bool is_scan(std::size_t source, std::int64_t stamp_us) const;
+  [[nodiscard]] FaultSet faults_since(std::size_t source, std::int64_t start_us) const;
   void check_without(std::size_t radar, const EgoMotion& motion);
   void check_times(std::size_t radar, const EgoMotion& motion);
   void check_covariance(std::size_t radar, const EgoMotion& motion);
@@ -134,10 +142,10 @@ class EstimateChecker final : public OdometrySink {
   }
 
   const FaultInjector& source_;
-  std::array<EgoMotionOptions, kRadars> options_;
+  std::array<EgoMotionOptions, kSources> options_;
   const SoakDrive* drive_ = nullptr;
-  std::array<Past, kRadars> past_{};
-  std::array<RadarTallies, kRadars> tallies_{};
+  std::array<Past, kSources> past_{};
+  std::array<RadarTallies, kSources> tallies_{};
   std::array<std::uint64_t, kViolationNames.size()> counts_{};
   std::vector<Found> found_;
   std::vector<Comparison> beyond_;

@@ -78,7 +78,7 @@ class Soak {
 
   Arguments arguments_;
   Configuration configuration_ = configuration();
-  RadarNames names_{configuration_.radars[0].name, configuration_.radars[1].name};
+  RadarNames names_{configuration_.radars[0].name, configuration_.radars[1].name, "fused"};
   FaultInjector source_{arguments_.seed};
   EstimateChecker checker_{configuration_.radars, source_};
   std::unique_ptr<LcmPublisher> publisher_;

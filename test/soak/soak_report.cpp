@@ -87,7 +87,7 @@ void print(const Comparison& c, const RadarNames& radars) {
 void print_tallies(const EstimateChecker& checker, const RadarNames& radars) {
   std::printf("%-6s %-22s %9s %8s %8s %10s\n", "radar", "estimates of", "number", "beyond x", "yaw",
               "within %");
-  for (std::size_t i = 0; i < kRadars; ++i) {
+  for (std::size_t i = 0; i < kSources; ++i) {
     print_radar(radars[i], checker.tallies()[i]);
   }
 }

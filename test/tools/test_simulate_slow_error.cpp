@@ -43,7 +43,7 @@ TEST_CASE("The body moves over the rear axle while driving, and rests with it") 
     if (speed_mps == 0.0) {
       ++standing;
       CHECK(over_mps == 0.0);
-    } else if (speed_mps > 0.2) {
+    } else if (speed_mps > 1.0) {
       square += over_mps * over_mps;
       number += 1.0;
     }

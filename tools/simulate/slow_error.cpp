@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLowestHz = 0.3;
 constexpr double kHighestHz = 2.0;
-constexpr double kRollingMps = 0.2;
+constexpr double kRollingMps = 1.0;
 
 }  // namespace
 

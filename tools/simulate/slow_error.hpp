@@ -25,7 +25,7 @@ class SlowError {
   std::array<Sine, 12> sines_;
 };
 
-/// How much of a driving vehicle's errors shows at a speed: none when it stands, all from 0.2 m/s.
+/// How much of a driving vehicle's errors shows at a speed: none when it stands, all from 1 m/s.
 double rolling_share(double speed_mps);
 
 }  // namespace cremed

@@ -151,6 +151,8 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_be
     free -= *complete * motion.gradient;
     m.twist.covariance = *complete;
   } else {
+    // Of a car that moves sideways: its yaw would pay for y = 0.
+    m.is_believed = is_believed && !complete;
     m.twist.covariance = motion.covariance;
     m.twist.covariance(1, 1) = kUnknownM * kUnknownM;
   }

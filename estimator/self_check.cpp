@@ -12,8 +12,8 @@ namespace {
 constexpr double kTooGreat = 3.0;
 /// Both are less than this only where errors are less than half of what is said. The shared errors
 /// that Doppler may have keep the first from getting smaller, what vehicles do not accelerate makes
-/// the second small anyway: 0.6 and 0.2 on healthy drives.
-constexpr double kTooSmallByDoppler = 0.5;
+/// the second small anyway: 0.4 and 0.2 on healthy drives.
+constexpr double kTooSmallByDoppler = 0.35;
 constexpr double kTooSmallByNext = 0.12;
 
 double duration_s(const EgoMotion& motion) {

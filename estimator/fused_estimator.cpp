@@ -370,7 +370,11 @@ void FusedEstimator::finish(double dt_s, const Twist& twist, EgoMotion& fused) {
   } else {
     learn_slip(dt_s, twist);
     const double mounts_m = moved.x() * first_.registration.shared_errors.mount_yaw_std_rad;
-    fused.covariance(1, 1) += mounts_m * mounts_m / static_cast<double>(used());
+    int radars = 0;  // Two motions of one radar err alike.
+    for (std::size_t radar = 0; radar < radars_; ++radar) {
+      radars += own_sum(radar).information.isZero(0.0) ? 0 : 1;
+    }
+    fused.covariance(1, 1) += mounts_m * mounts_m / std::max(radars, 1);
   }
   for (std::size_t i = 0; i < count_; ++i) {
     fused.targets += measurements_[i].is_used ? measurements_[i].targets : 0;

@@ -168,6 +168,29 @@ doppler.enabled = false
   CHECK(common.doppler.enabled);
 }
 
+TEST_CASE("fused: two radars or more, unless it is switched off") {
+  const std::string two = kArs408 + radar_text("left", "bosch_gpr", "can1");
+  CHECK(is_fused(parse(two)));
+  CHECK_FALSE(is_fused(parse(kArs408)));
+  CHECK_FALSE(is_fused(parse(two + "[fused]\nenabled = false\n")));
+  const Configuration configuration = parse(two + R"(
+[fused]
+acceleration_std_mps2 = 2.5
+yaw_acceleration_std_radps2 = 0.3
+side_slip_std_rad = 0.02
+side_slip_walk_radps = 0.004
+max_innovation = 9
+[output]
+tum_source = "fused"
+)");
+  CHECK(configuration.fused.acceleration_std_mps2 == 2.5);
+  CHECK(configuration.fused.yaw_acceleration_std_radps2 == 0.3);
+  CHECK(configuration.fused.side_slip_std_rad == 0.02);
+  CHECK(configuration.fused.side_slip_walk_radps == 0.004);
+  CHECK(configuration.fused.max_innovation == 9.0);
+  CHECK(configuration.output.tum_source == "fused");
+}
+
 TEST_CASE("output and logging are taken") {
   const Configuration configuration = parse(kArs408 + radar_text("left", "bosch_gpr", "can1") + R"(
 [output]

@@ -25,6 +25,11 @@ TEST_CASE("values that contradict each other are refused") {
       {kGpr + "base_id = 0x0C0\n", 6, "radar.base_id", "makes", "outside base_id to base_id + 95"},
       {kArs408 + "[output]\ntum_source = \"rear\"\n", 7, "output.tum_source", "is \"rear\"",
        "the name of a radar"},
+      {kArs408 + "[output]\ntum_source = \"fused\"\n", 7, "output.tum_source", "is \"fused\"",
+       "\"fused\" where there are two or more"},
+      {kArs408 + radar_text("left", "bosch_gpr", "can1") +
+           "[fused]\nenabled = false\n[output]\ntum_source = \"fused\"\n",
+       14, "output.tum_source", "is \"fused\"", "\"fused\" where there are two or more"},
       {kArs408 + "[output]\ncsv = \"a\"\ntum = \"a\"\n", 8, "output.tum", "is the file of csv",
        "another path"},
   });

@@ -128,6 +128,18 @@ TEST_CASE("values out of range are refused with the range") {
        "from 2 to 256"},
       {kArs408 + "[estimator]\nmax_iterations = 99999999999\n", 7, "estimator.max_iterations",
        "is 99999999999", "from 1 to 1000"},
+      {kArs408 + "[fused]\nacceleration_std_mps2 = -1\n", 7, "fused.acceleration_std_mps2", "is -1",
+       "from 0 to 100"},
+      {kArs408 + "[fused]\nyaw_acceleration_std_radps2 = 101\n", 7,
+       "fused.yaw_acceleration_std_radps2", "is 101", "from 0 to 100"},
+      {kArs408 + "[fused]\nside_slip_std_rad = 1.1\n", 7, "fused.side_slip_std_rad", "is 1.1",
+       "from 0 to 1"},
+      {kArs408 + "[fused]\nside_slip_walk_radps = -0.1\n", 7, "fused.side_slip_walk_radps",
+       "is -0.1", "from 0 to 1"},
+      {kArs408 + "[fused]\nmax_innovation = 0.9\n", 7, "fused.max_innovation", "is 0.9",
+       "from 1 to 1000"},
+      {kArs408 + "[fused]\nenabled = 1\n", 7, "fused.enabled", "is 1", "true or false"},
+      {kArs408 + "[fused]\nenable = true\n", 7, "fused.enable", "unknown key", "enabled"},
   });
 }
 

@@ -2,72 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "daemon/lcm_publisher.hpp"
+#include "estimator/self_check.hpp"
+#include "test/daemon/memory_lcm.hpp"
 
 using namespace cremed;
-
-namespace {
-
-Configuration two_radars() {
-  Configuration configuration;
-  configuration.radars.resize(2);
-  configuration.radars[0].name = "front";
-  configuration.radars[1].name = "rear-left_2";
-  configuration.output.publish_scans = true;
-  return configuration;
-}
-
-struct Received {
-  std::string channel;
-  std::vector<std::uint8_t> data;
-};
-
-void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
-  const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
-  static_cast<std::vector<Received>*>(user)->push_back(
-      {channel, {bytes, bytes + buffer->data_size}});
-}
-
-/// Everything published while `publish` runs, through LCM's in-process transport.
-std::vector<Received> receive(LcmPublisher& publisher, const std::function<void()>& publish) {
-  std::vector<Received> received;
-  lcm_subscription_t* all = lcm_subscribe(publisher.handle(), ".*", on_message, &received);
-  publish();
-  while (lcm_handle_timeout(publisher.handle(), 20) > 0) {
-  }
-  lcm_unsubscribe(publisher.handle(), all);
-  return received;
-}
-
-template <typename Message>
-Message decode(const Received& received) {
-  Message message;
-  REQUIRE(message.decode(received.data.data(), 0, static_cast<int>(received.data.size())) ==
-          static_cast<int>(received.data.size()));
-  return message;
-}
-
-EgoMotion turning() {
-  EgoMotion motion;
-  motion.utime_start_us = 5'000'000;
-  motion.utime_us = 5'075'000;
-  motion.status = MotionStatus::ok;
-  motion.motion << 0.7, -0.01, 0.02;
-  motion.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
-  motion.targets = 88;
-  motion.iterations = 7;
-  return motion;
-}
-
-constexpr std::size_t kOneDatagram = 1472 - 8;  // LCM's own header takes 8 bytes
-
-}  // namespace
 
 TEST_CASE("ego_motion_t carries every field, numbered for each source on its own") {
   LcmPublisher publisher("memq://", two_radars());
@@ -111,6 +55,49 @@ TEST_CASE("Without an estimate the message holds NaN, not zero") {
   CHECK(message.status == ego_motion_t::STATUS_DEGENERATE);
   CHECK(std::isnan(message.x_in_start_frame_m));
   CHECK(std::isnan(message.covariance_x_y_yaw_m_rad[8]));
+}
+
+TEST_CASE("The motion of all radars goes out as \"fused\", numbered on its own") {
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  const auto received = receive(publisher, [&] {
+    publisher.on_motion(0, turning(), 0);
+    publisher.on_motion(0, turning(), 0);
+    publisher.on_fused(turning(), 12);
+    publisher.on_fused(turning(), 13);
+  });
+  REQUIRE(received.size() == 4);
+  CHECK(received[2].channel == "CREMED_EGO_MOTION");
+  const auto first = decode<ego_motion_t>(received[2]);
+  CHECK(first.source == "fused");
+  CHECK(first.seq == 0);
+  CHECK(first.utime_start == 5'000'000);
+  CHECK(first.x_in_start_frame_m == 0.7);
+  CHECK(first.covariance_x_y_yaw_m_rad[4] == 5.0);
+  CHECK(first.solve_us == 12);
+  CHECK(decode<ego_motion_t>(received[3]).seq == 1);
+}
+
+TEST_CASE("status_t says whether the covariance is to be believed") {
+  CHECK(status_t::DOUBT_REGISTRATION_CONTRADICTS_DOPPLER ==
+        static_cast<int>(registration_contradicts_doppler));
+  CHECK(status_t::DOUBT_MOTIONS_CONTRADICT_EACH_OTHER ==
+        static_cast<int>(motions_contradict_each_other));
+  CHECK(status_t::DOUBT_OTHER_RADARS_CONTRADICT == static_cast<int>(other_radars_contradict));
+  CHECK(status_t::DOUBT_COVARIANCE_TOO_LARGE == static_cast<int>(covariance_too_large));
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  RadarStatus status;
+  status.belief = {1.5, 2.5, 3.5, registration_contradicts_doppler | covariance_too_large, 6, 7};
+  const auto received = receive(publisher, [&] { publisher.on_status(1, status); });
+  REQUIRE(received.size() == 1);
+  const auto m = decode<status_t>(received[0]);
+  CHECK(m.innovation_doppler == 1.5F);
+  CHECK(m.innovation_next == 2.5F);
+  CHECK(m.innovation_radars == 3.5F);
+  CHECK(m.doubts == 1 + 8);
+  CHECK(m.motions_fused == 6);
+  CHECK(m.motions_left_out == 7);
 }
 
 TEST_CASE("The statuses of the message are those of the estimator") {

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "daemon/report.hpp"
+#include "estimator/self_check.hpp"
 
 using namespace cremed;
 
@@ -190,6 +191,29 @@ TEST_CASE("Each fault that a radar reports is named") {
     CHECK(findings.front().what == "the sensor reports a fault: " + row.name);
     CHECK_FALSE(findings.front().remedy.empty());
   }
+}
+
+TEST_CASE("Each doubt in the covariance is named with its figure and what to do") {
+  struct Case {
+    Doubt doubt;
+    std::string what;
+    std::string figure;
+    std::string remedy;
+  };
+  const auto row = GENERATE(
+      Case{registration_contradicts_doppler, "contradict their Doppler", "4.2", "sign of Doppler"},
+      Case{motions_contradict_each_other, "jump more than a vehicle can", "5.3", "noise"},
+      Case{other_radars_contradict, "contradicts the other radars", "6.4", "mount"},
+      Case{covariance_too_large, "far smaller than its covariance", "4.2", "lower its noise"});
+  RadarStatus status = healthy();
+  status.belief = {.doppler_innovation = 4.25, .next_innovation = 5.35, .radars_innovation = 6.45};
+  CHECK(radar_findings(front(), status).empty());
+  status.belief.doubts = row.doubt;
+  const auto findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].severity == Severity::warning);
+  CHECK_THAT(findings[0].what, Catch::Contains(row.what) && Catch::Contains(row.figure + ", 1"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
 }
 
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {

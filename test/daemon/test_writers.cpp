@@ -102,3 +102,33 @@ TEST_CASE("TUM: other radars and rows without estimate are left out, gaps counte
   CHECK(writer.gaps() == 1);
   CHECK(lines(file.content()).size() == 4);
 }
+
+TEST_CASE("CSV: the motion of all radars is named fused") {
+  const TemporaryFile file;
+  CsvWriter writer(file.path(), {"front", "rear"});
+  writer.on_fused(estimate(1'000'000, 1'075'000, 0.5, 0.25), 9);
+  const auto rows = lines(file.content());
+  REQUIRE(rows.size() == 2);
+  CHECK_THAT(rows[1], Catch::StartsWith("1000000,1075000,fused,0.500000000,"));
+  CHECK_THAT(rows[1], Catch::EndsWith(",ok,57,6,9"));
+}
+
+TEST_CASE("TUM: follows the fused motion if asked to, and only then") {
+  struct Row {
+    std::size_t source;
+    const char* last;
+  };
+  for (const Row& row :
+       {Row{0, "2.000000 3.000000 "}, Row{TumWriter::kFused, "2.000000 7.000000 "}}) {
+    const TemporaryFile file;
+    TumWriter writer(file.path(), row.source);
+    for (std::int64_t i = 0; i < 2; ++i) {
+      writer.on_motion(0, estimate(i * 1'000'000, (i + 1) * 1'000'000, 1.5, 0.0), 0);
+      writer.on_fused(estimate(i * 1'000'000, (i + 1) * 1'000'000, 3.5, 0.0), 0);
+    }
+    const auto rows = lines(file.content());
+    REQUIRE(rows.size() == 3);
+    CHECK_THAT(rows[2], Catch::StartsWith(row.last));
+    CHECK(writer.gaps() == 0);
+  }
+}

@@ -61,8 +61,7 @@ struct DrawnMotion {
 };
 
 /// A vehicle that drives a course. Its motions err by what each radar says of itself, by the
-/// velocity of the body, and by the angles of the mounts: with two degrees of freedom one error of
-/// the frame that all mounts were measured in, with three each radar its own.
+/// velocity of the body, and by the angle of each mount.
 class DrawnVehicle {
  public:
   DrawnVehicle(Course course, std::vector<DrawnRadar> radars, const EgoMotionOptions& options,
@@ -73,10 +72,9 @@ class DrawnVehicle {
         random_(seed),
         last_us_(radars_.size(), 0) {
     const double std_rad = options.registration.shared_errors.mount_yaw_std_rad;
-    const double frame_rad = std_rad * normal();
     for (const DrawnRadar& radar : radars_) {
       next_us_.push_back(kDrawnStartUs + radar.phase_us);
-      mounts_rad_.push_back(is_car() ? frame_rad : std_rad * normal());
+      mounts_rad_.push_back(std_rad * normal());
     }
   }
 

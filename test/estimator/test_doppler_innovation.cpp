@@ -64,13 +64,22 @@ RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool wit
   return options;
 }
 
-RegistrationResult solve_pair(const RegistrationOptions& options, Random& random) {
+struct Pair {
+  Eigen::Vector3d motion;
+  RegistrationResult result;
+};
+
+/// With two degrees of freedom y = 0, or that of an arc.
+Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc = false) {
   const bool is_car = options.degrees_of_freedom == 2;
   const simulation::Noise noise{0.13, 0.0157, 0.1};
-  const Eigen::Vector3d motion(simulation::uniform(random, 0.5, 1.5),
-                               is_car ? 0.0 : simulation::uniform(random, -0.2, 0.2),
-                               simulation::uniform(random, -0.05, 0.05));
+  Eigen::Vector3d motion(simulation::uniform(random, 0.5, 1.5),
+                         is_car ? 0.0 : simulation::uniform(random, -0.2, 0.2),
+                         simulation::uniform(random, -0.05, 0.05));
   Eigen::Vector3d half_way = motion;  // In the frame half way through the turn.
+  if (is_arc) {
+    motion.y() = 0.5 * motion.x() * motion.z();
+  }
   if (!is_car) {
     half_way.head<2>() = Eigen::Rotation2Dd(-0.5 * motion.z()) * motion.head<2>();
   }
@@ -85,7 +94,7 @@ RegistrationResult solve_pair(const RegistrationOptions& options, Random& random
   simulation::perturb(current, random);
   Registration registration(options, kMount);
   registration.set_previous(simulation::targets(previous, kMount));
-  return registration.solve(simulation::targets(current, kMount), kDt);
+  return {motion, registration.solve(simulation::targets(current, kMount), kDt)};
 }
 
 TEST_CASE("registration: positions and Doppler differ by what their covariances say") {
@@ -98,7 +107,7 @@ TEST_CASE("registration: positions and Doppler differ by what their covariances 
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < kPairs; ++i) {
-    const RegistrationResult result = solve_pair(options, random);
+    const RegistrationResult result = solve_pair(options, random).result;
     if (std::isfinite(result.doppler_innovation)) {
       sum += result.doppler_innovation;
       ++count;
@@ -110,30 +119,37 @@ TEST_CASE("registration: positions and Doppler differ by what their covariances 
 }
 
 TEST_CASE("registration: information and gradient tell the motion with y free") {
+  const int degrees_of_freedom = GENERATE(2, 3);
+  CAPTURE(degrees_of_freedom);
   Random random(3);
-  for (const int degrees_of_freedom : {2, 3}) {
-    const RegistrationOptions options = options_of(degrees_of_freedom, true, false);
-    for (int i = 0; i < 20; ++i) {
-      const RegistrationResult result = solve_pair(options, random);
-      if (result.status != RegistrationStatus::converged) {
-        continue;
-      }
-      CAPTURE(degrees_of_freedom, i, result.information, result.covariance);
-      CHECK(result.information.isApprox(result.information.transpose(), 1e-9));
-      const auto covariance = invert_information(result.information, degrees_of_freedom);
-      REQUIRE(covariance);
-      // Information lost to not knowing the partners is that of the free states in one, of all
-      // three in the other.
-      CHECK(((*covariance - result.covariance).array().abs() <=
-             0.1 * result.covariance.diagonal().maxCoeff())
-                .all());
-      const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
-      CHECK(std::abs(result.gradient.x()) * sigma.x() < 0.02);
-      CHECK(std::abs(result.gradient.z()) * sigma.z() < 0.02);
-      if (degrees_of_freedom == 3) {
-        CHECK(std::abs(result.gradient.y()) * sigma.y() < 0.02);
-      }
+  const RegistrationOptions options = options_of(degrees_of_freedom, true, false);
+  double nees = 0.0;
+  int count = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto [motion, result] = solve_pair(options, random, degrees_of_freedom == 2);
+    const auto covariance = invert_information(result.information, 3);
+    if (result.status != RegistrationStatus::converged || !covariance) {
+      continue;
     }
+    const Eigen::Vector3d error = result.motion - *covariance * result.gradient - motion;
+    nees += error.dot(result.information * error) / 3.0;
+    ++count;
+  }
+  CHECK(count > 285);
+  CHECK(nees / count > 0.8);
+  CHECK(nees / count < 1.25);
+}
+
+TEST_CASE("registration: in three degrees of freedom the equations are those of the estimate") {
+  Random random(3);
+  const RegistrationOptions options = options_of(3, true, false);
+  for (int i = 0; i < 20; ++i) {
+    const RegistrationResult result = solve_pair(options, random).result;
+    REQUIRE(result.status == RegistrationStatus::converged);
+    CHECK(result.information.isApprox(result.information.transpose(), 1e-9));
+    CHECK((result.information * result.covariance).isApprox(Eigen::Matrix3d::Identity(), 1e-6));
+    const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+    CHECK(result.gradient.cwiseProduct(sigma).cwiseAbs().maxCoeff() < 0.02);
   }
 }
 
@@ -141,13 +157,13 @@ TEST_CASE("registration: without Doppler, or by Gauss-Newton, there is nothing t
   Random random(5);
   RegistrationOptions options = options_of(2, true, false);
   options.doppler.enabled = false;
-  CHECK(std::isnan(solve_pair(options, random).doppler_innovation));
+  CHECK(std::isnan(solve_pair(options, random).result.doppler_innovation));
   options = options_of(2, false, false);
-  CHECK_FALSE(std::isnan(solve_pair(options, random).doppler_innovation));
+  CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_innovation));
   // One radar's Doppler tells two of three states.
-  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).doppler_innovation));
+  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_innovation));
   options.covariance = CovarianceModel::gauss_newton;
-  const RegistrationResult result = solve_pair(options, random);
+  const RegistrationResult result = solve_pair(options, random).result;
   CHECK(result.status == RegistrationStatus::converged);
   CHECK(std::isnan(result.doppler_innovation));
   CHECK(result.information.diagonal().minCoeff() > 0.0);

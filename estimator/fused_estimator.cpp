@@ -28,6 +28,10 @@ constexpr double kLeastRollingMps = 1.0;
 constexpr double kContradiction = 5.0;
 /// It is believed again below this.
 constexpr double kAgreement = 3.0;
+/// Of two radars that contradict each other one is plainly wrong if it does so by such a factor
+/// more against all else that is known: else nobody can tell, and neither is used.
+constexpr double kPlainly = 3.0;
+
 double seconds(std::int64_t from_us, std::int64_t to_us) {
   // In double, where no stamp overflows; stamps of this age of the world are exact in it.
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
@@ -168,9 +172,16 @@ MotionStatus FusedEstimator::fuse(double dt_s, EgoMotion& fused) {
   if (used() == 0) {
     return MotionStatus::ambiguous;
   }
-  while (leave_out_worst(known_before(dt_s))) {
+  Contradiction worst = contradiction(known_before(dt_s));
+  while (worst.is_any && worst.is_plain) {
+    leave_out(worst.radar);
+    worst = contradiction(known_before(dt_s));
   }
   note_agreement(known_before(dt_s));
+  if (worst.is_any) {
+    count_ = 0;
+    return MotionStatus::ambiguous;
+  }
   const Sums sums = sum_of_used();
   const auto covariance = invert_information(sums.information, 3);
   if (!covariance) {
@@ -288,31 +299,44 @@ FusedEstimator::Sums FusedEstimator::sum_of_others(std::size_t radar, Sums known
   return known;
 }
 
-/// Leaves out the radar that contradicts the others most, if one does and another is left. All its
-/// motions at once: they err alike, and two of them would outvote one of another radar. Whoever has
+/// The radar that contradicts the others most, if one does and another is left. Whoever has
 /// contradicted before is likelier to be the one that does now: without that memory the wrong one
-/// of two would some day be left out, and the other then be what everything is compared with.
-bool FusedEstimator::leave_out_worst(const Sums& known) {
+/// of two would some day be left out, and the other then be what everything is compared with. Two
+/// contradict each other alike: what the vehicle did before must tell which is wrong.
+FusedEstimator::Contradiction FusedEstimator::contradiction(const Sums& known) const {
   std::size_t radars = 0;
-  std::size_t worst = 0;
-  double largest = 0.0;
+  bool is_any = false;
+  Contradiction by_others;
+  Contradiction by_past;
   for (std::size_t radar = 0; radar < radars_; ++radar) {
     const Sums own = own_sum(radar);
-    radars += own.information.isZero(0.0) ? 0 : 1;
-    const double nis = innovation(own, sum_of_others(radar, known)).value_or(0.0);
-    const double score = nis * (1.0 + agreements_[radar].innovation.mean());
-    if (nis > options_.max_innovation && score > largest) {
-      largest = score;
-      worst = radar;
+    if (own.information.isZero(0.0)) {
+      continue;
     }
+    ++radars;
+    const double record = 1.0 + agreements_[radar].innovation.mean();
+    const double nis = innovation(own, sum_of_others(radar, known)).value_or(0.0);
+    is_any = is_any || nis > options_.max_innovation;
+    by_others.note(radar, record * nis);
+    by_past.note(radar, record * (1.0 + innovation(own, known).value_or(0.0)));
   }
-  if (radars < 2 || largest == 0.0) {
-    return false;
-  }
+  Contradiction result = radars > 2 ? by_others : by_past;
+  result.is_any = is_any && radars >= 2;
+  result.is_plain = radars > 2 || by_past.worst > kPlainly * by_past.second;
+  return result;
+}
+
+void FusedEstimator::Contradiction::note(std::size_t which, double score) {
+  second = std::max(second, std::min(worst, score));
+  radar = score > worst ? which : radar;
+  worst = std::max(worst, score);
+}
+
+/// All its motions at once: they err alike, and two of them would outvote one of another radar.
+void FusedEstimator::leave_out(std::size_t radar) {
   for (std::size_t i = 0; i < count_; ++i) {
-    measurements_[i].is_used = measurements_[i].is_used && measurements_[i].radar != worst;
+    measurements_[i].is_used = measurements_[i].is_used && measurements_[i].radar != radar;
   }
-  return true;
 }
 
 void FusedEstimator::note_agreement(const Sums& known) {

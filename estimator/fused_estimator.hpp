@@ -59,9 +59,10 @@ struct RadarAgreement {
 /// like slip and do not average out over time; they are added to the covariance of y.
 ///
 /// A radar whose motions contradict the others and what the vehicle did before is left out, the
-/// worst first; a radar that does so over a minute is left out altogether, but still compared. Each
-/// motion is used once. A fused motion ends with each scan of the leading radar: the first of those
-/// that are alive. Never allocates, throws or logs.
+/// worst first; a radar that does so over a minute is left out altogether, but still compared. Of
+/// two that contradict each other from the beginning nobody knows which is wrong: the fused motion
+/// is ambiguous. Each motion is used once. A fused motion ends with each scan of the leading radar:
+/// the first of those that are alive. Never allocates, throws or logs.
 class FusedEstimator {
  public:
   /// `radars`: how many, and what they are set to. Degrees of freedom, velocity error and longest
@@ -108,6 +109,15 @@ class FusedEstimator {
     void add(const Eigen::Matrix3d& more, const Eigen::Vector3d& mean);
   };
 
+  struct Contradiction {
+    bool is_any = false;
+    bool is_plain = false;  ///< Which radar is wrong.
+    std::size_t radar = 0;  ///< The likeliest.
+    double worst = 0.0;     ///< Its score, and that of the next.
+    double second = 0.0;
+    void note(std::size_t which, double score);
+  };
+
   bool leads(std::size_t radar, std::int64_t utime_us);
   void note(std::size_t radar, const EgoMotion& motion, bool is_believed);
   MotionStatus fuse(double dt_s, EgoMotion& fused);
@@ -118,7 +128,8 @@ class FusedEstimator {
   [[nodiscard]] Sums own_sum(std::size_t radar) const;
   [[nodiscard]] Sums sum_of_others(std::size_t radar, Sums known) const;
   static std::optional<double> innovation(const Sums& own, const Sums& others);
-  [[nodiscard]] bool leave_out_worst(const Sums& known);
+  [[nodiscard]] Contradiction contradiction(const Sums& known) const;
+  void leave_out(std::size_t radar);
   void note_agreement(const Sums& known);
   void learn_slip(double dt_s, const Twist& twist);
   void finish(double dt_s, const Twist& twist, EgoMotion& fused);

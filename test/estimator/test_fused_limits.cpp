@@ -100,7 +100,7 @@ TEST_CASE("fused: a leader that is long silent does not make others' motions pil
   for (int i = 0; i < 500; ++i) {  // Far more than there is room for, within a quarter second.
     estimator.update(1, estimate(kDrawnStartUs + 100 * i, kDrawnStartUs + 100 * i + 70'000));
   }
-  const auto fused = estimator.update(0, estimate(kDrawnStartUs, kDrawnStartUs + 120'000));
+  const auto fused = estimator.update(0, estimate(kDrawnStartUs + 50'000, kDrawnStartUs + 120'000));
   REQUIRE(fused);
   CHECK(is_sound(*fused));
   CHECK(fused->has_estimate());

@@ -47,13 +47,11 @@ struct FusedDrive {
       if (!alter(vehicle.time_s(), drawn)) {
         continue;
       }
-      if (const auto motion = estimator.update(drawn.radar, drawn.motion, is_believed(drawn))) {
+      if (const auto motion =
+              estimator.update(drawn.radar, drawn.motion, drawn.radar != not_believed)) {
         fused.push_back(*motion);
       }
     }
-  }
-  [[nodiscard]] bool is_believed(const DrawnMotion& drawn) const {
-    return drawn.radar != not_believed;
   }
   /// Largest squared error, of each state in its own standard deviations, from a time on.
   [[nodiscard]] double worst(double begin_s) const {

@@ -23,29 +23,9 @@ constexpr double kLeastSlipMps = 1e-3;
 /// Slower than this a car shows no slip.
 constexpr double kLeastRollingMps = 1.0;
 
-/// A radar's mean innovation that tells it to be wrong: if all of its error stayed the same for a
-/// minute, chance would still exceed 5.4 once in 1000 only.
-constexpr double kContradiction = 5.0;
-/// It is believed again below this.
-constexpr double kAgreement = 3.0;
-/// Of two radars that contradict each other one is plainly wrong if it does so by such a factor
-/// more against all else that is known: else nobody can tell, and neither is used.
-constexpr double kPlainly = 3.0;
-
 double seconds(std::int64_t from_us, std::int64_t to_us) {
   // In double, where no stamp overflows; stamps of this age of the world are exact in it.
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
-}
-
-void judge(RadarAgreement& agreement) {
-  agreement.contradicts =
-      agreement.innovation.exceeds(agreement.contradicts ? kAgreement : kContradiction);
-}
-
-RadarAgreement forgiven(RadarAgreement agreement) {
-  agreement.innovation.clear();
-  agreement.contradicts = false;
-  return agreement;
 }
 
 Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
@@ -56,19 +36,6 @@ Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double
 }
 
 }  // namespace
-
-/// Normalised innovation squared, a degree of freedom, of what one radar says against all else;
-/// nothing if one of them does not say enough.
-std::optional<double> FusedEstimator::innovation(const Sums& own, const Sums& others) {
-  const auto own_covariance = invert_information(own.information, 3);
-  const auto covariance = invert_information(others.information, 3);
-  if (!own_covariance || !covariance) {
-    return std::nullopt;
-  }
-  const Eigen::Vector3d difference = *own_covariance * own.weighted - *covariance * others.weighted;
-  const auto weight = invert_information(*own_covariance + *covariance, 3);
-  return weight ? std::optional(difference.dot(*weight * difference) / 3.0) : std::nullopt;
-}
 
 void FusedEstimator::Sums::add(const Eigen::Matrix3d& more, const Eigen::Vector3d& mean) {
   information += more;
@@ -141,7 +108,7 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_be
     --count_;
   }
   agreements_[radar].innovation.pass(motion.utime_us);
-  judge(agreements_[radar]);
+  agreements_[radar].judge();
   const double dt_s = seconds(motion.utime_start_us, motion.utime_us);
   Measurement& m = measurements_[count_++];
   m.radar = radar;
@@ -221,7 +188,9 @@ void FusedEstimator::weigh(double dt_s) {
     // Then those were right that contradicted it.
     std::for_each(measurements_.begin(), end, [this](Measurement& m) {
       m.is_used = m.is_believed && !m.information.isZero(0.0);
-      agreements_[m.radar] = m.is_believed ? forgiven(agreements_[m.radar]) : agreements_[m.radar];
+      if (m.is_believed) {
+        agreements_[m.radar].forgive();
+      }
     });
   }
 }
@@ -277,80 +246,6 @@ FusedEstimator::Sums FusedEstimator::known_before(double dt_s) const {
     sums.add(information.value_or(Eigen::Matrix3d::Zero()), last_.mean);
   }
   return sums;
-}
-
-FusedEstimator::Sums FusedEstimator::own_sum(std::size_t radar) const {
-  Sums sums;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (measurements_[i].is_used && measurements_[i].radar == radar) {
-      sums.add(measurements_[i].information, measurements_[i].twist.mean);
-    }
-  }
-  return sums;
-}
-
-/// Besides what is known without any radar.
-FusedEstimator::Sums FusedEstimator::sum_of_others(std::size_t radar, Sums known) const {
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (measurements_[i].is_used && measurements_[i].radar != radar) {
-      known.add(measurements_[i].information, measurements_[i].twist.mean);
-    }
-  }
-  return known;
-}
-
-/// The radar that contradicts the others most, if one does and another is left. Whoever has
-/// contradicted before is likelier to be the one that does now: without that memory the wrong one
-/// of two would some day be left out, and the other then be what everything is compared with. Two
-/// contradict each other alike: what the vehicle did before must tell which is wrong.
-FusedEstimator::Contradiction FusedEstimator::contradiction(const Sums& known) const {
-  std::size_t radars = 0;
-  bool is_any = false;
-  Contradiction by_others;
-  Contradiction by_past;
-  for (std::size_t radar = 0; radar < radars_; ++radar) {
-    const Sums own = own_sum(radar);
-    if (own.information.isZero(0.0)) {
-      continue;
-    }
-    ++radars;
-    const double record = 1.0 + agreements_[radar].innovation.mean();
-    const double nis = innovation(own, sum_of_others(radar, known)).value_or(0.0);
-    is_any = is_any || nis > options_.max_innovation;
-    by_others.note(radar, record * nis);
-    by_past.note(radar, record * (1.0 + innovation(own, known).value_or(0.0)));
-  }
-  Contradiction result = radars > 2 ? by_others : by_past;
-  result.is_any = is_any && radars >= 2;
-  result.is_plain = radars > 2 || by_past.worst > kPlainly * by_past.second;
-  return result;
-}
-
-void FusedEstimator::Contradiction::note(std::size_t which, double score) {
-  second = std::max(second, std::min(worst, score));
-  radar = score > worst ? which : radar;
-  worst = std::max(worst, score);
-}
-
-/// All its motions at once: they err alike, and two of them would outvote one of another radar.
-void FusedEstimator::leave_out(std::size_t radar) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    measurements_[i].is_used = measurements_[i].is_used && measurements_[i].radar != radar;
-  }
-}
-
-void FusedEstimator::note_agreement(const Sums& known) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Measurement& m = measurements_[i];
-    RadarAgreement& agreement = agreements_[m.radar];
-    ++(m.is_used ? agreement.used : agreement.left_out);
-    Sums own;
-    own.add(m.information, m.twist.mean);
-    if (const auto nis = innovation(own, sum_of_others(m.radar, known))) {
-      agreement.innovation.add(last_scan_us_[m.radar], *nis);
-    }
-    judge(agreement);
-  }
 }
 
 void FusedEstimator::finish(double dt_s, const Twist& twist, EgoMotion& fused) {

@@ -38,6 +38,11 @@ struct RadarAgreement {
   bool contradicts = false;    ///< Left out until its innovation is small again.
   std::uint64_t used = 0;      ///< Motions that went into a fused estimate.
   std::uint64_t left_out = 0;  ///< Motions that contradicted the others.
+
+  /// Decides by the innovation whether the radar contradicts.
+  void judge();
+  /// Those it contradicted were wrong: it begins anew.
+  void forgive();
 };
 
 /// One ego-motion from all radars of a vehicle, whose scans need not come at the same times.

@@ -255,7 +255,10 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
   const Configuration configuration = load_configuration(kFolder + file);
   REQUIRE(configuration.radars.size() == places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    RadarConfiguration expected;  // But for Doppler's scale, defaults are the paper's settings.
+    RadarConfiguration expected;
+    Ars408Options sensor;
+    sensor.keep_invalid_states = 0x39F11;  // 0, 4, 8 to 12, 15 to 17
+    expected.decoder = sensor;
     expected.name = places[i].name;
     expected.interface = places[i].interface;
     expected.ego_motion.vehicle_from_radar = places[i].mount;

@@ -65,12 +65,15 @@ Odometry drive(const RealDrive& scene) {
 
 }  // namespace
 
-TEST_CASE("Real drives: five radars give odometry, the front one is precise and credible") {
+TEST_CASE(
+    "Real drives: five radars give odometry, the front one and all together are precise and "
+    "credible") {
   const std::vector<RealDrive> scenes = {{"scene-0061", "nuscenes-singapore", 0.01065, 0.0827},
                                          {"scene-0103", "nuscenes-boston", 0.01108, 0.0858},
                                          {"scene-0655", "nuscenes-boston", 0.01273, 0.0968},
                                          {"scene-0796", "nuscenes-singapore", 0.01188, 0.1207}};
   Credibility front(2);
+  Credibility fused(3);
   for (const RealDrive& scene : scenes) {
     CAPTURE(scene.name);
     const Odometry odometry = drive(scene);
@@ -81,10 +84,16 @@ TEST_CASE("Real drives: five radars give odometry, the front one is precise and 
     CHECK(of_scene.rmse_m() <= scene.rmse_m);
     CHECK(of_scene.rmse_deg() <= 1.01 * scene.rmse_deg);
     add(front, motions, odometry.truth);
+    add(fused, odometry.sink.fused, odometry.truth);
   }
-  std::printf("front: %s\n", to_line(front).c_str());
+  std::printf("front: %s\nfused: %s\n", to_line(front).c_str(), to_line(fused).c_str());
   CHECK(front.rmse_m() <= 0.0110);
   CHECK(front.rmse_deg() <= 0.090);
-  CHECK(front.anees() >= 0.8);
-  CHECK(front.anees() <= 1.25);
+  CHECK(fused.count() >= 1030);
+  CHECK(fused.rmse_m() <= 0.0095);
+  CHECK(fused.rmse_deg() <= 0.075);
+  for (const Credibility* source : {&front, &fused}) {
+    CHECK(source->anees() >= 0.8);
+    CHECK(source->anees() <= 1.25);
+  }
 }

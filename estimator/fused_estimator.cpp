@@ -145,8 +145,10 @@ MotionStatus FusedEstimator::fuse(double dt_s, EgoMotion& fused) {
     worst = contradiction(known_before(dt_s));
   }
   note_agreement(known_before(dt_s));
-  if (worst.is_any) {
+  if (worst.is_any) {  // The next one begins here: a longer interval would be no clearer.
     count_ = 0;
+    end_us_ = fused.utime_us;
+    last_.middle_s -= dt_s;
     return MotionStatus::ambiguous;
   }
   const Sums sums = sum_of_used();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/stamps.hpp"
+
 namespace cremed {
 namespace {
 
@@ -54,9 +56,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   if (motion.status != MotionStatus::ok) {
     return motion;
   }
-  // In double, where no stamp overflows; stamps of this age of the world are exact in it.
-  const double dt_s =
-      (static_cast<double>(scan.stamp_us) - static_cast<double>(reference_stamp_us_)) * 1e-6;
+  const double dt_s = seconds_between(reference_stamp_us_, scan.stamp_us);
   if (!has_reference_) {
     motion.status = MotionStatus::no_reference;
   } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/acceleration.hpp"
 #include "estimator/normal_equations.hpp"
 #include "estimator/shared_doppler.hpp"
+#include "estimator/stamps.hpp"
 
 namespace cremed {
 namespace {
@@ -23,17 +25,7 @@ constexpr double kLeastSlipMps = 1e-3;
 /// Slower than this a car shows no slip.
 constexpr double kLeastRollingMps = 1.0;
 
-double seconds(std::int64_t from_us, std::int64_t to_us) {
-  // In double, where no stamp overflows; stamps of this age of the world are exact in it.
-  return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
-}
-
 Eigen::Matrix3d outer(const Eigen::Vector3d& v) { return v * v.transpose(); }
-
-Eigen::Matrix3d acceleration_covariance(double time_s, double along_mps2, double yaw_radps2) {
-  const Eigen::Vector3d change = time_s * Eigen::Vector3d(along_mps2, along_mps2, yaw_radps2);
-  return change.cwiseAbs2().asDiagonal();
-}
 
 }  // namespace
 
@@ -65,14 +57,14 @@ std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMoti
   if (!leads(radar, motion.utime_us)) {
     return std::nullopt;
   }
-  const double since_s = has_end_ ? seconds(end_us_, motion.utime_us) : 0.0;
+  const double since_s = has_end_ ? seconds_between(end_us_, motion.utime_us) : 0.0;
   if (has_end_ && since_s <= 0.0 && since_s >= -first_.max_gap_s) {
     return std::nullopt;  // Another radar led meanwhile, and its scan was later.
   }
   EgoMotion fused;
   fused.utime_us = motion.utime_us;
   fused.utime_start_us = has_end_ ? end_us_ : motion.utime_us;
-  const double dt_s = seconds(fused.utime_start_us, fused.utime_us);
+  const double dt_s = seconds_between(fused.utime_start_us, fused.utime_us);
   if (!has_end_ || (!has_last_ && count_ == 0)) {
     fused.status = MotionStatus::no_reference;
   } else if (!(dt_s > 0.0 && dt_s <= first_.max_gap_s)) {
@@ -95,7 +87,7 @@ std::optional<EgoMotion> FusedEstimator::update(std::size_t radar, const EgoMoti
 /// The first radar that is alive leads: its scans end the fused motions.
 bool FusedEstimator::leads(std::size_t radar, std::int64_t utime_us) {
   last_scan_us_[radar] = utime_us;
-  if (radar < leader_ || seconds(last_scan_us_[leader_], utime_us) * 1e6 > kSilenceUs) {
+  if (radar < leader_ || seconds_between(last_scan_us_[leader_], utime_us) * 1e6 > kSilenceUs) {
     leader_ = radar;
   }
   return radar == leader_;
@@ -109,13 +101,13 @@ void FusedEstimator::note(std::size_t radar, const EgoMotion& motion, bool is_be
   }
   agreements_[radar].innovation.pass(motion.utime_us);
   agreements_[radar].judge();
-  const double dt_s = seconds(motion.utime_start_us, motion.utime_us);
+  const double dt_s = seconds_between(motion.utime_start_us, motion.utime_us);
   Measurement& m = measurements_[count_++];
   m.radar = radar;
   m.is_believed = is_believed;
   m.status = motion.status;
   m.targets = motion.targets;
-  m.twist.middle_s = seconds(end_us_, motion.utime_us) - 0.5 * dt_s;
+  m.twist.middle_s = seconds_between(end_us_, motion.utime_us) - 0.5 * dt_s;
   Eigen::Vector3d free = motion.motion;
   const auto complete = invert_information(motion.information, 3);
   if (complete && motion.gradient.dot(*complete * motion.gradient) < kFarthestSquared) {
@@ -225,13 +217,7 @@ void FusedEstimator::learn_slip(double dt_s, const Twist& twist) {
 }
 
 FusedEstimator::Sums FusedEstimator::sum_of_used() const {
-  Sums sums = prior();
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (measurements_[i].is_used) {
-      sums.add(measurements_[i].information, measurements_[i].twist.mean);
-    }
-  }
-  return sums;
+  return sum_of_others(radars_, prior());  // No radar has this number.
 }
 
 /// What is known without the radars' motions: of slip, and what the vehicle did before, which it

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "estimator/acceleration.hpp"
 #include "estimator/normal_equations.hpp"
+#include "estimator/stamps.hpp"
 
 namespace cremed {
 namespace {
@@ -17,13 +19,7 @@ constexpr double kTooSmallByDoppler = 0.35;
 constexpr double kTooSmallByNext = 0.12;
 
 double duration_s(const EgoMotion& motion) {
-  return (static_cast<double>(motion.utime_us) - static_cast<double>(motion.utime_start_us)) * 1e-6;
-}
-
-Eigen::Vector3d squares_of_accelerations(const SharedErrorOptions& errors, double time_s) {
-  const Eigen::Vector3d change(errors.acceleration_std_mps2, errors.acceleration_std_mps2,
-                               errors.yaw_acceleration_std_radps2);
-  return (change * time_s).cwiseAbs2();
+  return seconds_between(motion.utime_start_us, motion.utime_us);
 }
 
 }  // namespace
@@ -48,8 +44,9 @@ void SelfCheck::compare_with_last(const EgoMotion& motion) {
   const double last_dt_s = duration_s(last_);
   Eigen::Matrix3d covariance =
       motion.covariance / (dt_s * dt_s) + last_.covariance / (last_dt_s * last_dt_s);
-  covariance.diagonal() +=
-      squares_of_accelerations(options_.shared_errors, 0.5 * (dt_s + last_dt_s));
+  const SharedErrorOptions& errors = options_.shared_errors;
+  covariance += acceleration_covariance(0.5 * (dt_s + last_dt_s), errors.acceleration_std_mps2,
+                                        errors.yaw_acceleration_std_radps2);
   const auto weight = invert_information(covariance, options_.degrees_of_freedom);
   if (weight) {
     const Eigen::Vector3d change = motion.motion / dt_s - last_.motion / last_dt_s;

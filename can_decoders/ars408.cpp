@@ -57,8 +57,7 @@ void set_noise(Detection& detection, const Ars408General& target, const Cartesia
   detection.range_std_m = std::hypot(cosine * std.x_m, sine * std.y_m);
   detection.azimuth_std_rad = std::hypot(sine * std.x_m, cosine * std.y_m) / detection.range_m;
   // d(doppler)/d(x, y) is the velocity across the line of sight, turned, over the range.
-  const double across_mps = cosine * target.vy_mps - sine * target.vx_mps;
-  const double by_position = across_mps * detection.azimuth_std_rad;
+  const double by_position = detection.across_mps * detection.azimuth_std_rad;
   const double by_velocity = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
   detection.doppler_std_mps = std::hypot(by_position, by_velocity);
 }
@@ -76,6 +75,8 @@ Detection polar(const Ars408General& target, const Ars408RmsCodes& rms) {
   detection.azimuth_rad = std::atan2(target.y_m, target.x_m);
   detection.doppler_mps =
       (target.x_m * target.vx_mps + target.y_m * target.vy_mps) / detection.range_m;
+  detection.across_mps =
+      (target.x_m * target.vy_mps - target.y_m * target.vx_mps) / detection.range_m;
   detection.validity = Validity::no_noise;
   if (const auto std = cartesian_std(rms)) {
     set_noise(detection, target, *std);

@@ -27,6 +27,9 @@ struct Detection {
   double range_m = 0.0;
   double azimuth_rad = 0.0;
   double doppler_mps = 0.0;
+  /// Velocity across the line of sight, counter-clockwise. No radar measures it: an ARS408 fills in
+  /// what speed and yaw rate it is told make of a static target; 0 where the sensor tells none.
+  double across_mps = 0.0;
   double range_std_m = 0.0;
   double azimuth_std_rad = 0.0;
   double doppler_std_mps = 0.0;

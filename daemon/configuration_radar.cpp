@@ -38,6 +38,8 @@ bool is_interface(std::string_view text) {
          text.find_first_of(" /:") == std::string_view::npos;
 }
 
+constexpr std::string_view kRotationLead = "rotation_lead_s";
+
 constexpr TextRule kName = {
     is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and not \"fused\""};
 constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
@@ -118,8 +120,22 @@ void read_limits(TomlReader reader, DetectionLimits& limits) {
   reader.finish();
 }
 
+/// Of a sensor that is told the yaw rate: the default is that of the type.
+void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
+  const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
+  if (ars408 == nullptr) {
+    reader.refuse(std::array{kRotationLead},
+                  "is a key of type \"ars408\", which is told the yaw rate; must be left out here");
+    return;
+  }
+  double& lead_s = radar.ego_motion.correction.rotation_lead_s;
+  lead_s = ars408->output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
+  reader.number(kRotationLead, lead_s, {-0.2, 0.2});
+}
+
 void read_calibration(TomlReader reader, RadarConfiguration& radar) {
   DetectionCorrection& correction = radar.ego_motion.correction;
+  read_rotation_lead(reader, radar);
   reader.number("stamp_offset_s", radar.stamp_offset_s, {-0.5, 0.5});
   reader.number("doppler_offset_mps", correction.doppler_offset_mps, {-5.0, 5.0});
   reader.number("doppler_scale", correction.doppler_scale, {0.5, 2.0});

@@ -17,7 +17,10 @@ struct DetectionLimits {
 
 /// What a radar's detections are put right by before they are used, as calibration finds it.
 struct DetectionCorrection {
-  double doppler_offset_mps = 0.0;  ///< All Doppler has so much too much.
+  /// Positions are turned ahead by so much of the yaw rate the sensor is told: see
+  /// rotation_lead.hpp.
+  double rotation_lead_s = 0.0;
+  double doppler_offset_mps = 0.0;  ///< Systematic error of all Doppler, subtracted.
   double doppler_scale = 1.0;       ///< Factor on Doppler, once that is taken off.
   /// Factors on what the sensor reports.
   double range_std_factor = 1.0;

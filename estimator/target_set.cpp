@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/rotation_lead.hpp"
+
 namespace cremed {
 namespace {
 
@@ -110,9 +112,12 @@ void TargetSet::assign(const RadarScan& scan, const Pose2& vehicle_from_radar,
                        const DetectionCorrection& correction) {
   clear();
   const std::size_t count = std::min<std::size_t>(scan.count, scan.detections.size());
+  const double lead_s = correction.rotation_lead_s;
+  const double turn_back_rad = lead_s != 0.0 ? lead_s * reported_yaw_rate_radps(scan) : 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     if (is_selected(scan.detections[i], limits, counters)) {
-      add(corrected(scan.detections[i], correction), vehicle_from_radar);
+      const Detection at_stamp = turned(scan.detections[i], turn_back_rad);
+      add(corrected(at_stamp, correction), vehicle_from_radar);
     }
   }
 }

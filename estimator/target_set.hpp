@@ -57,7 +57,7 @@ class TargetSet {
   /// Adds the target a detection stands for, seen by a radar at `vehicle_from_radar`. A full set
   /// ignores it: a scan never holds more detections than the set has room for.
   void add(const Detection& detection, const Pose2& vehicle_from_radar);
-  /// Replaces the content by the usable detections of a scan, put right.
+  /// Replaces the content by the usable detections of a scan, corrected.
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
               SelectionCounters& counters, const DetectionCorrection& correction = {});
 
@@ -73,7 +73,8 @@ class TargetSet {
   std::size_t size_ = 0;
 };
 
-/// The detection without the offset, with the standard deviations that its errors have.
+/// The detection without Doppler's systematic errors, with the standard deviations that its errors
+/// have; the rotation lead is a matter of the whole scan.
 Detection corrected(const Detection& detection, const DetectionCorrection& correction);
 
 /// Covariance of a point given in polar coordinates: J diag(range^2, azimuth^2) J' with J at the

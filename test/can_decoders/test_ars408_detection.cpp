@@ -71,6 +71,16 @@ TEST_CASE("A cluster becomes polar") {
   CHECK(d.rcs_dbm2 == 8.5);
 }
 
+TEST_CASE("The velocity across the line of sight is positive counter-clockwise") {
+  const Detection d = detect({}, {});
+  CHECK(std::hypot(d.doppler_mps, d.across_mps) == Approx(std::hypot(-9.0, 0.75)));
+  // The direction of the velocity is that of the line of sight plus the angle between the two.
+  CHECK(d.azimuth_rad + std::atan2(d.across_mps, d.doppler_mps) ==
+        Approx(std::atan2(0.75, -9.0) - 2.0 * std::acos(-1.0)).margin(1e-9));
+  CHECK(detect({}, {.x = 2600, .y = 511, .vx = 512, .vy = 280}).across_mps > 0.0);
+  CHECK(detect({.output = Ars408Output::objects}, {.vx = 512, .vy = 256}).across_mps == 0.0);
+}
+
 TEST_CASE("Azimuth is positive to the left, Doppler negative when closing") {
   CHECK(detect({}, {.y = 600}).azimuth_rad > 0.0);
   CHECK(detect({}, {.x = 2600, .y = 512, .vx = 500, .vy = 256}).doppler_mps < 0.0);

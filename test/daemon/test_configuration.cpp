@@ -43,6 +43,7 @@ keep_dyn_props = [7]
 min_existence_code = 3
 limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_rcs_dbm2 = -20 }
 calibration.stamp_offset_s = -0.02
+calibration.rotation_lead_s = 0.03
 calibration.doppler_offset_mps = 0.3
 calibration.range_std_factor = 1.5
 calibration.azimuth_std_factor = 2
@@ -63,10 +64,23 @@ calibration.doppler_std_factor = 2.5
   CHECK(limits.min_rcs_dbm2 == -20.0);
   CHECK(radar.stamp_offset_s == -0.02);
   const DetectionCorrection& correction = radar.ego_motion.correction;
+  CHECK(correction.rotation_lead_s == 0.03);
   CHECK(correction.doppler_offset_mps == 0.3);
   CHECK(correction.range_std_factor == 1.5);
   CHECK(correction.azimuth_std_factor == 2.0);
   CHECK(correction.doppler_std_factor == 2.5);
+}
+
+TEST_CASE("the rotation lead is that of the sensor's type and output unless it is given") {
+  const auto lead_s = [](const std::string& radar) {
+    return parse(radar).radars.at(0).ego_motion.correction.rotation_lead_s;
+  };
+  CHECK(lead_s(kArs408) == kArs408RotationLeadS);
+  CHECK(lead_s(kArs408 + "output = \"objects\"\n") == 0.0);
+  CHECK(lead_s(kArs408 + "calibration.rotation_lead_s = -0.01\n") == -0.01);
+  CHECK(lead_s(kGpr) == 0.0);
+  CHECK_THROWS_WITH(lead_s(kGpr + "calibration.rotation_lead_s = 0.04\n"),
+                    Catch::Contains("rotation_lead_s") && Catch::Contains("left out"));
 }
 
 TEST_CASE("every key of a GPR is taken") {

@@ -56,9 +56,9 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
                yaw_rate, std_m, std_rad] = options;
   const auto& [x, y, yaw] = mount;
   const auto& [min_range, max_range, azimuth, rcs] = limits;
-  const auto& [doppler_offset, doppler_scale, range_factor, azimuth_factor, doppler_factor] =
+  const auto& [lead, doppler_offset, doppler_scale, range_factor, azimuth_factor, doppler_factor] =
       correction;
-  out << "correction " << doppler_offset << ' ' << doppler_scale << ' ' << range_factor << ' '
+  out << "correction " << lead << ' ' << doppler_offset << ' ' << doppler_scale << ' ' << range_factor << ' '
       << azimuth_factor << ' ' << doppler_factor << '\n';
   out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
       << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
@@ -151,6 +151,7 @@ TEST_CASE("the manual loads as it is and holds the defaults") {
   radar.name = "front";
   radar.interface = "can0";
   radar.ego_motion.vehicle_from_radar = {3.412, 0.0, 0.0};
+  radar.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
   CHECK(text_of(configuration) == text_of(expected));
 }
 
@@ -262,6 +263,7 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     expected.name = places[i].name;
     expected.interface = places[i].interface;
     expected.ego_motion.vehicle_from_radar = places[i].mount;
+    expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
     expected.ego_motion.correction.doppler_scale = 1.005;
     RegistrationOptions& registration = expected.ego_motion.registration;
     registration.degrees_of_freedom = 2;

@@ -187,10 +187,14 @@ TEST_CASE("assigning a scan replaces the targets and adds to the counters") {
   CHECK(set.begin() == set.end());
 }
 
-TEST_CASE("targets are put right as they are taken") {
+TEST_CASE("targets are corrected as they are taken") {
   TargetSet set;
   SelectionCounters counters;
-  const DetectionCorrection correction{0.5, 1.5, 2.0, 3.0, 4.0};
+  const DetectionCorrection correction{.doppler_offset_mps = 0.5,
+                                       .doppler_scale = 1.5,
+                                       .range_std_factor = 2.0,
+                                       .azimuth_std_factor = 3.0,
+                                       .doppler_std_factor = 4.0};
   set.assign(simulation::scan({usable_detection(10.0, 0.0)}, 0), {}, {}, counters, correction);
   REQUIRE(set.size() == 1);
   CHECK(set[0].doppler_mps == Approx(-5.25));

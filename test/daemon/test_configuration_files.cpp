@@ -58,8 +58,8 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
   const auto& [min_range, max_range, azimuth, rcs] = limits;
   const auto& [lead, doppler_offset, doppler_scale, range_factor, azimuth_factor, doppler_factor] =
       correction;
-  out << "correction " << lead << ' ' << doppler_offset << ' ' << doppler_scale << ' ' << range_factor << ' '
-      << azimuth_factor << ' ' << doppler_factor << '\n';
+  out << "correction " << lead << ' ' << doppler_offset << ' ' << doppler_scale << ' '
+      << range_factor << ' ' << azimuth_factor << ' ' << doppler_factor << '\n';
   out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
       << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
       << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';

@@ -50,16 +50,15 @@ Motion motion_of(Ars408DynProp dyn_prop) {
   return Motion::unknown;
 }
 
-/// First order, all four inputs independent.
+/// First order, all four inputs independent. Errors of the position are none of Doppler's: that was
+/// measured along the true line of sight, and the sensor makes its velocity of it afterwards. On
+/// nuScenes it scatters by 0.11 m/s whatever the azimuth's noise makes of the velocity across.
 void set_noise(Detection& detection, const Ars408General& target, const CartesianStd& std) {
   const double cosine = target.x_m / detection.range_m;
   const double sine = target.y_m / detection.range_m;
   detection.range_std_m = std::hypot(cosine * std.x_m, sine * std.y_m);
   detection.azimuth_std_rad = std::hypot(sine * std.x_m, cosine * std.y_m) / detection.range_m;
-  // d(doppler)/d(x, y) is the velocity across the line of sight, turned, over the range.
-  const double by_position = detection.across_mps * detection.azimuth_std_rad;
-  const double by_velocity = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
-  detection.doppler_std_mps = std::hypot(by_position, by_velocity);
+  detection.doppler_std_mps = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
 }
 
 /// Everything but what the sensor itself says against the target: usable, no_position or no_noise.

@@ -22,7 +22,10 @@ struct DopplerOptions {
   bool enabled = true;
   /// Use that of the previous scan too. With CovarianceModel::exclusive only.
   bool both_scans = true;
-  double stamp_std_s = 0.005;     ///< s_dt: standard deviation of the time between two scans.
+  /// s_dt: standard deviation of the time between two scans, as each target's own. The paper has
+  /// 0.005 s for the ARS408. Measured on nuScenes 0061 and 0103 (54 000 static targets) Doppler
+  /// scatters around the best velocity by 0.10 m/s at 3 m/s and by 0.12 m/s at 9 m/s: none.
+  double stamp_std_s = 0.0;
   double moving_weight = 0.05;    ///< Weight of the component for moving targets, 0..1.
   double moving_std_mps = 100.0;  ///< Its standard deviation.
 };

@@ -127,7 +127,7 @@ growth = 2
 field_of_view_rad = 2.5
 [estimator.doppler]
 enabled = false
-stamp_std_s = 0
+stamp_std_s = 0.004
 moving_weight = 0.1
 moving_std_mps = 30
 )" + kArs408);
@@ -155,7 +155,7 @@ moving_std_mps = 30
   CHECK(ray.field_of_view_rad == 2.5);
   const DopplerOptions& doppler = options.registration.doppler;
   CHECK_FALSE(doppler.enabled);
-  CHECK(doppler.stamp_std_s == 0.0);
+  CHECK(doppler.stamp_std_s == 0.004);
   CHECK(doppler.moving_weight == 0.1);
   CHECK(doppler.moving_std_mps == 30.0);
 }

@@ -270,7 +270,6 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     registration.outlier_ray.weight = 0.5;
     registration.start_scale = 5.0;
     registration.start_doppler_scale = 2.0;
-    registration.doppler.stamp_std_s = 0.005;
     CHECK(text_of(configuration.radars[i]) == text_of(expected));
   }
 }

@@ -64,8 +64,6 @@ Ars408RadarState radar_state(const Ars408Options& options) {
 RadarConfiguration radar_at(const std::string& name, const std::string& interface,
                             const Pose2& vehicle_from_radar) {
   RadarConfiguration radar;
-  // All targets of a simulated scan are measured at one time.
-  radar.ego_motion.registration.doppler.stamp_std_s = 0.0;
   radar.name = name;
   radar.interface = interface;
   radar.ego_motion.vehicle_from_radar = vehicle_from_radar;
@@ -77,6 +75,7 @@ RadarConfiguration radar_at(const std::string& name, const std::string& interfac
 std::vector<RadarConfiguration> default_radars() {
   RadarConfiguration front = radar_at("front", "can0", {3.6, 0.0, 0.0});
   front.decoder = Ars408Options{};
+  front.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
   RadarConfiguration rear = radar_at("rear", "can1", {-0.9, 0.0, std::numbers::pi});
   rear.decoder = BoschGprOptions{};
   return {front, rear};

@@ -45,10 +45,18 @@ void ScanAssembler::add(const ScanPart& part) {
 }
 
 void ScanAssembler::expire(std::int64_t now_us) {
-  // A clock that was set back says nothing about how long the scan has been waiting.
-  if (is_open_ && now_us > open_.last_part_us && !in_time(now_us, open_.last_part_us)) {
+  if (is_overdue(now_us)) {
     time_out();
   }
+}
+
+bool ScanAssembler::is_overdue(std::int64_t now_us) const {
+  // A clock that was set back says nothing about how long the scan has been waiting.
+  return is_open_ && now_us > open_.last_part_us && !in_time(now_us, open_.last_part_us);
+}
+
+std::optional<std::int64_t> ScanAssembler::deadline_us() const {
+  return is_open_ ? std::optional(shifted(open_.last_part_us, timeout_us_)) : std::nullopt;
 }
 
 void ScanAssembler::mark_dropped() { open_.dropped = true; }

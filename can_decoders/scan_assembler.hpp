@@ -65,6 +65,11 @@ class ScanAssembler {
   /// Lets time pass: closes the open scan if its last part is older than the time-out.
   void expire(std::int64_t now_us);
 
+  /// Whether expire() would close a scan.
+  [[nodiscard]] bool is_overdue(std::int64_t now_us) const;
+  /// When the open scan times out if no further part comes; nothing if no scan is open.
+  [[nodiscard]] std::optional<std::int64_t> deadline_us() const;
+
   /// The frame source lost frames: the open scan, if any, can no longer be whole.
   void mark_dropped();
 

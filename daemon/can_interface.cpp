@@ -3,24 +3,9 @@
 #include "daemon/can_interface.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
-#include <net/if.h>
-#include <sys/ioctl.h>
-
 namespace cremed {
-namespace {
-
-constexpr std::int64_t kLookPeriodUs = 200'000;
-
-bool is_up(int descriptor, const std::string& name) {
-  ifreq request{};
-  name.copy(request.ifr_name, IFNAMSIZ - 1);
-  return ::ioctl(descriptor, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
-}
-
-}  // namespace
 
 CanInterface::CanInterface(std::string name, std::vector<std::uint32_t> ids,
                            const CanSocketOptions& options)
@@ -28,27 +13,25 @@ CanInterface::CanInterface(std::string name, std::vector<std::uint32_t> ids,
   status_.link = LinkState::absent;
 }
 
-void CanInterface::maintain(std::int64_t monotonic_us) {
-  if (monotonic_us < next_look_us_) {
-    return;
-  }
-  next_look_us_ = monotonic_us + kLookPeriodUs;
+void CanInterface::maintain(const Link& link) {
   if (socket_.is_open()) {
-    look();
+    look(link);
   }
   if (!socket_.is_open()) {
-    open();
+    open(link);
   }
 }
 
-void CanInterface::open() {
-  const CanOpenResult result = socket_.open(name_, ids_, options_);
+void CanInterface::open(const Link& link) {
+  const CanOpenResult result = link.error != 0
+                                   ? CanOpenResult{CanOpenStatus::failed, link.error, "rtnetlink"}
+                                   : socket_.open(link.index, ids_, options_);
   status_.error = result.error;
   switch (result.status) {
     case CanOpenStatus::open:
       status_.receive_buffer_bytes = result.receive_buffer_bytes;
       status_.bus = BusState::error_active;
-      status_.link = is_up(descriptor(), name_) ? LinkState::up : LinkState::down;
+      status_.link = link.is_up ? LinkState::up : LinkState::down;
       return;
     case CanOpenStatus::no_interface:
       status_.link = LinkState::absent;
@@ -60,11 +43,14 @@ void CanInterface::open() {
   }
 }
 
-void CanInterface::look() {
+void CanInterface::look(const Link& link) {
   status_.hardware_stamps_work = socket_.hardware_stamps_work();
-  if (::if_nametoindex(name_.c_str()) != socket_.interface_index()) {
+  if (link.error != 0) {
+    return;  // What is open may well live on.
+  }
+  if (link.index != socket_.interface_index()) {
     lose(LinkState::absent);
-  } else if (is_up(descriptor(), name_)) {
+  } else if (link.is_up) {
     status_.link = LinkState::up;
   } else if (status_.link == LinkState::up) {
     lose(LinkState::down);

@@ -8,6 +8,7 @@
 
 #include "daemon/bus_status.hpp"
 #include "daemon/can_socket.hpp"
+#include "daemon/link_watch.hpp"
 
 namespace cremed {
 
@@ -18,9 +19,9 @@ class CanInterface {
  public:
   CanInterface(std::string name, std::vector<std::uint32_t> ids, const CanSocketOptions& options);
 
-  /// To be called often; does something a few times a second: opens what is closed, and looks
-  /// whether the interface is up and still the same.
-  void maintain(std::int64_t monotonic_us);
+  /// To be called a few times a second: opens what is closed, and closes what is no more. `link`: the
+  /// interface as it is now.
+  void maintain(const Link& link);
 
   /// Frames that are there now, as CanSocket::receive. An interface that went down or away is
   /// noted.
@@ -34,8 +35,8 @@ class CanInterface {
   [[nodiscard]] const BusStatus& status() const { return status_; }
 
  private:
-  void open();
-  void look();
+  void open(const Link& link);
+  void look(const Link& link);
   void lose(LinkState link);
 
   std::string name_;
@@ -43,7 +44,6 @@ class CanInterface {
   CanSocketOptions options_;
   CanSocket socket_;
   BusStatus status_;
-  std::int64_t next_look_us_ = 0;
 };
 
 }  // namespace cremed

@@ -12,7 +12,6 @@
 #include <linux/can/raw.h>
 #include <linux/errqueue.h>
 #include <linux/net_tstamp.h>
-#include <net/if.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -148,7 +147,7 @@ CanOpenResult CanSocket::fail(const char* step) {
   return {gone ? CanOpenStatus::no_interface : CanOpenStatus::failed, error, step, 0};
 }
 
-CanOpenResult CanSocket::open(const std::string& interface, std::span<const std::uint32_t> ids,
+CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
                               const CanSocketOptions& options) {
   close();
   descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
@@ -156,9 +155,10 @@ CanOpenResult CanSocket::open(const std::string& interface, std::span<const std:
     const bool no_can = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
     return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno, "socket", 0};
   }
-  interface_index_ = ::if_nametoindex(interface.c_str());
-  if (interface_index_ == 0) {
-    return fail("if_nametoindex");
+  interface_index_ = interface_index;
+  if (interface_index == 0) {
+    errno = ENODEV;
+    return fail("interface");
   }
   constexpr int kOn = 1;
   constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
@@ -239,6 +239,7 @@ CanReceiveResult CanSocket::receive() {
     const Control said(headers[i].msg_hdr);
     fill(raw[i], size, batch_[kept].frame);
     batch_[kept].frame.stamp_us = stamp_us(said);
+    batch_[kept].received_us = said.kernel_ns / 1000;
     batch_[kept].lost_before = lost_before(said);
     ++kept;
   }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "can_decoders/can_frame.hpp"
+#include "daemon/received_frame.hpp"
 
 namespace cremed {
 
@@ -41,12 +42,6 @@ enum class CanReceiveStatus : std::uint8_t {
   failed,
 };
 
-/// A frame and what became of those before it.
-struct ReceivedFrame {
-  CanFrame frame;
-  std::uint32_t lost_before = 0;  ///< Frames the kernel dropped since the one before.
-};
-
 struct CanReceiveResult {
   CanReceiveStatus status = CanReceiveStatus::empty;
   int error = 0;
@@ -65,8 +60,8 @@ class CanSocket {
   CanSocket(const CanSocket&) = delete;
   CanSocket& operator=(const CanSocket&) = delete;
 
-  /// `ids`: standard identifiers to let pass, without remote frames; none: everything.
-  CanOpenResult open(const std::string& interface, std::span<const std::uint32_t> ids,
+  /// `interface_index`: the kernel's; 0: there is no such interface. `ids`: standard identifiers to let pass, without remote frames; none: everything.
+  CanOpenResult open(unsigned interface_index, std::span<const std::uint32_t> ids,
                      const CanSocketOptions& options);
   /// For tests without CAN: takes over a datagram socket that yields `can_frame`s.
   CanOpenResult adopt(int descriptor, const CanSocketOptions& options);

@@ -31,6 +31,7 @@ class CandumpLog final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
 
   [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::size_t interface_count() const { return interfaces_.size(); }
   [[nodiscard]] const Complaint& complaint() const { return complaint_; }
   /// errno of a read that failed, 0 if none did.
   [[nodiscard]] int read_error() const { return read_error_; }

@@ -3,13 +3,16 @@
 #include "daemon/pipeline.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace cremed {
 namespace {
 
 constexpr std::int64_t kStatusPeriodUs = 1'000'000;
+
+/// Stamps of hardware that is synchronised differ from the order in which the kernel got the frames
+/// by less; a fraction of any time-out.
+constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 
 }  // namespace
 
@@ -57,15 +60,57 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
 
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
+  note_clock(frame);
   on_time(frame.stamp_us);
+  expire(frame.stamp_us, frame.interface);
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
-      // The clocks of two buses need not agree: only a bus's own frames tell its time.
-      radar->assembler.expire(frame.stamp_us);
       radar->assembler.add(radar->decoder->decode(frame));
       publish_motions(*radar, begin_us);
     }
   }
+}
+
+/// The clocks of two buses need not agree. A frame that comes after one of another bus, but was
+/// stamped before it, shows that they do not: then only the bus's own frames tell its time.
+void Pipeline::note_clock(const CanFrame& frame) {
+  if (!time_us_ || frame.interface == last_interface_) {
+    last_interface_ = frame.interface;
+    return;
+  }
+  last_interface_ = frame.interface;
+  for (const auto& radar : radars_) {
+    if (radar->interface == frame.interface) {
+      radar->shares_clock = *time_us_ - frame.stamp_us <= kMaxClockDifferenceUs;
+    }
+  }
+}
+
+/// Closes the scans that have waited for too long at a time that a frame of an interface tells, or
+/// silence on all of them. The order is that of their time-outs, whoever tells the time.
+void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) {
+  const auto is_overdue = [&](const RadarChannel& radar) {
+    const bool is_told = !told_by || *told_by == radar.interface || radar.shares_clock;
+    return is_told && radar.assembler.is_overdue(now_us);
+  };
+  while (RadarChannel* radar = first_to_close(is_overdue)) {
+    radar->assembler.expire(now_us);
+    publish_motions(*radar, now_us);
+  }
+}
+
+/// Of the open scans that fulfil the condition, whose time-out comes first?
+template <typename Condition>
+RadarChannel* Pipeline::first_to_close(Condition condition) {
+  RadarChannel* first = nullptr;
+  for (const auto& radar : radars_) {
+    const auto deadline_us = radar->assembler.deadline_us();
+    if (deadline_us && condition(*radar) &&
+        (first == nullptr || *deadline_us < *first->assembler.deadline_us())) {
+      first = radar.get();
+    }
+  }
+  return first;
 }
 
 void Pipeline::publish_motions(RadarChannel& radar, std::int64_t begin_us) {
@@ -148,10 +193,7 @@ void Pipeline::on_clock_step() {
 
 void Pipeline::on_idle(std::int64_t now_us) {
   on_time(now_us);
-  for (const auto& radar : radars_) {
-    radar->assembler.expire(now_us);
-    publish_motions(*radar, now_us);
-  }
+  expire(now_us);
 }
 
 std::size_t Pipeline::frames_to_next_scan() const {
@@ -165,7 +207,7 @@ std::size_t Pipeline::frames_to_next_scan() const {
 }
 
 void Pipeline::finish() {
-  for (const auto& radar : radars_) {
+  while (RadarChannel* radar = first_to_close([](const RadarChannel&) { return true; })) {
     radar->assembler.finish();
     publish_motions(*radar, clock_.now_us());
   }

@@ -31,8 +31,9 @@ struct PipelineClock {
 ///                                                          |                    |
 ///                                           of all radars  +-> FusedEstimator --+
 ///
-/// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. After
-/// construction nothing allocates, locks or logs.
+/// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So frames
+/// that come in the order of their stamps give the same motions in the same order, live and in a
+/// replay. After construction nothing allocates, locks or logs.
 class Pipeline {
  public:
   /// `source` (for its counters) and `sinks` must outlive the pipeline.
@@ -61,6 +62,10 @@ class Pipeline {
 
  private:
   void on_time(std::int64_t now_us);
+  void note_clock(const CanFrame& frame);
+  void expire(std::int64_t now_us, std::optional<std::uint8_t> told_by = std::nullopt);
+  template <typename Condition>
+  RadarChannel* first_to_close(Condition condition);
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
   void publish_fused(const RadarChannel& radar, const EgoMotion& motion);
@@ -72,6 +77,7 @@ class Pipeline {
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<FusedEstimator> fused_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
+  std::uint8_t last_interface_ = 0;      // Of the last frame.
   std::int64_t next_status_us_ = 0;
 };
 

@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <ctime>
+#include <limits>
 #include <utility>
 
 namespace cremed {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// How long candump may be held up while frames of several interfaces come.
+constexpr std::int64_t kLookAheadUs = 500'000;
+/// More than come on a full bus of 1 Mbit/s in that time, 111 us a frame of 8 bytes.
+constexpr std::size_t kLaneFrames = 8192;
 
 /// A longer step of the log's clock is a clock that was set, or a log that was paused.
 constexpr double kClockJumpS = 10.0;
@@ -26,55 +32,128 @@ std::int64_t monotonic_ns() {
 
 Replay::Replay(std::vector<std::unique_ptr<CandumpLog>> logs, double speed,
                const volatile std::sig_atomic_t* stop)
-    : logs_(std::move(logs)), pending_(logs_.size()), speed_(speed), stop_(stop) {}
+    : logs_(std::move(logs)),
+      readings_(logs_.size()),
+      merge_(logs_.size() * logs_.front()->interface_count(), kLaneFrames),
+      speed_(speed),
+      stop_(stop) {
+  for (Reading& reading : readings_) {
+    reading.has_lost.resize(logs_.front()->interface_count());
+  }
+}
 
 SourceEvent Replay::next(CanFrame& frame) {
-  read_pending();
-  Pending& pending = pending_[earliest()];
-  frame = pending.frame;
-  if (pending.event == SourceEvent::frame) {
-    begin_pace(frame.stamp_us);
-    wait_until_due(frame.stamp_us);
+  while (*stop_ == 0) {
+    release_held();
+    if (const auto log = log_to_read()) {
+      read(*log);
+    } else if (const auto lane = merge_.oldest()) {
+      return take(*lane, frame);
+    } else {
+      return SourceEvent::end;
+    }
   }
-  if (*stop_ != 0) {
-    return SourceEvent::end;
-  }
-  // A log at its end stays so; any other is read on when the next event is asked for, not before:
-  // a pipe may not have it yet.
-  pending.is_read = pending.event == SourceEvent::end;
-  return pending.event;
+  return SourceEvent::end;
 }
 
-void Replay::read_pending() {
-  counters_ = {};
-  for (std::size_t i = 0; i < logs_.size(); ++i) {
-    if (!pending_[i].is_read) {
-      pending_[i].event = logs_[i]->next(pending_[i].frame);
-      pending_[i].is_read = true;
+/// Interfaces first: they decide the order where stamps are equal.
+std::size_t Replay::lane(std::size_t log, std::size_t interface) const {
+  return interface * logs_.size() + log;
+}
+
+/// A log is read on no sooner than it has to be: a pipe may not have the next line yet.
+std::optional<std::size_t> Replay::log_to_read() const {
+  if (const auto awaited = merge_.awaited()) {
+    const std::size_t log = *awaited % logs_.size();
+    return any_lane(log, &StampMerge::is_full) ? std::nullopt : std::optional(log);
+  }
+  if (merge_.size() == 0) {
+    for (std::size_t log = 0; log < logs_.size(); ++log) {
+      if (!readings_[log].is_at_end) {
+        return log;
+      }
     }
-    const SourceCounters& counters = logs_[i]->counters();
-    counters_.frames += counters.frames;
-    counters_.other_interface_frames += counters.other_interface_frames;
-    counters_.lost_frames += counters.lost_frames;
-    counters_.malformed_lines += counters.malformed_lines;
+  }
+  return std::nullopt;
+}
+
+bool Replay::any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const) const {
+  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+    if ((merge_.*is)(lane(log, interface))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Replay::read(std::size_t log) {
+  Reading& reading = readings_[log];
+  ReceivedFrame received;
+  const SourceEvent event = logs_[log]->next(received.frame);
+  count();
+  if (event == SourceEvent::end) {
+    reading.is_at_end = true;
+    set_read_until(log, std::numeric_limits<std::int64_t>::max());
+  } else if (event == SourceEvent::dropped) {
+    reading.has_lost[received.frame.interface] = true;
+  } else {
+    received.received_us = received.frame.stamp_us;
+    received.lost_before = reading.has_lost[received.frame.interface] ? 1 : 0;
+    reading.has_lost[received.frame.interface] = false;
+    add(log, received);
   }
 }
 
-/// The log whose event comes first: a report of lost frames (it has no stamp of its own) before any
-/// frame, then frames by stamp; the first log if all are at their end.
-std::size_t Replay::earliest() const {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
-    if (pending_[i].event == SourceEvent::dropped) {
-      return i;
-    }
-    if (pending_[i].event == SourceEvent::frame &&
-        (pending_[best].event == SourceEvent::end ||
-         pending_[i].frame.stamp_us < pending_[best].frame.stamp_us)) {
-      best = i;
+void Replay::add(std::size_t log, const ReceivedFrame& frame) {
+  Reading& reading = readings_[log];
+  const std::int64_t stamp_us = frame.received_us;
+  if (reading.has_begun && stamp_us < reading.newest_us - kLookAheadUs) {
+    reading.has_begun = false;
+    reading.held = frame;
+    set_read_until(log, std::numeric_limits<std::int64_t>::max());
+    return;
+  }
+  reading.newest_us = reading.has_begun ? std::max(reading.newest_us, stamp_us) : stamp_us;
+  reading.has_begun = true;
+  merge_.push(lane(log, frame.frame.interface), frame);
+  set_read_until(log, reading.newest_us - kLookAheadUs);
+}
+
+void Replay::release_held() {
+  for (std::size_t log = 0; log < readings_.size(); ++log) {
+    if (readings_[log].held && !any_lane(log, &StampMerge::has_frames)) {
+      add(log, *std::exchange(readings_[log].held, std::nullopt));
     }
   }
-  return best;
+}
+
+void Replay::set_read_until(std::size_t log, std::int64_t stamp_us) {
+  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+    merge_.set_read_until(lane(log, interface), stamp_us);
+  }
+}
+
+SourceEvent Replay::take(std::size_t lane, CanFrame& frame) {
+  ReceivedFrame& received = merge_.front(lane);
+  frame = received.frame;
+  if (std::exchange(received.lost_before, 0U) != 0) {
+    return SourceEvent::dropped;
+  }
+  merge_.pop(lane);
+  ++counters_.frames;
+  begin_pace(frame.stamp_us);
+  wait_until_due(frame.stamp_us);
+  return *stop_ == 0 ? SourceEvent::frame : SourceEvent::end;
+}
+
+/// What the logs have read besides frames.
+void Replay::count() {
+  counters_.other_interface_frames = counters_.lost_frames = counters_.malformed_lines = 0;
+  for (const auto& log : logs_) {
+    counters_.other_interface_frames += log->counters().other_interface_frames;
+    counters_.lost_frames += log->counters().lost_frames;
+    counters_.malformed_lines += log->counters().malformed_lines;
+  }
 }
 
 /// The pace begins anew where the log's clock was set: nobody wants to wait for a jump's length.

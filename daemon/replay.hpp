@@ -5,16 +5,23 @@
 #include <csignal>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/candump_log.hpp"
 #include "daemon/frame_source.hpp"
+#include "daemon/stamp_merge.hpp"
 
 namespace cremed {
 
-/// Several candump logs as one source: their events in order of time, those of the first log first
-/// where stamps are equal. At a finite speed it waits until a frame is due.
+/// Several candump logs as one source, in the order in which SocketCan hands out live frames: by
+/// stamp, where stamps are equal by interface. At a finite speed it waits until a frame is due.
+///
+/// candump reads its sockets in turn, so the lines of several interfaces are out of order by as long
+/// as it was held up. Where several are configured, a log is read 0.5 s ahead of what is handed out.
+/// A line that is older still is of a clock that was set, or of a clock of its own: all lines before
+/// it are handed out first.
 class Replay final : public FrameSource {
  public:
   /// `speed`: log seconds per second; 0: as fast as possible. `logs` is not empty.
@@ -28,19 +35,29 @@ class Replay final : public FrameSource {
   [[nodiscard]] double traffic_s() const { return traffic_s_; }
 
  private:
-  /// The event of one log that is next in line.
-  struct Pending {
-    bool is_read = false;
-    SourceEvent event = SourceEvent::end;
-    CanFrame frame;
+  /// How far a log was read.
+  struct Reading {
+    std::int64_t newest_us = 0;
+    bool has_begun = false;
+    bool is_at_end = false;
+    std::optional<ReceivedFrame> held;  // Until the lines before it were handed out.
+    std::vector<bool> has_lost;         // Of each interface, before its next frame.
   };
-  void read_pending();
-  [[nodiscard]] std::size_t earliest() const;
+  [[nodiscard]] std::size_t lane(std::size_t log, std::size_t interface) const;
+  [[nodiscard]] std::optional<std::size_t> log_to_read() const;
+  [[nodiscard]] bool any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const) const;
+  void read(std::size_t log);
+  void add(std::size_t log, const ReceivedFrame& frame);
+  void release_held();
+  void set_read_until(std::size_t log, std::int64_t stamp_us);
+  SourceEvent take(std::size_t lane, CanFrame& frame);
+  void count();
   void begin_pace(std::int64_t stamp_us);
   void wait_until_due(std::int64_t stamp_us) const;
 
   std::vector<std::unique_ptr<CandumpLog>> logs_;
-  std::vector<Pending> pending_;
+  std::vector<Reading> readings_;
+  StampMerge merge_;  // A lane for each interface of each log.
   double speed_;
   const volatile std::sig_atomic_t* stop_;
   bool has_begun_ = false;

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <poll.h>
@@ -16,15 +15,21 @@
 #include "daemon/clock_watch.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/frame_source.hpp"
+#include "daemon/link_watch.hpp"
+#include "daemon/stamp_merge.hpp"
 
 namespace cremed {
 
-/// The CAN interfaces of the configuration, live. Interfaces take turns, a batch of frames each, so
-/// that a busy one does not starve another. Frames of one interface come in the order in which they
-/// were received; those of different interfaces nearly so.
+/// The CAN interfaces of the configuration, live: their frames in order of the kernel's stamps, where
+/// stamps are equal in the order of the configuration. So a replay of what was logged beside it sees
+/// the same frames in the same order, and no interface starves another.
 ///
-/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, what waits in the sockets was
-/// stamped before or after, nobody knows: it is thrown away, and clock_step is reported.
+/// The kernel stamps a frame shortly before it can be read. So once a socket was read empty at a
+/// time T, no frame stamped before T - 1 ms can come on it any more, and a silent interface
+/// is never waited for. With several interfaces a frame is held back until it is that old. One that the kernel delays for longer still comes late and out of order, but comes.
+///
+/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, what waits was stamped before or
+/// after, nobody knows: it is thrown away, and clock_step is reported.
 ///
 /// Never sends but by send(); after construction allocates nothing.
 class SocketCan final : public FrameSource {
@@ -47,31 +52,37 @@ class SocketCan final : public FrameSource {
   }
 
  private:
-  /// The frames of one interface that are being handed out.
+  /// The frames of one interface that were read last.
   struct Batch {
-    std::size_t interface = 0;
-    std::span<const ReceivedFrame> frames;
     std::int64_t read_us = 0;    // Realtime.
-    bool loss_is_told = false;   // of the first frame
-    bool stale_is_told = false;  // of the batch
+    bool stale_is_told = false;  // Of these frames.
   };
-  std::optional<SourceEvent> take(CanFrame& frame);
-  std::optional<SourceEvent> judge(const ReceivedFrame& received, CanFrame& frame);
+  std::optional<SourceEvent> take(std::size_t interface, CanFrame& frame);
+  std::optional<SourceEvent> judge(std::size_t interface, const ReceivedFrame& received,
+                                   CanFrame& frame);
+  void maintain();
   SourceEvent refill(CanFrame& frame);
-  SourceEvent receive(std::size_t interface, CanFrame& frame);
-  void rest() const;
   SourceEvent wait(CanFrame& frame);
+  void hold_back() const;
+  int poll_all(int timeout_ms);
+  SourceEvent read_all(CanFrame& frame);
+  CanReceiveStatus read(std::size_t interface);
+  [[nodiscard]] std::int64_t read_until_us() const;
   SourceEvent step_clock();
 
   std::int64_t max_latency_us_;
   const volatile std::sig_atomic_t* stop_;
   std::vector<std::unique_ptr<CanInterface>> interfaces_;
+  LinkWatch links_;
+  std::int64_t next_look_us_ = 0;  // Monotonic.
   ClockWatch clock_watch_;
   std::uint64_t clock_steps_ = 0;
   std::vector<pollfd> polled_;  // One each interface, then the clock.
-  std::size_t next_readable_ = 0;
+  std::int64_t polled_us_ = 0;  // Realtime.
+  std::size_t next_to_read_;    // Of those polled; the number of interfaces: none.
   std::size_t expected_frames_ = 0;
-  Batch batch_;
+  StampMerge merge_;  // A lane an interface.
+  std::vector<Batch> batches_;
 };
 
 }  // namespace cremed

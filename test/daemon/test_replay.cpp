@@ -40,7 +40,7 @@ std::vector<std::uint32_t> ids(Replay& replay) {
 
 }  // namespace
 
-TEST_CASE("Several logs are merged by time, the first named first where stamps are equal") {
+TEST_CASE("Several logs are merged by time, the first interface first where stamps are equal") {
   const TemporaryFile a("(1.000000) can0 001#\n(3.000000) can0 003#\n(4.000000) can0 004#\n");
   const TemporaryFile b("(2.000000) can1 002#\n(3.000000) can1 103#\n(9.000000) can1 009#\n");
   Replay forward = replay_of({&a, &b});
@@ -48,7 +48,7 @@ TEST_CASE("Several logs are merged by time, the first named first where stamps a
   CHECK(forward.traffic_s() == Approx(8.0));
   CHECK(forward.counters().frames == 6);
   Replay swapped = replay_of({&b, &a});
-  CHECK(ids(swapped) == std::vector<std::uint32_t>{1, 2, 0x103, 3, 4, 9});
+  CHECK(ids(swapped) == std::vector<std::uint32_t>{1, 2, 3, 0x103, 4, 9});
 }
 
 TEST_CASE("A report of lost frames comes before the frame behind it") {
@@ -57,13 +57,43 @@ TEST_CASE("A report of lost frames comes before the frame behind it") {
       "(5.000000) can0 005#\n");
   const TemporaryFile b("(2.000000) can1 002#\n");
   Replay replay = replay_of({&a, &b});
-  CHECK(ids(replay) == std::vector<std::uint32_t>{1, 0, 2, 5});
+  CHECK(ids(replay) == std::vector<std::uint32_t>{1, 2, 0, 5});
 }
 
 TEST_CASE("A log whose clock runs back keeps its own order") {
   const TemporaryFile file("(5.000000) can0 005#\n(1.000000) can0 001#\n(6.000000) can0 006#\n");
   Replay replay = replay_of({&file});
   CHECK(ids(replay) == std::vector<std::uint32_t>{5, 1, 6});
+}
+
+TEST_CASE("Interfaces of one log that were logged out of order are put into it") {
+  const TemporaryFile file(
+      "(1.000000) can1 101#\n(1.100000) can1 102#\n(0.900000) can0 001#\n(1.000000) can0 002#\n"
+      "DROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n"
+      "(1.200000) can0 003#\n(1.150000) can1 103#\n");
+  Replay replay = replay_of({&file});
+  CHECK(ids(replay) == std::vector<std::uint32_t>{1, 2, 0x101, 0x102, 0x103, 0, 3});
+}
+
+TEST_CASE("Interfaces whose clocks are far apart keep the order of their lines") {
+  const TemporaryFile file(
+      "(5.000000) can0 001#\n(9.000000) can1 101#\n(5.100000) can0 002#\n"
+      "(9.100000) can1 102#\n(9.200000) can1 103#\n(5.200000) can0 003#\n");
+  Replay replay = replay_of({&file});
+  CHECK(ids(replay) == std::vector<std::uint32_t>{1, 0x101, 2, 0x102, 0x103, 3});
+}
+
+TEST_CASE("An interface that is silent for long holds nothing back without end") {
+  std::string text = "(1.000000) can0 001#\n";
+  for (int i = 0; i < 10'000; ++i) {
+    text += "(1.000000) can1 101#\n";
+  }
+  const TemporaryFile file(text + "(1.100000) can0 002#\n");
+  Replay replay = replay_of({&file});
+  const std::vector<std::uint32_t> all = ids(replay);
+  REQUIRE(all.size() == 10'002);
+  CHECK(all.front() == 1);
+  CHECK(all.back() == 2);
 }
 
 TEST_CASE("At a finite speed a frame is not early") {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <net/if.h>
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
@@ -125,7 +126,7 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   bus.interface = interface;
   bus.state = state_of(interface);
   if (bus.state == InterfaceState::up) {
-    const CanOpenResult result = socket.open(interface, {}, {});
+    const CanOpenResult result = socket.open(::if_nametoindex(interface.c_str()), {}, {});
     if (result.status == CanOpenStatus::open) {
       return true;
     }

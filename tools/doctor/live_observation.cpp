@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <net/if.h>
 #include <poll.h>
 
 #include "daemon/can_socket.hpp"
@@ -46,7 +47,7 @@ std::unique_ptr<CanSocket> open(const CanSocketOptions& options, BusObservation&
     return nullptr;
   }
   auto socket = std::make_unique<CanSocket>();
-  const CanOpenResult result = socket->open(bus.interface, {}, options);
+  const CanOpenResult result = socket->open(::if_nametoindex(bus.interface.c_str()), {}, options);
   if (result.status != CanOpenStatus::open) {
     bus.state = InterfaceState::failed;
     bus.error = std::strerror(result.error);

@@ -19,8 +19,8 @@ class CanInterface {
  public:
   CanInterface(std::string name, std::vector<std::uint32_t> ids, const CanSocketOptions& options);
 
-  /// To be called a few times a second: opens what is closed, and closes what is no more. `link`: the
-  /// interface as it is now.
+  /// To be called a few times a second: opens what is closed, and closes what is no more. `link`:
+  /// the interface as it is now.
   void maintain(const Link& link);
 
   /// Frames that are there now, as CanSocket::receive. An interface that went down or away is

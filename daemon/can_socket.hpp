@@ -60,7 +60,8 @@ class CanSocket {
   CanSocket(const CanSocket&) = delete;
   CanSocket& operator=(const CanSocket&) = delete;
 
-  /// `interface_index`: the kernel's; 0: there is no such interface. `ids`: standard identifiers to let pass, without remote frames; none: everything.
+  /// `interface_index`: the kernel's; 0: there is no such interface. `ids`: standard identifiers to
+  /// let pass, without remote frames; none: everything.
   CanOpenResult open(unsigned interface_index, std::span<const std::uint32_t> ids,
                      const CanSocketOptions& options);
   /// For tests without CAN: takes over a datagram socket that yields `can_frame`s.

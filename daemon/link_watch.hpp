@@ -17,9 +17,9 @@ struct Link {
   int error = 0;  ///< errno, if the kernel cannot be asked; then nothing else is known.
 };
 
-/// Follows network interfaces by the kernel's own notifications (rtnetlink(7)). To look an interface
-/// up by name (if_nametoindex, SIOCGIFINDEX) would let the kernel search for a module of that name,
-/// a quarter of a second each time for one that is absent.
+/// Follows network interfaces by the kernel's own notifications (rtnetlink(7)). To look an
+/// interface up by name (if_nametoindex, SIOCGIFINDEX) would let the kernel search for a module of
+/// that name, a quarter of a second each time for one that is absent.
 class LinkWatch {
  public:
   explicit LinkWatch(std::vector<std::string> names);

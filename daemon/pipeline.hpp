@@ -31,9 +31,9 @@ struct PipelineClock {
 ///                                                          |                    |
 ///                                           of all radars  +-> FusedEstimator --+
 ///
-/// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So frames
-/// that come in the order of their stamps give the same motions in the same order, live and in a
-/// replay. After construction nothing allocates, locks or logs.
+/// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So
+/// frames that come in the order of their stamps give the same motions in the same order, live and
+/// in a replay. After construction nothing allocates, locks or logs.
 class Pipeline {
  public:
   /// `source` (for its counters) and `sinks` must outlive the pipeline.

@@ -41,7 +41,8 @@ struct RadarChannel {
 
   std::size_t index;
   std::uint8_t interface;
-  /// Its frames and those of the other interfaces are stamped by clocks that agree, as far as known.
+  /// Its frames and those of the other interfaces are stamped by clocks that agree, as far as
+  /// known.
   bool shares_clock = false;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;

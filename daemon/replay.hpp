@@ -18,10 +18,10 @@ namespace cremed {
 /// Several candump logs as one source, in the order in which SocketCan hands out live frames: by
 /// stamp, where stamps are equal by interface. At a finite speed it waits until a frame is due.
 ///
-/// candump reads its sockets in turn, so the lines of several interfaces are out of order by as long
-/// as it was held up. Where several are configured, a log is read 0.5 s ahead of what is handed out.
-/// A line that is older still is of a clock that was set, or of a clock of its own: all lines before
-/// it are handed out first.
+/// candump reads its sockets in turn, so the lines of several interfaces are out of order by as
+/// long as it was held up. Where several are configured, a log is read 0.5 s ahead of what is
+/// handed out. A line that is older still is of a clock that was set, or of a clock of its own: all
+/// lines before it are handed out first.
 class Replay final : public FrameSource {
  public:
   /// `speed`: log seconds per second; 0: as fast as possible. `logs` is not empty.

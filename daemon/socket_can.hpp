@@ -20,16 +20,17 @@
 
 namespace cremed {
 
-/// The CAN interfaces of the configuration, live: their frames in order of the kernel's stamps, where
-/// stamps are equal in the order of the configuration. So a replay of what was logged beside it sees
-/// the same frames in the same order, and no interface starves another.
+/// The CAN interfaces of the configuration, live: their frames in order of the kernel's stamps,
+/// where stamps are equal in the order of the configuration. So a replay of what was logged beside
+/// it sees the same frames in the same order, and no interface starves another.
 ///
 /// The kernel stamps a frame shortly before it can be read. So once a socket was read empty at a
 /// time T, no frame stamped before T - 1 ms can come on it any more, and a silent interface
-/// is never waited for. With several interfaces a frame is held back until it is that old. One that the kernel delays for longer still comes late and out of order, but comes.
+/// is never waited for. With several interfaces a frame is held back until it is that old. One that
+/// the kernel delays for longer still comes late and out of order, but comes.
 ///
-/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, what waits was stamped before or
-/// after, nobody knows: it is thrown away, and clock_step is reported.
+/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, what waits was stamped before
+/// or after, nobody knows: it is thrown away, and clock_step is reported.
 ///
 /// Never sends but by send(); after construction allocates nothing.
 class SocketCan final : public FrameSource {

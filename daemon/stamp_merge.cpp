@@ -43,7 +43,8 @@ std::optional<std::size_t> StampMerge::awaited() const {
   }
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     const std::int64_t until_us = lanes_[i].read_until_us;
-    if (!has_frames(i) && (until_us < stamp_us(*best) || (until_us == stamp_us(*best) && i < *best))) {
+    if (!has_frames(i) &&
+        (until_us < stamp_us(*best) || (until_us == stamp_us(*best) && i < *best))) {
       return i;
     }
   }

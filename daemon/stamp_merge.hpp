@@ -12,8 +12,8 @@
 namespace cremed {
 
 /// Brings the frames of several lanes (interfaces, live or of a log) into the order of
-/// ReceivedFrame::received_us, where stamps are equal that of the lanes' numbers. Frames of one lane
-/// are never reordered, whatever their stamps.
+/// ReceivedFrame::received_us, where stamps are equal that of the lanes' numbers. Frames of one
+/// lane are never reordered, whatever their stamps.
 ///
 ///     while (const auto lane = merge.oldest()) {
 ///       if (merge.awaited()) { read on in that lane, or wait; }

@@ -23,7 +23,8 @@ ReceivedFrame frame(std::int64_t stamp_us, std::size_t lane, std::uint32_t id) {
   return received;
 }
 
-/// A lane as the kernel has it: frames that become readable in order, each some time after its stamp.
+/// A lane as the kernel has it: frames that become readable in order, each some time after its
+/// stamp.
 struct Bus {
   std::vector<ReceivedFrame> frames;
   std::vector<std::int64_t> readable_us;
@@ -51,9 +52,8 @@ std::vector<ReceivedFrame> sorted(const std::vector<Bus>& buses) {
   for (const Bus& bus : buses) {
     all.insert(all.end(), bus.frames.begin(), bus.frames.end());
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.received_us < b.received_us;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.received_us < b.received_us; });
   return all;
 }
 
@@ -61,8 +61,7 @@ std::vector<ReceivedFrame> sorted(const std::vector<Bus>& buses) {
 void read(Bus& bus, std::size_t lane, std::int64_t now_us, std::int64_t margin_us,
           StampMerge& merge) {
   std::size_t count = 0;
-  while (bus.read < bus.frames.size() && bus.readable_us[bus.read] <= now_us &&
-         count < kCapacity) {
+  while (bus.read < bus.frames.size() && bus.readable_us[bus.read] <= now_us && count < kCapacity) {
     merge.push(lane, bus.frames[bus.read++]);
     ++count;
   }

@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A virtual CAN bus, and a radar that talks on it."""
 import contextlib
+import itertools
+import json
+import mmap
+import multiprocessing
+import os
 import socket
 import struct
 import subprocess
-import threading
 import time
+from dataclasses import dataclass
 
 EXTENDED, REMOTE, ERROR = 0x80000000, 0x40000000, 0x20000000
 # Classes of error frames, as in linux/can/error.h.
@@ -49,6 +54,11 @@ class CanBus:
         sender.bind((self.name,))
         return sender
 
+    def frames_sent(self):
+        """By all, since the interface was made."""
+        return json.loads(ip("-json", "-statistics", "link", "show", self.name).stdout)[0][
+            "stats64"]["tx"]["packets"]
+
     def send(self, identifier, data=b"", count=1):
         """`identifier` with flags; an error frame where it holds ERROR."""
         with self.open() as sender:
@@ -80,44 +90,107 @@ class BusListener:
         return frames
 
 
+# A pause of a radar that is longer than this lies between two of its scans.
+SCAN_PAUSE_S = 0.004
+# A scan that would begin later than this is left out, so that stamps stay near those of the drive.
+LATEST_SCAN_S = 0.005
+# Frames of so much time are sent at once: to sleep costs more than to send one.
+BURST_S = 0.002
+
+
+def sensor_of(identifier):
+    """An ARS408's id, which the identifiers of all its messages hold; what is none is one sensor."""
+    return (identifier >> 4) & 7 if identifier >= 0x600 else None
+
+
+@dataclass
+class Burst:
+    """Frames of one sensor."""
+    after_s: float  # Since the first of the log.
+    sensor: object
+    begins_scan: bool
+    frames: list
+
+
 def read_log(path, interface):
-    """[(seconds since the first frame, packed frame)] of one interface in a candump log."""
-    frames, start = [], None
+    """[Burst] of one interface in a candump log."""
+    bursts, first, last = [], None, {}
     with open(path, encoding="ascii") as log:
         for line in log:
             words = line.split()
-            if len(words) == 3 and words[1] == interface:
-                stamp = float(words[0].strip("()"))
-                start = stamp if start is None else start
-                identifier, data = words[2].split("#")
-                frames.append((stamp - start, pack(int(identifier, 16), bytes.fromhex(data))))
-    return frames
+            if len(words) != 3 or words[1] != interface:
+                continue
+            stamp_s = float(words[0].strip("()"))
+            first = stamp_s if first is None else first
+            identifier, data = words[2].split("#")
+            sensor = sensor_of(int(identifier, 16))
+            begins = stamp_s - last.get(sensor, 0.0) > SCAN_PAUSE_S
+            last[sensor] = stamp_s
+            if (begins or not bursts or bursts[-1].sensor != sensor
+                    or stamp_s - first - bursts[-1].after_s > BURST_S):
+                bursts.append(Burst(stamp_s - first, sensor, begins, []))
+            bursts[-1].frames.append(pack(int(identifier, 16), bytes.fromhex(data)))
+    return bursts
 
 
-class RadarPlayer(threading.Thread):
-    """Plays one interface of a log at real speed, over and over, whatever becomes of the bus."""
+class Flag:
+    """Like a threading.Event, of two processes."""
+
+    def __init__(self):
+        self.memory = mmap.mmap(-1, 1)
+
+    def set(self):
+        self.memory[0] = 1
+
+    def clear(self):
+        self.memory[0] = 0
+
+    def is_set(self):
+        return self.memory[0] == 1
+
+
+class RadarPlayer(multiprocessing.Process):
+    """Plays one interface of a log at real speed, over and over, whatever becomes of the bus. It has
+    the priority of hardware. Where the computer is too slow nonetheless, it leaves out scans."""
 
     def __init__(self, bus, log):
         super().__init__(daemon=True)
         self.bus = bus
-        self.frames = read_log(log, bus.name)
-        self.cycle_s = self.frames[-1][0] + 0.07
-        self.silent = threading.Event()
-        self.ended = threading.Event()
+        self.bursts = read_log(log, bus.name)
+        self.cycle_s = self.bursts[-1].after_s + 0.07
+        self.silent = Flag()
+        self.scans = mmap.mmap(-1, 8)
         self.sender = None
+        self.parent = os.getpid()
         self.start()
 
     def run(self):
-        begin, number = time.monotonic(), 0
-        while not self.ended.is_set():
-            cycles, index = divmod(number, len(self.frames))
-            after_s, frame = self.frames[index]
-            wait_s = begin + cycles * self.cycle_s + after_s - time.monotonic()
-            if wait_s > 0:
-                time.sleep(max(wait_s, 0.001))
-            if not self.silent.is_set():
-                self.send(frame)
-            number += 1
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(30))
+        begin_s = time.monotonic()
+        left_out = set()
+        for cycle in itertools.count():
+            for burst in self.bursts:
+                wait_s = begin_s + cycle * self.cycle_s + burst.after_s - time.monotonic()
+                if wait_s > 0:
+                    time.sleep(wait_s)
+                if burst.begins_scan:
+                    self.begin_scan(burst.sensor, wait_s, left_out)
+                if not self.silent.is_set() and burst.sensor not in left_out:
+                    for frame in burst.frames:
+                        self.send(frame)
+
+    def begin_scan(self, sensor, wait_s, left_out):
+        if os.getppid() != self.parent:
+            os._exit(0)
+        left_out.discard(sensor)
+        if wait_s < -LATEST_SCAN_S:
+            left_out.add(sensor)
+        elif not self.silent.is_set():
+            struct.pack_into("=Q", self.scans, 0, self.scans_begun() + 1)
+
+    def scans_begun(self):
+        """On the bus, of all sensors."""
+        return struct.unpack_from("=Q", self.scans)[0]
 
     def send(self, frame):
         try:
@@ -131,5 +204,5 @@ class RadarPlayer(threading.Thread):
             time.sleep(0.01)
 
     def stop(self):
-        self.ended.set()
+        self.terminate()
         self.join()

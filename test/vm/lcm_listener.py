@@ -26,9 +26,22 @@ def message_types():
     return {"CREMED_EGO_MOTION": package.ego_motion_t, "CREMED_STATUS": package.status_t}
 
 
+# linux/socket.h: asm-generic; the socket module has no name for it.
+SO_TIMESTAMPNS = 35
+
+
+def stamp_us(ancillary):
+    """When the kernel got a datagram, however late it is read."""
+    for level, kind, data in ancillary:
+        if (level, kind) == (socket.SOL_SOCKET, SO_TIMESTAMPNS):
+            seconds, nanoseconds = struct.unpack("=qq", data)
+            return seconds * 1_000_000 + nanoseconds // 1000
+    raise OSError("a datagram has no stamp")
+
+
 @dataclass
 class Heard:
-    """A message and when it came."""
+    """A message and when it came; monotonic_s: was read."""
     wall_us: int
     monotonic_s: float
     message: object
@@ -47,6 +60,7 @@ class LcmListener(threading.Thread):
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
+        self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
         self.socket.bind((GROUP, PORT))
         # By address, not by route: it has to hear on lo whatever the routes are.
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
@@ -55,13 +69,13 @@ class LcmListener(threading.Thread):
 
     def run(self):
         while True:
-            datagram = self.socket.recv(65536)
+            datagram, ancillary, *_ = self.socket.recvmsg(65536, 256)
             magic, _ = struct.unpack_from(">4sI", datagram)
             assert magic == b"LC02", "only messages of one datagram are expected"
             channel, payload = datagram[8:].split(b"\0", 1)
             channel = channel.decode()
             if channel in self.types:
-                self.heard[channel].append(Heard(time.time_ns() // 1000, time.monotonic(),
+                self.heard[channel].append(Heard(stamp_us(ancillary), time.monotonic(),
                                                  self.types[channel].decode(payload)))
 
     def motions(self, source, since_s=0.0):
@@ -71,6 +85,10 @@ class LcmListener(threading.Thread):
 
     def estimates(self, source, since_s=0.0):
         return [heard for heard in self.motions(source, since_s) if heard.message.status in (0, 1)]
+
+    def motions_of_scans(self, source, since_us):
+        """Of scans that began after a time of time.time_ns() / 1000."""
+        return [heard for heard in self.motions(source) if heard.message.utime > since_us]
 
     def statuses(self, source, since_s=0.0):
         return [heard.message for heard in list(self.heard["CREMED_STATUS"])

@@ -3,6 +3,7 @@
 """cremed as it runs on a vehicle, without a service manager: its log, notifications and end."""
 import os
 import pathlib
+import pwd
 import shutil
 import signal
 import socket
@@ -48,7 +49,7 @@ REAR = radar("rear", "vcan1", kind="bosch_gpr", x_m=-0.9, yaw_rad=3.14159)
 class LiveDaemon:
     """One cremed, with the priority and as little right to anything as its unit gives it."""
 
-    def __init__(self, folder, program, configuration, live=('realtime = "off"',)):
+    def __init__(self, folder, program, configuration, live=('realtime = "off"',), user="nobody"):
         self.folder = pathlib.Path(folder)
         self.configuration = self.folder / "cremed.toml"
         self.configuration.write_text("\n".join(["[live]", *live, configuration]))
@@ -58,7 +59,7 @@ class LiveDaemon:
         self.start_time_s = time.monotonic()
         self.process = subprocess.Popen(
             [self.program, "--config", self.configuration], stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, text=True, user="nobody", group="nogroup", extra_groups=[],
+            stderr=subprocess.PIPE, text=True, user=user, group=pwd.getpwnam(user).pw_gid, extra_groups=[],
             env={**os.environ, "NOTIFY_SOCKET": self.open_notify_socket()})
         os.sched_setscheduler(self.process.pid, os.SCHED_FIFO, os.sched_param(20))
         threading.Thread(target=self.read_log, daemon=True).start()

@@ -88,10 +88,10 @@ TEST_CASE(
   }
   std::printf("front: %s\nfused: %s\n", to_line(front).c_str(), to_line(fused).c_str());
   CHECK(front.rmse_m() <= 0.0110);
-  CHECK(front.rmse_deg() <= 0.090);
+  CHECK(front.rmse_deg() <= 0.082);
   CHECK(fused.count() >= 1030);
   CHECK(fused.rmse_m() <= 0.0095);
-  CHECK(fused.rmse_deg() <= 0.075);
+  CHECK(fused.rmse_deg() <= 0.060);
   for (const Credibility* source : {&front, &fused}) {
     CHECK(source->anees() >= 0.8);
     CHECK(source->anees() <= 1.25);

@@ -6,8 +6,8 @@
 
 namespace cremed {
 
-/// An ARS408 is told the vehicle's yaw rate w, and it reports the positions of its targets turned on
-/// by w tau: as if the vehicle had already turned for another tau, its rotation lead. Velocities
+/// An ARS408 is told the vehicle's yaw rate w, and it reports the positions of its targets turned
+/// on by w tau: as if the vehicle had already turned for another tau, its rotation lead. Velocities
 /// are those of the stamp. With the true line of sight u of a static target, its normal t (u turned
 /// by +90 degrees), its range r and the velocity v_s of the sensor, in the sensor's frame,
 ///
@@ -23,8 +23,8 @@ namespace cremed {
 ///
 /// w is what the sensor itself put into the velocities: A is linear in v_s and w. A sensor that is
 /// not told speed and yaw rate reports A = 0: then w = 0 and nothing is turned. Source: measured on
-/// nuScenes, where w so found is the gyro's to 0.003 rad/s with slope 1.00 (front and rear radars of
-/// four drives) and tau = 0.041 s (front), 0.038 s (rear), +- 0.0003 s.
+/// nuScenes, where w so found is the gyro's to 0.003 rad/s with slope 1.00 (front and rear radars
+/// of four drives) and tau = 0.041 s (front), 0.038 s (rear), +- 0.0003 s.
 
 /// The yaw rate w that the velocities across the line of sight of a scan's usable detections show,
 /// by robust least squares; 0 where they show none.

@@ -27,7 +27,7 @@ TrueTrajectory truth() {
 
 std::vector<SourceEvaluation> evaluate(const std::string& rows) {
   std::istringstream csv(kHeader + rows);
-  return evaluate_drive(csv, truth());
+  return evaluate_drive(csv, {truth(), {}, {}});
 }
 
 }  // namespace

@@ -51,6 +51,10 @@ std::size_t CsvTable::column(std::string_view name) const {
   return static_cast<std::size_t>(found - header_.begin());
 }
 
+bool CsvTable::has_column(std::string_view name) const {
+  return std::find(header_.begin(), header_.end(), name) != header_.end();
+}
+
 template <typename Number>
 Number CsvTable::parse(std::size_t row, std::size_t column) const {
   const std::string& cell = text(row, column);

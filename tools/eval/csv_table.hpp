@@ -17,6 +17,7 @@ class CsvTable {
 
   /// Index of a column; throws std::runtime_error that names it if there is none.
   [[nodiscard]] std::size_t column(std::string_view name) const;
+  [[nodiscard]] bool has_column(std::string_view name) const;
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const {
     return rows_[row][column];

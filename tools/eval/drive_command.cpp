@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive_command.hpp"
 
+#include <array>
+
 #include "tools/eval/drive_report.hpp"
+#include "tools/eval/drive_tables.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/temporary_folder.hpp"
@@ -33,23 +36,50 @@ void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
   }
 }
 
+/// From a scan pair of a fast radar to where the wheels' own error takes over.
+constexpr std::array<std::int64_t, 6> kTruthIntervalsUs{75'000,    150'000,   300'000,
+                                                        1'000'000, 2'000'000, 5'000'000};
+
+DriveReference read_reference(const DriveFiles& files) {
+  DriveReference reference;
+  reference.truth =
+      with_input(files.truth, [](std::istream& input) { return TrueTrajectory(input); });
+  reference.truth_noise = files.truth_noise;
+  if (!files.wheels.empty()) {
+    reference.wheels = with_input(
+        files.wheels, [&](std::istream& input) { return WheelReference(input, files.wheels_std); });
+  }
+  return reference;
+}
+
+void print_all(const std::vector<SourceEvaluation>& sources, const DriveReference& reference) {
+  print_drive(stdout, sources, reference.truth_noise);
+  print_segments(stdout, sources, reference.truth_noise);
+  if (reference.wheels) {
+    std::vector<TruthAgainstWheels> truth;
+    for (const std::int64_t interval_us : kTruthIntervalsUs) {
+      truth.push_back(truth_against_wheels(reference.truth, *reference.wheels, interval_us));
+    }
+    print_wheels(stdout, sources, *reference.wheels, truth);
+  }
+}
+
 }  // namespace
 
 void run_drive(const DriveFiles& files) {
-  const auto truth =
-      with_input(files.truth, [](std::istream& input) { return TrueTrajectory(input); });
-  const auto sources =
-      with_input(files.odometry, [&](std::istream& input) { return evaluate_drive(input, truth); });
+  const DriveReference reference = read_reference(files);
+  const auto sources = with_input(
+      files.odometry, [&](std::istream& input) { return evaluate_drive(input, reference); });
   if (sources.empty()) {
     throw std::runtime_error(files.odometry + ": no odometry");
   }
-  print_drive(stdout, sources);
+  print_all(sources, reference);
   say_what_is_missing(sources);
   if (!files.truth_tum.empty()) {
     write_truth_tum(files.truth_tum, sources);
   }
   if (!files.plot.empty()) {
-    plot_drive(sources, truth, files.plot);
+    plot_drive(sources, reference.truth, files.plot);
   }
 }
 

@@ -4,13 +4,19 @@
 
 #include <string>
 
+#include "tools/eval/truth_noise.hpp"
+#include "tools/eval/wheel_reference.hpp"
+
 namespace cremed {
 
 struct DriveFiles {
-  std::string odometry;   ///< CSV that cremed wrote.
-  std::string truth;      ///< CSV: utime,x_m,y_m,yaw_rad.
-  std::string plot;       ///< Picture to draw; empty: none.
-  std::string truth_tum;  ///< Truth to write in TUM format; empty: none.
+  std::string odometry;    ///< CSV that cremed wrote.
+  std::string truth;       ///< CSV: utime,x_m,y_m,yaw_rad.
+  std::string wheels;      ///< CSV: utime,speed_mps,yaw_rate_radps; empty: none.
+  WheelStd wheels_std;     ///< How far the wheels may be off.
+  TruthNoise truth_noise;  ///< How far truth may be off.
+  std::string plot;        ///< Picture to draw; empty: none.
+  std::string truth_tum;   ///< Truth to write in TUM format; empty: none.
 };
 
 /// cremed-eval drive: prints how far the odometry of a drive is from truth and draws it. Throws

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive_evaluation.hpp"
 
+#include "tools/eval/csv_table.hpp"
+#include "tools/eval/motion_chain.hpp"
 #include "tools/eval/recorded_odometry.hpp"
+#include "tools/eval/recorded_states.hpp"
 
 namespace cremed {
 namespace {
@@ -13,10 +16,11 @@ EstimateError compare(const RecordedEstimate& estimate, const Eigen::Vector3d& t
           normalised_error_squared(estimate.motion, estimate.covariance, truth, dof) / dof};
 }
 
-void compare_estimates(const std::vector<RecordedEstimate>& estimates, const TrueTrajectory& truth,
-                       SourceEvaluation& result) {
-  for (const RecordedEstimate& estimate : estimates) {
-    if (const auto motion = truth.motion(estimate.start_us, estimate.end_us)) {
+void compare_estimates(const std::vector<RecordedEstimate>& estimates,
+                       const DriveReference& reference, SourceEvaluation& result) {
+  for (RecordedEstimate estimate : estimates) {
+    estimate.covariance += reference.truth_noise.covariance(estimate.end_us - estimate.start_us);
+    if (const auto motion = reference.truth.motion(estimate.start_us, estimate.end_us)) {
       result.credibility.add(estimate.motion, estimate.covariance, *motion);
       result.errors.push_back(compare(estimate, *motion, result.degrees_of_freedom));
     } else {
@@ -34,25 +38,43 @@ std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int
   return running_nees(nees, dof, kNeesWindowUs);
 }
 
-SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const TrueTrajectory& truth) {
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
+                                 const DriveReference& reference) {
   SourceEvaluation result;
   result.source = odometry.source;
   result.degrees_of_freedom = degrees_of_freedom(odometry);
   result.credibility = Credibility(result.degrees_of_freedom);
   result.without_estimate = odometry.without_estimate;
-  compare_estimates(odometry.estimates, truth, result);
+  compare_estimates(odometry.estimates, reference, result);
   result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);
-  result.path = driven_path(odometry.estimates, truth);
+  result.path = driven_path(from_end_to_end(odometry.estimates), reference.truth);
   result.drift = path_drift(result.path);
+  result.segments = trajectory_segments(odometry.estimates, reference.truth, reference.truth_noise);
+  if (reference.wheels) {
+    result.wheels = against_wheels(odometry.estimates, reference.truth, *reference.wheels);
+  }
+  return result;
+}
+
+SourceEvaluation evaluate_states(const RecordedStates& states, const DriveReference& reference) {
+  SourceEvaluation result = evaluate_source(motions_since_anchors(states), reference);
+  if (reference.wheels) {
+    result.twist = against_wheels(states.states, *reference.wheels);
+  }
   return result;
 }
 
 }  // namespace
 
-std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry, const TrueTrajectory& truth) {
+std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
+                                             const DriveReference& reference) {
+  const CsvTable table(odometry);
+  if (holds_states(table)) {
+    return {evaluate_states(read_states(table), reference)};
+  }
   std::vector<SourceEvaluation> result;
-  for (const RecordedOdometry& source : read_odometry(odometry)) {
-    result.push_back(evaluate_source(source, truth));
+  for (const RecordedOdometry& source : read_odometry(table)) {
+    result.push_back(evaluate_source(source, reference));
   }
   return result;
 }

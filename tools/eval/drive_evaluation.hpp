@@ -5,25 +5,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "tools/eval/against_wheels.hpp"
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/driven_path.hpp"
 #include "tools/eval/path_drift.hpp"
 #include "tools/eval/running_nees.hpp"
+#include "tools/eval/trajectory_segments.hpp"
 #include "tools/eval/true_trajectory.hpp"
+#include "tools/eval/truth_noise.hpp"
+#include "tools/eval/twist_against_wheels.hpp"
+#include "tools/eval/wheel_reference.hpp"
 
 namespace cremed {
+
+/// What a drive is compared with.
+struct DriveReference {
+  TrueTrajectory truth;
+  TruthNoise truth_noise;                ///< Added to covariances that are compared with truth.
+  std::optional<WheelReference> wheels;  ///< If there are any.
+};
 
 /// An estimate against truth. Order of states: (x_m, y_m, yaw_rad).
 struct EstimateError {
   std::int64_t utime_us = 0;
   Eigen::Vector3d error;
-  Eigen::Vector3d sigma;
-  double nees = 0.0;  ///< Per degree of freedom.
+  Eigen::Vector3d sigma;  ///< With the noise of truth.
+  double nees = 0.0;      ///< Per degree of freedom.
 };
 
 /// One source's odometry against truth.
@@ -37,13 +50,18 @@ struct SourceEvaluation {
   std::vector<RunningNees> mean_nees;  ///< For each error, over kNeesWindowUs.
   std::vector<PathPose> path;
   std::vector<PathDrift> drift;
+  std::vector<SegmentErrors> segments;
+  std::optional<MotionsAgainstWheels> wheels;  ///< If there are wheels, like the next.
+  std::optional<TwistAgainstWheels> twist;     ///< Of the vehicle's state only.
 };
 
 inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
-/// Reads odometry CSV as cremed writes it and compares every estimate with truth; sources in order
-/// of appearance. A source whose cov_yy is 0 throughout is taken as 2 DoF. Throws
-/// std::runtime_error.
-std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry, const TrueTrajectory& truth);
+/// Reads what cremed wrote and compares every estimate with the reference: odometry CSV, sources in
+/// order of appearance, or, told by its header, the vehicle's state (--output-odometry), one source
+/// "odometry" whose motions are those since their anchors. A source whose cov_yy is 0 throughout is
+/// taken as 2 DoF. Throws std::runtime_error.
+std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
+                                             const DriveReference& reference);
 
 }  // namespace cremed

@@ -55,8 +55,11 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
 
 }  // namespace
 
-void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources) {
-  std::fprintf(file, "# source %s\n", kCredibilityColumns);
+void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                 const TruthNoise& noise) {
+  const std::string note = noise.note();
+  std::fprintf(file, "# source %s%s%s\n", kCredibilityColumns, note.empty() ? "" : "; ",
+               note.c_str());
   for (const SourceEvaluation& source : sources) {
     std::fprintf(file, "%s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
   }

@@ -11,7 +11,8 @@
 namespace cremed {
 
 /// Prints a line of figures a source, then, as comments, how far each drifts over distance.
-void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources);
+void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                 const TruthNoise& noise);
 
 /// Writes what plot_drive draws, as CSV files; throws std::runtime_error.
 void write_truth_csv(const std::string& path, const TrueTrajectory& truth);

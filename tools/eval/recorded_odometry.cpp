@@ -3,31 +3,16 @@
 #include "tools/eval/recorded_odometry.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "tools/eval/csv_table.hpp"
+#include "tools/eval/csv_matrix.hpp"
 
 namespace cremed {
 namespace {
 
-bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
-
 RecordedEstimate read_estimate(const CsvTable& table, std::size_t row) {
-  const auto number = [&](const char* name) { return table.number(row, table.column(name)); };
-  RecordedEstimate estimate;
-  estimate.start_us = table.integer(row, table.column("utime_start"));
-  estimate.end_us = table.integer(row, table.column("utime"));
-  estimate.motion << number("x_m"), number("y_m"), number("yaw_rad");
-  const double xy = number("cov_xy");
-  const double xyaw = number("cov_xyaw");
-  const double yyaw = number("cov_yyaw");
-  estimate.covariance << number("cov_xx"), xy, xyaw,  //
-      xy, number("cov_yy"), yyaw,                     //
-      xyaw, yyaw, number("cov_yawyaw");
-  if (!estimate.motion.allFinite() || !estimate.covariance.allFinite()) {
-    throw std::runtime_error("row " + std::to_string(row + 1) + ": an estimate that is not finite");
-  }
-  return estimate;
+  return {table.integer(row, table.column("utime_start")),
+          table.integer(row, table.column("utime")), read_vector(table, row, kPoseColumns),
+          read_symmetric(table, row, kPoseCovarianceColumns)};
 }
 
 RecordedOdometry& odometry_of(std::vector<RecordedOdometry>& sources, const std::string& name) {
@@ -38,8 +23,9 @@ RecordedOdometry& odometry_of(std::vector<RecordedOdometry>& sources, const std:
 
 }  // namespace
 
-std::vector<RecordedOdometry> read_odometry(std::istream& input) {
-  const CsvTable table(input);
+bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
+
+std::vector<RecordedOdometry> read_odometry(const CsvTable& table) {
   const std::size_t source = table.column("source");
   const std::size_t status = table.column("status");
   std::vector<RecordedOdometry> sources;

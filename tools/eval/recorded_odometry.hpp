@@ -4,11 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "tools/eval/csv_table.hpp"
 
 namespace cremed {
 
@@ -27,9 +28,11 @@ struct RecordedOdometry {
   std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
 };
 
-/// Reads odometry CSV as cremed writes it; sources in order of appearance. Throws
-/// std::runtime_error.
-std::vector<RecordedOdometry> read_odometry(std::istream& input);
+/// Whether a row of that status holds an estimate.
+bool is_estimate(const std::string& status);
+
+/// Odometry CSV as cremed writes it; sources in order of appearance. Throws std::runtime_error.
+std::vector<RecordedOdometry> read_odometry(const CsvTable& table);
 
 /// 2 if no estimate has a variance of y, else 3.
 int degrees_of_freedom(const RecordedOdometry& odometry);

@@ -4,15 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "tools/eval/csv_table.hpp"
+#include "tools/eval/time_bracket.hpp"
 
 namespace cremed {
 namespace {
 
 double wrap(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+void check_order(const std::vector<std::int64_t>& utime_us) {
+  const auto late = std::adjacent_find(utime_us.begin(), utime_us.end(), std::greater_equal<>());
+  if (late != utime_us.end()) {
+    throw std::runtime_error("row " + std::to_string(late - utime_us.begin() + 2) +
+                             ": utime does not increase");
+  }
+}
 
 }  // namespace
 
@@ -25,26 +37,23 @@ TrueTrajectory::TrueTrajectory(std::istream& input) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     utime_us_.push_back(table.integer(row, utime));
     poses_.push_back({table.number(row, x), table.number(row, y), table.number(row, yaw)});
-    if (row > 0 && utime_us_[row] <= utime_us_[row - 1]) {
-      throw std::runtime_error("row " + std::to_string(row + 1) + ": utime does not increase");
-    }
   }
+  check_order(utime_us_);
+}
+
+TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)
+    : utime_us_(std::move(utime_us)), poses_(std::move(poses)) {
+  check_order(utime_us_);
 }
 
 std::optional<Pose2> TrueTrajectory::at(std::int64_t utime_us) const {
-  const auto after = std::lower_bound(utime_us_.begin(), utime_us_.end(), utime_us);
-  if (after == utime_us_.end() || (after == utime_us_.begin() && *after != utime_us)) {
+  const auto place = bracket(utime_us_, utime_us);
+  if (!place) {
     return std::nullopt;
   }
-  const auto right = static_cast<std::size_t>(after - utime_us_.begin());
-  if (utime_us_[right] == utime_us) {
-    return poses_[right];
-  }
-  const std::size_t left = right - 1;
-  const double share = static_cast<double>(utime_us - utime_us_[left]) /
-                       static_cast<double>(utime_us_[right] - utime_us_[left]);
-  const Pose2& a = poses_[left];
-  const Pose2& b = poses_[right];
+  const double share = place->share;
+  const Pose2& a = poses_[place->left];
+  const Pose2& b = poses_[place->right];
   return Pose2{a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
                a.yaw_rad + share * wrap(b.yaw_rad - a.yaw_rad)};
 }

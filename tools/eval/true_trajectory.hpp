@@ -19,6 +19,9 @@ class TrueTrajectory {
   /// Reads CSV with the columns utime (us), x_m, y_m, yaw_rad; throws std::runtime_error, also if
   /// the times do not increase.
   explicit TrueTrajectory(std::istream& input);
+  /// Of poses and their times, which must increase; throws std::runtime_error.
+  TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses);
+  TrueTrajectory() = default;
 
   /// Pose at a time, nothing outside of the recorded time.
   [[nodiscard]] std::optional<Pose2> at(std::int64_t utime_us) const;

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cremed {
+
+/// Between which two of a table's times another one lies.
+struct TimeBracket {
+  std::size_t left = 0;
+  std::size_t right = 0;  ///< The same as left where the time is one of the table's.
+  double share = 0.0;     ///< Of the way from left to right.
+};
+
+/// Nothing outside of the table's time; its times must increase.
+inline std::optional<TimeBracket> bracket(const std::vector<std::int64_t>& utime_us,
+                                          std::int64_t wanted_us) {
+  const auto after = std::lower_bound(utime_us.begin(), utime_us.end(), wanted_us);
+  if (after == utime_us.end() || (after == utime_us.begin() && *after != wanted_us)) {
+    return std::nullopt;
+  }
+  const auto right = static_cast<std::size_t>(after - utime_us.begin());
+  if (utime_us[right] == wanted_us) {
+    return TimeBracket{right, right, 0.0};
+  }
+  const std::size_t left = right - 1;
+  return TimeBracket{left, right,
+                     static_cast<double>(wanted_us - utime_us[left]) /
+                         static_cast<double>(utime_us[right] - utime_us[left])};
+}
+
+}  // namespace cremed

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -69,6 +70,40 @@ std::string write_drive(const TemporaryFolder& folder, const std::vector<std::st
   return "drive " + folder.file("odometry.csv") + " " + folder.file("truth.csv");
 }
 
+/// Wheels of that drive, exact.
+std::string write_wheels(const TemporaryFolder& folder) {
+  std::ofstream wheels(folder.file("wheels.csv"));
+  wheels << "utime,speed_mps,yaw_rate_radps\n1000000,10,0\n3000000,10,0\n";
+  return " --wheels " + folder.file("wheels.csv");
+}
+
+/// The same drive as the vehicle's state since two anchors, 2 % too long and 0.2 m/s too fast.
+std::string write_states(const TemporaryFolder& folder) {
+  std::ofstream states(folder.file("states.csv"));
+  states << "utime,utime_anchor,status,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
+            "cov_yawyaw,odom_x_m,odom_y_m,odom_yaw_rad,vx_mps,vy_mps,yaw_rate_radps,cov_vxvx,"
+            "cov_vxvy,cov_vxw,cov_vyvy,cov_vyw,cov_ww\n";
+  for (int step = 0; step <= 20; ++step) {
+    const int anchor = step <= 10 ? 0 : 10;
+    const double way_m = 1.02 * (step - anchor);
+    states << 1'000'000 + 100'000 * step << ',' << 1'000'000 + 100'000 * anchor << ",ok," << way_m
+           << ",0,0,0.04,0,0,0.01,0,1e-6," << 1.02 * step << ",0,0,10.2,0,0,0.01,0,0,0.01,0,1e-4\n";
+  }
+  return "drive " + folder.file("states.csv") + " " + folder.file("truth.csv");
+}
+
+/// Words of the first comment that begins with that.
+std::vector<std::string> words(const std::string& output, const std::string& begin) {
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("# " + begin) == 0) {
+      std::istringstream cells(line.substr(2 + begin.size()));
+      return {std::istream_iterator<std::string>(cells), {}};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands in comments") {
@@ -82,15 +117,78 @@ TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands 
   CHECK(rows[0][2] == "0.01000");
   CHECK(rows[0][4] == "0.5000");
   CHECK(rows[1][4] == "0.3333");
-  std::istringstream output(result.output);
-  std::vector<std::string> drift;
-  for (std::string line; std::getline(output, line);) {
-    if (line.find("# front") == 0) drift.push_back(line.substr(26));
-  }
-  REQUIRE(drift.size() == 3);
-  CHECK(drift[0].find("    1.00       -       -") == 0);
-  CHECK(drift[1].find("  0.0000       -       -") == 0);
-  CHECK(drift[2].find("      10       0       0") == 0);
+  const auto starts_with = [&](const char* row, const std::vector<std::string>& first) {
+    std::vector<std::string> drift = words(result.output, row);
+    REQUIRE(drift.size() == 11);
+    drift.resize(first.size());
+    CHECK(drift == first);
+  };
+  starts_with("front           %", {"1.00", "-", "-"});
+  starts_with("front           deg/m", {"0.0000", "-", "-"});
+  starts_with("front           segments", {"10", "0", "0"});
+}
+
+TEST_CASE("cremed-eval drive tells how true the motions are when they are chained") {
+  const TemporaryFolder folder;
+  const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
+  REQUIRE(result.status == 0);
+  // 1 % of the way, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as independent.
+  const auto after_10_m = words(result.output, "sideways          10 m ");
+  REQUIRE(after_10_m.size() == 9);
+  CHECK(after_10_m[0] == "3");
+  CHECK(after_10_m[2] == "10.00");
+  CHECK(after_10_m[5] == "0.100");
+  CHECK(words(result.output, "sideways           1 s ")[0] == "3");
+  CHECK(words(result.output, "sideways          50 m ").empty());
+}
+
+TEST_CASE("cremed-eval drive compares with the wheels and splits NEES") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front"});
+  const ToolRun result = run(folder, drive + write_wheels(folder));
+  CAPTURE(result.error);
+  REQUIRE(result.status == 0);
+  const std::vector<std::string> x = words(result.output, "front           x m/s ");
+  CHECK(x == std::vector<std::string>{"20", "1.000", "1.000", "0.000", "0.000", "1.000", "0.1000",
+                                      "0.0000", "0.1000"});
+  const ToolRun doubted = run(folder, drive + write_wheels(folder) + " --wheels-std 0.1,0");
+  CHECK(words(doubted.output, "front           x m/s ")[1] == "0.500");
+  CHECK(doubted.output.find("their std 0.1 m/s, 0 rad/s") != std::string::npos);
+}
+
+TEST_CASE("cremed-eval drive adds truth's own noise and says so in each table it changes") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"sideways"});
+  const auto anees = [&](const std::string& options) {
+    return cells(run(folder, drive + options).output)[0][4];
+  };
+  CHECK(anees("") == "0.3333");
+  CHECK(anees(" --truth-std 0.01,0") == "0.1667");
+  CHECK(anees(" --truth-std 0.01,0.5,0,0.1 --truth-std 3,3,3,20") == "0.1667");
+  const std::string output = run(folder, drive + " --truth-std 0.01,0").output;
+  const std::string note = "truth's own std added to the covariance: 0.01, 0.01 m, 0 rad";
+  CHECK(output.find(note) < output.find("\nsideways"));
+  CHECK(output.find(note, output.find("pose after")) != std::string::npos);
+}
+
+TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
+  const TemporaryFolder folder;
+  write_drive(folder, {"front"});
+  const ToolRun result = run(folder, write_states(folder) + write_wheels(folder));
+  CAPTURE(result.error);
+  REQUIRE(result.status == 0);
+  const auto rows = cells(result.output);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0][0] == "odometry");
+  CHECK(rows[0][1] == "20");
+  // Chained over the anchor: 0.4 m off at a variance of 0.08 m^2, drifting 2 %.
+  CHECK(words(result.output, "odometry        %")[0] == "2.00");
+  CHECK(words(result.output, "odometry          10 m ") ==
+        std::vector<std::string>{"2", "0.33", "1.00", "0.00", "0.00", "0.200", "0.000", "0.000",
+                                 "1.96"});
+  CHECK(words(result.output, "odometry        vx m/s ") ==
+        std::vector<std::string>{"21", "4.000", "0.2000"});
+  CHECK(words(result.output, "odometry        w deg/s")[1] == "0.000");
 }
 
 TEST_CASE("cremed-eval drive draws one source and many, without an estimate too") {
@@ -194,12 +292,21 @@ TEST_CASE("cremed-eval says what is wrong") {
                Row{"pairs PAIRS --profile sim --output /no/such/folder/a.csv", 1, "cannot write"},
                Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"},
                Row{"drive /no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
-               Row{"drive /no/such/file", 2, "TRUTH"});
+               Row{"drive /no/such/file", 2, "TRUTH"},
+               Row{"drive a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has too few"},
+               Row{"drive a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has too few"},
+               Row{"drive a b --truth-std 1,-2", 2, "--truth-std: '-2' is no number from 0 up"},
+               Row{"drive TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   std::string arguments = row.arguments;
   if (const auto place = arguments.find("PAIRS"); place != std::string::npos) {
     arguments.replace(place, 5, write_pairs(folder));
+  }
+  if (arguments.find("drive TRUTH") == 0) {
+    write_drive(folder, {"front"});
+    const std::string truth = folder.file("truth.csv");
+    arguments = "drive " + truth + " " + truth + " --wheels " + truth;
   }
   const ToolRun result = run(folder, arguments);
   CAPTURE(result.error);

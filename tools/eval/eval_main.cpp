@@ -139,26 +139,25 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
 }
 
 /// Numbers from 0 up with commas between them, as many as that; a bad option otherwise.
-std::vector<double> numbers(const std::string& text, std::size_t least, std::size_t most) {
+std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t least,
+                            std::size_t most) {
   std::vector<double> values;
   for (const std::string& cell : CLI::detail::split(text, ',')) {
     double value = 0.0;
     if (!CLI::detail::lexical_cast(cell, value) || !(value >= 0.0)) {
-      throw CLI::ValidationError(text, "'" + cell + "' is no number from 0 up");
+      throw CLI::ValidationError(option, "'" + cell + "' is no number from 0 up");
     }
     values.push_back(value);
   }
   if (values.size() < least || values.size() > most) {
-    throw CLI::ValidationError(text, std::to_string(values.size()) + " numbers, wanted are " +
-                                         std::to_string(least) +
-                                         (most > least ? " to " + std::to_string(most) : ""));
+    throw CLI::ValidationError(option, "'" + text + "' has too few or too many numbers");
   }
   return values;
 }
 
 /// M,RAD or M,RAD,SECONDS or X_M,Y_M,RAD,SECONDS.
 cremed::RelativePoseStd relative_pose_std(const std::string& text) {
-  const auto values = numbers(text, 2, 4);
+  const auto values = numbers("--truth-std", text, 2, 4);
   if (values.size() == 4) {
     return {values[0], values[1], values[2], values[3]};
   }
@@ -174,7 +173,7 @@ void add_references(CLI::App& command, cremed::DriveFiles& files) {
       .add_option_function<std::string>(
           "--wheels-std",
           [&](const std::string& text) {
-            const auto values = numbers(text, 2, 2);
+            const auto values = numbers("--wheels-std", text, 2, 2);
             files.wheels_std = {values[0], values[1]};
           },
           "How far the wheels' speed and yaw rate are off, constant over an interval (0,0)")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "test/tools/tool_run.hpp"
 #include "tools/eval/icp.hpp"
@@ -189,6 +190,33 @@ TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
   CHECK(words(result.output, "odometry        vx m/s ") ==
         std::vector<std::string>{"21", "4.000", "0.2000"});
   CHECK(words(result.output, "odometry        w deg/s")[1] == "0.000");
+}
+
+TEST_CASE("cremed-eval drive --json says the same to scripts") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front", "blind"});
+  const std::string options =
+      write_wheels(folder) + " --wheels-std 0,0.1 --truth-std 0.01,0.02,0.3,1";
+  const auto json = nlohmann::json::parse(run(folder, drive + options + " --json").output);
+  const std::string text = run(folder, drive + options).output;
+  const auto& front = json["sources"][0];
+  CHECK(front["source"] == "front");
+  CHECK(front["n"] == 20);
+  CHECK(front["rmse_m"].get<double>() == Approx(0.01));
+  CHECK(front["anees"].get<double>() == Approx(std::stod(cells(text)[0][4])).epsilon(1e-3));
+  CHECK(front["coverage_y"][0].is_null());
+  CHECK(front["segments"][0]["after"] == "10 m");
+  CHECK(front["segments"][0]["rmse_m_m_rad"][0].get<double>() == Approx(0.1));
+  CHECK(front["segments"][6]["anees"].is_null());
+  CHECK(front["wheels"]["x"]["nees"].get<double>() == Approx(1.0));
+  CHECK_FALSE(front.contains("twist"));
+  CHECK(json["sources"][1]["without_estimate"] == 1);
+  CHECK(json["truth_std"][0]["y_m"] == 0.02);
+  CHECK(json["wheels_std"]["yaw_rate_radps"] == 0.1);
+  CHECK(json["truth_against_wheels"][0]["intervals"] == 193);
+  const auto states = nlohmann::json::parse(
+      run(folder, write_states(folder) + write_wheels(folder) + " --json").output);
+  CHECK(states["sources"][0]["twist"]["nees_speed"].get<double>() == Approx(4.0));
 }
 
 TEST_CASE("cremed-eval drive draws one source and many, without an estimate too") {

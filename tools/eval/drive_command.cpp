@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "tools/eval/drive_json.hpp"
 #include "tools/eval/drive_report.hpp"
 #include "tools/eval/drive_tables.hpp"
 #include "tools/eval/input_file.hpp"
@@ -52,15 +53,22 @@ DriveReference read_reference(const DriveFiles& files) {
   return reference;
 }
 
-void print_all(const std::vector<SourceEvaluation>& sources, const DriveReference& reference) {
-  print_drive(stdout, sources, reference.truth_noise);
-  print_segments(stdout, sources, reference.truth_noise);
+std::vector<TruthAgainstWheels> compare_references(const DriveReference& reference) {
+  std::vector<TruthAgainstWheels> result;
   if (reference.wheels) {
-    std::vector<TruthAgainstWheels> truth;
     for (const std::int64_t interval_us : kTruthIntervalsUs) {
-      truth.push_back(truth_against_wheels(reference.truth, *reference.wheels, interval_us));
+      result.push_back(truth_against_wheels(reference.truth, *reference.wheels, interval_us));
     }
-    print_wheels(stdout, sources, *reference.wheels, truth);
+  }
+  return result;
+}
+
+void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                  const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {
+  print_drive(file, sources, reference.truth_noise);
+  print_segments(file, sources, reference.truth_noise);
+  if (reference.wheels) {
+    print_wheels(file, sources, *reference.wheels, truth);
   }
 }
 
@@ -73,7 +81,8 @@ void run_drive(const DriveFiles& files) {
   if (sources.empty()) {
     throw std::runtime_error(files.odometry + ": no odometry");
   }
-  print_all(sources, reference);
+  const auto print = files.as_json ? print_json : print_tables;
+  print(stdout, sources, reference, compare_references(reference));
   say_what_is_missing(sources);
   if (!files.truth_tum.empty()) {
     write_truth_tum(files.truth_tum, sources);

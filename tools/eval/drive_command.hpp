@@ -17,6 +17,7 @@ struct DriveFiles {
   TruthNoise truth_noise;  ///< How far truth may be off.
   std::string plot;        ///< Picture to draw; empty: none.
   std::string truth_tum;   ///< Truth to write in TUM format; empty: none.
+  bool as_json = false;    ///< Prints JSON in place of the tables.
 };
 
 /// cremed-eval drive: prints how far the odometry of a drive is from truth and draws it. Throws

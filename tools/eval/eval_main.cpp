@@ -203,6 +203,7 @@ CLI::App* add_drive(CLI::App& app, cremed::DriveFiles& files) {
       ->required();
   command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
   add_references(*command, files);
+  command->add_flag("--json", files.as_json, "Print one JSON object in place of the tables");
   command->add_option("--plot", files.plot,
                       "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");
   command->add_option("--truth-tum", files.truth_tum,

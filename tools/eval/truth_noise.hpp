@@ -28,6 +28,7 @@ class TruthNoise {
   explicit TruthNoise(std::vector<RelativePoseStd> stds);
 
   [[nodiscard]] bool is_zero() const { return stds_.empty(); }
+  [[nodiscard]] const std::vector<RelativePoseStd>& stds() const { return stds_; }
   /// To add to the covariance (x_m, y_m, yaw_rad) of a motion over that time.
   [[nodiscard]] Eigen::Matrix3d covariance(std::int64_t interval_us) const;
   /// For the header of a table, with what was done: empty if there is none.

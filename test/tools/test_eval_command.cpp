@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "test/tools/tool_run.hpp"
 #include "tools/eval/icp.hpp"
@@ -52,206 +50,7 @@ std::string write_pairs(const TemporaryFolder& folder) {
   return folder.file("pairs.csv");
 }
 
-/// Odometry of these sources, 20 m straight on at 10 m/s with a scale error of 1 %, and its truth.
-std::string write_drive(const TemporaryFolder& folder, const std::vector<std::string>& sources) {
-  std::ofstream truth(folder.file("truth.csv"));
-  truth << "utime,x_m,y_m,yaw_rad\n1000000,50,60,0\n3000000,70,60,0\n";
-  std::ofstream odometry(folder.file("odometry.csv"));
-  odometry << "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
-              "cov_yawyaw,status,targets,iterations,solve_us\n";
-  for (const std::string& source : sources) {
-    const char* const variance_y = source == "sideways" ? "1e-4" : "0";
-    odometry << "1000000,1000000," << source << ",nan,nan,nan,nan,nan,nan,nan,nan,nan,"
-             << (source == "blind" ? "too_few_targets" : "no_reference") << ",9,0,0\n";
-    for (int step = 0; step < 20 && source != "blind"; ++step) {
-      odometry << 1'000'000 + 100'000 * step << ',' << 1'100'000 + 100'000 * step << ',' << source
-               << ",1.01,0,0,1e-4,0,0," << variance_y << ",0,1e-6,ok,50,5,0\n";
-    }
-  }
-  return "drive " + folder.file("odometry.csv") + " " + folder.file("truth.csv");
-}
-
-/// Wheels of that drive, exact.
-std::string write_wheels(const TemporaryFolder& folder) {
-  std::ofstream wheels(folder.file("wheels.csv"));
-  wheels << "utime,speed_mps,yaw_rate_radps\n1000000,10,0\n3000000,10,0\n";
-  return " --wheels " + folder.file("wheels.csv");
-}
-
-/// The same drive as the vehicle's state since two anchors, 2 % too long and 0.2 m/s too fast.
-std::string write_states(const TemporaryFolder& folder) {
-  std::ofstream states(folder.file("states.csv"));
-  states << "utime,utime_anchor,status,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
-            "cov_yawyaw,odom_x_m,odom_y_m,odom_yaw_rad,vx_mps,vy_mps,yaw_rate_radps,cov_vxvx,"
-            "cov_vxvy,cov_vxw,cov_vyvy,cov_vyw,cov_ww\n";
-  for (int step = 0; step <= 20; ++step) {
-    const int anchor = step <= 10 ? 0 : 10;
-    const double way_m = 1.02 * (step - anchor);
-    states << 1'000'000 + 100'000 * step << ',' << 1'000'000 + 100'000 * anchor << ",ok," << way_m
-           << ",0,0,0.04,0,0,0.01,0,1e-6," << 1.02 * step << ",0,0,10.2,0,0,0.01,0,0,0.01,0,1e-4\n";
-  }
-  return "drive " + folder.file("states.csv") + " " + folder.file("truth.csv");
-}
-
-/// Words of the first comment that begins with that.
-std::vector<std::string> words(const std::string& output, const std::string& begin) {
-  std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("# " + begin) == 0) {
-      std::istringstream cells(line.substr(2 + begin.size()));
-      return {std::istream_iterator<std::string>(cells), {}};
-    }
-  }
-  return {};
-}
-
 }  // namespace
-
-TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands in comments") {
-  const TemporaryFolder folder;
-  const ToolRun result = run(folder, write_drive(folder, {"front", "sideways"}));
-  REQUIRE(result.status == 0);
-  const auto rows = cells(result.output);
-  REQUIRE(rows.size() == 2);
-  CHECK(rows[0][0] == "front");
-  CHECK(rows[0][1] == "20");
-  CHECK(rows[0][2] == "0.01000");
-  CHECK(rows[0][4] == "0.5000");
-  CHECK(rows[1][4] == "0.3333");
-  const auto starts_with = [&](const char* row, const std::vector<std::string>& first) {
-    std::vector<std::string> drift = words(result.output, row);
-    REQUIRE(drift.size() == 11);
-    drift.resize(first.size());
-    CHECK(drift == first);
-  };
-  starts_with("front           %", {"1.00", "-", "-"});
-  starts_with("front           deg/m", {"0.0000", "-", "-"});
-  starts_with("front           segments", {"10", "0", "0"});
-}
-
-TEST_CASE("cremed-eval drive tells how true the motions are when they are chained") {
-  const TemporaryFolder folder;
-  const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
-  REQUIRE(result.status == 0);
-  // 1 % of the way, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as independent.
-  const auto after_10_m = words(result.output, "sideways          10 m ");
-  REQUIRE(after_10_m.size() == 9);
-  CHECK(after_10_m[0] == "3");
-  CHECK(after_10_m[2] == "10.00");
-  CHECK(after_10_m[5] == "0.100");
-  CHECK(words(result.output, "sideways           1 s ")[0] == "3");
-  CHECK(words(result.output, "sideways          50 m ").empty());
-}
-
-TEST_CASE("cremed-eval drive compares with the wheels and splits NEES") {
-  const TemporaryFolder folder;
-  const std::string drive = write_drive(folder, {"front"});
-  const ToolRun result = run(folder, drive + write_wheels(folder));
-  CAPTURE(result.error);
-  REQUIRE(result.status == 0);
-  const std::vector<std::string> x = words(result.output, "front           x m/s ");
-  CHECK(x == std::vector<std::string>{"20", "1.000", "1.000", "0.000", "0.000", "1.000", "0.1000",
-                                      "0.0000", "0.1000"});
-  const ToolRun doubted = run(folder, drive + write_wheels(folder) + " --wheels-std 0.1,0");
-  CHECK(words(doubted.output, "front           x m/s ")[1] == "0.500");
-  CHECK(doubted.output.find("their std 0.1 m/s, 0 rad/s") != std::string::npos);
-}
-
-TEST_CASE("cremed-eval drive adds truth's own noise and says so in each table it changes") {
-  const TemporaryFolder folder;
-  const std::string drive = write_drive(folder, {"sideways"});
-  const auto anees = [&](const std::string& options) {
-    return cells(run(folder, drive + options).output)[0][4];
-  };
-  CHECK(anees("") == "0.3333");
-  CHECK(anees(" --truth-std 0.01,0") == "0.1667");
-  CHECK(anees(" --truth-std 0.01,0.5,0,0.1 --truth-std 3,3,3,20") == "0.1667");
-  const std::string output = run(folder, drive + " --truth-std 0.01,0").output;
-  const std::string note = "truth's own std added to the covariance: 0.01, 0.01 m, 0 rad";
-  CHECK(output.find(note) < output.find("\nsideways"));
-  CHECK(output.find(note, output.find("pose after")) != std::string::npos);
-}
-
-TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
-  const TemporaryFolder folder;
-  write_drive(folder, {"front"});
-  const ToolRun result = run(folder, write_states(folder) + write_wheels(folder));
-  CAPTURE(result.error);
-  REQUIRE(result.status == 0);
-  const auto rows = cells(result.output);
-  REQUIRE(rows.size() == 1);
-  CHECK(rows[0][0] == "odometry");
-  CHECK(rows[0][1] == "20");
-  // Chained over the anchor: 0.4 m off at a variance of 0.08 m^2, drifting 2 %.
-  CHECK(words(result.output, "odometry        %")[0] == "2.00");
-  CHECK(words(result.output, "odometry          10 m ") ==
-        std::vector<std::string>{"2", "0.33", "1.00", "0.00", "0.00", "0.200", "0.000", "0.000",
-                                 "1.96"});
-  CHECK(words(result.output, "odometry        vx m/s ") ==
-        std::vector<std::string>{"21", "4.000", "0.2000"});
-  CHECK(words(result.output, "odometry        w deg/s")[1] == "0.000");
-}
-
-TEST_CASE("cremed-eval drive --json says the same to scripts") {
-  const TemporaryFolder folder;
-  const std::string drive = write_drive(folder, {"front", "blind"});
-  const std::string options =
-      write_wheels(folder) + " --wheels-std 0,0.1 --truth-std 0.01,0.02,0.3,1";
-  const auto json = nlohmann::json::parse(run(folder, drive + options + " --json").output);
-  const std::string text = run(folder, drive + options).output;
-  const auto& front = json["sources"][0];
-  CHECK(front["source"] == "front");
-  CHECK(front["n"] == 20);
-  CHECK(front["rmse_m"].get<double>() == Approx(0.01));
-  CHECK(front["anees"].get<double>() == Approx(std::stod(cells(text)[0][4])).epsilon(1e-3));
-  CHECK(front["coverage_y"][0].is_null());
-  CHECK(front["segments"][0]["after"] == "10 m");
-  CHECK(front["segments"][0]["rmse_m_m_rad"][0].get<double>() == Approx(0.1));
-  CHECK(front["segments"][6]["anees"].is_null());
-  CHECK(front["wheels"]["x"]["nees"].get<double>() == Approx(1.0));
-  CHECK_FALSE(front.contains("twist"));
-  CHECK(json["sources"][1]["without_estimate"] == 1);
-  CHECK(json["truth_std"][0]["y_m"] == 0.02);
-  CHECK(json["wheels_std"]["yaw_rate_radps"] == 0.1);
-  CHECK(json["truth_against_wheels"][0]["intervals"] == 193);
-  const auto states = nlohmann::json::parse(
-      run(folder, write_states(folder) + write_wheels(folder) + " --json").output);
-  CHECK(states["sources"][0]["twist"]["nees_speed"].get<double>() == Approx(4.0));
-}
-
-TEST_CASE("cremed-eval drive draws one source and many, without an estimate too") {
-  const TemporaryFolder folder;
-  const auto sources = GENERATE(
-      std::vector<std::string>{"front"}, std::vector<std::string>{"blind"},
-      std::vector<std::string>{"a", "b", "blind", "sideways", "d", "e", "f", "g", "h", "fused"});
-  const std::string picture = folder.file("picture.svg");
-  const ToolRun result = run(folder, write_drive(folder, sources) + " --plot " + picture);
-  CAPTURE(sources.size(), result.error);
-  CHECK(result.status == 0);
-  CHECK(result.error.find("Warning") == std::string::npos);
-  const std::string svg = content(picture);
-  CHECK(svg.find("</svg>") != std::string::npos);
-  // Matplotlib tells each text that it draws in a comment.
-  const bool has_estimates = sources.front() != "blind";
-  CHECK((svg.find("error of x [m], 0.0 % outside 3 sigma") != std::string::npos) == has_estimates);
-  CHECK((svg.find("ANEES 0.50 (95 % band") != std::string::npos) == has_estimates);
-  CHECK((svg.find("drift 1.00 %, 0.0000 deg/m") != std::string::npos) == has_estimates);
-}
-
-TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM") {
-  const TemporaryFolder folder;
-  const std::string tum = folder.file("truth.tum");
-  REQUIRE(run(folder, write_drive(folder, {"front"}) + " --truth-tum " + tum).status == 0);
-  std::istringstream lines(content(tum));
-  std::string line;
-  std::getline(lines, line);
-  CHECK(line == "1.000000 50.000000 60.000000 0 0 0 0.000000000 1.000000000");
-  std::getline(lines, line);
-  CHECK(line == "1.100000 51.000000 60.000000 0 0 0 0.000000000 1.000000000");
-  int count = 2;
-  while (std::getline(lines, line)) ++count;
-  CHECK(count == 21);
-}
 
 TEST_CASE("cremed-eval table prints a row for every problem and method") {
   const TemporaryFolder folder;
@@ -318,23 +117,12 @@ TEST_CASE("cremed-eval says what is wrong") {
                Row{"pairs /dev/null --profile sim --method other", 2, "--method"},
                Row{"pairs /no/such/file --profile sim", 1, "/no/such/file"},
                Row{"pairs PAIRS --profile sim --output /no/such/folder/a.csv", 1, "cannot write"},
-               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"},
-               Row{"drive /no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
-               Row{"drive /no/such/file", 2, "TRUTH"},
-               Row{"drive a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has too few"},
-               Row{"drive a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has too few"},
-               Row{"drive a b --truth-std 1,-2", 2, "--truth-std: '-2' is no number from 0 up"},
-               Row{"drive TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
+               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   std::string arguments = row.arguments;
   if (const auto place = arguments.find("PAIRS"); place != std::string::npos) {
     arguments.replace(place, 5, write_pairs(folder));
-  }
-  if (arguments.find("drive TRUTH") == 0) {
-    write_drive(folder, {"front"});
-    const std::string truth = folder.file("truth.csv");
-    arguments = "drive " + truth + " " + truth + " --wheels " + truth;
   }
   const ToolRun result = run(folder, arguments);
   CAPTURE(result.error);

@@ -37,6 +37,10 @@ inline RadarConfiguration radar(const std::string& name, const std::string& inte
   result.interface = interface;
   result.decoder = decoder;
   result.ego_motion.vehicle_from_radar = vehicle_from_radar;
+  const auto* ars408 = std::get_if<Ars408Options>(&decoder);
+  if (ars408 != nullptr && ars408->output == Ars408Output::clusters) {
+    result.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
+  }
   return result;
 }
 
@@ -60,6 +64,7 @@ struct Drive {
   std::vector<RadarConfiguration> radars;
   std::vector<CanFrame> frames;
   std::vector<ScanTruth> truths;  ///< In order of their stamps.
+  std::vector<Pose2> mounts;      ///< Where the radars really are.
   std::string log;                ///< The frames as candump text.
   std::string truth_csv;
 };
@@ -79,6 +84,7 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   }
   std::ostringstream csv;
   simulation.write_truth(csv);
+  result.mounts = simulation.mounts();
   result.truth_csv = csv.str();
   return result;
 }

@@ -47,7 +47,7 @@ struct RecordedDrive {
     SimulationOptions options;
     options.seed = seed;
     options.duration_s = duration_s;
-    const Drive simulated = drive(scenario(name), radars, options);
+    const Drive simulated = drive(scenario(name), radars, exactly_mounted(options));
     std::ofstream(log) << simulated.log;
     truth = std::make_unique<TrueTrajectory>(truth_of(simulated));
   }

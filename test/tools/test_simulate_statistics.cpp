@@ -44,17 +44,28 @@ Polar seen_from(const Pose2& vehicle, const Pose2& mount, double x_m, double y_m
 /// Errors of one detection over its own standard deviations: range, azimuth, Doppler.
 using Errors = std::array<double, 3>;
 
-/// Doppler is the change of the range from 10 ms before to 10 ms after, by the truth file alone.
+/// Velocity is the change of the position in the radar's frame from 10 ms before to 10 ms after, by
+/// the truth file alone; Doppler is its part along the reported line of sight.
 Errors errors_of(const Detection& detection, const Echo& echo, const TruthTable& truth,
-                 const Pose2& mount, std::int64_t stamp_us) {
-  const auto at = [&](double offset_us) {
-    return seen_from(truth.at(static_cast<double>(stamp_us) + offset_us), mount, echo.x_m,
-                     echo.y_m);
+                 const cremed::RadarConfiguration& radar, std::int64_t stamp_us) {
+  const auto vehicle = [&](double offset_us) {
+    return truth.at(static_cast<double>(stamp_us) + offset_us);
   };
+  const auto at = [&](double offset_us) {
+    return seen_from(vehicle(offset_us), radar.ego_motion.vehicle_from_radar, echo.x_m, echo.y_m);
+  };
+  const double yaw_rate_radps =
+      (vehicle(10'000.0).yaw_rad - vehicle(-10'000.0).yaw_rad) / 0.02;
+  const Polar before = at(-10'000.0);
   const Polar now = at(0.0);
-  const double doppler_mps = (at(10'000.0).range_m - at(-10'000.0).range_m) / 0.02;
+  const Polar after = at(10'000.0);
+  const double azimuth_rad = now.azimuth_rad - radar.ego_motion.correction.rotation_lead_s * yaw_rate_radps;
+  const double doppler_mps = (after.range_m * std::cos(after.azimuth_rad - azimuth_rad) -
+                              before.range_m * std::cos(before.azimuth_rad - azimuth_rad)) /
+                             0.02;
   return {(detection.range_m - now.range_m) / detection.range_std_m,
-          (detection.azimuth_rad - now.azimuth_rad) / detection.azimuth_std_rad,
+          std::remainder(detection.azimuth_rad - azimuth_rad, 2.0 * M_PI) /
+              detection.azimuth_std_rad,
           (detection.doppler_mps - doppler_mps) / detection.doppler_std_mps};
 }
 
@@ -72,7 +83,6 @@ bool inside(const TruthTable& truth, std::int64_t stamp_us) {
 std::vector<ScanErrors> radar_errors(const Drive& drive, std::size_t radar) {
   const TruthTable truth(drive.truth_csv);
   const auto decoded = cremed::test::decode(drive.log, drive.radars[radar]);
-  const Pose2& mount = drive.radars[radar].ego_motion.vehicle_from_radar;
   std::vector<ScanErrors> all;
   std::size_t scan_index = 0;
   for (const auto& scan_truth : drive.truths) {
@@ -86,7 +96,8 @@ std::vector<ScanErrors> radar_errors(const Drive& drive, std::size_t radar) {
     for (std::size_t i = 0; i < scan.count; ++i) {
       const Echo& echo = scan_truth.echoes[i];
       if (echo.kind != EchoKind::fixed) continue;
-      errors.errors.push_back(errors_of(scan.detections[i], echo, truth, mount, scan.stamp_us));
+      errors.errors.push_back(errors_of(scan.detections[i], echo, truth, drive.radars[radar],
+                                        scan.stamp_us));
       errors.places.emplace_back(echo.x_m, echo.y_m);
     }
   }
@@ -135,7 +146,8 @@ std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t r
     options.doppler_offset_std_mps = doppler_offset_std_mps;
     options.body_velocity_std_mps = 0.0;
     const Drive drive = cremed::test::drive(cremed::test::scenario(name),
-                                            {cremed::test::one_of_each_kind()[radar]}, options);
+                                            {cremed::test::one_of_each_kind()[radar]},
+                                            cremed::exactly_mounted(options));
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));
   }
   return all;

@@ -68,20 +68,6 @@ std::uint8_t position_code(double std_m) {
   return ars408_rms_code(std::max(std_m, kLeastPositionStdM));
 }
 
-Ars408RmsCodes rms_codes(const RadarView& view, bool object) {
-  const double cos_azimuth = std::cos(view.azimuth_rad);
-  const double sin_azimuth = std::sin(view.azimuth_rad);
-  const double along_m = std::hypot(kRangeStdM, kRangeStdPerMetre * view.range_m);
-  const double across_m = view.range_m * kAzimuthStdRad;
-  Ars408RmsCodes codes;
-  codes.x = position_code(std::hypot(cos_azimuth * along_m, sin_azimuth * across_m));
-  codes.y = position_code(std::hypot(sin_azimuth * along_m, cos_azimuth * across_m));
-  // All of a cluster's Doppler accuracy is reported in x, as the hardware does.
-  codes.vx = ars408_rms_code(object ? kDopplerStdMps : kDopplerStdMps / cos_azimuth);
-  codes.vy = object ? ars408_rms_code(kObjectVyStdMps) : kClusterVyCode;
-  return codes;
-}
-
 /// A speed error that has the reported standard deviation once it is rounded to the grid.
 double speed_noise_std(std::uint8_t code) {
   return std::sqrt(variance(code) - rounding_variance(kArs408SpeedStepMps));
@@ -98,12 +84,36 @@ Ars408Sender::Ars408Sender(const Ars408Options& options, const Scene& scene,
                   scene, setup),
       options_(options) {}
 
+double Ars408Sender::reported_azimuth_rad(double azimuth_rad) const {
+  return azimuth_rad - setup().rotation_lead_s * told().yaw_rate_radps;
+}
+
+double Ars408Sender::static_across(double range_m, double azimuth_rad) const {
+  return static_across_mps(told(), setup().stated_mount, range_m, azimuth_rad);
+}
+
+/// By the reported direction, which is what the reader takes them with.
+Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
+  const double cos_azimuth = std::cos(reported_azimuth_rad(view.azimuth_rad));
+  const double sin_azimuth = std::sin(reported_azimuth_rad(view.azimuth_rad));
+  const double along_m = std::hypot(kRangeStdM, kRangeStdPerMetre * view.range_m);
+  const double across_m = view.range_m * kAzimuthStdRad;
+  Ars408RmsCodes codes;
+  codes.x = position_code(std::hypot(cos_azimuth * along_m, sin_azimuth * across_m));
+  codes.y = position_code(std::hypot(sin_azimuth * along_m, cos_azimuth * across_m));
+  // All of a cluster's Doppler accuracy is reported in x, as the hardware does.
+  codes.vx = ars408_rms_code(sends_objects() ? kDopplerStdMps : kDopplerStdMps / cos_azimuth);
+  codes.vy = sends_objects() ? ars408_rms_code(kObjectVyStdMps) : kClusterVyCode;
+  return codes;
+}
+
 /// The rounding of x and y to their grid adds the same variance along and across the line of
 /// sight, that of both velocities adds its own to Doppler: what is drawn leaves room for it.
 PolarStd Ars408Sender::noise(const RadarView& view) const {
-  const Ars408RmsCodes codes = rms_codes(view, sends_objects());
-  const double cos_2 = square(std::cos(view.azimuth_rad));
-  const double sin_2 = square(std::sin(view.azimuth_rad));
+  const Ars408RmsCodes codes = rms_codes(view);
+  const double azimuth_rad = reported_azimuth_rad(view.azimuth_rad);
+  const double cos_2 = square(std::cos(azimuth_rad));
+  const double sin_2 = square(std::sin(azimuth_rad));
   const double x_2 = variance(codes.x);
   const double y_2 = variance(codes.y);
   const double position_rounding = rounding_variance(kArs408DistanceStepM);
@@ -142,7 +152,7 @@ void Ars408Sender::encode_clusters(const std::vector<Measurement>& targets, std:
     list.push_back(encode_ars408_cluster(options_.sensor_id, general));
   }
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Ars408ClusterQuality quality = cluster_quality(rms_codes(targets[i].echo.view, false));
+    Ars408ClusterQuality quality = cluster_quality(rms_codes(targets[i].echo.view));
     quality.id = static_cast<std::uint8_t>(i);
     list.push_back(encode_ars408(options_.sensor_id, quality));
   }
@@ -156,40 +166,51 @@ void Ars408Sender::encode_objects(const std::vector<Measurement>& targets, std::
   status.interface_version = kInterfaceVersion;
   list.push_back(encode_ars408(options_.sensor_id, status));
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Ars408General general = object(targets[i], rms_codes(targets[i].echo.view, true));
+    Ars408General general = object(targets[i], rms_codes(targets[i].echo.view));
     general.id = static_cast<std::uint8_t>(i);
     list.push_back(encode_ars408_object(options_.sensor_id, general));
   }
   for (std::size_t i = 0; i < targets.size(); ++i) {
     Ars408ObjectQuality quality;
     quality.id = static_cast<std::uint8_t>(i);
-    quality.rms = rms_codes(targets[i].echo.view, true);
+    quality.rms = rms_codes(targets[i].echo.view);
     quality.existence_code = targets[i].echo.kind == EchoKind::ghost ? 3 : 7;
     quality.measurement_state = Ars408MeasurementState::measured;
     list.push_back(encode_ars408(options_.sensor_id, quality));
   }
 }
 
-/// A cluster's velocity is its Doppler along the measured line of sight.
-Ars408General Ars408Sender::cluster(const Measurement& measurement) {
+/// A target whose velocity has these parts along and across the line of sight at `azimuth_rad`.
+Ars408General Ars408Sender::general(const Measurement& measurement, double azimuth_rad,
+                                    double doppler_mps, double across_mps) {
+  const double reported_rad = reported_azimuth_rad(measurement.azimuth_rad);
   Ars408General target;
-  target.x_m = measurement.range_m * std::cos(measurement.azimuth_rad);
-  target.y_m = measurement.range_m * std::sin(measurement.azimuth_rad);
-  target.vx_mps = measurement.doppler_mps * std::cos(measurement.azimuth_rad);
-  target.vy_mps = measurement.doppler_mps * std::sin(measurement.azimuth_rad);
+  target.x_m = measurement.range_m * std::cos(reported_rad);
+  target.y_m = measurement.range_m * std::sin(reported_rad);
+  target.vx_mps = doppler_mps * std::cos(azimuth_rad) - across_mps * std::sin(azimuth_rad);
+  target.vy_mps = doppler_mps * std::sin(azimuth_rad) + across_mps * std::cos(azimuth_rad);
   target.rcs_dbm2 = measurement.echo.rcs_dbm2;
   target.dyn_prop = dyn_prop(measurement.echo);
   return target;
 }
 
+/// Where the sensor sees a cluster is also where it takes its line of sight from, so that an error
+/// of the azimuth is none of the Doppler.
+Ars408General Ars408Sender::cluster(const Measurement& measurement) {
+  return general(measurement, measurement.azimuth_rad, measurement.doppler_mps,
+                 static_across(measurement.range_m, measurement.azimuth_rad));
+}
+
 /// An object's velocity is a vector; the error of each part is drawn from its own code.
 Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408RmsCodes& rms) {
-  Ars408General target = cluster(measurement);
   const RadarView& view = measurement.echo.view;
-  target.vx_mps = view.x_mps + speed_noise_std(rms.vx) * random().normal() +
-                  doppler_offset_mps() * std::cos(view.azimuth_rad);
-  target.vy_mps = view.y_mps + speed_noise_std(rms.vy) * random().normal() +
-                  doppler_offset_mps() * std::sin(view.azimuth_rad);
+  const double across_mps = setup().is_told_motion
+                                ? view.across_mps - told().yaw_rate_radps * view.range_m
+                                : 0.0;
+  Ars408General target =
+      general(measurement, view.azimuth_rad, with_shared_errors(view.doppler_mps), across_mps);
+  target.vx_mps += speed_noise_std(rms.vx) * random().normal();
+  target.vy_mps += speed_noise_std(rms.vy) * random().normal();
   return target;
 }
 
@@ -203,9 +224,11 @@ Ars408ClusterQuality Ars408Sender::cluster_quality(const Ars408RmsCodes& rms) {
   return quality;
 }
 
-/// Doppler is all that tells a moving target: one that moves across looks as if it stood.
+/// Doppler is all that tells a moving target: one that moves across looks as if it stood. Who is
+/// not told that the vehicle drives takes it for standing.
 Ars408DynProp Ars408Sender::dyn_prop(const Echo& echo) {
-  const double doppler_mps = echo.view.ground_doppler_mps;
+  const double doppler_mps =
+      setup().is_told_motion ? echo.view.ground_doppler_mps : echo.view.doppler_mps;
   if (doppler_mps < -kStandingDopplerMps) return Ars408DynProp::oncoming;
   if (doppler_mps > kStandingDopplerMps) return Ars408DynProp::moving;
   const Ars408DynProp standing =

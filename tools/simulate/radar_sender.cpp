@@ -29,7 +29,7 @@ RadarSender::RadarSender(const RadarCharacter& character, const ScanCycle& cycle
       random_(setup.seed, kFirstStream + 2 * setup.radar),
       model_(character, setup.vehicle_from_radar, scene,
              Random(setup.seed, kFirstStream + 2 * setup.radar + 1)),
-      slow_offset_(setup.doppler_offset_std_mps, Random(setup.seed, kOffsetStream + setup.radar)) {
+      slow_offset_(setup.doppler.offset_std_mps, Random(setup.seed, kOffsetStream + setup.radar)) {
   cycle_count_ = static_cast<std::uint32_t>(random_.index(kGreatestFirstCycle));
   const double phase = random_.uniform();
   next_scan_us_ = scene.start_us() + std::llround(phase * static_cast<double>(cycle_.least_us));
@@ -66,7 +66,9 @@ void RadarSender::start_scan(std::int64_t stamp_us) {
 
 void RadarSender::measure(const std::vector<Echo>& echoes) {
   const double time_s = scene_.seconds(scan_stamp_us_);
+  told_ = setup_.is_told_motion ? scene_.told_motion(time_s) : ToldMotion{};
   doppler_offset_mps_ =
+      setup_.doppler.offset_mps +
       rolling_share(scene_.course().at(time_s).speed_mps) * slow_offset_.at(time_s);
   targets_.clear();
   for (const Echo& echo : echoes) {
@@ -74,7 +76,8 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
     Measurement target{echo, echo.view.range_m, echo.view.azimuth_rad, echo.view.doppler_mps};
     target.range_m = std::max(kLeastMeasuredM, target.range_m + std.range_m * random_.normal());
     target.azimuth_rad += std.azimuth_rad * random_.normal();
-    target.doppler_mps += std.doppler_mps * random_.normal() + doppler_offset_mps_;
+    target.doppler_mps =
+        with_shared_errors(target.doppler_mps) + std.doppler_mps * random_.normal();
     targets_.push_back(target);
   }
   std::stable_sort(targets_.begin(), targets_.end(),

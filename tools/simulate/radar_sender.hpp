@@ -14,6 +14,7 @@
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/scene.hpp"
 #include "tools/simulate/slow_error.hpp"
+#include "tools/simulate/told_motion.hpp"
 
 namespace cremed {
 
@@ -26,13 +27,23 @@ struct ScanTruth {
 
 using ScanObserver = std::function<void(const ScanTruth&)>;
 
+/// Errors of all Doppler of one radar.
+struct DopplerErrors {
+  double factor = 1.0;          ///< Measured over true.
+  double offset_mps = 0.0;      ///< Constant.
+  double offset_std_mps = 0.0;  ///< Of a further offset that varies slowly.
+};
+
 /// All that is common to the radars of a simulation.
 struct SenderSetup {
   std::size_t radar = 0;
-  Pose2 vehicle_from_radar;
+  Pose2 vehicle_from_radar;        ///< Where it really is.
+  Pose2 stated_mount;              ///< Where it was told to be.
+  bool is_told_motion = true;      ///< Told speed and yaw rate, if it is of a kind that listens.
+  double rotation_lead_s = 0.0;    ///< DetectionCorrection::rotation_lead_s
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
-  double doppler_offset_std_mps = 0.0;  ///< Of an error that all targets of a scan share.
+  DopplerErrors doppler;
   FaultOptions faults;
   ScanObserver observer;  ///< May be empty.
 };
@@ -81,7 +92,13 @@ class RadarSender : public BusSender {
   virtual void finish(CanFrame& frame, std::int64_t age_us);
 
   [[nodiscard]] Random& random() { return random_; }
-  [[nodiscard]] double doppler_offset_mps() const { return doppler_offset_mps_; }
+  [[nodiscard]] const SenderSetup& setup() const { return setup_; }
+  /// Doppler of the last scan without the target's own noise.
+  [[nodiscard]] double with_shared_errors(double doppler_mps) const {
+    return setup_.doppler.factor * doppler_mps + doppler_offset_mps_;
+  }
+  /// What the radar was told when it measured the last scan; zero if nothing.
+  [[nodiscard]] const ToldMotion& told() const { return told_; }
 
  private:
   void start_scan(std::int64_t stamp_us);
@@ -102,6 +119,7 @@ class RadarSender : public BusSender {
   std::uint32_t cycle_count_ = 0;
   SlowError slow_offset_;
   double doppler_offset_mps_ = 0.0;  // of the last scan
+  ToldMotion told_;                  // the same
   std::vector<Measurement> targets_;
   std::vector<CanFrame> list_;
   std::size_t sent_ = 0;

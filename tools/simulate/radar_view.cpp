@@ -32,8 +32,7 @@ RadarView view_of(const RadarState& radar, const WorldPoint& point) {
   view.azimuth_rad = std::atan2(cos_yaw * world_y_m - sin_yaw * world_x_m,
                                 cos_yaw * world_x_m + sin_yaw * world_y_m);
   view.doppler_mps = (world_x_m * world_x_mps + world_y_m * world_y_mps) / view.range_m;
-  view.x_mps = cos_yaw * world_x_mps + sin_yaw * world_y_mps;
-  view.y_mps = cos_yaw * world_y_mps - sin_yaw * world_x_mps;
+  view.across_mps = (world_x_m * world_y_mps - world_y_m * world_x_mps) / view.range_m;
   view.ground_doppler_mps = (world_x_m * point.x_mps + world_y_m * point.y_mps) / view.range_m;
   return view;
 }

@@ -27,8 +27,8 @@ struct RadarView {
   double range_m = 0.0;
   double azimuth_rad = 0.0;
   double doppler_mps = 0.0;  ///< d(range)/dt
-  double x_mps = 0.0;        ///< Velocity relative to the radar along its axes.
-  double y_mps = 0.0;
+  /// Velocity over ground relative to that of the radar, across the line of sight, to the left.
+  double across_mps = 0.0;
   double ground_doppler_mps = 0.0;  ///< The point's own share of the Doppler: 0 if it stands.
 };
 

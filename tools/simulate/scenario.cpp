@@ -145,6 +145,71 @@ CoursePlan jam_course() {
            {4.0, 0.0, 0.0}}};
 }
 
+/// Once round, turning at 0.27 to 0.35 rad/s for 20 s.
+CoursePlan roundabout_course() {
+  return {10.0,
+          0.0,
+          {{3.0, 6.0, 0.0},
+           {2.0, 6.0, -0.05},
+           {2.5, 6.0, 0.048},
+           {6.0, 5.5, 0.05},
+           {6.0, 6.5, 0.054},
+           {6.0, 5.5, 0.05},
+           {2.5, 6.0, -0.05},
+           {2.0, 7.0, 0.0},
+           {4.0, 10.0, 0.0}}};
+}
+
+/// Up a spiral ramp at 0.4 to 0.5 rad/s and down another one, into a parking place and out of it.
+CoursePlan garage_course() {
+  return {0.0,
+          0.0,
+          {{1.0, 0.0, 0.0},
+           {3.0, 2.5, 0.0},
+           {2.0, 2.5, 0.16},
+           {10.0, 2.5, 0.16},
+           {2.0, 3.0, 0.165},
+           {8.0, 3.0, 0.165},
+           {2.0, 2.5, 0.0},
+           {3.0, 3.0, 0.0},
+           {2.0, 2.5, -0.15},
+           {16.0, 2.5, -0.15},
+           {2.0, 2.5, 0.0},
+           {2.0, 1.5, 0.17},
+           {3.0, 0.0, 0.17},
+           {2.0, 0.0, 0.0}}};
+}
+
+/// U-turns both ways, each at 0.5 rad/s.
+CoursePlan u_turn_course() {
+  return {8.0,
+          0.0,
+          {{4.0, 3.0, 0.0},
+           {2.0, 3.0, 0.167},
+           {4.3, 3.0, 0.167},
+           {2.0, 3.5, 0.0},
+           {3.0, 6.0, 0.0},
+           {3.0, 3.0, 0.0},
+           {2.0, 3.0, -0.167},
+           {4.3, 3.0, -0.167},
+           {2.0, 3.5, 0.0},
+           {3.4, 8.0, 0.0}}};
+}
+
+/// Creeps below 1.2 m/s for 12 s, then pulls away.
+CoursePlan slow_start_course() {
+  return {0.0,
+          0.0,
+          {{2.0, 0.0, 0.0},
+           {2.0, 0.5, 0.0},
+           {4.0, 0.5, 0.05},
+           {3.0, 1.1, 0.0},
+           {3.0, 1.1, -0.03},
+           {6.0, 11.0, 0.0},
+           {5.0, 11.0, 0.004},
+           {7.0, 0.0, 0.0}}};
+}
+
 Scenario drive(std::string_view name, std::string_view description, double duration_s,
                CoursePlan course, const WorldOptions& world = {},
                const TrafficOptions& traffic = {}, const FaultOptions& faults = {}) {
@@ -155,7 +220,8 @@ std::vector<Scenario> all_scenarios() {
   const WorldOptions sparse{.built_share = 0.3, .clutter_per_m = 0.1};
   const WorldOptions desert{.built_share = 0.03, .clutter_per_m = 0.01};
   const WorldOptions field{.built_share = 0.0, .clutter_per_m = 0.5};
-  const WorldOptions tunnel{.built_share = 0.0, .clutter_per_m = 0.0, .tunnel = true};
+  const WorldOptions tunnel{.clutter_per_m = 0.0, .roadside = Roadside::tunnel};
+  const WorldOptions garage{.clutter_per_m = 0.1, .roadside = Roadside::garage};
   const TrafficOptions crowd{
       .oncoming_interval_s = 1.5, .same_way_interval_s = 2.5, .leader = true};
   const TrafficOptions no_traffic{
@@ -201,6 +267,13 @@ std::vector<Scenario> all_scenarios() {
       drive("braking", "from 20 and 12 m/s to a stop with up to 8.7 m/s^2", 62.0, braking_course()),
       drive("skid", "the rear breaks out; for degrees_of_freedom = 3", 46.0, skid_course(), {},
             no_traffic),
+      drive("roundabout", "once round and again, turning at 0.27 to 0.35 rad/s for 20 s", 68.0,
+            roundabout_course()),
+      drive("garage", "spiral ramps of a parking garage at 0.4 to 0.5 rad/s, walls close by", 58.0,
+            garage_course(), garage, no_traffic),
+      drive("u-turn", "U-turns both ways at 0.5 rad/s", 60.0, u_turn_course(), {}, no_traffic),
+      drive("slow-start", "creeps below 1.2 m/s for 12 s, then pulls away", 30.0,
+            slow_start_course()),
   };
 }
 

@@ -16,6 +16,8 @@ constexpr std::uint64_t kWorldStream = 1;
 constexpr std::uint64_t kTrafficStream = 2;
 constexpr std::uint64_t kBodyStream = 4;
 constexpr std::uint64_t kBodySideStream = 5;
+constexpr std::uint64_t kToldSpeedStream = 6;
+constexpr std::uint64_t kToldYawRateStream = 7;
 
 }  // namespace
 
@@ -28,7 +30,8 @@ Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us,
       world_(road_, scenario.world, Random(seed, kWorldStream)),
       traffic_(course_, road_, scenario.traffic, Random(seed, kTrafficStream)),
       body_speed_(body_velocity_std_mps, Random(seed, kBodyStream)),
-      body_side_speed_(body_velocity_std_mps, Random(seed, kBodySideStream)) {}
+      body_side_speed_(body_velocity_std_mps, Random(seed, kBodySideStream)),
+      vehicle_bus_(course_, Random(seed, kToldSpeedStream), Random(seed, kToldYawRateStream)) {}
 
 VehicleState Scene::body(double time_s) const {
   VehicleState state = course_.at(time_s);

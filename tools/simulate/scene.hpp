@@ -7,6 +7,7 @@
 #include "tools/simulate/road.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/slow_error.hpp"
+#include "tools/simulate/told_motion.hpp"
 #include "tools/simulate/traffic.hpp"
 #include "tools/simulate/vehicle_course.hpp"
 #include "tools/simulate/world.hpp"
@@ -31,6 +32,8 @@ class Scene {
   /// The vehicle's body, which the radars are fixed to: it pitches on its springs, and rolls when
   /// it skids, so that its speed is not quite that of the rear axle.
   [[nodiscard]] VehicleState body(double time_s) const;
+  /// What the vehicle tells its sensors about its motion.
+  [[nodiscard]] ToldMotion told_motion(double time_s) const { return vehicle_bus_.at(time_s); }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }
 
@@ -43,6 +46,7 @@ class Scene {
   Traffic traffic_;
   SlowError body_speed_;
   SlowError body_side_speed_;
+  VehicleBus vehicle_bus_;
 };
 
 }  // namespace cremed

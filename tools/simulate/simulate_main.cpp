@@ -62,6 +62,22 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "which no radar reports")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
+  app.add_option("--doppler-scale-std", arguments.options.doppler_scale_std,
+                 "Standard deviation of the factor on all Doppler of a radar, drawn once a drive")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  app.add_option("--mount-yaw-std", arguments.options.mount_yaw_std_rad,
+                 "Standard deviation in rad of a radar's yaw from that of the configuration, drawn "
+                 "once a drive")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_option("--mount-position-std", arguments.options.mount_position_std_m,
+                 "The same in m of x and of y of its mount")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_flag("!--not-told", arguments.options.is_told_motion,
+               "ARS408s are not told the vehicle's speed and yaw rate: they take what stands for "
+               "moving, report radial velocities only and turn no positions");
 }
 
 void list_scenarios() {

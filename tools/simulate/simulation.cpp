@@ -20,6 +20,9 @@ namespace cremed {
 namespace {
 
 constexpr std::uint64_t kLossStream = 3;
+/// First streams of each radar's own: one is added for each.
+constexpr std::uint64_t kMountStream = 512;
+constexpr std::uint64_t kDopplerScaleStream = 768;
 constexpr double kArs408CycleUs = 72'000.0;
 constexpr double kGprBusShare = 0.24;
 constexpr std::int64_t kStatePeriodUs = 1'000'000;
@@ -49,8 +52,8 @@ std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
   return std::min(room, objects ? Ars408Sender::kMaxObjects : Ars408Sender::kMaxClusters);
 }
 
-/// Set up as the daemon needs it, and told the motion of the vehicle.
-Ars408RadarState radar_state(const Ars408Options& options) {
+/// Set up as the daemon needs it.
+Ars408RadarState radar_state(const Ars408Options& options, bool is_told_motion) {
   Ars408RadarState state;
   state.nvm_read = true;
   state.max_distance_m = 200.0;
@@ -58,7 +61,26 @@ Ars408RadarState radar_state(const Ars408Options& options) {
   state.sensor_id = options.sensor_id;
   state.sends_quality = true;
   state.output_code = options.output == Ars408Output::objects ? 1 : 2;
+  state.speed_missing = !is_told_motion;
+  state.yaw_rate_missing = !is_told_motion;
   return state;
+}
+
+Pose2 real_mount(const Pose2& stated, const SimulationOptions& options, std::size_t radar) {
+  Random random(options.seed, kMountStream + radar);
+  Pose2 real = stated;
+  real.yaw_rad += options.mount_yaw_std_rad * random.normal();
+  real.x_m += options.mount_position_std_m * random.normal();
+  real.y_m += options.mount_position_std_m * random.normal();
+  return real;
+}
+
+/// So that the configured correction puts it right, but for what is drawn.
+DopplerErrors doppler_errors(const DetectionCorrection& correction,
+                             const SimulationOptions& options, std::size_t radar) {
+  Random random(options.seed, kDopplerScaleStream + radar);
+  return {(1.0 + options.doppler_scale_std * random.normal()) / correction.doppler_scale,
+          correction.doppler_offset_mps, options.doppler_offset_std_mps};
 }
 
 RadarConfiguration radar_at(const std::string& name, const std::string& interface,
@@ -81,6 +103,13 @@ std::vector<RadarConfiguration> default_radars() {
   return {front, rear};
 }
 
+SimulationOptions exactly_mounted(SimulationOptions options) {
+  options.mount_yaw_std_rad = 0.0;
+  options.mount_position_std_m = 0.0;
+  options.doppler_scale_std = 0.0;
+  return options;
+}
+
 Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
                        const SimulationOptions& options, const ScanObserver& observer)
     : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed,
@@ -88,21 +117,30 @@ Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfigur
       frame_loss_(scenario.faults.frame_loss),
       loss_random_(options.seed, kLossStream) {
   for (std::size_t i = 0; i < radars.size(); ++i) {
-    SenderSetup setup;
-    setup.radar = i;
-    setup.vehicle_from_radar = radars[i].ego_motion.vehicle_from_radar;
-    setup.seed = options.seed;
-    setup.doppler_offset_std_mps = options.doppler_offset_std_mps;
-    setup.faults = scenario.faults;
-    setup.observer = observer;
-    CanBus& bus = bus_of(radars[i].interface);
-    if (const auto* ars408 = std::get_if<Ars408Options>(&radars[i].decoder)) {
-      setup.max_targets = ars408_targets(radars, radars[i]);
-      attach_ars408(*ars408, setup, bus);
-    } else {
-      setup.max_targets = kBoschGprSlots;
-      attach_gpr(std::get<BoschGprOptions>(radars[i].decoder), setup, bus);
-    }
+    const EgoMotionOptions& stated = radars[i].ego_motion;
+    mounts_.push_back(real_mount(stated.vehicle_from_radar, options, i));
+    attach(radars, {.radar = i,
+                    .vehicle_from_radar = mounts_.back(),
+                    .stated_mount = stated.vehicle_from_radar,
+                    .is_told_motion = options.is_told_motion,
+                    .rotation_lead_s = stated.correction.rotation_lead_s,
+                    .seed = options.seed,
+                    .doppler = doppler_errors(stated.correction, options, i),
+                    .faults = scenario.faults,
+                    .observer = observer});
+  }
+}
+
+void Simulation::attach(const std::vector<RadarConfiguration>& radars, const SenderSetup& setup) {
+  const RadarConfiguration& radar = radars[setup.radar];
+  SenderSetup limited = setup;
+  CanBus& bus = bus_of(radar.interface);
+  if (const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder)) {
+    limited.max_targets = ars408_targets(radars, radar);
+    attach_ars408(*ars408, limited, bus);
+  } else {
+    limited.max_targets = kBoschGprSlots;
+    attach_gpr(std::get<BoschGprOptions>(radar.decoder), limited, bus);
   }
 }
 
@@ -118,7 +156,8 @@ CanBus& Simulation::bus_of(const std::string& interface) {
 void Simulation::attach_ars408(const Ars408Options& options, const SenderSetup& setup,
                                CanBus& bus) {
   bus.attach(std::make_unique<Ars408Sender>(options, scene_, setup));
-  attach_state(bus, setup.radar, {encode_ars408(options.sensor_id, radar_state(options))});
+  attach_state(bus, setup.radar,
+               {encode_ars408(options.sensor_id, radar_state(options, setup.is_told_motion))});
   attach_state(bus, setup.radar, {encode_ars408(options.sensor_id, Ars408Version{4, 30, 2})});
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace cremed {
@@ -34,11 +35,17 @@ struct BlockKind {
   double detection_probability;
 };
 
-constexpr std::array<BlockKind, 4> kBlockKinds{{
+constexpr std::array<BlockKind, 4> kStreetBlocks{{
     {20.0, 60.0, 0.5, 2.0, 3.0, 0.4, -2.0, 0.75},  // guard rail: a post every 3 m
     {15.0, 50.0, 4.0, 12.0, 2.5, 0.6, 2.0, 0.7},   // wall of houses
     {18.0, 42.0, 0.4, 0.8, 3.0, 0.8, 8.0, 0.85},   // parked cars, two corners each
     {30.0, 80.0, 1.0, 4.0, 12.0, 2.0, 0.0, 0.9},   // trees and lamp posts
+}};
+
+constexpr std::array<BlockKind, 3> kGarageBlocks{{
+    {10.0, 20.0, 0.2, 0.4, 2.5, 0.2, 2.0, 0.85},  // pillars between parking places
+    {10.0, 25.0, 0.2, 0.8, 1.25, 0.4, 8.0, 0.8},  // parked cars, two corners each
+    {8.0, 15.0, 0.5, 1.5, 2.0, 1.0, -2.0, 0.6},   // walls with pipes, doors, ledges
 }};
 
 class Builder {
@@ -54,21 +61,13 @@ class Builder {
   }
 
   void build_side(double side) {
-    double start_m = -kReachM;
-    while (start_m < road_.length_m() + kReachM) {
-      const BlockKind& kind = kBlockKinds[random_.index(kBlockKinds.size())];
-      const double length_m = random_.uniform(kind.least_length_m, kind.greatest_length_m);
-      if (random_.chance(options_.built_share)) build_block(kind, side, start_m, length_m);
-      start_m += length_m;
-    }
-  }
-
-  void build_tunnel_side(double side) {
-    const double offset_m = kClearanceM + (side > 0.0 ? kLeftLanesM : 0.0) + kTunnelOffsetM;
-    for (double along_m = -kReachM; along_m < road_.length_m() + kReachM;
-         along_m += kTunnelSpacingM) {
-      const RoadPoint point = road_.at(along_m + random_.uniform(0.0, kTunnelSpacingM));
-      place(beside(point, side * offset_m), -2.0 + 3.0 * random_.normal(), kTunnelProbability);
+    switch (options_.roadside) {
+      case Roadside::street:
+        return build_blocks(kStreetBlocks, options_.built_share, side);
+      case Roadside::garage:
+        return build_blocks(kGarageBlocks, 1.0, side);
+      case Roadside::tunnel:
+        return build_tunnel_side(side);
     }
   }
 
@@ -87,9 +86,33 @@ class Builder {
   std::vector<Reflector> take() { return std::move(reflectors_); }
 
  private:
+  /// Distance of the edge of the free space from the path of the rear axle.
+  [[nodiscard]] double edge_m(double side) const {
+    const bool has_left_lanes = side > 0.0 && options_.roadside != Roadside::garage;
+    return kClearanceM + (has_left_lanes ? kLeftLanesM : 0.0);
+  }
+
+  void build_blocks(std::span<const BlockKind> kinds, double share, double side) {
+    double start_m = -kReachM;
+    while (start_m < road_.length_m() + kReachM) {
+      const BlockKind& kind = kinds[random_.index(kinds.size())];
+      const double length_m = random_.uniform(kind.least_length_m, kind.greatest_length_m);
+      if (random_.chance(share)) build_block(kind, side, start_m, length_m);
+      start_m += length_m;
+    }
+  }
+
+  void build_tunnel_side(double side) {
+    const double offset_m = edge_m(side) + kTunnelOffsetM;
+    for (double along_m = -kReachM; along_m < road_.length_m() + kReachM;
+         along_m += kTunnelSpacingM) {
+      const RoadPoint point = road_.at(along_m + random_.uniform(0.0, kTunnelSpacingM));
+      place(beside(point, side * offset_m), -2.0 + 3.0 * random_.normal(), kTunnelProbability);
+    }
+  }
+
   void build_block(const BlockKind& kind, double side, double start_m, double length_m) {
-    const double edge_m = kClearanceM + (side > 0.0 ? kLeftLanesM : 0.0);
-    const double offset_m = edge_m + random_.uniform(kind.least_offset_m, kind.greatest_offset_m);
+    const double offset_m = edge_m(side) + random_.uniform(kind.least_offset_m, kind.greatest_offset_m);
     const auto count = static_cast<int>(std::ceil(length_m / kind.spacing_m));
     for (int i = 0; i < count; ++i) {
       const double jitter_m = random_.uniform(-kind.jitter_m, kind.jitter_m);
@@ -126,13 +149,7 @@ class Builder {
 
 World::World(const Road& road, const WorldOptions& options, Random random) : grid_(kCellM) {
   Builder builder(road, options, random);
-  for (const double side : {1.0, -1.0}) {
-    if (options.tunnel) {
-      builder.build_tunnel_side(side);
-    } else {
-      builder.build_side(side);
-    }
-  }
+  for (const double side : {1.0, -1.0}) builder.build_side(side);
   builder.scatter_clutter();
   reflectors_ = builder.take();
   for (std::size_t i = 0; i < reflectors_.size(); ++i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "tools/simulate/random.hpp"
@@ -18,10 +19,16 @@ struct Reflector {
   double detection_probability = 0.0;  ///< In one scan, close to the radar.
 };
 
+enum class Roadside : std::uint8_t {
+  street,  ///< Walls of houses, guard rails, parked cars, trees.
+  tunnel,  ///< Smooth walls on both sides: no place of them stands out.
+  garage,  ///< Pillars, parked cars and walls, close by on both sides.
+};
+
 struct WorldOptions {
-  double built_share = 0.8;    ///< Share of the roadside that holds walls, rails, cars, trees.
+  double built_share = 0.8;    ///< Share of a street's sides that is built.
   double clutter_per_m = 1.2;  ///< Single reflectors for each metre of the road.
-  bool tunnel = false;         ///< Smooth walls on both sides: no place of them stands out.
+  Roadside roadside = Roadside::street;
 };
 
 /// All that stands still: walls, guard rails, parked cars and trees along the road, and clutter

@@ -11,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "test/tools/seen_from.hpp"
 #include "test/tools/simulated_drive.hpp"
 
 namespace {
@@ -18,28 +19,12 @@ namespace {
 using cremed::Detection;
 using cremed::Echo;
 using cremed::EchoKind;
-using cremed::Pose2;
 using cremed::test::Drive;
+using cremed::test::Polar;
+using cremed::test::seen_from;
 using cremed::test::TruthTable;
 
 constexpr std::uint64_t kSeeds = 2;
-
-struct Polar {
-  double range_m;
-  double azimuth_rad;
-};
-
-/// Where the radar sees a standing point: written anew, so that it cannot share an error with the
-/// simulator.
-Polar seen_from(const Pose2& vehicle, const Pose2& mount, double x_m, double y_m) {
-  const double dx = x_m - vehicle.x_m;
-  const double dy = y_m - vehicle.y_m;
-  const double forward_m = std::cos(vehicle.yaw_rad) * dx + std::sin(vehicle.yaw_rad) * dy;
-  const double left_m = std::cos(vehicle.yaw_rad) * dy - std::sin(vehicle.yaw_rad) * dx;
-  const double mx = forward_m - mount.x_m;
-  const double my = left_m - mount.y_m;
-  return {std::hypot(mx, my), std::remainder(std::atan2(my, mx) - mount.yaw_rad, 2.0 * M_PI)};
-}
 
 /// Errors of one detection over its own standard deviations: range, azimuth, Doppler.
 using Errors = std::array<double, 3>;
@@ -54,19 +39,19 @@ Errors errors_of(const Detection& detection, const Echo& echo, const TruthTable&
   const auto at = [&](double offset_us) {
     return seen_from(vehicle(offset_us), radar.ego_motion.vehicle_from_radar, echo.x_m, echo.y_m);
   };
-  const double yaw_rate_radps =
-      (vehicle(10'000.0).yaw_rad - vehicle(-10'000.0).yaw_rad) / 0.02;
+  const double yaw_rate_radps = (vehicle(10'000.0).yaw_rad - vehicle(-10'000.0).yaw_rad) / 0.02;
   const Polar before = at(-10'000.0);
   const Polar now = at(0.0);
   const Polar after = at(10'000.0);
-  const double azimuth_rad = now.azimuth_rad - radar.ego_motion.correction.rotation_lead_s * yaw_rate_radps;
+  const double azimuth_rad =
+      now.azimuth_rad - radar.ego_motion.correction.rotation_lead_s * yaw_rate_radps;
   const double doppler_mps = (after.range_m * std::cos(after.azimuth_rad - azimuth_rad) -
                               before.range_m * std::cos(before.azimuth_rad - azimuth_rad)) /
                              0.02;
-  return {(detection.range_m - now.range_m) / detection.range_std_m,
-          std::remainder(detection.azimuth_rad - azimuth_rad, 2.0 * M_PI) /
-              detection.azimuth_std_rad,
-          (detection.doppler_mps - doppler_mps) / detection.doppler_std_mps};
+  return {
+      (detection.range_m - now.range_m) / detection.range_std_m,
+      std::remainder(detection.azimuth_rad - azimuth_rad, 2.0 * M_PI) / detection.azimuth_std_rad,
+      (detection.doppler_mps - doppler_mps) / detection.doppler_std_mps};
 }
 
 struct ScanErrors {
@@ -96,8 +81,8 @@ std::vector<ScanErrors> radar_errors(const Drive& drive, std::size_t radar) {
     for (std::size_t i = 0; i < scan.count; ++i) {
       const Echo& echo = scan_truth.echoes[i];
       if (echo.kind != EchoKind::fixed) continue;
-      errors.errors.push_back(errors_of(scan.detections[i], echo, truth, drive.radars[radar],
-                                        scan.stamp_us));
+      errors.errors.push_back(
+          errors_of(scan.detections[i], echo, truth, drive.radars[radar], scan.stamp_us));
       errors.places.emplace_back(echo.x_m, echo.y_m);
     }
   }
@@ -145,9 +130,9 @@ std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t r
     options.seed = seed;
     options.doppler_offset_std_mps = doppler_offset_std_mps;
     options.body_velocity_std_mps = 0.0;
-    const Drive drive = cremed::test::drive(cremed::test::scenario(name),
-                                            {cremed::test::one_of_each_kind()[radar]},
-                                            cremed::exactly_mounted(options));
+    const Drive drive =
+        cremed::test::drive(cremed::test::scenario(name), {cremed::test::one_of_each_kind()[radar]},
+                            cremed::exactly_mounted(options));
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));
   }
   return all;

@@ -107,8 +107,9 @@ Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
   return codes;
 }
 
-/// The rounding of x and y to their grid adds the same variance along and across the line of
-/// sight, that of both velocities adds its own to Doppler: what is drawn leaves room for it.
+/// The rounding of x and y to their grid adds the same variance along and across the line of sight,
+/// that of both velocities adds its own to Doppler, and so does the velocity across, of which a
+/// rounded line of sight makes a part of Doppler: what is drawn leaves room for it.
 PolarStd Ars408Sender::noise(const RadarView& view) const {
   const Ars408RmsCodes codes = rms_codes(view);
   const double azimuth_rad = reported_azimuth_rad(view.azimuth_rad);
@@ -121,7 +122,10 @@ PolarStd Ars408Sender::noise(const RadarView& view) const {
   PolarStd std;
   std.range_m = std::sqrt(cos_2 * x_2 + sin_2 * y_2 - position_rounding);
   std.azimuth_rad = std::sqrt(sin_2 * x_2 + cos_2 * y_2 - position_rounding) / view.range_m;
-  std.doppler_mps = std::sqrt(doppler_2 - rounding_variance(kArs408SpeedStepMps));
+  const double across_mps = static_across(view.range_m, view.azimuth_rad);
+  const double doppler_rounding = rounding_variance(kArs408SpeedStepMps) +
+                                  square(across_mps / view.range_m) * position_rounding;
+  std.doppler_mps = std::sqrt(std::max(0.0, doppler_2 - doppler_rounding));
   return std;
 }
 
@@ -180,10 +184,12 @@ void Ars408Sender::encode_objects(const std::vector<Measurement>& targets, std::
   }
 }
 
-/// A target whose velocity has these parts along and across the line of sight at `azimuth_rad`.
-Ars408General Ars408Sender::general(const Measurement& measurement, double azimuth_rad,
-                                    double doppler_mps, double across_mps) {
-  const double reported_rad = reported_azimuth_rad(measurement.azimuth_rad);
+/// A target whose velocity has these parts along and across the measured line of sight: where the
+/// sensor sees it is also where it takes that from, so an error of the azimuth is none of Doppler.
+Ars408General Ars408Sender::general(const Measurement& measurement, double doppler_mps,
+                                    double across_mps) {
+  const double azimuth_rad = measurement.azimuth_rad;
+  const double reported_rad = reported_azimuth_rad(azimuth_rad);
   Ars408General target;
   target.x_m = measurement.range_m * std::cos(reported_rad);
   target.y_m = measurement.range_m * std::sin(reported_rad);
@@ -194,21 +200,17 @@ Ars408General Ars408Sender::general(const Measurement& measurement, double azimu
   return target;
 }
 
-/// Where the sensor sees a cluster is also where it takes its line of sight from, so that an error
-/// of the azimuth is none of the Doppler.
 Ars408General Ars408Sender::cluster(const Measurement& measurement) {
-  return general(measurement, measurement.azimuth_rad, measurement.doppler_mps,
+  return general(measurement, measurement.doppler_mps,
                  static_across(measurement.range_m, measurement.azimuth_rad));
 }
 
 /// An object's velocity is a vector; the error of each part is drawn from its own code.
 Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408RmsCodes& rms) {
   const RadarView& view = measurement.echo.view;
-  const double across_mps = setup().is_told_motion
-                                ? view.across_mps - told().yaw_rate_radps * view.range_m
-                                : 0.0;
-  Ars408General target =
-      general(measurement, view.azimuth_rad, with_shared_errors(view.doppler_mps), across_mps);
+  const double across_mps =
+      setup().is_told_motion ? view.across_mps - told().yaw_rate_radps * view.range_m : 0.0;
+  Ars408General target = general(measurement, with_shared_errors(view.doppler_mps), across_mps);
   target.vx_mps += speed_noise_std(rms.vx) * random().normal();
   target.vy_mps += speed_noise_std(rms.vy) * random().normal();
   return target;

@@ -24,8 +24,9 @@ namespace cremed {
 /// velocity A across the line of sight that a static target there has by the speed and yaw rate w
 /// that the sensor is told (static_across_mps). The radar cannot measure A, so a moving target has
 /// it too. The reported position is ahead of that: turned by -w tau (calibration.rotation_lead_s,
-/// 40 ms), at the same range. A sensor that is told nothing reports A = 0 and does not turn, and what does not stand still to it
-/// is moving to it. An object's velocity is tracked: its part across is that of the target itself.
+/// 40 ms), at the same range. A sensor that is told nothing reports A = 0 and does not turn, and
+/// what does not stand still to it is moving to it. An object's velocity is tracked: its part
+/// across is that of the target itself.
 class Ars408Sender : public RadarSender {
  public:
   static constexpr std::size_t kMaxClusters = 125;
@@ -47,8 +48,7 @@ class Ars408Sender : public RadarSender {
   Ars408General cluster(const Measurement& measurement);
   Ars408General object(const Measurement& measurement, const Ars408RmsCodes& rms);
   Ars408ClusterQuality cluster_quality(const Ars408RmsCodes& rms);
-  Ars408General general(const Measurement& measurement, double azimuth_rad, double doppler_mps,
-                        double across_mps);
+  Ars408General general(const Measurement& measurement, double doppler_mps, double across_mps);
   Ars408DynProp dyn_prop(const Echo& echo);
   /// What the reported azimuth is for a target that was measured at this one.
   [[nodiscard]] double reported_azimuth_rad(double azimuth_rad) const;

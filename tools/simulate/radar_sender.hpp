@@ -37,10 +37,10 @@ struct DopplerErrors {
 /// All that is common to the radars of a simulation.
 struct SenderSetup {
   std::size_t radar = 0;
-  Pose2 vehicle_from_radar;        ///< Where it really is.
-  Pose2 stated_mount;              ///< Where it was told to be.
-  bool is_told_motion = true;      ///< Told speed and yaw rate, if it is of a kind that listens.
-  double rotation_lead_s = 0.0;    ///< DetectionCorrection::rotation_lead_s
+  Pose2 vehicle_from_radar;      ///< Where it really is.
+  Pose2 stated_mount;            ///< Where it was told to be.
+  bool is_told_motion = true;    ///< Told speed and yaw rate, if it is of a kind that listens.
+  double rotation_lead_s = 0.0;  ///< DetectionCorrection::rotation_lead_s
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
   DopplerErrors doppler;

@@ -112,7 +112,8 @@ class Builder {
   }
 
   void build_block(const BlockKind& kind, double side, double start_m, double length_m) {
-    const double offset_m = edge_m(side) + random_.uniform(kind.least_offset_m, kind.greatest_offset_m);
+    const double offset_m =
+        edge_m(side) + random_.uniform(kind.least_offset_m, kind.greatest_offset_m);
     const auto count = static_cast<int>(std::ceil(length_m / kind.spacing_m));
     for (int i = 0; i < count; ++i) {
       const double jitter_m = random_.uniform(-kind.jitter_m, kind.jitter_m);

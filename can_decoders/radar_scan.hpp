@@ -13,7 +13,9 @@ namespace cremed {
 /// An ARS408 names its targets with one byte, a GPR has 48 slots: no radar here can exceed this.
 inline constexpr std::size_t kMaxDetections = 256;
 
-/// Is the scan whole? Only `complete` may be used as if the radar had said everything it saw.
+/// Is the scan whole? Only `complete` is everything the radar saw. With missing_parts and
+/// dropped_frames the targets that came are sound, others may be missing; otherwise they may be of
+/// more than one list.
 enum class ScanStatus : std::uint8_t {
   complete,           ///< Every announced target arrived with all its parts.
   missing_parts,      ///< Closed (next scan, time-out, end of input) before every part arrived.

@@ -27,6 +27,7 @@ struct AssemblerCounters {
   std::uint64_t repeated_scans = 0;     ///< Header with the counter of the last scan: dropped.
   std::uint64_t missed_scans = 0;       ///< Cycles the counter skipped.
   std::uint64_t stamps_backwards = 0;   ///< Stamp earlier than the one before it.
+  std::uint64_t headerless_scans = 0;   ///< Scans whose header was lost; all of them incomplete.
 };
 
 /// Collects the parts of one radar into scans, closed by count, counter change, next header or
@@ -38,14 +39,22 @@ struct AssemblerCounters {
 /// At most two scans can be waiting (a header that closes a scan and announces no target); a third
 /// would overwrite the oldest.
 ///
-/// What makes a scan less than complete has this precedence: dropped_frames, over_capacity,
-/// conflicting_parts, missing_parts. Whatever its status, a scan holds the targets of which both
+/// What makes a scan less than complete has this precedence: over_capacity, conflicting_parts,
+/// dropped_frames, missing_parts. Whatever its status, a scan holds the targets of which both
 /// messages came, in the order in which the first of the two did, but for those whose slot is
 /// empty.
 ///
 /// With header: a header of the open scan again is a duplicate (a conflict, if it announces another
 /// number); one of the last closed scan closes the open scan and opens none, so that a repeated
-/// list never looks like a fresh one. Without: a part of the last closed scan within the time-out
+/// list never looks like a fresh one. One whose counter continues none, in the middle of a list, is
+/// damaged: a conflict.
+///
+/// A lost header does not lose its scan: the first message of one of the first four targets, after
+/// a pause and where no more first messages are due, begins a new scan. Its stamp is late by the
+/// frames that were lost before it: one of them, 0.25 ms, up to four. Its counter is one cycle
+/// after the last; `announced` is the number of targets of which a part came.
+///
+/// Without header: a part of the last closed scan within the time-out
 /// after that scan's last part is late and dropped; after more time it opens a new scan.
 ///
 /// Counter steps: the smallest step seen is taken for one cycle, and larger ones for gaps. A 16-bit
@@ -98,19 +107,26 @@ class ScanAssembler {
     std::uint16_t known = 0;  ///< Targets of which a part came: valid entries in order_.
     bool conflicting = false;
     bool dropped = false;
+    bool has_header = true;
     SlotSet has_first{};
     SlotSet has_second{};
   };
 
   void note_stamp(std::int64_t stamp_us);
+  [[nodiscard]] std::uint32_t step_to(std::uint16_t counter, std::uint16_t from) const;
   [[nodiscard]] bool in_time(std::int64_t stamp_us, std::int64_t last_part_us) const;
   void time_out();
 
   void add_header(const ScanPart& part);
   void add_repeated_header(const ScanPart& part);
+  void adopt_header(const ScanPart& part);
+  [[nodiscard]] bool is_damaged_header(const ScanPart& part) const;
+  [[nodiscard]] bool begins_list(const ScanPart& part) const;
+  void open_without_header(const ScanPart& part);
   void add_announced(const ScanPart& part);
   void add_unannounced(const ScanPart& part);
   void store(const ScanPart& part);
+  void note_conflict(const ScanPart& part);
   void compare(const Payload& stored, const Payload& repeated);
   bool admit(std::uint8_t slot);
 
@@ -129,6 +145,8 @@ class ScanAssembler {
   std::int64_t stamp_offset_us_;
   AssemblerCounters counters_;
   std::optional<std::int64_t> last_stamp_us_;
+  bool is_after_pause_ = false;   ///< The last part came after one.
+  bool is_list_refused_ = false;  ///< The last header was that of a repeated list.
 
   bool is_open_ = false;
   OpenScan open_;

@@ -171,6 +171,7 @@ void LcmPublisher::publish_motion(const EgoMotion& motion, std::int32_t solve_us
   message.utime = motion.utime_us;
   message.utime_start = motion.utime_start_us;
   message.status = static_cast<std::int8_t>(motion.status);
+  message.incomplete = static_cast<std::int8_t>(motion.incomplete);
   message.x_in_start_frame_m = motion.motion.x();
   message.y_in_start_frame_m = motion.motion.y();
   message.yaw_in_start_frame_rad = motion.motion.z();
@@ -234,6 +235,7 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
 
   m.scans = count(status.assembler.scans);
   m.scans_incomplete = count(status.assembler.incomplete_scans);
+  m.scans_without_header = count(status.assembler.headerless_scans);
   m.scans_empty = count(status.assembler.empty_scans);
   m.scans_timed_out = count(status.assembler.timeouts);
   m.scans_repeated = count(status.assembler.repeated_scans);
@@ -254,6 +256,7 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   m.detections_no_position = count(status.selection.no_position);
   m.detections_outside_limits = count(status.selection.outside_limits);
 
+  m.motions_of_incomplete_scans = count(status.motions_of_incomplete_scans);
   for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
     m.motions_by_status[i] = count(status.motions_by_status[i]);
   }

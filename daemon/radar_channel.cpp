@@ -35,6 +35,7 @@ void RadarChannel::count(const EgoMotion& motion) {
   ++status_.motions_by_status[static_cast<std::size_t>(motion.status)];
   if (motion.has_estimate()) {
     status_.utime_last_estimate_us = motion.utime_us;
+    status_.motions_of_incomplete_scans += motion.incomplete ? 1 : 0;
   }
   self_check.add(motion);
 }

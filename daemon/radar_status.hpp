@@ -46,6 +46,7 @@ struct RadarStatus {
   AssemblerCounters assembler;
   SelectionCounters selection;
   std::array<std::uint64_t, kMotionStatusCount> motions_by_status{};
+  std::uint64_t motions_of_incomplete_scans = 0;  ///< Estimates from scans that lack parts.
 };
 
 }  // namespace cremed

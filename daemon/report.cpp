@@ -52,6 +52,7 @@ std::string bad_frames(const DecoderCounters& c) {
 std::string scan_faults(const AssemblerCounters& c) {
   return CounterText()
       .add("incomplete", c.incomplete_scans)
+      .add("without header", c.headerless_scans)
       .add("timed out", c.timeouts)
       .add("missed", c.missed_scans)
       .add("repeated", c.repeated_scans)
@@ -155,7 +156,8 @@ void add_no_detection(const RadarStatus& status, Findings& findings) {
 
 std::string_view remedy_of_most_motions(const RadarStatus& status) {
   return remedy_of_most(
-      {{count_of(status, MotionStatus::incomplete_scan), "find out why frames are lost"},
+      {{count_of(status, MotionStatus::incomplete_scan),
+        "find out why parts of scans contradict each other: two sensors with one id?"},
        {count_of(status, MotionStatus::gap_too_long), "find out why scans come so rarely"},
        {count_of(status, MotionStatus::too_few_targets),
         "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},

@@ -51,6 +51,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   EgoMotion motion;
   motion.utime_us = scan.stamp_us;
   motion.utime_start_us = has_reference_ ? reference_stamp_us_ : scan.stamp_us;
+  motion.incomplete = scan.status != ScanStatus::complete;
   motion.status = check(scan);
   motion.targets = static_cast<int>(targets_.size());
   if (motion.status != MotionStatus::ok) {
@@ -80,7 +81,7 @@ void EgoMotionEstimator::forget_reference() {
 /// Selects the targets; ok if the scan can be one end of an estimate.
 MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
   targets_.clear();
-  if (scan.status != ScanStatus::complete) {
+  if (scan.status == ScanStatus::conflicting_parts || scan.status == ScanStatus::over_capacity) {
     return MotionStatus::incomplete_scan;
   }
   targets_.assign(scan, options_.vehicle_from_radar, options_.limits, selection_,

@@ -23,7 +23,7 @@ enum class MotionStatus : std::uint8_t {
   standing_still =
       1,  ///< An estimate; speed and median |Doppler| <= standstill_mps, |yaw| <= 3 sigma.
   no_reference = 2,     ///< The first usable scan: there is no earlier one to compare with.
-  incomplete_scan = 3,  ///< The scan is not whole (RadarScan::status).
+  incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status).
   gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.
   too_few_targets = 5,  ///< Usable targets < min_targets.
   degenerate = 6,       ///< J'J not positive definite, or a sigma > max_std_m, max_std_rad.
@@ -48,8 +48,9 @@ struct EgoMotion {
   MotionStatus status = MotionStatus::no_reference;
   Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNothing);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
-  int targets = 0;     ///< Usable targets in the current scan.
-  int iterations = 0;  ///< Gauss-Newton steps.
+  bool incomplete = false;  ///< The current scan lacks parts; it serves with the targets it has.
+  int targets = 0;          ///< Usable targets in the current scan.
+  int iterations = 0;       ///< Gauss-Newton steps.
   /// Of RegistrationResult, for FusedEstimator.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -61,9 +62,9 @@ struct EgoMotion {
   }
 };
 
-/// Estimates the motion from each scan to the next of one radar. A scan that cannot serve (not
-/// whole, too few targets, not finite) is skipped: the next estimate then starts at the last scan
-/// that could, as long as max_gap_s allows. Never allocates, throws or logs.
+/// Estimates the motion from each scan to the next of one radar. A scan that cannot serve
+/// (contradictory, too few targets, not finite) is skipped: the next estimate then starts at the
+/// last scan that could, as long as max_gap_s allows. Never allocates, throws or logs.
 class EgoMotionEstimator {
  public:
   explicit EgoMotionEstimator(const EgoMotionOptions& options);

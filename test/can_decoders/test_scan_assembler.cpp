@@ -302,6 +302,109 @@ TEST_CASE("Parts without an open scan are orphans") {
   CHECK(bench.scans.size() == 1);
 }
 
+TEST_CASE("A list whose header was lost is a scan of its own, stamped by its first frame") {
+  const bool is_last_whole = GENERATE(true, false);
+  CAPTURE(is_last_whole);
+  ScanBench bench(kWithHeader);
+  bench.list(1, 5);
+  bench.list(3, 5);  // Two counts a cycle.
+  bench.header(5, 5);
+  for (std::uint8_t slot = 0; slot < 5; ++slot) {
+    bench.first(slot, 1);
+  }
+  for (std::uint8_t slot = is_last_whole ? 0 : 1; slot < 5; ++slot) {
+    bench.second(slot, 2);
+  }
+  bench.now_us += 10'000;
+  const std::int64_t begin_us = bench.now_us;
+  for (std::uint8_t slot = 1; slot < 5; ++slot) {  // With the header slot 0 was lost.
+    bench.first(slot, 3);
+  }
+  for (std::uint8_t slot = 0; slot < 5; ++slot) {
+    bench.second(slot, 4);
+  }
+  bench.now_us += 10'000;
+  bench.list(9, 5);
+  REQUIRE(bench.scans.size() == 5);
+  const RadarScan& scan = bench.scans[3];
+  CHECK(scan.status == ScanStatus::missing_parts);
+  CHECK(scan.stamp_us == begin_us);
+  CHECK(scan.counter == 7);
+  CHECK(scan.announced == 5);
+  REQUIRE(scan.count == 4);
+  CHECK(scan.detections[0].id == 1);
+  CHECK(scan.detections[0].range_m == 3);
+  CHECK(bench.scans[2].count == (is_last_whole ? 5 : 4));
+  CHECK(bench.scans[4].status == ScanStatus::complete);
+  CHECK(bench.counters().headerless_scans == 1);
+  CHECK(bench.counters().orphan_parts == 0);
+  CHECK(bench.counters().conflicting_parts == 0);
+  CHECK(bench.counters().missed_scans == 0);
+}
+
+TEST_CASE("What may be the rest of an old list begins no scan") {
+  struct Row {
+    const char* what;
+    std::int64_t pause_us;
+    std::uint8_t slot;
+    bool is_first;
+  };
+  const auto row = GENERATE(Row{"no pause", 0, 0, true}, Row{"not the beginning", 60'000, 4, true},
+                            Row{"second message", 60'000, 0, false});
+  CAPTURE(row.what);
+  ScanBench bench(kWithHeader);
+  bench.list(1, 5);
+  bench.now_us += row.pause_us;
+  row.is_first ? bench.first(row.slot, 9) : bench.second(row.slot, 9);
+  bench.finish();
+  CHECK(bench.scans.size() == 1);
+  CHECK(bench.counters().orphan_parts == 1);
+}
+
+TEST_CASE("A header that comes after its first targets is theirs") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 2);
+  bench.now_us += 10'000;
+  bench.first(0);
+  bench.header(2, 2);
+  bench.first(1);
+  bench.second(0);
+  bench.second(1);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.scans[1].counter == 2);
+  CHECK(bench.counters().headerless_scans == 0);
+}
+
+TEST_CASE("A damaged header in the middle of a list begins no scan") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 2);
+  bench.list(2, 2);
+  bench.header(3, 2);
+  bench.first(0);
+  bench.header(3 | 1 << 14, 2);
+  bench.first(1);
+  bench.second(0);
+  bench.second(1);
+  REQUIRE(bench.scans.size() == 3);
+  CHECK(bench.scans[2].status == ScanStatus::conflicting_parts);
+  CHECK(bench.scans[2].counter == 3);
+  bench.now_us += 10'000;
+  bench.list(4, 2);
+  CHECK(bench.scans.back().status == ScanStatus::complete);
+}
+
+TEST_CASE("A contradiction weighs more than lost frames") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 2);
+  bench.first(0, 5);
+  bench.mark_dropped();
+  bench.first(0, 6);
+  bench.finish();
+  REQUIRE(bench.scans.size() == 1);
+  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
+}
+
 TEST_CASE("Frames that are no parts change nothing") {
   const PlainDecoder decoder(kWithHeader);
   ScanAssembler assembler(decoder, kTimeoutUs);

@@ -159,11 +159,12 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   status.last_motion_status = MotionStatus::gap_too_long;
   status.source = {1, 2, 3, 4};
   status.decoder = {5, 6, 7, 8, 9, 10, 11, 12};
-  status.assembler = {13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25};
+  status.assembler = {13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 58};
   status.selection = {26, 27, 28, 29, 30, 31, 32};
   for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
     status.motions_by_status[i] = 33 + i;
   }
+  status.motions_of_incomplete_scans = 59;
   status.bus = {.link = LinkState::failed,
                 .bus = BusState::bus_off,
                 .frames = 44,
@@ -198,7 +199,7 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   CHECK(m.radar_sends_quality == 1);
   CHECK(m.radar_max_distance_m == 196.0F);
   CHECK(m.radar_faults == 1024 + 2048);
-  // Every counter was given another number: all of 1..57 must come out, none twice.
+  // Every counter was given another number: all of 1..59 must come out, none twice.
   std::vector<std::int64_t> values{m.frames_read,
                                    m.frames_of_other_interfaces,
                                    m.frames_lost_before_us,
@@ -236,8 +237,8 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
                 {m.bus_frames, m.bus_frames_lost, m.bus_frames_stale, m.bus_frames_discarded,
                  m.bus_error_frames, m.bus_offs, m.bus_restarts, m.bus_interruptions, m.clock_steps,
                  m.bus_frames_sent, m.bus_send_failures, m.latency_p50_us, m.latency_p99_us,
-                 m.latency_max_us});
-  REQUIRE(values.size() == 57);
+                 m.latency_max_us, m.scans_without_header, m.motions_of_incomplete_scans});
+  REQUIRE(values.size() == 59);
   for (std::size_t i = 0; i < values.size(); ++i) {
     CHECK(values[i] == static_cast<std::int64_t>(i + 1));
   }

@@ -142,7 +142,7 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
     MotionStatus status;
     std::string remedy;
   };
-  const auto row = GENERATE(Case{MotionStatus::incomplete_scan, "frames are lost"},
+  const auto row = GENERATE(Case{MotionStatus::incomplete_scan, "contradict each other"},
                             Case{MotionStatus::gap_too_long, "so rarely"},
                             Case{MotionStatus::too_few_targets, "min_targets"},
                             Case{MotionStatus::degenerate, "few fixed targets"},

@@ -101,13 +101,9 @@ TEST_CASE(
     MotionStatus status;
   };
   const std::vector<Row> rows = {
-      {"missing", [](RadarScan& s) { s.status = ScanStatus::missing_parts; },
-       MotionStatus::incomplete_scan},
       {"conflict", [](RadarScan& s) { s.status = ScanStatus::conflicting_parts; },
        MotionStatus::incomplete_scan},
       {"capacity", [](RadarScan& s) { s.status = ScanStatus::over_capacity; },
-       MotionStatus::incomplete_scan},
-      {"dropped", [](RadarScan& s) { s.status = ScanStatus::dropped_frames; },
        MotionStatus::incomplete_scan},
       {"four", [](RadarScan& s) { s.count = 4; }, MotionStatus::too_few_targets},
       {"none", [](RadarScan& s) { s.count = 0; }, MotionStatus::too_few_targets},
@@ -166,11 +162,29 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
   }
 }
 
+TEST_CASE("a scan whose frames were lost serves with the targets that came, and says so") {
+  const ScanStatus why = GENERATE(ScanStatus::missing_parts, ScanStatus::dropped_frames);
+  Drive drive({8.0, 0.0, 0.1}, kFront);
+  const auto estimator = make_estimator(kFront);
+  estimator->update(drive.next());
+  RadarScan holed = drive.next();
+  holed.status = why;
+  const std::uint16_t whole = holed.count;
+  holed.count = static_cast<std::uint16_t>(whole * 3 / 4);  // The far quarter is missing.
+  const EgoMotion motion = estimator->update(holed);
+  check_motion(motion, drive, 1.0);
+  CHECK(motion.incomplete);
+  CHECK(motion.targets == holed.count);
+  const EgoMotion next = estimator->update(drive.next());
+  check_motion(next, drive, 1.0);
+  CHECK_FALSE(next.incomplete);
+}
+
 TEST_CASE("a scan that cannot serve is no reference either") {
   Drive drive({8.0, 0.0, 0.0}, kFront);
   const auto estimator = make_estimator(kFront);
   RadarScan incomplete = drive.next();
-  incomplete.status = ScanStatus::missing_parts;
+  incomplete.status = ScanStatus::conflicting_parts;
   CHECK(estimator->update(incomplete).status == MotionStatus::incomplete_scan);
   CHECK(estimator->update(drive.next()).status == MotionStatus::no_reference);
   CHECK(estimator->update(drive.next()).status == MotionStatus::ok);

@@ -228,7 +228,7 @@ TEST_CASE("a full association does not allocate") {
 TEST_CASE("the estimator does not allocate, whatever comes in") {
   const Scans scans = full_scans();
   RadarScan incomplete = scans.second;
-  incomplete.status = ScanStatus::missing_parts;
+  incomplete.status = ScanStatus::conflicting_parts;
   RadarScan broken = scans.second;
   broken.detections[7].range_m = numeric::kNan;
   RadarScan late = scans.second;

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fusion/gaussian_state.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace cremed {
+
+GaussianState::GaussianState(int size)
+    : mean_(Eigen::VectorXd::Zero(size)),
+      covariance_(Eigen::MatrixXd::Zero(size, size)),
+      gain_(Rows2::Zero(size, 2)),
+      whitened_residual_(Eigen::Vector2d::Zero()) {}
+
+double GaussianState::std(int i) const { return std::sqrt(covariance_(i, i)); }
+
+void GaussianState::set(int i, double value, double variance) {
+  mean_(i) = value;
+  covariance_.row(i).setZero();
+  covariance_.col(i).setZero();
+  covariance_(i, i) = variance;
+}
+
+void GaussianState::forget(int i, double factor, double noise_variance) {
+  mean_(i) *= factor;
+  covariance_.row(i) *= factor;
+  covariance_.col(i) *= factor;
+  covariance_(i, i) += noise_variance;
+}
+
+void GaussianState::copy(int from, int to) {
+  mean_.segment<3>(to) = mean_.segment<3>(from);
+  for (int k = 0; k < 3; ++k) {
+    covariance_.col(to + k) = covariance_.col(from + k);
+  }
+  for (int k = 0; k < 3; ++k) {
+    covariance_.row(to + k) = covariance_.row(from + k);
+  }
+}
+
+void GaussianState::transform_pose(int to, const Eigen::Vector3d& mean,
+                                   const Eigen::Matrix3d& by_self,
+                                   const Eigen::Matrix3d& by_first) {
+  const Eigen::Matrix3d own = covariance_.block<3, 3>(to, to);
+  const Eigen::Matrix3d cross = covariance_.block<3, 3>(to, 0);
+  const Eigen::Matrix3d first = covariance_.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d mixed = by_self * cross * by_first.transpose();
+  const Eigen::Matrix3d corner = by_self * own * by_self.transpose() + mixed + mixed.transpose() +
+                                 by_first * first * by_first.transpose();
+  for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
+    const Eigen::Vector3d column =
+        by_self * covariance_.col(j).segment<3>(to) + by_first * covariance_.col(j).head<3>();
+    covariance_.col(j).segment<3>(to) = column;
+  }
+  for (int k = 0; k < 3; ++k) {
+    covariance_.col(to + k) = covariance_.row(to + k).transpose();
+  }
+  covariance_.block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
+  mean_.segment<3>(to) = mean;
+}
+
+double GaussianState::innovate(const LinearMeasurement& measurement) {
+  gain_.setZero();
+  for (int k = 0; k < measurement.states; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    gain_.col(0) += measurement.jacobian[i](0) * covariance_.col(measurement.state[i]);
+    gain_.col(1) += measurement.jacobian[i](1) * covariance_.col(measurement.state[i]);
+  }
+  Eigen::Matrix2d innovation = measurement.noise;
+  for (int k = 0; k < measurement.states; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    innovation += measurement.jacobian[i] * gain_.row(measurement.state[i]);
+  }
+  const double l00 = std::sqrt(innovation(0, 0));
+  const double l10 = innovation(1, 0) / l00;
+  const double l11 = std::sqrt(innovation(1, 1) - l10 * l10);
+  if (!(l00 > 0.0 && l11 > 0.0)) {
+    gain_.setZero();
+    return std::numeric_limits<double>::infinity();
+  }
+  gain_.col(0) /= l00;
+  gain_.col(1) = (gain_.col(1) - l10 * gain_.col(0)) / l11;
+  whitened_residual_.x() = measurement.residual.x() / l00;
+  whitened_residual_.y() = (measurement.residual.y() - l10 * whitened_residual_.x()) / l11;
+  return whitened_residual_.squaredNorm();
+}
+
+void GaussianState::update() {
+  mean_ += whitened_residual_.x() * gain_.col(0) + whitened_residual_.y() * gain_.col(1);
+  for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
+    covariance_.col(j) -= gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1);
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "estimator/fusion/linear_measurement.hpp"
+
+namespace cremed {
+
+/// Mean and covariance of a state of fixed size, and what a Kalman filter does to them. Every step
+/// keeps the covariance symmetric to the last bit and costs O(n) or, an update, O(n^2). Memory is
+/// reserved by the constructor alone.
+class GaussianState {
+ public:
+  explicit GaussianState(int size);
+
+  [[nodiscard]] int size() const { return static_cast<int>(mean_.size()); }
+  [[nodiscard]] const Eigen::VectorXd& mean() const { return mean_; }
+  [[nodiscard]] double mean(int i) const { return mean_(i); }
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
+  [[nodiscard]] double variance(int i) const { return covariance_(i, i); }
+  [[nodiscard]] double std(int i) const;
+
+  void set_mean(int i, double value) { mean_(i) = value; }
+  /// The state becomes independent of all others.
+  void set(int i, double value, double variance);
+  void add_variance(int i, double variance) { covariance_(i, i) += variance; }
+  /// x_i becomes factor x_i + noise.
+  void forget(int i, double factor, double noise_variance);
+
+  /// The first states become `mean`, whose derivative by them is `jacobian`, plus noise.
+  template <int Size>
+  void transform(const Eigen::Matrix<double, Size, 1>& mean,
+                 const Eigen::Matrix<double, Size, Size>& jacobian,
+                 const Eigen::Matrix<double, Size, Size>& noise);
+
+  /// Three states from `to` on become a function of the first `Size`, plus noise.
+  template <int Size>
+  void clone(int to, const Eigen::Vector3d& mean,
+             const Eigen::Matrix<double, 3, Size>& jacobian, const Eigen::Matrix3d& noise);
+  /// Three states become a copy of three others.
+  void copy(int from, int to);
+  /// Three states from `to` on, which are a function of themselves and of the first three.
+  void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
+                      const Eigen::Matrix3d& by_first);
+
+  /// Normalised innovation squared of a measurement: chi^2 of two degrees of freedom if mean and
+  /// covariance are true. Infinite if the innovation has no covariance.
+  double innovate(const LinearMeasurement& measurement);
+  /// Kalman update by the measurement that innovate() was last called with.
+  void update();
+
+ private:
+  using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+  Eigen::VectorXd mean_;
+  Eigen::MatrixXd covariance_;
+  Rows2 gain_;                          // P H' L^-T with S = L L'
+  Eigen::Vector2d whitened_residual_;  // L^-1 residual
+};
+
+template <int Size>
+void GaussianState::transform(const Eigen::Matrix<double, Size, 1>& mean,
+                              const Eigen::Matrix<double, Size, Size>& jacobian,
+                              const Eigen::Matrix<double, Size, Size>& noise) {
+  const Eigen::Matrix<double, Size, Size> corner =
+      jacobian * covariance_.template topLeftCorner<Size, Size>() * jacobian.transpose() + noise;
+  for (Eigen::Index j = Size; j < covariance_.cols(); ++j) {
+    const Eigen::Matrix<double, Size, 1> column =
+        jacobian * covariance_.col(j).template head<Size>();
+    covariance_.col(j).template head<Size>() = column;
+    covariance_.row(j).template head<Size>() = column.transpose();
+  }
+  covariance_.template topLeftCorner<Size, Size>() = 0.5 * (corner + corner.transpose());
+  mean_.template head<Size>() = mean;
+}
+
+template <int Size>
+void GaussianState::clone(int to, const Eigen::Vector3d& mean,
+                          const Eigen::Matrix<double, 3, Size>& jacobian,
+                          const Eigen::Matrix3d& noise) {
+  const Eigen::Matrix3d corner =
+      jacobian * covariance_.template topLeftCorner<Size, Size>() * jacobian.transpose() + noise;
+  for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
+    const Eigen::Vector3d column = jacobian * covariance_.col(j).template head<Size>();
+    covariance_.col(j).template segment<3>(to) = column;
+  }
+  for (int k = 0; k < 3; ++k) {
+    covariance_.col(to + k) = covariance_.row(to + k).transpose();
+  }
+  covariance_.template block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
+  mean_.template segment<3>(to) = mean;
+}
+
+}  // namespace cremed

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace cremed {
+
+/// Two numbers measured at once, linearised: residual = z - h(x), with dh/dx given for those states
+/// it depends on.
+struct LinearMeasurement {
+  static constexpr int kMaxStates = 20;
+  using Column = Eigen::Vector2d;
+
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< Covariance of z.
+  int states = 0;
+  std::array<int, kMaxStates> state{};         ///< Which state,
+  std::array<Column, kMaxStates> jacobian{};   ///< and its column of dh/dx.
+
+  void depend_on(int which, const Column& column) {
+    state[static_cast<std::size_t>(states)] = which;
+    jacobian[static_cast<std::size_t>(states)] = column;
+    ++states;
+  }
+};
+
+}  // namespace cremed

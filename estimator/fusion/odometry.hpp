@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Core>
+
+namespace cremed {
+
+/// What an Odometry is worth. The numbers are those of odometry_t; they never change meaning.
+enum class OdometryStatus : std::uint8_t {
+  ok = 0,
+  standing_still = 1,
+  initialising = 2,
+  predicted = 3,
+  ambiguous = 4,
+  lost = 5,
+};
+
+/// Where the vehicle is and how it moves, at `utime_us`. Poses are (x_m, y_m, yaw_rad) of the
+/// vehicle frame (rear axle), covariances in the same order.
+struct Odometry {
+  std::int64_t utime_us = 0;
+  OdometryStatus status = OdometryStatus::initialising;
+  bool is_new = false;  ///< utime_us is later than that of the output before.
+
+  /// Pose in the frame of the anchor, the pose at utime_anchor_us. The covariance may be chained
+  /// from anchor to anchor as if independent.
+  std::int64_t utime_anchor_us = 0;
+  Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  /// Pose since the start: sum of the motions below, so that it never jumps. Its covariance is the
+  /// anchors' chained.
+  Eigen::Vector3d odom_pose = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d odom_covariance = Eigen::Matrix3d::Zero();
+
+  /// (m/s along x, m/s along y, rad/s)
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
+
+  /// Motion since the output before, at utime_before_us: pose in the frame of that.
+  std::int64_t utime_before_us = 0;
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
+
+  std::uint32_t radars = 0;   ///< Bit i: radar i took part since the output before.
+  std::uint32_t left_out = 0; ///< Bit i: radar i contradicts what the others say.
+};
+
+}  // namespace cremed

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cremed {
+
+/// A quantity that forgets its value: Ornstein-Uhlenbeck, exp(-t / time) of it is left after t.
+struct ForgettingNoise {
+  double std = 0.0;     ///< Standard deviation that it has when nothing is known.
+  double time_s = 1.0;  ///< After which it is another.
+};
+
+/// What the odometry filter takes for granted. Each is a key of [odometry] in the configuration
+/// under its own name. Defaults: five ARS408 of a car on two real drives (nuScenes 0061, 0103)
+/// unless another source is named.
+struct OdometryOptions {
+  // How a road vehicle moves.
+  ForgettingNoise acceleration{1.5, 1.0};      ///< m/s^2, along x.
+  ForgettingNoise yaw_acceleration{0.3, 0.5};  ///< rad/s^2.
+  /// Angle between the way the vehicle rolls and the x axis of its frame, and how it walks, as
+  /// tyres do in a turn: rad, rad/sqrt(s).
+  double slip_std_rad = 0.0075;
+  double slip_walk = 0.001;
+  /// Velocity of the body that carries the radars over that of the wheels' contact: pitch,
+  /// suspension; m/s.
+  ForgettingNoise body_velocity{0.03, 0.3};
+  /// Before the first scan.
+  double start_speed_std_mps = 30.0;
+  double start_yaw_rate_std_radps = 0.3;
+
+  // Errors of one radar that change slowly.
+  double mount_yaw_std_rad = 0.0075;   ///< Of a mount measured by hand.
+  double mount_yaw_walk = 0.0003;      ///< rad/sqrt(s): it is screwed on.
+  double doppler_scale_std = 0.002;    ///< Of one, after calibration.
+  ForgettingNoise doppler_x{0.035, 0.3};  ///< m/s, of the velocity by Doppler, along x.
+  ForgettingNoise doppler_y{0.05, 0.3};   ///< m/s, along y,
+  double doppler_y_per_yaw_rate_m = 0.1;  ///< and more in turns: m/s for a rad/s.
+  ForgettingNoise offset{0.03, 1.0};      ///< m/s, of all Doppler of the radar,
+  double offset_per_yaw_rate_m = 0.03;    ///< and more in turns.
+  ForgettingNoise common_offset{0.01, 1.0};    ///< The same of all radars together.
+  double common_offset_per_yaw_rate_m = 0.1;
+  double yaw_scale_std = 0.02;         ///< Of yaw by positions, of one: azimuths err by so much.
+  double common_yaw_scale_std = 0.015; ///< The same of all radars together.
+  ForgettingNoise yaw_per_metre{0.0003, 5.0};     ///< rad/m, of yaw by positions over distance.
+  ForgettingNoise lateral_per_metre{0.02, 5.0};   ///< Of y by positions over distance.
+
+  // Doppler.
+  double doppler_std_mps = 0.13;        ///< Of one target: start of what is learned from residuals.
+  double velocity_floor_x_mps = 0.005;  ///< The best that a scan's velocity can be,
+  double velocity_floor_y_mps = 0.02;   ///< sideways.
+  double max_doppler_nis = 16.0;        ///< Gate, two degrees of freedom: 0.03 % by chance.
+
+  // Positions.
+  int keyframe_period = 5;             ///< Every so many scans of a radar is a keyframe.
+  int min_lag = 4;                     ///< Scans from keyframe to current: nearer ones are biased.
+  double min_matched_share = 0.35;     ///< Of targets found again.
+  double scan_noise_share = 0.45;      ///< Part of a registration's covariance that is each scan's.
+  double pair_noise_factor = 3.0;      ///< Rest: factor (start + per_lag * lag) covariance.
+  double pair_noise_start = 0.3;
+  double pair_noise_per_lag = 0.05;
+  double max_position_nis = 18.0;      ///< Gate, two degrees of freedom: 0.01 % by chance.
+
+  // Time.
+  double anchor_period_s = 2.2;        ///< The pose is told relative to an anchor renewed so often.
+  double max_lateness_s = 0.2;         ///< A scan older than the latest by more is not used.
+  double max_gap_s = 2.0;              ///< Longer without any scan: begins anew.
+};
+
+}  // namespace cremed

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fusion/vehicle_motion.hpp"
+
+#include <cmath>
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// What is left of a forgetting quantity after dt, and its integral over dt for a start at 1.
+struct Decay {
+  double left;
+  double integral_s;
+};
+
+Decay decay(const ForgettingNoise& noise, double dt_s) {
+  if (dt_s <= 0.0) {
+    return {1.0, dt_s};
+  }
+  const double left = std::exp(-dt_s / noise.time_s);
+  return {left, noise.time_s * (1.0 - left)};
+}
+
+/// A rate and its derivative, driven by white noise on the latter.
+void add_rate_noise(const ForgettingNoise& noise, double dt_s, int rate, MotionStep::Matrix& sum) {
+  const double density = 2.0 * noise.std * noise.std / noise.time_s;
+  const double dt = std::abs(dt_s);
+  const double cross = density * dt * dt_s / 2.0;
+  sum(rate, rate) += density * dt * dt * dt / 3.0;
+  sum(rate, rate + 1) += cross;
+  sum(rate + 1, rate) += cross;
+  sum(rate + 1, rate + 1) += density * dt;
+}
+
+void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, const Decay& c,
+               MotionStep& step) {
+  const double v = state(kSpeed) + 0.5 * a.integral_s * state(kAcceleration);
+  const double w = state(kYawRate) + 0.5 * c.integral_s * state(kYawAcceleration);
+  const double yaw = state(kYaw) + 0.5 * dt_s * w;
+  const double s = state(kSlip);
+  const Eigen::Vector2d along(std::cos(yaw) - s * std::sin(yaw), std::sin(yaw) + s * std::cos(yaw));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector2d by_yaw = dt_s * v * across;
+  step.state.head<2>() += dt_s * v * along;
+  step.state(kYaw) += dt_s * w;
+  auto xy = step.jacobian.topRows<2>();
+  xy.col(kYaw) += by_yaw;
+  xy.col(kSpeed) = dt_s * along;
+  xy.col(kAcceleration) = 0.5 * a.integral_s * dt_s * along;
+  xy.col(kYawRate) = 0.5 * dt_s * by_yaw;
+  xy.col(kYawAcceleration) = 0.25 * dt_s * c.integral_s * by_yaw;
+  xy.col(kSlip) = dt_s * v * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
+  step.jacobian(kYaw, kYawRate) = dt_s;
+  step.jacobian(kYaw, kYawAcceleration) = 0.5 * dt_s * c.integral_s;
+}
+
+void move_rate(int rate, const Decay& decay, MotionStep& step) {
+  step.state(rate) += decay.integral_s * step.state(rate + 1);
+  step.state(rate + 1) *= decay.left;
+  step.jacobian(rate, rate + 1) = decay.integral_s;
+  step.jacobian(rate + 1, rate + 1) = decay.left;
+}
+
+}  // namespace
+
+MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options) {
+  MotionStep step{state, MotionStep::Matrix::Identity(), MotionStep::Matrix::Zero()};
+  const Decay a = decay(options.acceleration, dt_s);
+  const Decay c = decay(options.yaw_acceleration, dt_s);
+  move_pose(state, dt_s, a, c, step);
+  move_rate(kSpeed, a, step);
+  move_rate(kYawRate, c, step);
+  add_rate_noise(options.acceleration, dt_s, kSpeed, step.noise);
+  add_rate_noise(options.yaw_acceleration, dt_s, kYawRate, step.noise);
+  step.noise(kSlip, kSlip) = options.slip_walk * options.slip_walk * std::abs(dt_s);
+  const ForgettingNoise& body = options.body_velocity;
+  const double left = std::exp(-std::abs(dt_s) / body.time_s);
+  step.state(kBodyVelocity) *= left;
+  step.jacobian(kBodyVelocity, kBodyVelocity) = left;
+  step.noise(kBodyVelocity, kBodyVelocity) = body.std * body.std * (1.0 - left * left);
+  return step;
+}
+
+}  // namespace cremed

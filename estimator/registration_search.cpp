@@ -71,6 +71,11 @@ RegistrationResult Registration::search(const Problem& problem,
                    is_exclusive ? kExclusiveStartStepTolerance : kStartStepTolerance};
   const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
   RegistrationResult result;
+  if (is_exclusive && !has_two_stages && starts.size() == 1) {
+    result.motion = starts.front();
+    finish_exclusive(problem, result);
+    return result;
+  }
   NormalEquations equations = begin(problem, has_two_stages ? wide : exact, starts, result);
   if (has_two_stages) {
     run_stage(problem, wide, result, equations);
@@ -140,7 +145,7 @@ RegistrationResult Registration::solve(const TargetSet& current, double dt_s,
   if (is_exclusive) {
     const bool has_ended = result.status == RegistrationStatus::converged ||
                            result.status == RegistrationStatus::degenerate;
-    if (has_ended && matched_share(problem, result) < kSuspiciousShare) {
+    if (options_.restarts && has_ended && matched_share(problem, result) < kSuspiciousShare) {
       result = search_again(problem, starts.front(), result);
     }
     if (result.status == RegistrationStatus::converged &&

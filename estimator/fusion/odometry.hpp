@@ -11,12 +11,14 @@ namespace cremed {
 
 /// What an Odometry is worth. The numbers are those of odometry_t; they never change meaning.
 enum class OdometryStatus : std::uint8_t {
-  ok = 0,
-  standing_still = 1,
-  initialising = 2,
-  predicted = 3,
-  ambiguous = 4,
-  lost = 5,
+  ok = 0,              ///< None of what follows.
+  standing_still = 1,  ///< ok; speed <= standstill_mps and its sigma too, |yaw rate| <= 3 sigma.
+  initialising = 2,    ///< Since the start sigma of speed or yaw rate > settled_*, or fewer than
+                       ///< settled_scans scans used.
+  predicted = 3,       ///< No measurement used for > predicted_s.
+  ambiguous = 4,       ///< No scan with most of its targets at rest for > ambiguous_s, or at the
+                       ///< start as many radars contradict as agree.
+  lost = 5,            ///< No measurement used for > lost_s; the next begins the velocity anew.
 };
 
 /// Where the vehicle is and how it moves, at `utime_us`. Poses are (x_m, y_m, yaw_rad) of the
@@ -48,6 +50,24 @@ struct Odometry {
 
   std::uint32_t radars = 0;   ///< Bit i: radar i took part since the output before.
   std::uint32_t left_out = 0; ///< Bit i: radar i contradicts what the others say.
+};
+
+/// How one radar does.
+struct RadarReport {
+  bool is_left_out = false;  ///< It contradicts the others, or what was before.
+  /// Mean normalised innovations squared, a degree of freedom, of the last minute: 1 if covariances
+  /// are true. 0 without any.
+  double doppler_innovation = 0.0;
+  double lateral_innovation = 0.0;
+  double yaw_innovation = 0.0;
+  /// By how much the covariances of its measurements had to be widened.
+  double doppler_noise_factor = 1.0;
+  double position_noise_factor = 1.0;
+  /// What was learned: error of the mount's yaw, of the scale of Doppler, with standard deviations.
+  double mount_yaw_rad = 0.0;
+  double mount_yaw_std_rad = 0.0;
+  double doppler_scale = 0.0;
+  double doppler_scale_std = 0.0;
 };
 
 }  // namespace cremed

@@ -3,8 +3,12 @@
 #include "estimator/fusion/odometry_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "estimator/fusion/joint_velocity.hpp"
+#include "estimator/fusion/pose_chain.hpp"
+#include "estimator/fusion/vehicle_motion.hpp"
 #include "estimator/stamps.hpp"
 
 namespace cremed {
@@ -12,17 +16,21 @@ namespace {
 
 using namespace state_layout;
 
+/// Accelerations are straight lines within so short a step.
 constexpr double kMaxStepS = 0.1;
+/// Above it the Doppler of a scan tells the speed rather than corrects it.
+constexpr double kUnknownSpeedStdMps = 1.0;
+/// What a radar said longer ago says nothing of now.
+constexpr double kVerdictS = 0.3;
+/// Radars agree on a velocity up to this mean square, in standard deviations.
+constexpr double kMaxDisagreement = 4.0;
 
 double squared(double value) { return value * value; }
 
-RegistrationOptions positions_only(RegistrationOptions options) {
-  options.degrees_of_freedom = 3;
-  options.start_scale = 1.0;
-  options.doppler.enabled = false;
-  options.covariance = CovarianceModel::exclusive;
-  options.shared_errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  return options;
+int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
+
+int keyframe_of(std::size_t radar, std::size_t keyframe) {
+  return first_of(radar) + state_layout::keyframe(static_cast<int>(keyframe));
 }
 
 }  // namespace
@@ -31,35 +39,30 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
                                std::span<const OdometryRadar> radars)
     : options_(options), state_(size(static_cast<int>(radars.size()))) {
   for (const OdometryRadar& radar : radars) {
-    tracks_.push_back(std::make_unique<RadarTrack>(positions_only(radar.registration),
-                                                   radar.vehicle_from_radar));
+    tracks_.push_back(
+        std::make_unique<RadarTrack>(options_, radar.vehicle_from_radar, radar.registration));
   }
 }
 
 RadarModel OdometryFilter::model(std::size_t radar) const {
-  return {state_, options_, tracks_[radar]->vehicle_from_radar,
-          state_layout::radar(static_cast<int>(radar))};
+  return {state_, options_, tracks_[radar]->mount(), first_of(radar)};
 }
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets,
                                 std::int64_t stamp_us) {
-  Odometry odometry;
-  debug = {};
   if (!has_started_ || seconds_between(time_us_, stamp_us) > options_.max_gap_s) {
     start(stamp_us);
   }
-  RadarTrack& track = *tracks_[radar];
-  const double lateness_s = seconds_between(stamp_us, time_us_);
-  if (lateness_s > options_.max_lateness_s || (track.has_stamp && stamp_us <= track.stamp_us)) {
-    finish(odometry);
-    return odometry;
+  if (seconds_between(stamp_us, time_us_) <= options_.max_lateness_s &&
+      tracks_[radar]->is_in_order(stamp_us) && targets.is_finite()) {
+    advance(stamp_us);
+    advance_errors(radar, tracks_[radar]->begin(stamp_us));
+    if (use_doppler(radar, targets, stamp_us)) {
+      use_positions(radar, targets, seconds_between(stamp_us, time_us_));
+    }
   }
-  advance(stamp_us);
-  forget_errors(radar, stamp_us);
-  const double age_s = seconds_between(stamp_us, time_us_);
-  use_doppler(radar, targets, age_s);
-  use_positions(radar, targets, age_s);
-  finish(odometry);
+  Odometry odometry;
+  tell(odometry);
   return odometry;
 }
 
@@ -67,36 +70,41 @@ void OdometryFilter::start(std::int64_t stamp_us) {
   for (int i = 0; i < state_.size(); ++i) {
     state_.set(i, 0.0, 0.0);
   }
-  state_.set(kSpeed, 0.0, squared(options_.start_speed_std_mps));
-  state_.set(kAcceleration, 0.0, squared(options_.acceleration.std));
-  state_.set(kYawRate, 0.0, squared(options_.start_yaw_rate_std_radps));
-  state_.set(kYawAcceleration, 0.0, squared(options_.yaw_acceleration.std));
+  start_motion(Eigen::Vector2d::Zero(),
+               Eigen::Vector2d(squared(options_.start_speed_std_mps),
+                               squared(options_.start_yaw_rate_std_radps))
+                   .asDiagonal());
   state_.set(kSlip, 0.0, squared(options_.slip_std_rad));
   state_.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   state_.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
   state_.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    RadarTrack& track = *tracks_[i];
-    const int first = state_layout::radar(static_cast<int>(i));
-    state_.set(first + kMountYaw, 0.0, squared(options_.mount_yaw_std_rad));
-    state_.set(first + kDopplerScale, 0.0, squared(options_.doppler_scale_std));
-    state_.set(first + kDopplerX, 0.0, squared(options_.doppler_x.std));
-    state_.set(first + kDopplerY, 0.0, squared(options_.doppler_y.std));
-    state_.set(first + kOffset, 0.0, squared(options_.offset.std));
-    state_.set(first + kYawScale, 0.0, squared(options_.yaw_scale_std));
-    state_.set(first + kYawPerMetre, 0.0, squared(options_.yaw_per_metre.std));
-    state_.set(first + kLateralPerMetre, 0.0, squared(options_.lateral_per_metre.std));
-    for (RadarTrack::Keyframe& keyframe : track.keyframes) {
-      keyframe.is_set = false;
-    }
-    track.has_stamp = false;
-    track.doppler_std_mps = options_.doppler_std_mps;
-    track.scan_covariance = Eigen::Vector3d(0.1 * 0.1, 0.1 * 0.1, 0.005 * 0.005).asDiagonal();
+    start_errors(i);
+    tracks_[i]->clear();
   }
   has_started_ = true;
-  time_us_ = stamp_us;
-  anchor_us_ = stamp_us;
-  output_us_ = stamp_us;
+  is_settled_ = false;
+  used_scans_ = 0;
+  time_us_ = used_us_ = clear_us_ = anchor_us_ = output_us_ = stamp_us;
+}
+
+void OdometryFilter::start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance) {
+  state_.set(kSpeed, value.x(), covariance(0, 0));
+  state_.set(kAcceleration, 0.0, squared(options_.acceleration.std));
+  state_.set(kYawRate, value.y(), covariance(1, 1));
+  state_.set(kYawAcceleration, 0.0, squared(options_.yaw_acceleration.std));
+}
+
+void OdometryFilter::start_errors(std::size_t radar) {
+  const int first = first_of(radar);
+  state_.set(first + kMountYaw, 0.0, squared(options_.mount_yaw_std_rad));
+  state_.set(first + kDopplerScale, 0.0, squared(options_.doppler_scale_std));
+  state_.set(first + kDopplerX, 0.0, squared(options_.doppler_x.std));
+  state_.set(first + kDopplerY, 0.0, squared(options_.doppler_y.std));
+  state_.set(first + kOffset, 0.0, squared(options_.offset.std));
+  state_.set(first + kYawScale, 0.0, squared(options_.yaw_scale_std));
+  state_.set(first + kYawPerMetre, 0.0, squared(options_.yaw_per_metre.std));
+  state_.set(first + kLateralPerMetre, 0.0, squared(options_.lateral_per_metre.std));
 }
 
 void OdometryFilter::advance(std::int64_t stamp_us) {
@@ -114,16 +122,14 @@ void OdometryFilter::advance(std::int64_t stamp_us) {
   time_us_ = std::max(time_us_, stamp_us);
 }
 
-void OdometryFilter::forget_errors(std::size_t radar, std::int64_t stamp_us) {
-  RadarTrack& track = *tracks_[radar];
-  const double dt_s = track.has_stamp ? seconds_between(track.stamp_us, stamp_us) : 0.0;
-  track.stamp_us = stamp_us;
-  track.has_stamp = true;
-  const int first = state_layout::radar(static_cast<int>(radar));
+/// A radar's scans come in order: its errors are those of its last scan's time.
+void OdometryFilter::advance_errors(std::size_t radar, double dt_s) {
+  const int first = first_of(radar);
   const double turning = std::abs(state_.mean(kYawRate));
-  const auto forget = [&](int which, const ForgettingNoise& noise, double more) {
+  const auto forget = [&](int which, const ForgettingNoise& noise, double per_yaw_rate) {
     const double left = std::exp(-dt_s / noise.time_s);
-    state_.forget(first + which, left, squared(noise.std + more * turning) * (1.0 - left * left));
+    const double std = noise.std + per_yaw_rate * turning;
+    state_.forget(first + which, left, squared(std) * (1.0 - left * left));
   };
   forget(kDopplerX, options_.doppler_x, 0.0);
   forget(kDopplerY, options_.doppler_y, options_.doppler_y_per_yaw_rate_m);
@@ -133,128 +139,154 @@ void OdometryFilter::forget_errors(std::size_t radar, std::int64_t stamp_us) {
   state_.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
 }
 
-void OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets, double age_s) {
-  RadarTrack& track = *tracks_[radar];
-  const Pose2& mount = track.vehicle_from_radar;
-  const bool is_unknown = state_.std(kSpeed) > 1.0;
-  const Eigen::Vector2d start =
-      is_unknown ? DopplerVelocityEstimator::search(targets)
-                 : Eigen::Vector2d(state_.mean(kSpeed) - state_.mean(kYawRate) * mount.y_m,
-                                   state_.mean(kYawRate) * mount.x_m);
-  const auto velocity = track.doppler.fit(targets, start, track.doppler_std_mps);
-  if (!velocity) {
+bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
+                                 std::int64_t stamp_us) {
+  const Pose2& mount = tracks_[radar]->mount();
+  const bool is_unknown = state_.std(kSpeed) > kUnknownSpeedStdMps;
+  std::optional<Eigen::Vector2d> expected;
+  if (!is_unknown) {
+    expected = Eigen::Vector2d(state_.mean(kSpeed) - state_.mean(kYawRate) * mount.y_m,
+                               state_.mean(kYawRate) * mount.x_m);
+  }
+  const auto scan = tracks_[radar]->velocity(targets, expected);
+  if (!scan) {
+    return false;
+  }
+  if (is_unknown) {
+    state_.set_mean(kSpeed, scan->velocity.velocity_mps.x());
+  }
+  return take_doppler(radar, *scan, stamp_us);
+}
+
+bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
+                                  std::int64_t stamp_us) {
+  RadarTrust& trust = tracks_[radar]->trust;
+  LinearMeasurement measurement =
+      model(radar).doppler(scan.velocity, seconds_between(stamp_us, time_us_));
+  measurement.noise *= trust.doppler_noise.value();
+  const double nis = state_.innovate(measurement);
+  const bool is_expected = nis <= options_.max_doppler_nis;
+  trust.doppler.add(stamp_us, 0.5 * nis);
+  trust.judge(stamp_us, scan.velocity, is_expected);
+  if (!is_expected) {
+    ask_majority(stamp_us);
+    return false;
+  }
+  if (trust.is_left_out) {
+    return false;
+  }
+  trust.doppler_noise.add(0.5 * nis);
+  state_.update();
+  radars_ |= 1U << radar;
+  used_us_ = time_us_;
+  clear_us_ = scan.is_clear ? time_us_ : clear_us_;
+  ++used_scans_;
+  is_settled_ = is_settled_ || is_known();
+  return true;
+}
+
+int OdometryFilter::count_verdicts(std::int64_t stamp_us, bool agree) const {
+  return static_cast<int>(std::count_if(tracks_.begin(), tracks_.end(), [&](const auto& track) {
+    const RadarTrust& trust = track->trust;
+    return trust.has_verdict && trust.agrees == agree &&
+           seconds_between(trust.verdict_us, stamp_us) <= kVerdictS;
+  }));
+}
+
+/// If most radars contradict and agree with each other, the velocity begins anew with theirs.
+void OdometryFilter::ask_majority(std::int64_t stamp_us) {
+  const int agreeing = count_verdicts(stamp_us, true);
+  JointVelocity joint(options_);
+  for (const auto& track : tracks_) {
+    const RadarTrust& trust = track->trust;
+    const double age_s = seconds_between(trust.verdict_us, stamp_us);
+    if (trust.has_verdict && !trust.agrees && age_s <= kVerdictS) {
+      joint.add(trust.velocity, track->mount(), age_s);
+    }
+  }
+  if (joint.radars() < 2 || joint.radars() <= agreeing ||
+      joint.disagreement() > kMaxDisagreement) {
     return;
   }
-  const double share = std::min(0.1, velocity->targets / 500.0);
-  const double variance = squared(std::clamp(velocity->residual_std_mps, 0.05, 0.6));
-  track.doppler_std_mps =
-      std::sqrt((1.0 - share) * squared(track.doppler_std_mps) + share * variance);
-  if (is_unknown) {
-    state_.set_mean(kSpeed, velocity->velocity_mps.x());
+  const Eigen::Vector2d wrong(state_.mean(kSpeed), state_.mean(kYawRate));
+  const Eigen::Vector2d error = joint.value() - wrong;
+  double since_s = 0.0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    RadarTrust& trust = tracks_[i]->trust;
+    if (trust.has_verdict && trust.agrees) {
+      start_errors(i);
+    } else {
+      since_s = std::max(since_s, trust.contradictions * 0.1);
+      trust.forgive();
+    }
   }
-  const LinearMeasurement measurement = model(radar).doppler(*velocity, age_s);
-  debug.doppler_nis = state_.innovate(measurement);
-  debug.v[0] = velocity->velocity_mps.x();
-  debug.v[1] = velocity->velocity_mps.y();
-  debug.dres[0] = measurement.residual.x();
-  debug.dres[1] = measurement.residual.y();
-  debug.std = track.doppler_std_mps;
-  debug.used = velocity->targets;
-  if (debug.doppler_nis <= options_.max_doppler_nis) {
-    state_.update();
-    radars_ |= 1U << radar;
-  }
+  start_motion(joint.value(), joint.covariance());
+  // Nobody knows since when the filter was wrong.
+  state_.add_variance(kX, squared(error.x() * since_s));
+  state_.add_variance(kY, squared(error.x() * since_s));
+  state_.add_variance(kYaw, squared(error.y() * since_s));
 }
 
 void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets, double age_s) {
   RadarTrack& track = *tracks_[radar];
-  const int first = state_layout::radar(static_cast<int>(radar));
-  const MotionStep at_stamp =
+  const Eigen::Vector3d pose =
+      moved(state_.mean().head<kMotionStates>(), -std::max(age_s, 0.0), options_).state.head<3>();
+  std::array<std::optional<RadarTrack::Pair>, kKeyframes> pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (track.can_match(i, targets)) {
+      pairs[i] = track.match(i, targets, model(radar).expected_motion(keyframe_of(radar, i), pose));
+    }
+  }
+  clone_scan(radar, age_s);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i]) {
+      use_pair(radar, i, *pairs[i]);
+    }
+  }
+  if (const auto keyframe = track.keep(targets)) {
+    state_.copy(first_of(radar) + kScan, keyframe_of(radar, *keyframe));
+  }
+}
+
+void OdometryFilter::clone_scan(std::size_t radar, double age_s) {
+  const MotionStep at_scan =
       moved(state_.mean().head<kMotionStates>(), -std::max(age_s, 0.0), options_);
-  const Eigen::Vector3d pose = at_stamp.state.head<3>();
-  pair_count_ = 0;
-  for (std::size_t i = 0; i < track.keyframes.size(); ++i) {
-    RadarTrack::Keyframe& keyframe = track.keyframes[i];
-    ++keyframe.lag;
-    if (!keyframe.is_set || keyframe.lag < options_.min_lag || targets.size() < 5) {
-      continue;
-    }
-    const std::array<Eigen::Vector3d, 1> start{
-        model(radar).expected_motion(first + state_layout::keyframe(static_cast<int>(i)), pose)};
-    track.registration.set_previous(keyframe.targets);
-    const RegistrationResult result = track.registration.solve(targets, 1.0, start);
-    const double share =
-        result.matched / static_cast<double>(std::min(targets.size(), keyframe.targets.size()));
-    if (result.status == RegistrationStatus::converged && share >= options_.min_matched_share) {
-      pairs_[pair_count_++] = {i, result.motion, result.covariance};
-    }
-  }
-  if (pair_count_ > 0) {
-    track.scan_covariance = pairs_[0].covariance;
-  }
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() << std::cos(pose.z()), -std::sin(pose.z()), std::sin(pose.z()),
-      std::cos(pose.z());
-  const Eigen::Matrix3d noise =
-      options_.scan_noise_share * turn * track.scan_covariance * turn.transpose();
-  state_.clone<kMotionStates>(first + kScan, pose, at_stamp.jacobian.topRows<3>(), noise);
-  for (std::size_t k = 0; k < pair_count_; ++k) {
-    const Pair& pair = pairs_[k];
-    const int lag = track.keyframes[pair.keyframe].lag;
-    LinearMeasurement measurement = model(radar).position(
-        first + state_layout::keyframe(static_cast<int>(pair.keyframe)), first + kScan,
-        pair.motion);
-    measurement.noise = options_.pair_noise_factor *
-                        (options_.pair_noise_start + options_.pair_noise_per_lag * lag) *
-                        pair.covariance.bottomRightCorner<2, 2>();
-    const double nis = state_.innovate(measurement);
-    debug.nis[k] = nis;
-    debug.lag[k] = lag;
-    debug.pairs = static_cast<int>(k) + 1;
-    if (nis <= options_.max_position_nis) {
-      state_.update();
-      radars_ |= 1U << radar;
-    }
-  }
-  // The oldest makes room.
-  auto oldest = track.keyframes.begin();
-  int youngest_lag = 1 << 30;
-  for (auto keyframe = track.keyframes.begin(); keyframe != track.keyframes.end(); ++keyframe) {
-    if (!keyframe->is_set) {
-      keyframe->lag = 1 << 20;
-    }
-    youngest_lag = std::min(youngest_lag, keyframe->lag);
-    if (keyframe->lag > oldest->lag) {
-      oldest = keyframe;
-    }
-  }
-  if (youngest_lag >= options_.keyframe_period && targets.size() >= 5) {
-    oldest->is_set = true;
-    oldest->lag = 0;
-    oldest->targets = targets;
-    state_.copy(first + kScan, first + state_layout::keyframe(static_cast<int>(
-                                           oldest - track.keyframes.begin())));
+  const Eigen::Vector3d pose = at_scan.state.head<3>();
+  state_.clone<kMotionStates>(
+      first_of(radar) + kScan, pose, at_scan.jacobian.topRows<3>(),
+      options_.scan_noise_share *
+          turned_covariance(pose.z(), tracks_[radar]->scan_covariance()));
+}
+
+void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
+                              const RadarTrack::Pair& pair) {
+  RadarTrust& trust = tracks_[radar]->trust;
+  LinearMeasurement measurement = model(radar).position(keyframe_of(radar, keyframe),
+                                                        first_of(radar) + kScan, pair.motion);
+  measurement.noise = trust.position_noise.value() * options_.pair_noise_factor *
+                      (options_.pair_noise_start + options_.pair_noise_per_lag * pair.lag) *
+                      pair.covariance.bottomRightCorner<2, 2>();
+  const double nis = state_.innovate(measurement);
+  trust.lateral.add(time_us_, 0.5 * nis);
+  trust.yaw.add(time_us_, 0.5 * nis);
+  if (nis <= options_.max_position_nis) {
+    trust.position_noise.add(0.5 * nis);
+    state_.update();
   }
 }
 
 void OdometryFilter::renew_anchor() {
-  const Eigen::Vector3d anchor = state_.mean().head<3>();
-  const auto renew = [&](int to) {
-    const Eigen::Vector3d relative = relative_pose(anchor, state_.mean().segment<3>(to));
-    const double c = std::cos(anchor.z());
-    const double s = std::sin(anchor.z());
-    Eigen::Matrix3d by_self;
-    by_self << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-    Eigen::Matrix3d by_first = -by_self;
-    by_first.col(2) = Eigen::Vector3d(relative.y(), -relative.x(), -1.0);
-    state_.transform_pose(to, relative, by_self, by_first);
+  const Eigen::Vector3d anchor = state_.mean().head<kPose>();
+  const auto renew = [&](int pose) {
+    const Eigen::Vector3d relative = relative_pose(anchor, state_.mean().segment<kPose>(pose));
+    const Eigen::Matrix<double, 3, 6> jacobian = relative_pose_jacobian(anchor, relative);
+    state_.transform_pose(pose, relative, jacobian.rightCols<3>(), jacobian.leftCols<3>());
   };
   renew(kOutput);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const int first = state_layout::radar(static_cast<int>(i));
-    renew(first + kScan);
-    for (int k = 0; k < kKeyframes; ++k) {
-      renew(first + state_layout::keyframe(k));
+    renew(first_of(i) + kScan);
+    for (std::size_t k = 0; k < kKeyframes; ++k) {
+      renew(keyframe_of(i, k));
     }
   }
   for (int i = 0; i < kPose; ++i) {
@@ -263,46 +295,93 @@ void OdometryFilter::renew_anchor() {
   anchor_us_ = time_us_;
 }
 
-void OdometryFilter::finish(Odometry& odometry) {
+bool OdometryFilter::is_known() const {
+  return state_.std(kSpeed) <= options_.settled_speed_std_mps &&
+         state_.std(kYawRate) <= options_.settled_yaw_rate_std_radps &&
+         used_scans_ >= options_.settled_scans &&
+         count_verdicts(time_us_, true) > count_verdicts(time_us_, false);
+}
+
+OdometryStatus OdometryFilter::status() const {
+  const double unused_s = seconds_between(used_us_, time_us_);
+  if (unused_s > options_.lost_s) {
+    return OdometryStatus::lost;
+  }
+  if (!is_settled_) {
+    return count_verdicts(time_us_, false) > 0 ? OdometryStatus::ambiguous
+                                               : OdometryStatus::initialising;
+  }
+  if (unused_s > options_.predicted_s) {
+    return OdometryStatus::predicted;
+  }
+  if (seconds_between(clear_us_, time_us_) > options_.ambiguous_s) {
+    return OdometryStatus::ambiguous;
+  }
+  const bool stands = std::abs(state_.mean(kSpeed)) <= options_.standstill_mps &&
+                      state_.std(kSpeed) <= options_.standstill_mps &&
+                      std::abs(state_.mean(kYawRate)) <= 3.0 * state_.std(kYawRate);
+  return stands ? OdometryStatus::standing_still : OdometryStatus::ok;
+}
+
+void OdometryFilter::tell(Odometry& odometry) {
   odometry.utime_us = time_us_;
   odometry.utime_anchor_us = anchor_us_;
-  odometry.is_new = time_us_ > output_us_;
-  odometry.pose = state_.mean().head<3>();
-  odometry.covariance = state_.covariance().topLeftCorner<3, 3>();
+  odometry.status = status();
+  odometry.pose = state_.mean().head<kPose>();
+  odometry.covariance = state_.covariance().topLeftCorner<kPose, kPose>();
+  odometry.odom_covariance =
+      composed_covariance(anchor_pose_, odom_covariance_, odometry.pose, odometry.covariance);
   const double v = state_.mean(kSpeed);
-  const double s = state_.mean(kSlip);
-  Eigen::Matrix3d by = Eigen::Matrix3d::Zero();
-  by(0, 0) = 1.0;
-  by(1, 0) = s;
-  by(1, 2) = v;
-  by(2, 1) = 1.0;
-  const std::array<int, 3> which{kSpeed, kYawRate, kSlip};
-  odometry.twist = {v, s * v, state_.mean(kYawRate)};
-  odometry.twist_covariance =
-      by * state_.covariance()(which, which).eval() * by.transpose();
+  const double slip = state_.mean(kSlip);
+  Eigen::Matrix3d by_state;
+  by_state << 1.0, 0.0, 0.0, slip, 0.0, v, 0.0, 1.0, 0.0;
+  constexpr std::array<int, 3> kTwist{kSpeed, kYawRate, kSlip};
+  const Eigen::Matrix3d covariance = state_.covariance()(kTwist, kTwist);
+  odometry.twist = {v, slip * v, state_.mean(kYawRate)};
+  odometry.twist_covariance = by_state * covariance * by_state.transpose();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    odometry.left_out |= tracks_[i]->trust.is_left_out ? 1U << i : 0U;
+  }
+  odometry.is_new = time_us_ > output_us_;
   if (odometry.is_new) {
-    const Eigen::Vector3d before = state_.mean().segment<3>(kOutput);
-    odometry.utime_before_us = output_us_;
-    odometry.motion = relative_pose(before, odometry.pose);
-    const double c = std::cos(before.z());
-    const double n = std::sin(before.z());
-    Eigen::Matrix<double, 3, 6> jacobian;
-    jacobian << c, n, 0, -c, -n, odometry.motion.y(),  //
-        -n, c, 0, n, -c, -odometry.motion.x(),         //
-        0, 0, 1, 0, 0, -1;
-    const std::array<int, 6> poses{0, 1, 2, kOutput, kOutput + 1, kOutput + 2};
-    odometry.motion_covariance =
-        jacobian * state_.covariance()(poses, poses).eval() * jacobian.transpose();
-    odom_pose_ = composed_pose(odom_pose_, odometry.motion);
-    odometry.radars = radars_;
-    radars_ = 0;
-    output_us_ = time_us_;
-    state_.copy(0, kOutput);
-    if (seconds_between(anchor_us_, time_us_) >= options_.anchor_period_s) {
-      renew_anchor();
-    }
+    tell_motion(odometry);
   }
   odometry.odom_pose = odom_pose_;
+}
+
+void OdometryFilter::tell_motion(Odometry& odometry) {
+  const Eigen::Vector3d before = state_.mean().segment<kPose>(kOutput);
+  constexpr std::array<int, 6> kPoses{kOutput, kOutput + 1, kOutput + 2, kX, kY, kYaw};
+  odometry.utime_before_us = output_us_;
+  odometry.motion = relative_pose(before, odometry.pose);
+  const auto jacobian = relative_pose_jacobian(before, odometry.motion);
+  const Eigen::Matrix<double, 6, 6> covariance = state_.covariance()(kPoses, kPoses);
+  odometry.motion_covariance = jacobian * covariance * jacobian.transpose();
+  odometry.radars = radars_;
+  odom_pose_ = composed_pose(odom_pose_, odometry.motion);
+  output_us_ = time_us_;
+  radars_ = 0;
+  state_.copy(kX, kOutput);
+  if (seconds_between(anchor_us_, time_us_) >= options_.anchor_period_s) {
+    odom_covariance_ = odometry.odom_covariance;
+    anchor_pose_ = composed_pose(anchor_pose_, odometry.pose);
+    renew_anchor();
+  }
+}
+
+RadarReport OdometryFilter::report(std::size_t radar) const {
+  const RadarTrust& trust = tracks_[radar]->trust;
+  const int first = first_of(radar);
+  return {trust.is_left_out,
+          trust.doppler.mean(),
+          trust.lateral.mean(),
+          trust.yaw.mean(),
+          trust.doppler_noise.value(),
+          trust.position_noise.value(),
+          state_.mean(first + kMountYaw),
+          state_.std(first + kMountYaw),
+          state_.mean(first + kDopplerScale),
+          state_.std(first + kDopplerScale)};
 }
 
 }  // namespace cremed

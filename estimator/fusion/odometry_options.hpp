@@ -23,7 +23,7 @@ struct OdometryOptions {
   double slip_walk = 0.001;
   /// Velocity of the body that carries the radars over that of the wheels' contact: pitch,
   /// suspension; m/s.
-  ForgettingNoise body_velocity{0.03, 0.3};
+  ForgettingNoise body_velocity{0.04, 1.0};
   /// Before the first scan.
   double start_speed_std_mps = 30.0;
   double start_yaw_rate_std_radps = 0.3;
@@ -53,12 +53,22 @@ struct OdometryOptions {
   // Positions.
   int keyframe_period = 5;             ///< Every so many scans of a radar is a keyframe.
   int min_lag = 4;                     ///< Scans from keyframe to current: nearer ones are biased.
+  int min_targets = 20;                ///< Fewer in a scan: chance neighbours pass for pairs.
   double min_matched_share = 0.35;     ///< Of targets found again.
   double scan_noise_share = 0.45;      ///< Part of a registration's covariance that is each scan's.
   double pair_noise_factor = 3.0;      ///< Rest: factor (start + per_lag * lag) covariance.
   double pair_noise_start = 0.3;
   double pair_noise_per_lag = 0.05;
   double max_position_nis = 18.0;      ///< Gate, two degrees of freedom: 0.01 % by chance.
+
+  // Status.
+  double standstill_mps = 0.1;
+  double settled_speed_std_mps = 0.3;
+  double settled_yaw_rate_std_radps = 0.03;
+  int settled_scans = 5;
+  double predicted_s = 0.25;  ///< Two scans of an ARS408 are missing.
+  double ambiguous_s = 1.0;
+  double lost_s = 1.0;        ///< By then the speed may have changed by several m/s.
 
   // Time.
   double anchor_period_s = 2.2;        ///< The pose is told relative to an anchor renewed so often.

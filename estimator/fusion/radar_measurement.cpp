@@ -5,22 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/fusion/pose_chain.hpp"
 #include "estimator/fusion/state_layout.hpp"
-#include "estimator/rotation.hpp"
 
 namespace cremed {
 
 using namespace state_layout;
-
-Eigen::Vector3d relative_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector2d moved = Rotation(-a.z()) * (b - a).head<2>();
-  return {moved.x(), moved.y(), b.z() - a.z()};
-}
-
-Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& relative) {
-  const Eigen::Vector2d moved = Rotation(a.z()) * relative.head<2>();
-  return {a.x() + moved.x(), a.y() + moved.y(), a.z() + relative.z()};
-}
 
 LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double age_s) const {
   const double dt_s = -std::max(age_s, 0.0);
@@ -57,6 +47,7 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   result.noise = velocity.covariance;
   result.noise(0, 0) += options.velocity_floor_x_mps * options.velocity_floor_x_mps;
   result.noise(1, 1) += options.velocity_floor_y_mps * options.velocity_floor_y_mps;
+  add_lateness(-dt_s, result);
   return result;
 }
 
@@ -71,6 +62,17 @@ Eigen::Vector3d RadarModel::expected_motion(int keyframe, const Eigen::Vector3d&
   const Eigen::Vector3d relative = relative_pose(state.mean().segment<3>(keyframe), scan);
   const Eigen::Vector2d seen = apparent(relative);
   return {relative.x(), seen.x(), seen.y()};
+}
+
+void RadarModel::add_lateness(double age_s, LinearMeasurement& measurement) const {
+  const auto rate_variance = [age_s](const ForgettingNoise& noise) {
+    return 2.0 * noise.std * noise.std / noise.time_s * age_s * age_s * age_s / 3.0;
+  };
+  const Eigen::Vector2d lever(-vehicle_from_radar.y_m, vehicle_from_radar.x_m);
+  const double left = std::exp(-2.0 * age_s / options.body_velocity.time_s);
+  measurement.noise(0, 0) += rate_variance(options.acceleration) +
+                             options.body_velocity.std * options.body_velocity.std * (1.0 - left);
+  measurement.noise += rate_variance(options.yaw_acceleration) * lever * lever.transpose();
 }
 
 LinearMeasurement RadarModel::position(int keyframe, int scan,

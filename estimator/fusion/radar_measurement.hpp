@@ -43,13 +43,10 @@ struct RadarModel {
   [[nodiscard]] Eigen::Vector3d expected_motion(int keyframe, const Eigen::Vector3d& scan) const;
 
  private:
+  /// What the vehicle did since a scan that is older than the state.
+  void add_lateness(double age_s, LinearMeasurement& measurement) const;
   [[nodiscard]] Eigen::Vector2d apparent(const Eigen::Vector3d& relative) const;
   [[nodiscard]] double at(int error) const { return state.mean(first + error); }
 };
-
-/// Pose of b in the frame of a, (x, y, yaw).
-Eigen::Vector3d relative_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-/// Pose of which `relative` is that in the frame of a.
-Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& relative);
 
 }  // namespace cremed

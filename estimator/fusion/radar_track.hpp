@@ -4,12 +4,13 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include <Eigen/Core>
 
 #include "estimator/fusion/doppler_velocity.hpp"
 #include "estimator/fusion/odometry_options.hpp"
+#include "estimator/fusion/radar_trust.hpp"
 #include "estimator/fusion/state_layout.hpp"
 #include "estimator/pose2.hpp"
 #include "estimator/registration.hpp"
@@ -17,25 +18,65 @@
 
 namespace cremed {
 
+/// The velocity that a scan's Doppler tells.
+struct ScanVelocity {
+  DopplerVelocity velocity;
+  /// More than half of the targets stand still then. Otherwise what moves along may be the world.
+  bool is_clear = false;
+};
+
 /// What the odometry filter keeps of one radar besides its states.
-struct RadarTrack {
+class RadarTrack {
+ public:
   struct Keyframe {
     bool is_set = false;
     int lag = 0;  ///< Scans since.
     TargetSet targets;
   };
+  /// A scan registered against a keyframe.
+  struct Pair {
+    int lag = 0;
+    Eigen::Vector3d motion;
+    Eigen::Matrix3d covariance;
+  };
 
-  RadarTrack(const RegistrationOptions& options, const Pose2& mount)
-      : vehicle_from_radar(mount), registration(options, mount) {}
+  RadarTrack(const OdometryOptions& options, const Pose2& mount,
+             const RegistrationOptions& registration);
 
-  Pose2 vehicle_from_radar;
-  Registration registration;
-  DopplerVelocityEstimator doppler;
-  std::array<Keyframe, state_layout::kKeyframes> keyframes;
-  bool has_stamp = false;
-  std::int64_t stamp_us = 0;
-  double doppler_std_mps = 0.0;
-  Eigen::Matrix3d scan_covariance = Eigen::Matrix3d::Zero();
+  [[nodiscard]] const Pose2& mount() const { return mount_; }
+  void clear();
+
+  /// Begins a scan; returns the time since the one before, 0 without.
+  double begin(std::int64_t stamp_us);
+  [[nodiscard]] bool is_in_order(std::int64_t stamp_us) const {
+    return !has_stamp_ || stamp_us > stamp_us_;
+  }
+
+  /// `expected`: velocity of the sensor; none if it is not known. Learns how large residuals are.
+  std::optional<ScanVelocity> velocity(const TargetSet& targets,
+                                       const std::optional<Eigen::Vector2d>& expected);
+
+  [[nodiscard]] bool can_match(std::size_t keyframe, const TargetSet& targets) const;
+  /// Registers the scan against a keyframe, positions only. Learns the covariance of a scan.
+  std::optional<Pair> match(std::size_t keyframe, const TargetSet& targets,
+                            const Eigen::Vector3d& expected);
+  [[nodiscard]] const Eigen::Matrix3d& scan_covariance() const { return scan_covariance_; }
+
+  /// Makes the scan a keyframe in place of the oldest if it is time for one; which.
+  std::optional<std::size_t> keep(const TargetSet& targets);
+
+  RadarTrust trust;
+
+ private:
+  const OdometryOptions& options_;
+  Pose2 mount_;
+  Registration registration_;
+  DopplerVelocityEstimator doppler_;
+  std::array<Keyframe, state_layout::kKeyframes> keyframes_;
+  bool has_stamp_ = false;
+  std::int64_t stamp_us_ = 0;
+  double doppler_std_mps_ = 0.0;
+  Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace cremed

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "estimator/fusion/doppler_velocity.hpp"
+#include "estimator/fusion/odometry_options.hpp"
+#include "estimator/pose2.hpp"
+
+namespace cremed {
+
+/// Speed and yaw rate that the velocities of several radars, mounted at (l_x, l_y), have in common:
+/// least squares of V_x = v - w l_y, V_y = w l_x, with the errors of mounts and what a vehicle may
+/// change between their scans in the noise.
+class JointVelocity {
+ public:
+  explicit JointVelocity(const OdometryOptions& options);
+
+  void add(const DopplerVelocity& velocity, const Pose2& vehicle_from_radar, double age_s);
+
+  /// (v, w)
+  [[nodiscard]] Eigen::Vector2d value() const;
+  [[nodiscard]] Eigen::Matrix2d covariance() const;
+  /// Squared residuals, a degree of freedom: 1 if all see the same motion.
+  [[nodiscard]] double disagreement() const;
+  [[nodiscard]] int radars() const { return radars_; }
+
+ private:
+  const OdometryOptions& options_;
+  Eigen::Matrix2d information_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d weighted_ = Eigen::Vector2d::Zero();
+  double squares_ = 0.0;
+  int radars_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fusion/pose_chain.hpp"
+
+#include <cmath>
+
+#include "estimator/rotation.hpp"
+
+namespace cremed {
+namespace {
+
+Eigen::Matrix3d rotation(double yaw_rad) {
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  Eigen::Matrix3d result;
+  result << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return result;
+}
+
+}  // namespace
+
+Eigen::Vector3d relative_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector2d moved = Rotation(-a.z()) * (b - a).head<2>();
+  return {moved.x(), moved.y(), b.z() - a.z()};
+}
+
+Eigen::Matrix<double, 3, 6> relative_pose_jacobian(const Eigen::Vector3d& a,
+                                                   const Eigen::Vector3d& relative) {
+  Eigen::Matrix<double, 3, 6> result;
+  result.rightCols<3>() = rotation(-a.z());
+  result.leftCols<3>() = -rotation(-a.z());
+  result.col(2) += Eigen::Vector3d(relative.y(), -relative.x(), 0.0);
+  return result;
+}
+
+Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& relative) {
+  const Eigen::Vector2d moved = Rotation(a.z()) * relative.head<2>();
+  return {a.x() + moved.x(), a.y() + moved.y(), a.z() + relative.z()};
+}
+
+Eigen::Matrix3d composed_covariance(const Eigen::Vector3d& a, const Eigen::Matrix3d& a_covariance,
+                                    const Eigen::Vector3d& relative,
+                                    const Eigen::Matrix3d& relative_covariance) {
+  const Eigen::Vector2d moved = Rotation(a.z()) * relative.head<2>();
+  Eigen::Matrix3d by_a = Eigen::Matrix3d::Identity();
+  by_a.topRightCorner<2, 1>() << -moved.y(), moved.x();
+  return by_a * a_covariance * by_a.transpose() + turned_covariance(a.z(), relative_covariance);
+}
+
+Eigen::Matrix3d turned_covariance(double yaw_rad, const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d turn = rotation(yaw_rad);
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace cremed

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fusion/radar_trust.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cremed {
+
+void NoiseFactor::add(double innovation) {
+  constexpr double kRate = 0.05;
+  constexpr double kMostInnovation = 4.0;  // One wild measurement says little about the others.
+  const double excess = std::min(innovation, kMostInnovation) - 1.0;
+  value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMost);
+}
+
+void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {
+  has_verdict = true;
+  verdict_us = stamp_us;
+  velocity = measured;
+  agrees = is_expected;
+  contradictions = std::clamp(contradictions + (agrees ? -1 : 1), 0, kMaxContradictions);
+  if (contradictions == kMaxContradictions || contradictions == 0) {
+    is_left_out = contradictions != 0;
+  }
+}
+
+void RadarTrust::forgive() {
+  contradictions = 0;
+  is_left_out = false;
+}
+
+}  // namespace cremed

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "estimator/fusion/doppler_velocity.hpp"
+#include "estimator/innovation_mean.hpp"
+
+namespace cremed {
+
+/// Factor on the covariance of a radar's measurements that keeps its mean normalised innovation
+/// squared from exceeding 1: errors nobody stated, as where few targets are seen. It follows within
+/// some 20 measurements.
+class NoiseFactor {
+ public:
+  [[nodiscard]] double value() const { return value_; }
+  /// `innovation`: normalised, squared, a degree of freedom, with the factor applied.
+  void add(double innovation);
+  void clear() { value_ = 1.0; }
+
+ private:
+  static constexpr double kMost = 25.0;
+
+  double value_ = 1.0;
+};
+
+/// How far a radar is believed.
+struct RadarTrust {
+  /// Scans in succession, of which those that agree are taken off again, until it is left out.
+  static constexpr int kMaxContradictions = 5;
+
+  InnovationMean doppler;  ///< Of the last minute.
+  InnovationMean lateral;
+  InnovationMean yaw;
+  NoiseFactor doppler_noise;
+  NoiseFactor position_noise;
+  int contradictions = 0;
+  bool is_left_out = false;
+  // Its last scan:
+  bool has_verdict = false;
+  bool agrees = false;
+  std::int64_t verdict_us = 0;
+  DopplerVelocity velocity;
+
+  /// Whether a scan's velocity is where the filter expects it.
+  void judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected);
+  /// What it contradicted was wrong.
+  void forgive();
+};
+
+}  // namespace cremed

@@ -33,6 +33,9 @@ int keyframe_of(std::size_t radar, std::size_t keyframe) {
   return first_of(radar) + state_layout::keyframe(static_cast<int>(keyframe));
 }
 
+/// Part of the forward velocity that a radar sees across its axis, where azimuths tell it.
+double across_share(const Pose2& mount) { return squared(std::sin(mount.yaw_rad)); }
+
 }  // namespace
 
 OdometryFilter::OdometryFilter(const OdometryOptions& options,
@@ -98,11 +101,15 @@ void OdometryFilter::start_motion(const Eigen::Vector2d& value, const Eigen::Mat
 void OdometryFilter::start_errors(std::size_t radar) {
   const int first = first_of(radar);
   state_.set(first + kMountYaw, 0.0, squared(options_.mount_yaw_std_rad));
-  state_.set(first + kDopplerScale, 0.0, squared(options_.doppler_scale_std));
+  state_.set(first + kDopplerScale, 0.0,
+             squared(options_.doppler_scale_std) +
+                 squared(across_share(tracks_[radar]->mount()) * options_.azimuth_scale_std));
   state_.set(first + kDopplerX, 0.0, squared(options_.doppler_x.std));
   state_.set(first + kDopplerY, 0.0, squared(options_.doppler_y.std));
   state_.set(first + kOffset, 0.0, squared(options_.offset.std));
   state_.set(first + kYawScale, 0.0, squared(options_.yaw_scale_std));
+  state_.set(first + kLeverX, 0.0, squared(options_.lever_std_m));
+  state_.set(first + kLeverY, 0.0, squared(options_.lever_std_m));
   state_.set(first + kYawPerMetre, 0.0, squared(options_.yaw_per_metre.std));
   state_.set(first + kLateralPerMetre, 0.0, squared(options_.lateral_per_metre.std));
 }
@@ -126,14 +133,17 @@ void OdometryFilter::advance(std::int64_t stamp_us) {
 void OdometryFilter::advance_errors(std::size_t radar, double dt_s) {
   const int first = first_of(radar);
   const double turning = std::abs(state_.mean(kYawRate));
-  const auto forget = [&](int which, const ForgettingNoise& noise, double per_yaw_rate) {
+  const double across_mps = across_share(tracks_[radar]->mount()) * std::abs(state_.mean(kSpeed));
+  const auto forget = [&](int which, const ForgettingNoise& noise, double more) {
     const double left = std::exp(-dt_s / noise.time_s);
-    const double std = noise.std + per_yaw_rate * turning;
+    const double std = noise.std + more;
     state_.forget(first + which, left, squared(std) * (1.0 - left * left));
   };
-  forget(kDopplerX, options_.doppler_x, 0.0);
-  forget(kDopplerY, options_.doppler_y, options_.doppler_y_per_yaw_rate_m);
-  forget(kOffset, options_.offset, options_.offset_per_yaw_rate_m);
+  forget(kDopplerX, options_.doppler_x, options_.doppler_x_across_share * across_mps);
+  forget(kDopplerY, options_.doppler_y, options_.doppler_y_per_yaw_rate_m * turning);
+  forget(kOffset, options_.offset,
+         options_.offset_per_yaw_rate_m * turning +
+             options_.offset_across_mps * across_share(tracks_[radar]->mount()));
   forget(kYawPerMetre, options_.yaw_per_metre, 0.0);
   forget(kLateralPerMetre, options_.lateral_per_metre, 0.0);
   state_.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
@@ -168,6 +178,9 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   const bool is_expected = nis <= options_.max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
+  if (!trust.is_left_out) {
+    trust.doppler_noise.add(0.5 * nis);
+  }
   if (!is_expected) {
     ask_majority(stamp_us);
     return false;
@@ -175,7 +188,6 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   if (trust.is_left_out) {
     return false;
   }
-  trust.doppler_noise.add(0.5 * nis);
   state_.update();
   radars_ |= 1U << radar;
   used_us_ = time_us_;
@@ -269,8 +281,8 @@ void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
   const double nis = state_.innovate(measurement);
   trust.lateral.add(time_us_, 0.5 * nis);
   trust.yaw.add(time_us_, 0.5 * nis);
+  trust.position_noise.add(0.5 * nis);
   if (nis <= options_.max_position_nis) {
-    trust.position_noise.add(0.5 * nis);
     state_.update();
   }
 }

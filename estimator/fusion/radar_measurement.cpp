@@ -18,18 +18,19 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   const double w = state.mean(kYawRate) + dt_s * state.mean(kYawAcceleration);
   const double driving = std::min(1.0, std::abs(v));
   const double body = driving * std::exp(dt_s / options.body_velocity.time_s);
-  const double forward = v + body * state.mean(kBodyVelocity) - w * vehicle_from_radar.y_m;
+  const double lever_x = vehicle_from_radar.x_m + at(kLeverX);
+  const double lever_y = vehicle_from_radar.y_m + at(kLeverY);
+  const double forward = v + body * state.mean(kBodyVelocity) - w * lever_y;
   const double scale = 1.0 + at(kDopplerScale);
   const double d = at(kMountYaw);
   const double s = state.mean(kSlip);
   const Eigen::Vector2d by_offset = driving * velocity.per_offset;
   const Eigen::Vector2d expected =
-      Eigen::Vector2d(forward * scale, s * v + w * vehicle_from_radar.x_m - d * forward) +
+      Eigen::Vector2d(forward * scale, s * v + w * lever_x - d * forward) +
       driving * Eigen::Vector2d(at(kDopplerX), at(kDopplerY)) +
       (at(kOffset) + state.mean(kCommonOffset)) * by_offset;
   const Eigen::Vector2d by_speed(scale, s - d);
-  const Eigen::Vector2d by_yaw_rate(-vehicle_from_radar.y_m * scale,
-                                    vehicle_from_radar.x_m + d * vehicle_from_radar.y_m);
+  const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y);
   LinearMeasurement result;
   result.residual = velocity.velocity_mps - expected;
   result.depend_on(kSpeed, by_speed);
@@ -44,6 +45,8 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   result.depend_on(first + kDopplerX, {driving, 0.0});
   result.depend_on(first + kDopplerY, {0.0, driving});
   result.depend_on(first + kOffset, by_offset);
+  result.depend_on(first + kLeverX, {0.0, w});
+  result.depend_on(first + kLeverY, {-w * scale, d * w});
   result.noise = velocity.covariance;
   result.noise(0, 0) += options.velocity_floor_x_mps * options.velocity_floor_x_mps;
   result.noise(1, 1) += options.velocity_floor_y_mps * options.velocity_floor_y_mps;

@@ -80,6 +80,7 @@ void OdometryFilter::start(std::int64_t stamp_us) {
   state_.set(kSlip, 0.0, squared(options_.slip_std_rad));
   state_.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   state_.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
+  state_.set(kCommonScale, 0.0, squared(options_.common_scale_std));
   state_.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     start_errors(i);

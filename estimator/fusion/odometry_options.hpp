@@ -33,6 +33,9 @@ struct OdometryOptions {
   double mount_yaw_walk = 0.0003;      ///< rad/sqrt(s): it is screwed on.
   double lever_std_m = 0.1;            ///< Of its place, along each axis.
   double doppler_scale_std = 0.002;    ///< Of one, after calibration.
+  /// The same of all radars together: what elevation of targets takes from Doppler differs between
+  /// drives.
+  double common_scale_std = 0.002;
   /// Of one: scale of azimuths, which is one of the velocity across the radar's axis; and what of
   /// such errors changes with doppler_x, of the speed across. Radars that look sideways read 1 to
   /// 3 % too little, with 0.2 to 0.4 m/s RMS at 8 m/s.

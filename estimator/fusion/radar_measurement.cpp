@@ -21,7 +21,7 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   const double lever_x = vehicle_from_radar.x_m + at(kLeverX);
   const double lever_y = vehicle_from_radar.y_m + at(kLeverY);
   const double forward = v + body * state.mean(kBodyVelocity) - w * lever_y;
-  const double scale = 1.0 + at(kDopplerScale);
+  const double scale = 1.0 + at(kDopplerScale) + state.mean(kCommonScale);
   const double d = at(kMountYaw);
   const double s = state.mean(kSlip);
   const Eigen::Vector2d by_offset = driving * velocity.per_offset;
@@ -41,6 +41,7 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   result.depend_on(kBodyVelocity, body * Eigen::Vector2d(scale, -d));
   result.depend_on(kCommonOffset, by_offset);
   result.depend_on(first + kMountYaw, {0.0, -forward});
+  result.depend_on(kCommonScale, {forward, 0.0});
   result.depend_on(first + kDopplerScale, {forward, 0.0});
   result.depend_on(first + kDopplerX, {driving, 0.0});
   result.depend_on(first + kDopplerY, {0.0, driving});

@@ -17,16 +17,16 @@ struct RadarModel {
   Pose2 vehicle_from_radar;
   int first;  ///< state_layout::radar().
 
-  /// The velocity by Doppler of a scan that is `age_s` older than the state (<= 0: from then on):
+  /// The velocity by Doppler of a scan that is `age_s` older than the state (<= 0: of its time):
   ///
-  ///     v = v - a age,   w = w - c age,   V_x = v + m - w l_y
-  ///     z_x = V_x (1 + b) + u_x + k_x (o + o_c)
-  ///     z_y = s v + w l_x - d V_x + u_y + k_y (o + o_c)
+  ///     v = v - a age,   w = w - c age,   V_x = v + m - w (l_y + e_y)
+  ///     z_x = V_x (1 + b + b_c) + u_x + k_x (o + o_c)
+  ///     z_y = s v + w (l_x + e_x) - d V_x + u_y + k_y (o + o_c)
   ///
-  /// d mount yaw, b Doppler scale, u errors of the velocity, o of all Doppler (o_c of all radars),
-  /// k DopplerVelocity::per_offset. m, u, o are those of a vehicle that drives: times min(1, |v|),
-  /// held fixed in derivatives. d V_y is left out of z_x: it is small, but through it the smallest
-  /// disagreement in x would turn the slip.
+  /// d mount yaw, e lever arm, b Doppler scale (b_c of all radars), u errors of the velocity, o of
+  /// all Doppler (o_c of all radars), k DopplerVelocity::per_offset. m, u, o are those of a vehicle
+  /// that drives: times min(1, |v|), held fixed in derivatives. d V_y is left out of z_x: it is
+  /// small, but through it the smallest disagreement in x would turn the slip.
   [[nodiscard]] LinearMeasurement doppler(const DopplerVelocity& velocity, double age_s) const;
 
   /// y and yaw of a registered pair, with (dx, dy, dpsi) the pose of clone `scan` in the frame of

@@ -23,8 +23,9 @@ inline constexpr int kMotionStates = 9;
 // Common to all radars.
 inline constexpr int kCommonOffset = 9;     ///< m/s
 inline constexpr int kCommonYawScale = 10;  ///< 1
-inline constexpr int kOutput = 11;          ///< Clone of the pose at the last output.
-inline constexpr int kFirstRadar = 14;
+inline constexpr int kCommonScale = 11;     ///< 1
+inline constexpr int kOutput = 12;          ///< Clone of the pose at the last output.
+inline constexpr int kFirstRadar = 15;
 
 // Of one radar, from its first on.
 inline constexpr int kMountYaw = 0;          ///< rad

@@ -101,10 +101,13 @@ void OdometryFilter::start_motion(const Eigen::Vector2d& value, const Eigen::Mat
 
 void OdometryFilter::start_errors(std::size_t radar) {
   const int first = first_of(radar);
-  state_.set(first + kMountYaw, 0.0, squared(options_.mount_yaw_std_rad));
+  const double across = across_share(tracks_[radar]->mount());
+  state_.set(first + kMountYaw, 0.0,
+             squared(options_.mount_yaw_std_rad) +
+                 squared(across * options_.mount_yaw_across_std_rad));
   state_.set(first + kDopplerScale, 0.0,
              squared(options_.doppler_scale_std) +
-                 squared(across_share(tracks_[radar]->mount()) * options_.azimuth_scale_std));
+                 squared(across * options_.azimuth_scale_std));
   state_.set(first + kDopplerX, 0.0, squared(options_.doppler_x.std));
   state_.set(first + kDopplerY, 0.0, squared(options_.doppler_y.std));
   state_.set(first + kOffset, 0.0, squared(options_.offset.std));

@@ -29,7 +29,8 @@ struct OdometryOptions {
   double start_yaw_rate_std_radps = 0.3;
 
   // Errors of one radar that change slowly.
-  double mount_yaw_std_rad = 0.01;   ///< Of a mount measured by hand.
+  double mount_yaw_std_rad = 0.0075;   ///< Of a mount measured by hand.
+  double mount_yaw_across_std_rad = 0.02;  ///< And more for one that looks across the way.
   double mount_yaw_walk = 0.0003;      ///< rad/sqrt(s): it is screwed on.
   double lever_std_m = 0.1;            ///< Of its place, along each axis.
   double doppler_scale_std = 0.002;    ///< Of one, after calibration.

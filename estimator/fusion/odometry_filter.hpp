@@ -9,10 +9,9 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/gaussian_state.hpp"
 #include "estimator/fusion/odometry.hpp"
 #include "estimator/fusion/odometry_options.hpp"
-#include "estimator/fusion/radar_measurement.hpp"
+#include "estimator/fusion/odometry_state.hpp"
 #include "estimator/fusion/radar_track.hpp"
 #include "estimator/pose2.hpp"
 #include "estimator/registration_options.hpp"
@@ -59,30 +58,23 @@ class OdometryFilter {
   void forget() { has_started_ = false; }
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
-  [[nodiscard]] const GaussianState& state() const { return state_; }
+  [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
   void start(std::int64_t stamp_us);
-  void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
-  void start_errors(std::size_t radar);
-  void advance(std::int64_t stamp_us);
-  void advance_errors(std::size_t radar, double dt_s);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, double age_s);
   void use_pair(std::size_t radar, std::size_t keyframe, const RadarTrack::Pair& pair);
-  void clone_scan(std::size_t radar, double age_s);
   void ask_majority(std::int64_t stamp_us);
   [[nodiscard]] int count_verdicts(std::int64_t stamp_us, bool agree) const;
   void tell(Odometry& odometry);
   void tell_motion(Odometry& odometry);
-  void renew_anchor();
   [[nodiscard]] OdometryStatus status() const;
   [[nodiscard]] bool is_known() const;
-  [[nodiscard]] RadarModel model(std::size_t radar) const;
 
   OdometryOptions options_;
-  GaussianState state_;
+  OdometryState state_;
   std::vector<std::unique_ptr<RadarTrack>> tracks_;
   bool has_started_ = false;
   bool is_settled_ = false;  // The start is over.

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/fusion/odometry_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "estimator/fusion/pose_chain.hpp"
+#include "estimator/fusion/vehicle_motion.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// Accelerations are constant within so short a step.
+constexpr double kMaxStepS = 0.1;
+
+double squared(double value) { return value * value; }
+
+int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
+
+/// Part of the forward velocity that a radar sees across its axis, where azimuths tell it.
+double across_share(const Pose2& mount) { return squared(std::sin(mount.yaw_rad)); }
+
+/// What is left of a forgetting quantity after dt, and the variance it has gained, if its standard
+/// deviation is larger by `more`.
+void forget(GaussianState& state, int which, const ForgettingNoise& noise, double more,
+            double dt_s) {
+  const double left = std::exp(-dt_s / noise.time_s);
+  state.forget(which, left, squared(noise.std + more) * (1.0 - left * left));
+}
+
+}  // namespace
+
+OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts)
+    : gaussian(size(static_cast<int>(mounts.size()))),
+      options_(options),
+      mounts_(std::move(mounts)) {}
+
+void OdometryState::start() {
+  for (int i = 0; i < gaussian.size(); ++i) {
+    gaussian.set(i, 0.0, 0.0);
+  }
+  start_motion(Eigen::Vector2d::Zero(),
+               Eigen::Vector2d(squared(options_.start_speed_std_mps),
+                               squared(options_.start_yaw_rate_std_radps))
+                   .asDiagonal());
+  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
+  gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
+  gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
+  gaussian.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    start_errors(i);
+  }
+}
+
+void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance) {
+  gaussian.set(kSpeed, value.x(), covariance(0, 0));
+  gaussian.set(kAcceleration, 0.0, squared(options_.acceleration.std));
+  gaussian.set(kYawRate, value.y(), covariance(1, 1));
+  gaussian.set(kYawAcceleration, 0.0, squared(options_.yaw_acceleration.std));
+}
+
+void OdometryState::start_errors(std::size_t radar) {
+  const int first = first_of(radar);
+  const double across = across_share(mounts_[radar]);
+  const auto set = [&](int which, double std, double more = 0.0) {
+    gaussian.set(first + which, 0.0, squared(std) + squared(more));
+  };
+  set(kMountYaw, options_.mount_yaw_std_rad, across * options_.mount_yaw_across_std_rad);
+  set(kDopplerScale, options_.doppler_scale_std, across * options_.azimuth_scale_std);
+  set(kDopplerX, options_.doppler_x.std);
+  set(kDopplerY, options_.doppler_y.std);
+  set(kOffset, options_.offset.std, across * options_.offset_across_mps);
+  set(kYawScale, options_.yaw_scale_std);
+  set(kLeverX, options_.lever_std_m);
+  set(kLeverY, options_.lever_std_m);
+  set(kYawPerMetre, options_.yaw_per_metre.std);
+  set(kLateralPerMetre, options_.lateral_per_metre.std);
+}
+
+void OdometryState::advance(double dt_s) {
+  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxStepS) {
+    const double step_s = std::min(left_s, kMaxStepS);
+    const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
+    gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
+    const double turning = std::abs(gaussian.mean(kYawRate));
+    forget(gaussian, kCommonOffset, options_.common_offset,
+           options_.common_offset_per_yaw_rate_m * turning, step_s);
+  }
+}
+
+void OdometryState::advance_errors(std::size_t radar, double dt_s) {
+  const int first = first_of(radar);
+  const double turning = std::abs(gaussian.mean(kYawRate));
+  const double across = across_share(mounts_[radar]);
+  const double across_mps = across * std::abs(gaussian.mean(kSpeed));
+  forget(gaussian, first + kDopplerX, options_.doppler_x,
+         options_.doppler_x_across_share * across_mps, dt_s);
+  forget(gaussian, first + kDopplerY, options_.doppler_y,
+         options_.doppler_y_per_yaw_rate_m * turning, dt_s);
+  forget(gaussian, first + kOffset, options_.offset,
+         options_.offset_per_yaw_rate_m * turning + options_.offset_across_mps * across, dt_s);
+  forget(gaussian, first + kYawPerMetre, options_.yaw_per_metre, 0.0, dt_s);
+  forget(gaussian, first + kLateralPerMetre, options_.lateral_per_metre, 0.0, dt_s);
+  gaussian.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
+}
+
+Eigen::Vector3d OdometryState::pose_before(double age_s) const {
+  return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
+}
+
+void OdometryState::clone_scan(std::size_t radar, double age_s,
+                               const Eigen::Matrix3d& scan_noise) {
+  const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), -age_s, options_);
+  const Eigen::Vector3d pose = step.state.head<kPose>();
+  gaussian.clone<kMotionStates>(scan(radar), pose, step.jacobian.topRows<kPose>(),
+                                turned_covariance(pose.z(), scan_noise));
+}
+
+void OdometryState::keep_scan(std::size_t radar, std::size_t keyframe) {
+  gaussian.copy(scan(radar), this->keyframe(radar, keyframe));
+}
+
+void OdometryState::clone_output() { gaussian.copy(kX, kOutput); }
+
+void OdometryState::renew_anchor() {
+  const Eigen::Vector3d anchor = gaussian.mean().head<kPose>();
+  const auto renew = [&](int pose) {
+    const Eigen::Vector3d relative = relative_pose(anchor, gaussian.mean().segment<kPose>(pose));
+    const Eigen::Matrix<double, 3, 6> jacobian = relative_pose_jacobian(anchor, relative);
+    gaussian.transform_pose(pose, relative, jacobian.rightCols<3>(), jacobian.leftCols<3>());
+  };
+  renew(kOutput);
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    renew(scan(i));
+    for (std::size_t k = 0; k < kKeyframes; ++k) {
+      renew(keyframe(i, k));
+    }
+  }
+  for (int i = 0; i < kPose; ++i) {
+    gaussian.set(i, 0.0, 0.0);
+  }
+}
+
+RadarModel OdometryState::model(std::size_t radar) const {
+  return {gaussian, options_, mounts_[radar], first_of(radar)};
+}
+
+int OdometryState::scan(std::size_t radar) const { return first_of(radar) + kScan; }
+
+int OdometryState::keyframe(std::size_t radar, std::size_t keyframe) const {
+  return first_of(radar) + state_layout::keyframe(static_cast<int>(keyframe));
+}
+
+int OdometryState::error(std::size_t radar, int which) const { return first_of(radar) + which; }
+
+}  // namespace cremed

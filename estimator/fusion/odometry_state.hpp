@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimator/fusion/gaussian_state.hpp"
+#include "estimator/fusion/odometry_options.hpp"
+#include "estimator/fusion/radar_measurement.hpp"
+#include "estimator/fusion/state_layout.hpp"
+#include "estimator/pose2.hpp"
+
+namespace cremed {
+
+/// The state of the odometry filter and all that changes it but measurements: what is known at the
+/// start, how it goes on, clones, and the anchor in whose frame poses are given.
+class OdometryState {
+ public:
+  OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts);
+
+  /// Nothing is known but what the options say; the anchor is here.
+  void start();
+  /// The motion alone begins anew, with (v, w) and their covariance.
+  void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
+  /// So do the errors of a radar.
+  void start_errors(std::size_t radar);
+
+  /// The vehicle moves on.
+  void advance(double dt_s);
+  /// A radar's scans come in order: its errors are those of its last scan's time.
+  void advance_errors(std::size_t radar, double dt_s);
+
+  /// Pose at a scan that is older than the state (0: of its time).
+  [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
+  /// Clones it, with the noise of the scan's positions in the axes of the vehicle.
+  void clone_scan(std::size_t radar, double age_s, const Eigen::Matrix3d& scan_noise);
+  void keep_scan(std::size_t radar, std::size_t keyframe);
+  void clone_output();
+  /// The pose becomes the anchor: all poses are given in its frame from now on.
+  void renew_anchor();
+
+  [[nodiscard]] RadarModel model(std::size_t radar) const;
+  [[nodiscard]] int scan(std::size_t radar) const;
+  [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
+  [[nodiscard]] int error(std::size_t radar, int which) const;
+
+  GaussianState gaussian;
+
+ private:
+  OdometryOptions options_;
+  std::vector<Pose2> mounts_;
+};
+
+}  // namespace cremed

@@ -54,7 +54,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--speed", speed, "Speed of the replay: max, or a factor of real time")
       ->capture_default_str();
-  app.add_option("--output-csv", c.output_csv, "Write odometry as CSV");
+  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV");
+  app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
   app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");
   app.add_flag("--timing", c.timing,

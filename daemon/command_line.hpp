@@ -17,6 +17,7 @@ struct CommandLine {
   double speed = 0.0;               ///< Log seconds per second; 0: as fast as possible.
   bool timing = false;              ///< Measure solve_us.
   std::optional<std::string> output_csv;
+  std::optional<std::string> output_odometry;
   std::optional<std::string> output_tum;
   std::optional<std::string> lcm_url;
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "daemon/configuration_estimator.hpp"
+#include "daemon/configuration_odometry.hpp"
 #include "daemon/configuration_radar.hpp"
 #include "daemon/message_text.hpp"
 #include "daemon/toml_document.hpp"
@@ -31,39 +32,49 @@ bool is_any(std::string_view /*text*/) { return true; }
 constexpr TextRule kLcmUrl = {is_lcm_url, kLcmUrlWanted};
 constexpr TextRule kPath = {is_any, "a path, or \"\" for none"};
 constexpr TextRule kSource = {
-    is_any, "the name of a radar, \"fused\" where there are two or more, or \"\" for the first"};
+    is_any,
+    "the name of a radar, \"odometry\" unless that is off, \"fused\" for the same of two radars or "
+    "more, or \"\""};
+
+bool is_source(std::string_view source, const Configuration& configuration) {
+  if (source == kOdometrySource) {
+    return configuration.odometry.enabled;
+  }
+  if (source == kFusedSource) {
+    return is_fused(configuration);
+  }
+  return source.empty() ||
+         std::any_of(configuration.radars.begin(), configuration.radars.end(),
+                     [&](const RadarConfiguration& radar) { return radar.name == source; });
+}
 
 void check_output(TomlReader& reader, const Configuration& configuration) {
   const OutputConfiguration& output = configuration.output;
-  const auto& radars = configuration.radars;
-  const bool is_that_of_all = output.tum_source == kFusedSource && is_fused(configuration);
-  if (!output.tum_source.empty() && !is_that_of_all &&
-      std::none_of(radars.begin(), radars.end(),
-                   [&](const auto& radar) { return radar.name == output.tum_source; })) {
+  if (!is_source(output.tum_source, configuration)) {
     reader.report("tum_source",
                   concat({"is \"", printable(output.tum_source), "\"; must be ", kSource.wanted}));
   }
-  if (!output.tum.empty() && output.tum == output.csv) {
-    reader.report("tum", "is the file of csv as well; must be another path");
+  const auto check_path = [&](std::string_view key, const std::string& path,
+                              std::string_view other_key, const std::string& other) {
+    if (!path.empty() && path == other) {
+      reader.report(key, concat({"is the file of ", other_key, " as well; must be another path"}));
+    }
+  };
+  check_path("odometry", output.odometry, "csv", output.csv);
+  check_path("tum", output.tum, "csv", output.csv);
+  check_path("tum", output.tum, "odometry", output.odometry);
+  if (!output.odometry.empty() && !configuration.odometry.enabled) {
+    reader.report("odometry", "is to be written, but odometry.enabled = false; must be \"\"");
   }
 }
 
 void read_output(TomlReader& reader, OutputConfiguration& output) {
   reader.text("lcm_url", output.lcm_url, kLcmUrl);
   reader.text("csv", output.csv, kPath);
+  reader.text("odometry", output.odometry, kPath);
   reader.text("tum", output.tum, kPath);
   reader.text("tum_source", output.tum_source, kSource);
   reader.boolean("publish_scans", output.publish_scans);
-  reader.finish();
-}
-
-void read_fused(TomlReader reader, FusedOptions& fused) {
-  reader.boolean("enabled", fused.enabled);
-  reader.number("acceleration_std_mps2", fused.acceleration_std_mps2, {0.0, 100.0});
-  reader.number("yaw_acceleration_std_radps2", fused.yaw_acceleration_std_radps2, {0.0, 100.0});
-  reader.number("side_slip_std_rad", fused.side_slip_std_rad, {0.0, 1.0});
-  reader.number("side_slip_walk_radps", fused.side_slip_walk_radps, {0.0, 1.0});
-  reader.number("max_innovation", fused.max_innovation, {1.0, 1000.0});
   reader.finish();
 }
 
@@ -109,7 +120,9 @@ Configuration read_configuration(const toml::table& table, ReadContext& context)
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
   }
-  read_fused(reader.table("fused"), configuration.fused);
+  read_odometry(reader.table("odometry"), configuration.odometry);
+  reader.refuse(std::array<std::string_view, 1>{"fused"},
+                "was replaced by [odometry]; must be left out");
   TomlReader output = reader.table("output");
   read_output(output, configuration.output);
   read_live(reader.table("live"), configuration.live);
@@ -135,7 +148,19 @@ struct CloseFile {
 }  // namespace
 
 bool is_fused(const Configuration& configuration) {
-  return configuration.fused.enabled && configuration.radars.size() > 1;
+  return configuration.odometry.enabled && configuration.radars.size() > 1;
+}
+
+std::optional<std::size_t> tum_radar(const Configuration& configuration) {
+  const std::string& source = configuration.output.tum_source;
+  const auto& radars = configuration.radars;
+  const auto found = std::find_if(radars.begin(), radars.end(), [&](const auto& radar) {
+    return radar.name == source;
+  });
+  if (found != radars.end()) {
+    return found - radars.begin();
+  }
+  return source.empty() && !is_fused(configuration) ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
 bool is_lcm_url(std::string_view text) {

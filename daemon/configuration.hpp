@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -15,7 +16,7 @@
 #include "can_decoders/bosch_gpr.hpp"
 #include "daemon/can_socket.hpp"
 #include "estimator/ego_motion_options.hpp"
-#include "estimator/fused_estimator.hpp"
+#include "estimator/fusion/odometry_options.hpp"
 
 namespace cremed {
 
@@ -24,6 +25,9 @@ inline constexpr std::size_t kMaxRadars = 16;
 
 /// What the motion of all radars is named in messages and files; no radar may be.
 inline constexpr std::string_view kFusedSource = "fused";
+
+/// What the state of the vehicle is named where the trajectory follows it; no radar may be.
+inline constexpr std::string_view kOdometrySource = "odometry";
 
 /// One [[radar]] table.
 struct RadarConfiguration {
@@ -36,11 +40,19 @@ struct RadarConfiguration {
   EgoMotionOptions ego_motion;
 };
 
+struct OdometryConfiguration {
+  bool enabled = true;
+  OdometryOptions filter;
+};
+
 struct OutputConfiguration {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  ///< "none": no LCM.
-  std::string csv;             ///< Path of the odometry CSV; empty: none.
-  std::string tum;             ///< Path of the trajectory; empty: none. One radar: see tum_source.
-  std::string tum_source;      ///< Radar the trajectory follows, or "fused"; empty: the first.
+  std::string csv;             ///< Path of the ego-motions as CSV; empty: none.
+  std::string odometry;        ///< Path of the vehicle's state as CSV; empty: none.
+  std::string tum;             ///< Path of the trajectory; empty: none.
+  /// What the trajectory follows: a radar, or the odometry. Empty: the odometry where there are two
+  /// radars or more, otherwise the radar.
+  std::string tum_source;
   bool publish_scans = false;  ///< radar_scan_t on CREMED_SCAN_<RADAR>.
 };
 
@@ -66,7 +78,7 @@ struct LoggingConfiguration {
 /// All of one TOML file, validated.
 struct Configuration {
   std::vector<RadarConfiguration> radars;
-  FusedOptions fused;
+  OdometryConfiguration odometry;
   OutputConfiguration output;
   LiveConfiguration live;
   LoggingConfiguration logging;
@@ -79,8 +91,11 @@ class ConfigurationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whether there is an estimate from all radars together.
+/// Whether there is a motion of all radars together, "fused".
 bool is_fused(const Configuration& configuration);
+
+/// The radar that the trajectory follows; nothing: the odometry.
+std::optional<std::size_t> tum_radar(const Configuration& configuration);
 
 /// Parses and validates everything before anything is opened. `file_name` is for messages only.
 Configuration parse_configuration(std::string_view toml, const std::string& file_name);

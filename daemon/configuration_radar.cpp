@@ -29,7 +29,8 @@ bool is_name(std::string_view text) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
            c == '-';
   };
-  return !text.empty() && text.size() <= kMaxName && text != "fused" &&
+  return !text.empty() && text.size() <= kMaxName && text != kFusedSource &&
+         text != kOdometrySource &&
          std::all_of(text.begin(), text.end(), fits);
 }
 
@@ -41,7 +42,8 @@ bool is_interface(std::string_view text) {
 constexpr std::string_view kRotationLead = "rotation_lead_s";
 
 constexpr TextRule kName = {
-    is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and not \"fused\""};
+    is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and neither \"fused\" nor "
+             "\"odometry\""};
 constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
 
 void read_ars408(TomlReader& reader, RadarConfiguration& radar) {

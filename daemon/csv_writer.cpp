@@ -8,18 +8,11 @@
 
 namespace cremed {
 
-TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us) {
+TextLine motion_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us) {
   TextLine line;
   line.integer(motion.utime_start_us).text(",").integer(motion.utime_us).text(",");
   line.text(source);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    line.text(",").fixed(motion.motion(i), 9);
-  }
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = row; column < 3; ++column) {
-      line.text(",").scientific(motion.covariance(row, column), 9);
-    }
-  }
+  line.numbers(motion.motion).upper_triangle(motion.covariance);
   line.text(",").text(to_string(motion.status));
   line.text(",").integer(motion.targets).text(",").integer(motion.iterations);
   line.text(",").integer(solve_us).text("\n");
@@ -28,15 +21,15 @@ TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std:
 
 CsvWriter::CsvWriter(const std::string& path, std::vector<std::string> radars)
     : file_(path), radars_(std::move(radars)) {
-  file_.write(kOdometryCsvHeader);
+  file_.write(kMotionCsvHeader);
 }
 
 void CsvWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
-  file_.write(odometry_csv_row(radars_[radar], motion, solve_us).view());
+  file_.write(motion_csv_row(radars_[radar], motion, solve_us).view());
 }
 
 void CsvWriter::on_fused(const EgoMotion& motion, std::int32_t solve_us) {
-  file_.write(odometry_csv_row(kFusedSource, motion, solve_us).view());
+  file_.write(motion_csv_row(kFusedSource, motion, solve_us).view());
 }
 
 }  // namespace cremed

@@ -13,14 +13,14 @@
 
 namespace cremed {
 
-inline constexpr std::string_view kOdometryCsvHeader =
+inline constexpr std::string_view kMotionCsvHeader =
     "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
     "status,targets,iterations,solve_us\n";
 
 /// One row under that header; without estimate it has nan for the motion.
-TextLine odometry_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us);
+TextLine motion_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us);
 
-/// Odometry as CSV, one row a scan of each radar, and one a fused motion.
+/// Ego-motions as CSV, one row a scan of each radar, and one a fused motion.
 class CsvWriter final : public OdometrySink {
  public:
   /// `radars`: their names. Throws std::runtime_error if the file cannot be made.

@@ -75,10 +75,45 @@ void fill_health(const RadarHealth& health, status_t& m) {
 void fill_belief(const BeliefStatus& belief, status_t& m) {
   m.innovation_doppler = static_cast<float>(belief.doppler_innovation);
   m.innovation_next = static_cast<float>(belief.next_innovation);
-  m.innovation_radars = static_cast<float>(belief.radars_innovation);
   m.doubts = static_cast<std::int32_t>(belief.doubts);
-  m.motions_fused = count(belief.motions_fused);
-  m.motions_left_out = count(belief.motions_left_out);
+}
+
+void fill_odometry(const RadarReport& report, status_t& m) {
+  m.odometry_innovation_doppler = static_cast<float>(report.doppler_innovation);
+  m.odometry_innovation_lateral = static_cast<float>(report.lateral_innovation);
+  m.odometry_innovation_yaw = static_cast<float>(report.yaw_innovation);
+  m.odometry_doppler_noise_factor = static_cast<float>(report.doppler_noise_factor);
+  m.odometry_position_noise_factor = static_cast<float>(report.position_noise_factor);
+  m.odometry_mount_yaw_error_rad = static_cast<float>(report.mount_yaw_rad);
+  m.odometry_mount_yaw_error_std_rad = static_cast<float>(report.mount_yaw_std_rad);
+  m.odometry_doppler_scale_error = static_cast<float>(report.doppler_scale);
+  m.odometry_doppler_scale_error_std = static_cast<float>(report.doppler_scale_std);
+  m.odometry_leaves_out = report.is_left_out ? 1 : 0;
+}
+
+void copy(const Eigen::Matrix3d& matrix, double (&row_major)[9]) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> map(&row_major[0]);
+  map = matrix;
+}
+
+void fill(const Odometry& odometry, odometry_t& m) {
+  m.utime = odometry.utime_us;
+  m.utime_anchor = odometry.utime_anchor_us;
+  m.status = static_cast<std::int8_t>(odometry.status);
+  m.radars_used = static_cast<std::int32_t>(odometry.radars);
+  m.radars_left_out = static_cast<std::int32_t>(odometry.left_out);
+  m.x_in_anchor_frame_m = odometry.pose.x();
+  m.y_in_anchor_frame_m = odometry.pose.y();
+  m.yaw_in_anchor_frame_rad = odometry.pose.z();
+  copy(odometry.covariance, m.covariance_x_y_yaw_in_anchor_frame_m_rad);
+  m.x_in_odom_frame_m = odometry.odom_pose.x();
+  m.y_in_odom_frame_m = odometry.odom_pose.y();
+  m.yaw_in_odom_frame_rad = odometry.odom_pose.z();
+  copy(odometry.odom_covariance, m.covariance_x_y_yaw_in_odom_frame_m_rad);
+  m.vx_in_vehicle_frame_mps = odometry.twist.x();
+  m.vy_in_vehicle_frame_mps = odometry.twist.y();
+  m.yaw_rate_radps = odometry.twist.z();
+  copy(odometry.twist_covariance, m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps);
 }
 
 /// LCM sends with a socket that waits when its buffer is full, and gives no access to it: it is
@@ -116,7 +151,7 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
       publish_scans_(configuration.output.publish_scans),
       messages_(configuration.radars.size()) {
   fused_.source = kFusedSource;
-  fused_.seq = 0;
+  fused_.seq = odometry_.seq = 0;
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     const std::string& name = configuration.radars[i].name;
     Messages& messages = messages_[i];
@@ -162,6 +197,17 @@ void LcmPublisher::on_motion(std::size_t radar, const EgoMotion& motion, std::in
   publish_motion(motion, solve_us, messages_[radar].motion);
 }
 
+void LcmPublisher::on_odometry(const Odometry& odometry) {
+  fill(odometry, odometry_);
+  odometry_.doubts = 0;
+  for (std::size_t i = 0; i < messages_.size(); ++i) {
+    odometry_.doubts |= ((odometry.radars >> i) & 1U) != 0 ? messages_[i].motion.doubts : 0;
+  }
+  fused_.doubts = odometry_.doubts;
+  publish("CREMED_ODOMETRY", odometry_);
+  ++odometry_.seq;
+}
+
 void LcmPublisher::on_fused(const EgoMotion& motion, std::int32_t solve_us) {
   publish_motion(motion, solve_us, fused_);
 }
@@ -175,11 +221,7 @@ void LcmPublisher::publish_motion(const EgoMotion& motion, std::int32_t solve_us
   message.x_in_start_frame_m = motion.motion.x();
   message.y_in_start_frame_m = motion.motion.y();
   message.yaw_in_start_frame_rad = motion.motion.z();
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = 0; column < 3; ++column) {
-      message.covariance_x_y_yaw_m_rad[3 * row + column] = motion.covariance(row, column);
-    }
-  }
+  copy(motion.covariance, message.covariance_x_y_yaw_m_rad);
   message.num_targets = motion.targets;
   message.num_iterations = motion.iterations;
   message.solve_us = solve_us;
@@ -221,6 +263,9 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   m.latency_p99_us = static_cast<std::int32_t>(status.latency.p99_us);
   m.latency_max_us = static_cast<std::int32_t>(status.latency.max_us);
   fill_belief(status.belief, m);
+  messages_[radar].motion.doubts = m.doubts;
+  fill_odometry(status.odometry, m);
+  m.scans_in_odometry = count(status.scans_in_odometry);
   fill_health(status.health, m);
   m.messages_not_published = count(failures_);
 

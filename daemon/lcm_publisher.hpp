@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <cremed/ego_motion_t.hpp>
+#include <cremed/odometry_t.hpp>
 #include <cremed/radar_scan_t.hpp>
 #include <cremed/status_t.hpp>
 #include <lcm/lcm.h>
@@ -18,7 +19,7 @@
 
 namespace cremed {
 
-/// Publishes over LCM: ego_motion_t, status_t and, if configured, radar_scan_t. Messages are
+/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t. Messages are
 /// encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
@@ -34,6 +35,7 @@ class LcmPublisher final : public OdometrySink {
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_odometry(const Odometry& odometry) override;
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
   [[nodiscard]] std::uint64_t failures() const override { return failures_; }
@@ -61,6 +63,7 @@ class LcmPublisher final : public OdometrySink {
   bool publish_scans_;
   std::vector<Messages> messages_;
   ego_motion_t fused_;
+  odometry_t odometry_;
   std::array<std::uint8_t, 16384> buffer_{};
   std::uint64_t failures_ = 0;
 };

@@ -128,6 +128,9 @@ std::string LiveReporter::report() {
     }
     report_bus(*source_.interfaces()[i], now, buses_[i]);
   }
+  if (configuration_.odometry.enabled) {
+    line += "; " + report_odometry();
+  }
   report_publisher();
   if (publisher_ != nullptr && !publisher_->is_connected()) {
     line += "; LCM is not connected";
@@ -196,7 +199,30 @@ std::string LiveReporter::report_radar(std::size_t radar) {
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});
   });
+  report_left_out(radar, status);
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
+}
+
+/// Once a radar is named, why is its own affair: here is said that all of them give no odometry.
+std::string LiveReporter::report_odometry() {
+  const std::optional<Odometry>& odometry = pipeline_.odometry();
+  const bool is_new = odometry && odometry->utime_us != odometry_us_;
+  odometry_us_ = odometry ? odometry->utime_us : 0;
+  const bool is_good = is_new && (odometry->status == OdometryStatus::ok ||
+                                  odometry->status == OdometryStatus::standing_still);
+  seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
+  const std::string state(is_new ? to_string(odometry->status) : "none");
+  const int kind = seconds_without_odometry_ < kPatienceS ? 0
+                   : is_new ? static_cast<int>(odometry->status)
+                            : static_cast<int>(kOdometryStatusCount);
+  log_.update("odometry", kind, [&] { return state; });
+  return "odometry: " + state;
+}
+
+void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
+  log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
+              status.odometry.is_left_out ? 1 : 0,
+              [] { return "left out: it contradicts the other radars, or what it said before"; });
 }
 
 void LiveReporter::report_publisher() {

@@ -38,6 +38,8 @@ class LiveReporter {
   void report_bus(const CanInterface& interface, const BusStatus& now, BusStatus& before);
   void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);
   std::string report_radar(std::size_t radar);
+  std::string report_odometry();
+  void report_left_out(std::size_t radar, const RadarStatus& status);
   void report_publisher();
 
   Configuration configuration_;
@@ -47,6 +49,8 @@ class LiveReporter {
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // As last looked at.
   std::vector<Progress> progress_;
+  std::int64_t odometry_us_ = 0;        // As last looked at.
+  int seconds_without_odometry_ = 0;
   bool is_connected_ = false;
   std::uint64_t failures_ = 0;
 };

@@ -8,6 +8,7 @@
 #include "can_decoders/radar_scan.hpp"
 #include "daemon/radar_status.hpp"
 #include "estimator/ego_motion_estimator.hpp"
+#include "estimator/fusion/odometry.hpp"
 
 namespace cremed {
 
@@ -19,7 +20,9 @@ class OdometrySink {
 
   virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
   virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
-  /// The motion of all radars together, where there are more than one.
+  /// The state of the vehicle after each scan that is later than those before.
+  virtual void on_odometry(const Odometry& /*odometry*/) {}
+  /// Its motion since the odometry before, where there are two radars or more.
   virtual void on_fused(const EgoMotion& /*motion*/, std::int32_t /*solve_us*/) {}
   virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
 

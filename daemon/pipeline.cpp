@@ -5,10 +5,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "estimator/fusion/fused_motion.hpp"
+
 namespace cremed {
 namespace {
 
 constexpr std::int64_t kStatusPeriodUs = 1'000'000;
+/// A radar's stamps go back by less if frames are reordered.
+constexpr std::int64_t kClockSetBackUs = 1'000'000;
+
+std::vector<OdometryRadar> odometry_radars(const Configuration& configuration) {
+  std::vector<OdometryRadar> radars;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration});
+  }
+  return radars;
+}
 
 /// Stamps of hardware that is synchronised differ from the order in which the kernel got the frames
 /// by less; a fraction of any time-out.
@@ -24,8 +36,8 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
     radars_.push_back(
         std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
-  if (is_fused(configuration)) {
-    fused_.emplace(configuration.fused, configuration.radars[0].ego_motion, radars_.size());
+  if (configuration.odometry.enabled) {
+    filter_.emplace(configuration.odometry.filter, odometry_radars(configuration));
   }
 }
 
@@ -127,23 +139,44 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   for (OdometrySink* sink : sinks_) {
     sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
   }
+  publish_odometry(radar, motion);
   radar.note_duration(clock_.now_us() - begin_us, solve_us);
-  publish_fused(radar, motion);
   for (OdometrySink* sink : sinks_) {
     sink->on_scan(radar.index, scan);
   }
 }
 
-void Pipeline::publish_fused(const RadarChannel& radar, const EgoMotion& motion) {
-  if (!fused_) {
+/// Of every scan with usable targets, whether or not it could be registered with the one before.
+void Pipeline::publish_odometry(const RadarChannel& radar, const EgoMotion& motion) {
+  const TargetSet& targets = radar.estimator.targets();
+  if (!filter_ || targets.size() == 0) {
     return;
   }
+  if (motion.utime_us < motion.utime_start_us - kClockSetBackUs) {
+    filter_->forget();
+  }
   const std::int64_t begin_us = clock_.now_us();
-  if (const auto fused = fused_->update(radar.index, motion, radar.self_check.is_believable())) {
-    const auto solve_us = static_cast<std::int32_t>(clock_.now_us() - begin_us);
-    for (OdometrySink* sink : sinks_) {
-      sink->on_fused(*fused, solve_us);
-    }
+  const Odometry odometry = filter_->update(radar.index, targets, motion.utime_us);
+  const std::int64_t solve_us = clock_.now_us() - begin_us;
+  if (!odometry.is_new) {
+    return;
+  }
+  odometry_ = odometry;
+  for (const auto& each : radars_) {
+    each->count(odometry);
+  }
+  for (OdometrySink* sink : sinks_) {
+    sink->on_odometry(odometry);
+  }
+  if (radars_.size() > 1) {
+    publish_fused(targets.size(), solve_us);
+  }
+}
+
+void Pipeline::publish_fused(std::size_t targets, std::int64_t solve_us) {
+  const EgoMotion fused = fused_motion(*odometry_, targets);
+  for (OdometrySink* sink : sinks_) {
+    sink->on_fused(fused, static_cast<std::int32_t>(solve_us));
   }
 }
 
@@ -160,8 +193,8 @@ void Pipeline::on_time(std::int64_t now_us) {
 void Pipeline::publish_status() {
   for (const auto& radar : radars_) {
     radar->begin_period();
-    if (fused_) {
-      radar->note_agreement(fused_->agreement(radar->index));
+    if (filter_) {
+      radar->note_report(filter_->report(radar->index));
     }
     const RadarStatus& status = radar->status(*time_us_, source_);
     for (OdometrySink* sink : sinks_) {
@@ -186,8 +219,8 @@ void Pipeline::on_clock_step() {
     radar->estimator.forget_reference();
     radar->self_check.forget();
   }
-  if (fused_) {
-    fused_->forget();
+  if (filter_) {
+    filter_->forget();
   }
 }
 

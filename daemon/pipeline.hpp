@@ -13,7 +13,7 @@
 #include "daemon/frame_source.hpp"
 #include "daemon/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
-#include "estimator/fused_estimator.hpp"
+#include "estimator/fusion/odometry_filter.hpp"
 
 namespace cremed {
 
@@ -29,7 +29,7 @@ struct PipelineClock {
 ///
 ///     FrameSource -> RadarDecoder -> ScanAssembler -> EgoMotionEstimator -> OdometrySink
 ///                                                          |                    |
-///                                           of all radars  +-> FusedEstimator --+
+///                                           of all radars  +-> OdometryFilter --+
 ///
 /// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So
 /// frames that come in the order of their stamps give the same motions in the same order, live and
@@ -59,6 +59,8 @@ class Pipeline {
   [[nodiscard]] std::size_t frames_to_next_scan() const;
 
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
+  /// The last; nothing before the first.
+  [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 
  private:
   void on_time(std::int64_t now_us);
@@ -68,14 +70,16 @@ class Pipeline {
   RadarChannel* first_to_close(Condition condition);
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
-  void publish_fused(const RadarChannel& radar, const EgoMotion& motion);
+  void publish_odometry(const RadarChannel& radar, const EgoMotion& motion);
+  void publish_fused(std::size_t targets, std::int64_t solve_us);
   void publish_status();
 
   const FrameSource& source_;
   std::vector<OdometrySink*> sinks_;
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
-  std::optional<FusedEstimator> fused_;
+  std::optional<OdometryFilter> filter_;
+  std::optional<Odometry> odometry_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::uint8_t last_interface_ = 0;      // Of the last frame.
   std::int64_t next_status_us_ = 0;

@@ -40,12 +40,11 @@ void RadarChannel::count(const EgoMotion& motion) {
   self_check.add(motion);
 }
 
-void RadarChannel::note_agreement(const RadarAgreement& agreement) {
-  status_.belief.radars_innovation = agreement.innovation.mean();
-  status_.belief.motions_fused = agreement.used;
-  status_.belief.motions_left_out = agreement.left_out;
-  is_contradicted_ = agreement.contradicts;
+void RadarChannel::count(const Odometry& odometry) {
+  status_.scans_in_odometry += (odometry.radars >> index) & 1U;
 }
+
+void RadarChannel::note_report(const RadarReport& report) { status_.odometry = report; }
 
 void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
   latency_.add(latency_us);
@@ -70,7 +69,7 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.belief.doppler_innovation = self_check.doppler().mean();
   status_.belief.next_innovation = self_check.next().mean();
   status_.belief.doubts =
-      self_check.doubts() | (is_contradicted_ ? std::uint32_t{other_radars_contradict} : 0U);
+      self_check.doubts() | (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);
   return status_;
 }
 

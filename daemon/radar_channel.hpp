@@ -15,7 +15,7 @@
 #include "daemon/latency_histogram.hpp"
 #include "daemon/radar_status.hpp"
 #include "estimator/ego_motion_estimator.hpp"
-#include "estimator/fused_estimator.hpp"
+#include "estimator/fusion/odometry.hpp"
 #include "estimator/self_check.hpp"
 
 namespace cremed {
@@ -29,10 +29,12 @@ struct RadarChannel {
 
   /// Notes an estimate in the status.
   void count(const EgoMotion& motion);
-  /// Notes in the status how it compares with other radars, if there are.
-  void note_agreement(const RadarAgreement& agreement);
+  /// Notes whether a scan went into the odometry.
+  void count(const Odometry& odometry);
+  /// Notes in the status what the odometry filter knows of it.
+  void note_report(const RadarReport& report);
   /// Notes how long a scan took from its last frame to the end of its publication, and how much of
-  /// that the estimate took.
+  /// that its registration took.
   void note_duration(std::int64_t latency_us, std::int64_t solve_us);
   /// Sums up the latencies since the last call: the status shows them until the next.
   void begin_period();
@@ -54,7 +56,6 @@ struct RadarChannel {
  private:
   LatencyHistogram latency_;  // Since begin_period().
   RadarStatus status_;
-  bool is_contradicted_ = false;
 };
 
 /// Distinct names of the radars' interfaces, in order of first mention.

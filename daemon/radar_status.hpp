@@ -10,6 +10,7 @@
 #include "can_decoders/scan_assembler.hpp"
 #include "daemon/frame_source.hpp"
 #include "estimator/ego_motion_estimator.hpp"
+#include "estimator/fusion/odometry.hpp"
 
 namespace cremed {
 
@@ -21,15 +22,12 @@ struct LatencySummary {
   std::int64_t max_us = 0;
 };
 
-/// Whether a radar's covariance can be believed, by SelfCheck and RadarAgreement. Means of
+/// Whether a radar's covariance can be believed, by SelfCheck and the odometry filter. Means of
 /// normalised innovations squared over the last minute: 1 expected, 0 none yet.
 struct BeliefStatus {
   double doppler_innovation = 0.0;  ///< Positions against Doppler.
   double next_innovation = 0.0;     ///< Each motion against the one before.
-  double radars_innovation = 0.0;   ///< Against the other radars.
   std::uint32_t doubts = 0;         ///< Doubt bits; 0: believable, as far as is known.
-  std::uint64_t motions_fused = 0;
-  std::uint64_t motions_left_out = 0;  ///< They contradicted those of other radars.
 };
 
 /// Everything countable about one radar's way through the pipeline.
@@ -42,6 +40,8 @@ struct RadarStatus {
   RadarHealth health;
   LatencySummary latency;
   BeliefStatus belief;
+  RadarReport odometry;
+  std::uint64_t scans_in_odometry = 0;
   DecoderCounters decoder;
   AssemblerCounters assembler;
   SelectionCounters selection;

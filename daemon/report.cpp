@@ -253,16 +253,13 @@ struct DoubtText {
   std::string_view remedy;
 };
 
-constexpr std::array<DoubtText, 4> kDoubts{{
+constexpr std::array<DoubtText, 3> kDoubts{{
     {registration_contradicts_doppler, &BeliefStatus::doppler_innovation,
      "the positions of its targets contradict their Doppler",
      "check the mount's yaw and the sign of Doppler and azimuth: `cremed-eval calibrate`"},
     {motions_contradict_each_other, &BeliefStatus::next_innovation,
      "its motions jump more than a vehicle can",
      "check mount and detections; `cremed-eval calibrate` tells its noise"},
-    {other_radars_contradict, &BeliefStatus::radars_innovation,
-     "it contradicts the other radars and is left out of \"fused\"",
-     "check its mount: was it knocked? `cremed-eval calibrate`"},
     {covariance_too_large, &BeliefStatus::doppler_innovation,
      "its errors are far smaller than its covariance says",
      "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
@@ -277,6 +274,17 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
                                   decimal(belief.*text.innovation), ", 1 expected)"}),
                           std::string(text.remedy)});
     }
+  }
+}
+
+void add_left_out(const RadarStatus& status, Findings& findings) {
+  if ((status.belief.doubts & other_radars_contradict) != 0) {
+    findings.push_back(
+        {Severity::warning,
+         concat({"it contradicts the other radars, or what it said before, and is left out of the "
+                 "odometry (normalised innovation squared of its Doppler ",
+                 decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
+         "check its mount: was it knocked? `cremed-eval calibrate`"});
   }
 }
 
@@ -331,6 +339,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
+  add_left_out(status, findings);
   return findings;
 }
 

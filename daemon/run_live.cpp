@@ -17,14 +17,16 @@ namespace {
 
 /// A file grows for months and writing it may block; LCM has a recorder for that.
 void refuse_files(const CommandLine& command_line, const Configuration& configuration) {
-  if (command_line.output_csv || command_line.output_tum || command_line.timing) {
+  if (command_line.output_csv || command_line.output_odometry || command_line.output_tum ||
+      command_line.timing) {
     throw UsageError(
-        "--output-csv, --output-tum and --timing need --replay; record a live drive with "
+        "--output-csv, --output-odometry, --output-tum and --timing need --replay; record a live drive with "
         "`lcm-logger` and turn it into CSV with cremed-lcm-to-csv");
   }
-  if (!configuration.output.csv.empty() || !configuration.output.tum.empty()) {
+  const OutputConfiguration& output = configuration.output;
+  if (!output.csv.empty() || !output.odometry.empty() || !output.tum.empty()) {
     spdlog::warn(
-        "output.csv and output.tum are written in replays only; record a live drive with "
+        "output.csv, output.odometry and output.tum are written in replays only; record a live drive with "
         "`lcm-logger`");
   }
 }

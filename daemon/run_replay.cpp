@@ -17,6 +17,7 @@
 #include "daemon/clocks.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/odometry_writer.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/replay.hpp"
 #include "daemon/report.hpp"
@@ -34,15 +35,6 @@ std::vector<std::string> radar_names(const Configuration& configuration) {
   return names;
 }
 
-std::size_t tum_radar(const Configuration& configuration) {
-  if (configuration.output.tum_source == kFusedSource) {
-    return TumWriter::kFused;
-  }
-  const std::vector<std::string> names = radar_names(configuration);
-  const auto found = std::find(names.begin(), names.end(), configuration.output.tum_source);
-  return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin());
-}
-
 /// Which file a path leads to, if there is one.
 std::optional<std::pair<dev_t, ino_t>> identity(const std::string& path) {
   struct stat status {};
@@ -54,20 +46,20 @@ std::optional<std::pair<dev_t, ino_t>> identity(const std::string& path) {
 }
 
 /// Opening an output empties it: never one of the inputs, nor another output.
-void refuse_overwriting(const CommandLine& command_line, const std::string& csv,
-                        const std::string& tum) {
+void refuse_overwriting(const CommandLine& command_line, const std::vector<std::string>& outputs) {
   const auto is_same = [](const std::string& a, const std::string& b) {
     return !a.empty() && (a == b || (identity(a) && identity(a) == identity(b)));
   };
-  for (const std::string& output : {csv, tum}) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     for (const std::string& log : command_line.replay) {
-      if (is_same(output, log)) {
-        throw UsageError(output + " is to be replayed and written; write to another file");
+      if (is_same(*output, log)) {
+        throw UsageError(*output + " is to be replayed and written; write to another file");
       }
     }
-  }
-  if (is_same(csv, tum) && csv != "/dev/null") {
-    throw UsageError(csv + " cannot hold both CSV and trajectory; write one to another file");
+    const auto is_written_twice = [&](const auto& other) { return is_same(*output, other); };
+    if (*output != "/dev/null" && std::any_of(output + 1, outputs.end(), is_written_twice)) {
+      throw UsageError(*output + " cannot hold two outputs; write one to another file");
+    }
   }
 }
 
@@ -88,8 +80,12 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   const OutputConfiguration& output = configuration.output;
   const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
   const std::string csv = command_line.output_csv.value_or(output.csv);
+  const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
-  refuse_overwriting(command_line, csv, tum);
+  refuse_overwriting(command_line, {csv, odometry, tum});
+  if (!odometry.empty() && !configuration.odometry.enabled) {
+    throw UsageError("there is no odometry to write: odometry.enabled = false");
+  }
   Sinks sinks;
   if (lcm_url != "none") {
     auto publisher = std::make_unique<LcmPublisher>(lcm_url, configuration);
@@ -100,6 +96,9 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   }
   if (!csv.empty()) {
     sinks.owned.push_back(std::make_unique<CsvWriter>(csv, radar_names(configuration)));
+  }
+  if (!odometry.empty()) {
+    sinks.owned.push_back(std::make_unique<OdometryWriter>(odometry));
   }
   if (!tum.empty()) {
     auto writer = std::make_unique<TumWriter>(tum, tum_radar(configuration));

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include <Eigen/Core>
+
 namespace cremed {
 
 /// Builds one line of text without allocation or locale. What does not fit is cut off.
@@ -23,6 +25,21 @@ class TextLine {
   }
   TextLine& scientific(double value, int decimals) {
     return advance(std::to_chars(end(), limit(), value, std::chars_format::scientific, decimals));
+  }
+  /// Three numbers, and the upper triangle of a matrix, row by row, each after a comma.
+  TextLine& numbers(const Eigen::Vector3d& values) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      text(",").fixed(values(i), 9);
+    }
+    return *this;
+  }
+  TextLine& upper_triangle(const Eigen::Matrix3d& matrix) {
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      for (Eigen::Index column = row; column < 3; ++column) {
+        text(",").scientific(matrix(row, column), 9);
+      }
+    }
+    return *this;
   }
   [[nodiscard]] std::string_view view() const { return {buffer_.data(), size_}; }
 

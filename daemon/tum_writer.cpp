@@ -7,38 +7,40 @@
 namespace cremed {
 
 void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
-  if (radar == radar_) {
-    follow(motion);
-  }
-}
-
-void TumWriter::on_fused(const EgoMotion& motion, std::int32_t /*solve_us*/) {
-  if (radar_ == kFused) {
-    follow(motion);
-  }
-}
-
-void TumWriter::follow(const EgoMotion& motion) {
-  if (!motion.has_estimate()) {
+  if (radar != radar_ || !motion.has_estimate()) {
     return;
   }
-  if (!has_begun_) {
-    has_begun_ = true;
-    write_pose(motion.utime_start_us);
-  } else if (motion.utime_start_us != utime_us_) {
-    ++gaps_;
-  }
+  begin(motion.utime_start_us);
   Pose2& pose = start_from_vehicle_;
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
   pose.x_m += c * motion.motion.x() - s * motion.motion.y();
   pose.y_m += s * motion.motion.x() + c * motion.motion.y();
   pose.yaw_rad += motion.motion.z();
-  utime_us_ = motion.utime_us;
-  write_pose(utime_us_);
+  write_pose(motion.utime_us);
+}
+
+void TumWriter::on_odometry(const Odometry& odometry) {
+  if (!radar_) {
+    begin(odometry.utime_before_us);
+    const Eigen::Vector3d& pose = odometry.odom_pose;
+    start_from_vehicle_ = {pose.x(), pose.y(), pose.z()};
+    write_pose(odometry.utime_us);
+  }
+}
+
+/// A motion that starts then.
+void TumWriter::begin(std::int64_t utime_us) {
+  if (!has_begun_) {
+    has_begun_ = true;
+    write_pose(utime_us);
+  } else if (utime_us != utime_us_) {
+    ++gaps_;
+  }
 }
 
 void TumWriter::write_pose(std::int64_t utime_us) {
+  utime_us_ = utime_us;
   file_.write(tum_line(utime_us, start_from_vehicle_).view());
 }
 

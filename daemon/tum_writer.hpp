@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 
 #include "daemon/odometry_sink.hpp"
@@ -17,29 +17,27 @@ namespace cremed {
 /// A pose in TUM format: `seconds x y z qx qy qz qw` and a line end.
 TextLine tum_line(std::int64_t utime_us, const Pose2& pose);
 
-/// Trajectory of one radar's ego-motion, or of the fused one, in TUM format, beginning at the
-/// origin. Where estimates do not join (a gap), the trajectory goes on from its last pose as if the
+/// Trajectory of the odometry, or of one radar's ego-motions chained, in TUM format, beginning at
+/// the origin. Where they do not join (a gap), the trajectory goes on from its last pose as if the
 /// vehicle had not moved; gaps() counts these places.
 class TumWriter final : public OdometrySink {
  public:
-  /// In place of a radar's index.
-  static constexpr std::size_t kFused = std::numeric_limits<std::size_t>::max();
-
-  /// Follows the radar with index `radar`, or kFused. Throws std::runtime_error if the file cannot
-  /// be made.
-  TumWriter(const std::string& path, std::size_t radar) : file_(path), radar_(radar) {}
+  /// Follows the radar of that index, or the odometry if there is none. Throws std::runtime_error
+  /// if the file cannot be made.
+  TumWriter(const std::string& path, std::optional<std::size_t> radar)
+      : file_(path), radar_(radar) {}
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
-  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_odometry(const Odometry& odometry) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
   [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
 
  private:
-  void follow(const EgoMotion& motion);
+  void begin(std::int64_t utime_us);
   void write_pose(std::int64_t utime_us);
 
   OutputFile file_;
-  std::size_t radar_;
+  std::optional<std::size_t> radar_;
   Pose2 start_from_vehicle_;
   std::int64_t utime_us_ = 0;
   bool has_begun_ = false;

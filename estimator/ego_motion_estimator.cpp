@@ -105,8 +105,6 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
   if (has_velocity_) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
-    motion.information = result.information;
-    motion.gradient = result.gradient;
     motion.doppler_innovation = result.doppler_innovation;
     last_velocity_ = result.motion / dt_s;
   }

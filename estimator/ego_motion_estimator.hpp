@@ -51,9 +51,6 @@ struct EgoMotion {
   bool incomplete = false;  ///< The current scan lacks parts; it serves with the targets it has.
   int targets = 0;          ///< Usable targets in the current scan.
   int iterations = 0;       ///< Gauss-Newton steps.
-  /// Of RegistrationResult, for FusedEstimator.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double doppler_innovation = kNothing;  ///< Of RegistrationResult, for SelfCheck.
 
   static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -74,6 +71,8 @@ class EgoMotionEstimator {
   /// The clock of the stamps was set: the next scan has no reference.
   void forget_reference();
 
+  /// The usable targets of the last scan, whatever came of it; none if it was not whole.
+  [[nodiscard]] const TargetSet& targets() const { return targets_; }
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
  private:

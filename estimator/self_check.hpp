@@ -13,7 +13,7 @@ namespace cremed {
 enum Doubt : std::uint32_t {
   registration_contradicts_doppler = 1U << 0U,  ///< Mount, sign of Doppler or noise is wrong.
   motions_contradict_each_other = 1U << 1U,     ///< It jumps more than a vehicle can.
-  other_radars_contradict = 1U << 2U,           ///< FusedEstimator leaves it out.
+  other_radars_contradict = 1U << 2U,           ///< OdometryFilter leaves it out.
   covariance_too_large = 1U << 3U,              ///< Noise is set far too high.
 };
 
@@ -36,8 +36,6 @@ class SelfCheck {
 
   /// Doubts in this radar by itself.
   [[nodiscard]] std::uint32_t doubts() const;
-  /// Whether none of them says that its errors are greater than its covariance.
-  [[nodiscard]] bool is_believable() const { return (doubts() & ~covariance_too_large) == 0; }
 
  private:
   void compare_with_last(const EgoMotion& motion);

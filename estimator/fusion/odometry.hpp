@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -20,6 +21,11 @@ enum class OdometryStatus : std::uint8_t {
                        ///< start as many radars contradict as agree.
   lost = 5,            ///< No measurement used for > lost_s; the next begins the velocity anew.
 };
+
+inline constexpr std::size_t kOdometryStatusCount = 6;
+
+/// The name of a status as in the CSV, e.g. "ok".
+std::string_view to_string(OdometryStatus status);
 
 /// Where the vehicle is and how it moves, at `utime_us`. Poses are (x_m, y_m, yaw_rad) of the
 /// vehicle frame (rear axle), covariances in the same order.

@@ -10,8 +10,8 @@ struct ForgettingNoise {
   double time_s = 1.0;  ///< After which it is another.
 };
 
-/// What the odometry filter takes for granted. Each is a key of [odometry] in the configuration
-/// under its own name. Defaults: five ARS408 of a car on two real drives (nuScenes 0061, 0103)
+/// What the odometry filter takes for granted. Those that a user may know are keys of [odometry] in
+/// the configuration. Defaults: five ARS408 of a car on two real drives (nuScenes 0061, 0103)
 /// unless another source is named.
 struct OdometryOptions {
   // How a road vehicle moves.

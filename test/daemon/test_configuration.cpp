@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <clocale>
 #include <locale>
 #include <string>
@@ -182,27 +183,71 @@ doppler.enabled = false
   CHECK(common.doppler.enabled);
 }
 
-TEST_CASE("fused: two radars or more, unless it is switched off") {
+TEST_CASE("fused: two radars or more, unless odometry is switched off") {
   const std::string two = kArs408 + radar_text("left", "bosch_gpr", "can1");
   CHECK(is_fused(parse(two)));
   CHECK_FALSE(is_fused(parse(kArs408)));
-  CHECK_FALSE(is_fused(parse(two + "[fused]\nenabled = false\n")));
-  const Configuration configuration = parse(two + R"(
-[fused]
-acceleration_std_mps2 = 2.5
-yaw_acceleration_std_radps2 = 0.3
-side_slip_std_rad = 0.02
-side_slip_walk_radps = 0.004
-max_innovation = 9
-[output]
-tum_source = "fused"
-)");
-  CHECK(configuration.fused.acceleration_std_mps2 == 2.5);
-  CHECK(configuration.fused.yaw_acceleration_std_radps2 == 0.3);
-  CHECK(configuration.fused.side_slip_std_rad == 0.02);
-  CHECK(configuration.fused.side_slip_walk_radps == 0.004);
-  CHECK(configuration.fused.max_innovation == 9.0);
-  CHECK(configuration.output.tum_source == "fused");
+  CHECK_FALSE(is_fused(parse(two + "[odometry]\nenabled = false\n")));
+}
+
+TEST_CASE("odometry: every key reaches the option that it names") {
+  const OdometryOptions o = parse(kArs408 + R"(
+[odometry]
+acceleration_std_mps2 = 1.01
+acceleration_time_s = 1.02
+yaw_acceleration_std_radps2 = 1.03
+yaw_acceleration_time_s = 1.04
+slip_std_rad = 0.05
+slip_walk_rad_per_sqrt_s = 0.06
+body_velocity_std_mps = 1.07
+body_velocity_time_s = 1.08
+start_speed_std_mps = 1.09
+start_yaw_rate_std_radps = 1.10
+mount_yaw_std_rad = 0.11
+mount_yaw_walk_rad_per_sqrt_s = 0.12
+doppler_scale_std = 0.13
+doppler_std_mps = 1.14
+doppler_x_std_mps = 1.15
+doppler_x_time_s = 1.16
+doppler_y_std_mps = 1.17
+doppler_y_time_s = 1.18
+doppler_offset_std_mps = 1.19
+doppler_offset_time_s = 1.20
+azimuth_scale_std = 0.21
+min_targets = 22
+max_doppler_nis = 1.23
+max_position_nis = 1.24
+standstill_mps = 0.25
+predicted_s = 1.26
+lost_s = 1.27
+anchor_period_s = 1.28
+max_lateness_s = 0.29
+max_gap_s = 1.30
+)")
+                                .odometry.filter;
+  CHECK(std::array{o.acceleration.std, o.acceleration.time_s, o.yaw_acceleration.std,
+                   o.yaw_acceleration.time_s, o.slip_std_rad, o.slip_walk, o.body_velocity.std,
+                   o.body_velocity.time_s, o.start_speed_std_mps, o.start_yaw_rate_std_radps} ==
+        std::array{1.01, 1.02, 1.03, 1.04, 0.05, 0.06, 1.07, 1.08, 1.09, 1.10});
+  CHECK(std::array{o.mount_yaw_std_rad, o.mount_yaw_walk, o.doppler_scale_std, o.doppler_std_mps,
+                   o.doppler_x.std, o.doppler_x.time_s, o.doppler_y.std, o.doppler_y.time_s,
+                   o.offset.std, o.offset.time_s, o.yaw_scale_std} ==
+        std::array{0.11, 0.12, 0.13, 1.14, 1.15, 1.16, 1.17, 1.18, 1.19, 1.20, 0.21});
+  CHECK(o.min_targets == 22);
+  CHECK(std::array{o.max_doppler_nis, o.max_position_nis, o.standstill_mps, o.predicted_s, o.lost_s,
+                   o.anchor_period_s, o.max_lateness_s, o.max_gap_s} ==
+        std::array{1.23, 1.24, 0.25, 1.26, 1.27, 1.28, 0.29, 1.30});
+}
+
+TEST_CASE("The trajectory follows the odometry of several radars, or what is named") {
+  const std::string two = kArs408 + radar_text("left", "bosch_gpr", "can1");
+  const auto source = [](const std::string& text) { return tum_radar(parse(text)); };
+  CHECK(source(kArs408) == 0U);
+  CHECK_FALSE(source(two));
+  CHECK(source(two + "[odometry]\nenabled = false\n") == 0U);
+  CHECK(source(two + "[output]\ntum_source = \"left\"\n") == 1U);
+  CHECK_FALSE(source(two + "[output]\ntum_source = \"fused\"\n"));
+  CHECK_FALSE(source(kArs408 + "[output]\ntum_source = \"odometry\"\n"));
 }
 
 TEST_CASE("output and logging are taken") {

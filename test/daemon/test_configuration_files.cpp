@@ -36,10 +36,10 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, start, iterations, work, covariance, ray, doppler,
-               errors] = options;
+  const auto& [freedom, scale, doppler_scale, start, iterations, restarts, work, covariance, ray,
+               doppler, errors] = options;
   out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations << ' '
-      << work << ' ' << static_cast<int>(covariance);
+      << restarts << ' ' << work << ' ' << static_cast<int>(covariance);
   const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
   out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
       << ' ' << field_of_view;
@@ -77,27 +77,41 @@ std::string text_of(const RadarConfiguration& radar) {
   return out.str();
 }
 
-std::string text_of(const FusedOptions& fused) {
+std::ostream& operator<<(std::ostream& out, const ForgettingNoise& noise) {
+  const auto& [std, time_s] = noise;
+  return out << std << ' ' << time_s;
+}
+
+std::string text_of(const OdometryConfiguration& odometry) {
   std::ostringstream out;
-  const auto& [enabled, acceleration, yaw_acceleration, slip, walk, innovation] = fused;
-  out << enabled << ' ' << acceleration << ' ' << yaw_acceleration << ' ' << slip << ' ' << walk
-      << ' ' << innovation << '\n';
+  out.precision(17);
+  const auto& [enabled, o] = odometry;
+  out << enabled << '\n'
+      << o.acceleration << ' ' << o.yaw_acceleration << ' ' << o.slip_std_rad << ' ' << o.slip_walk
+      << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' '
+      << o.start_yaw_rate_std_radps << '\n'
+      << o.mount_yaw_std_rad << ' ' << o.mount_yaw_walk << ' ' << o.doppler_scale_std << ' '
+      << o.doppler_std_mps << ' ' << o.doppler_x << ' ' << o.doppler_y << ' ' << o.offset << ' '
+      << o.yaw_scale_std << '\n'
+      << o.min_targets << ' ' << o.max_doppler_nis << ' ' << o.max_position_nis << ' '
+      << o.standstill_mps << ' ' << o.predicted_s << ' ' << o.lost_s << ' ' << o.anchor_period_s
+      << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << '\n';
   return out.str();
 }
 
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, fused, output, live, logging] = configuration;
-  std::string text = text_of(fused);
+  const auto& [radars, odometry, output, live, logging] = configuration;
+  std::string text = text_of(odometry);
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
   }
-  const auto& [lcm_url, csv, tum, tum_source, publish_scans] = output;
+  const auto& [lcm_url, csv, odometry_csv, tum, tum_source, publish_scans] = output;
   const auto& [real_time, socket, max_latency] = live;
   const auto& [receive_buffer, hardware_stamps] = socket;
   const auto& [level] = logging;
   text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
           std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
-  return text + lcm_url + "|" + csv + "|" + tum + "|" + tum_source + "|" +
+  return text + lcm_url + "|" + csv + "|" + odometry_csv + "|" + tum + "|" + tum_source + "|" +
          std::to_string(publish_scans) + "|" + level;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -88,16 +89,105 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;
-  status.belief = {1.5, 2.5, 3.5, registration_contradicts_doppler | covariance_too_large, 6, 7};
+  status.belief = {1.5, 2.5, registration_contradicts_doppler | covariance_too_large};
   const auto received = receive(publisher, [&] { publisher.on_status(1, status); });
   REQUIRE(received.size() == 1);
   const auto m = decode<status_t>(received[0]);
   CHECK(m.innovation_doppler == 1.5F);
   CHECK(m.innovation_next == 2.5F);
-  CHECK(m.innovation_radars == 3.5F);
   CHECK(m.doubts == 1 + 8);
-  CHECK(m.motions_fused == 6);
-  CHECK(m.motions_left_out == 7);
+}
+
+TEST_CASE("status_t says what the odometry filter knows of the radar") {
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  RadarStatus status;
+  status.odometry = {true, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125, -0.5, 0.0625};
+  status.scans_in_odometry = 77;
+  const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
+  REQUIRE(received.size() == 1);
+  const auto m = decode<status_t>(received[0]);
+  CHECK(m.odometry_leaves_out == 1);
+  CHECK(m.odometry_innovation_doppler == 1.5F);
+  CHECK(m.odometry_innovation_lateral == 2.5F);
+  CHECK(m.odometry_innovation_yaw == 3.5F);
+  CHECK(m.odometry_doppler_noise_factor == 4.5F);
+  CHECK(m.odometry_position_noise_factor == 5.5F);
+  CHECK(m.odometry_mount_yaw_error_rad == 0.25F);
+  CHECK(m.odometry_mount_yaw_error_std_rad == 0.125F);
+  CHECK(m.odometry_doppler_scale_error == -0.5F);
+  CHECK(m.odometry_doppler_scale_error_std == 0.0625F);
+  CHECK(m.scans_in_odometry == 77);
+}
+
+TEST_CASE("odometry_t carries every field, in one datagram") {
+  Odometry odometry;
+  odometry.utime_us = 7'000'000;
+  odometry.utime_anchor_us = 5'000'000;
+  odometry.status = OdometryStatus::predicted;
+  odometry.pose << 1.0, 2.0, 3.0;
+  odometry.covariance << 1, 2, 3, 2, 5, 6, 3, 6, 9;
+  odometry.odom_pose << 4.0, 5.0, 6.0;
+  odometry.odom_covariance << 11, 12, 13, 12, 15, 16, 13, 16, 19;
+  odometry.twist << 7.0, 8.0, 9.0;
+  odometry.twist_covariance << 21, 22, 23, 22, 25, 26, 23, 26, 29;
+  odometry.radars = 3;
+  odometry.left_out = 2;
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  const auto received = receive(publisher, [&] {
+    publisher.on_odometry(odometry);
+    publisher.on_odometry(odometry);
+  });
+  REQUIRE(received.size() == 2);
+  CHECK(received[0].channel == "CREMED_ODOMETRY");
+  CHECK(received[0].channel.size() + 1 + received[0].data.size() <= kOneDatagram);
+  const auto m = decode<odometry_t>(received[0]);
+  CHECK(m.utime == 7'000'000);
+  CHECK(m.utime_anchor == 5'000'000);
+  CHECK(m.status == odometry_t::STATUS_PREDICTED);
+  CHECK(m.radars_used == 3);
+  CHECK(m.radars_left_out == 2);
+  CHECK(std::array{m.x_in_anchor_frame_m, m.y_in_anchor_frame_m, m.yaw_in_anchor_frame_rad} ==
+        std::array{1.0, 2.0, 3.0});
+  CHECK(std::array{m.x_in_odom_frame_m, m.y_in_odom_frame_m, m.yaw_in_odom_frame_rad} ==
+        std::array{4.0, 5.0, 6.0});
+  CHECK(std::array{m.vx_in_vehicle_frame_mps, m.vy_in_vehicle_frame_mps, m.yaw_rate_radps} ==
+        std::array{7.0, 8.0, 9.0});
+  const double anchor[9] = {1, 2, 3, 2, 5, 6, 3, 6, 9};
+  const double odom[9] = {11, 12, 13, 12, 15, 16, 13, 16, 19};
+  const double twist[9] = {21, 22, 23, 22, 25, 26, 23, 26, 29};
+  CHECK(std::memcmp(m.covariance_x_y_yaw_in_anchor_frame_m_rad, anchor, sizeof(anchor)) == 0);
+  CHECK(std::memcmp(m.covariance_x_y_yaw_in_odom_frame_m_rad, odom, sizeof(odom)) == 0);
+  CHECK(std::memcmp(m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps, twist,
+                    sizeof(twist)) == 0);
+  CHECK(m.seq == 0);
+  CHECK(decode<odometry_t>(received[1]).seq == 1);
+}
+
+TEST_CASE("Doubts of a radar's status go out with its motions, those of radars used with odometry") {
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  RadarStatus doubted;
+  doubted.belief.doubts = motions_contradict_each_other;
+  Odometry by_doubted;
+  by_doubted.radars = 2;
+  Odometry by_other;
+  by_other.radars = 1;
+  const auto received = receive(publisher, [&] {
+    publisher.on_status(1, doubted);
+    publisher.on_motion(1, turning(), 0);
+    publisher.on_motion(0, turning(), 0);
+    publisher.on_odometry(by_doubted);
+    publisher.on_fused(turning(), 0);
+    publisher.on_odometry(by_other);
+  });
+  REQUIRE(received.size() == 6);
+  CHECK(decode<ego_motion_t>(received[1]).doubts == status_t::DOUBT_MOTIONS_CONTRADICT_EACH_OTHER);
+  CHECK(decode<ego_motion_t>(received[2]).doubts == 0);
+  CHECK(decode<odometry_t>(received[3]).doubts == status_t::DOUBT_MOTIONS_CONTRADICT_EACH_OTHER);
+  CHECK(decode<ego_motion_t>(received[4]).doubts == status_t::DOUBT_MOTIONS_CONTRADICT_EACH_OTHER);
+  CHECK(decode<odometry_t>(received[5]).doubts == 0);
 }
 
 TEST_CASE("The statuses of the message are those of the estimator") {
@@ -110,6 +200,11 @@ TEST_CASE("The statuses of the message are those of the estimator") {
   CHECK(ego_motion_t::STATUS_NON_FINITE == static_cast<int>(MotionStatus::non_finite));
   CHECK(ego_motion_t::STATUS_IMPLAUSIBLE == static_cast<int>(MotionStatus::implausible));
   CHECK(ego_motion_t::STATUS_AMBIGUOUS == static_cast<int>(MotionStatus::ambiguous));
+  CHECK(odometry_t::STATUS_OK == static_cast<int>(OdometryStatus::ok));
+  CHECK(odometry_t::STATUS_STANDING_STILL == static_cast<int>(OdometryStatus::standing_still));
+  CHECK(odometry_t::STATUS_INITIALISING == static_cast<int>(OdometryStatus::initialising));
+  CHECK(odometry_t::STATUS_AMBIGUOUS == static_cast<int>(OdometryStatus::ambiguous));
+  CHECK(odometry_t::STATUS_LOST == static_cast<int>(OdometryStatus::lost));
   CHECK(radar_scan_t::SCAN_DROPPED_FRAMES == static_cast<int>(ScanStatus::dropped_frames));
   CHECK(radar_scan_t::DETECTION_NO_POSITION == static_cast<int>(Validity::no_position));
   CHECK(sizeof(status_t{}.motions_by_status) / sizeof(std::int64_t) == kMotionStatusCount);

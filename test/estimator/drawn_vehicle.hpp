@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motions of several radars of one vehicle, drawn from what FusedEstimator assumes of them.
+// Motions of several radars of one vehicle, drawn from what their covariances say.
 
 #include <algorithm>
 #include <cmath>
@@ -127,15 +127,13 @@ class DrawnVehicle {
     motion.targets = 40;
   }
 
-  /// As a registration says it: with two degrees of freedom the best motion with y = 0, and where
-  /// the best without would be.
+  /// As a registration says it: with two degrees of freedom the best motion with y = 0.
   void say(const Eigen::Vector3d& seen, const Eigen::Matrix3d& covariance,
            EgoMotion& motion) const {
-    motion.information = covariance.inverse();
     motion.motion = seen;
     motion.covariance = covariance;
     if (is_car()) {
-      const Eigen::Matrix3d& h = motion.information;
+      const Eigen::Matrix3d h = covariance.inverse();
       Eigen::Matrix2d block;
       block << h(0, 0), h(0, 2), h(2, 0), h(2, 2);
       const Eigen::Matrix2d inverse = block.inverse();
@@ -146,7 +144,6 @@ class DrawnVehicle {
       motion.covariance(0, 2) = motion.covariance(2, 0) = inverse(0, 1);
       motion.covariance(2, 2) = inverse(1, 1);
     }
-    motion.gradient = motion.information * (motion.motion - seen);
   }
 
   /// Of all radars together, for some 0.3 s at a time.

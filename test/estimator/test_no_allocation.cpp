@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 
 #include "estimator/ego_motion_estimator.hpp"
-#include "estimator/fused_estimator.hpp"
 #include "estimator/self_check.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
@@ -252,31 +251,21 @@ TEST_CASE("the estimator does not allocate, whatever comes in") {
   }
 }
 
-TEST_CASE("fusing and self-check do not allocate, whatever the radars say") {
+TEST_CASE("self-check does not allocate, whatever the radar says") {
   const EgoMotionOptions options = simulation::drawn_options(2);
-  simulation::DrawnVehicle vehicle(simulation::in_bends, simulation::drawn_radars(5), options, 1);
-  const auto fused = std::make_unique<FusedEstimator>(FusedOptions(), options, 5);
+  simulation::DrawnVehicle vehicle(simulation::in_bends, simulation::drawn_radars(1), options, 1);
   const auto check = std::make_unique<SelfCheck>(options.registration);
   long count = 0;
-  int estimates = 0;
   while (vehicle.time_s() < 20.0) {
     simulation::DrawnMotion drawn = vehicle.next();
-    if (drawn.radar == 0 && drawn.motion.has_estimate() && vehicle.time_s() > 8.0) {
-      drawn.motion.motion.x() += 0.5;  // A lie.
+    if (drawn.motion.has_estimate() && vehicle.time_s() > 8.0) {
+      drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;  // Lies.
     }
-    count += count_allocations([&] {
-      const auto motion = fused->update(drawn.radar, drawn.motion, drawn.radar != 3);
-      estimates += motion && motion->has_estimate() ? 1 : 0;
-      check->add(drawn.motion);
-    });
+    count += count_allocations([&] { check->add(drawn.motion); });
   }
   CHECK(count == 0);
-  CHECK(estimates > 250);
-  CHECK(fused->agreement(0).contradicts);
-  CHECK(count_allocations([&] {
-          fused->forget();
-          check->forget();
-        }) == 0);
+  CHECK(check->doubts() != 0);
+  CHECK(count_allocations([&] { check->forget(); }) == 0);
 }
 
 }  // namespace

@@ -49,13 +49,13 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
-EstimateChecker::EstimateChecker(const std::vector<RadarConfiguration>& radars,
-                                 const FaultInjector& source)
+EstimateChecker::EstimateChecker(const Configuration& configuration, const FaultInjector& source)
     : source_(source) {
   for (std::size_t i = 0; i < kRadars; ++i) {
-    options_[i] = radars[i].ego_motion;
+    options_[i] = configuration.radars[i].ego_motion;
   }
-  options_[kFused] = radars[0].ego_motion;
+  options_[kFused] = options_[0];
+  options_[kFused].max_gap_s = configuration.odometry.filter.max_gap_s;
   found_.reserve(kKept);
   beyond_.reserve(kKept);
 }
@@ -78,6 +78,19 @@ void EstimateChecker::on_fused(const EgoMotion& motion, std::int32_t /*solve_us*
   check(kFused, motion);
 }
 
+void EstimateChecker::on_odometry(const Odometry& odometry) {
+  EgoMotion motion;
+  motion.utime_start_us = odometry.utime_anchor_us;
+  motion.utime_us = odometry.utime_us;
+  motion.status = MotionStatus::ok;
+  motion.motion = odometry.pose;
+  motion.covariance = odometry.covariance;
+  check_covariance(kOdometry, motion);
+  if (odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still) {
+    compare(kOdometry, motion);
+  }
+}
+
 void EstimateChecker::check(std::size_t radar, const EgoMotion& motion) {
   ++past_[radar].motions;
   expect(source_.now_us() - source_.true_us(motion.utime_us) <= kStaleUs, Violation::stale, radar,
@@ -88,6 +101,7 @@ void EstimateChecker::check(std::size_t radar, const EgoMotion& motion) {
   }
   check_times(radar, motion);
   check_covariance(radar, motion);
+  check_speed(radar, motion);
   compare(radar, motion);
 }
 
@@ -121,7 +135,7 @@ bool EstimateChecker::is_scan(std::size_t source, std::int64_t stamp_us) const {
 }
 
 FaultSet EstimateChecker::faults_since(std::size_t source, std::int64_t start_us) const {
-  if (source != kFused) {
+  if (source < kRadars) {
     return source_.faults_since(source, start_us);
   }
   FaultSet all = 0;
@@ -134,9 +148,12 @@ FaultSet EstimateChecker::faults_since(std::size_t source, std::int64_t start_us
 void EstimateChecker::check_covariance(std::size_t radar, const EgoMotion& motion) {
   expect(motion.motion.allFinite() && motion.covariance.allFinite(), Violation::not_finite, radar,
          motion);
-  expect(radar == kFused ? is_definite(motion.covariance)
-                         : is_definite_in_x_and_yaw(motion.covariance),
+  expect(radar < kRadars ? is_definite_in_x_and_yaw(motion.covariance)
+                         : is_definite(motion.covariance),
          Violation::not_definite, radar, motion);
+}
+
+void EstimateChecker::check_speed(std::size_t radar, const EgoMotion& motion) {
   const double span_s = seconds(motion.utime_us - motion.utime_start_us);
   const double speed_mps = std::abs(motion.motion.x()) / span_s;
   const bool stands = motion.status == MotionStatus::standing_still;

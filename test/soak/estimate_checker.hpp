@@ -42,9 +42,11 @@ inline constexpr std::array<std::string_view, 9> kViolationNames{
     "number of results is not that of scans",
 };
 
-/// The fused estimate comes after those of the radars.
+/// What comes from all radars together is counted after each of them: the fused motion, and the
+/// odometry's pose relative to its anchor.
 inline constexpr std::size_t kFused = kRadars;
-inline constexpr std::size_t kSources = kRadars + 1;
+inline constexpr std::size_t kOdometry = kRadars + 1;
+inline constexpr std::size_t kSources = kRadars + 2;
 
 /// An estimate beside truth.
 struct Comparison {
@@ -92,13 +94,14 @@ struct RadarTallies {
 /// Checks every result. Allocates nothing while it does.
 class EstimateChecker final : public OdometrySink {
  public:
-  EstimateChecker(const std::vector<RadarConfiguration>& radars, const FaultInjector& source);
+  EstimateChecker(const Configuration& configuration, const FaultInjector& source);
 
   /// Results from now on are compared with this drive.
   void begin(const SoakDrive& drive);
   void on_clock_step();
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_odometry(const Odometry& odometry) override;
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
@@ -133,6 +136,7 @@ class EstimateChecker final : public OdometrySink {
   void check_without(std::size_t radar, const EgoMotion& motion);
   void check_times(std::size_t radar, const EgoMotion& motion);
   void check_covariance(std::size_t radar, const EgoMotion& motion);
+  void check_speed(std::size_t radar, const EgoMotion& motion);
   void compare(std::size_t radar, const EgoMotion& motion);
   void violate(Violation violation, std::size_t radar, const EgoMotion& motion);
   void expect(bool condition, Violation violation, std::size_t radar, const EgoMotion& motion) {

@@ -78,9 +78,10 @@ class Soak {
 
   Arguments arguments_;
   Configuration configuration_ = configuration();
-  RadarNames names_{configuration_.radars[0].name, configuration_.radars[1].name, "fused"};
+  RadarNames names_{configuration_.radars[0].name, configuration_.radars[1].name, "fused",
+                    "odometry"};
   FaultInjector source_{arguments_.seed};
-  EstimateChecker checker_{configuration_.radars, source_};
+  EstimateChecker checker_{configuration_, source_};
   std::unique_ptr<LcmPublisher> publisher_;
   std::unique_ptr<Pipeline> pipeline_;
   long allocations_ = 0;

@@ -24,7 +24,7 @@ std::string names_of(FaultSet faults) {
 
 void print_row(std::string_view radar, std::string_view label, const Tally& tally) {
   if (tally.estimates != 0) {
-    std::printf("%-6.*s %-22.*s %9" PRIu64 " %8" PRIu64 " %8" PRIu64 " %10.4f\n",
+    std::printf("%-8.*s %-22.*s %9" PRIu64 " %8" PRIu64 " %8" PRIu64 " %10.4f\n",
                 static_cast<int>(radar.size()), radar.data(), static_cast<int>(label.size()),
                 label.data(), tally.estimates, tally.beyond_x, tally.beyond_yaw,
                 100.0 * share_within(tally));
@@ -85,7 +85,7 @@ void print(const Comparison& c, const RadarNames& radars) {
 }
 
 void print_tallies(const EstimateChecker& checker, const RadarNames& radars) {
-  std::printf("%-6s %-22s %9s %8s %8s %10s\n", "radar", "estimates of", "number", "beyond x", "yaw",
+  std::printf("%-8s %-22s %9s %8s %8s %10s\n", "radar", "estimates of", "number", "beyond x", "yaw",
               "within %");
   for (std::size_t i = 0; i < kSources; ++i) {
     print_radar(radars[i], checker.tallies()[i]);

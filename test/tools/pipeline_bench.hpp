@@ -27,6 +27,7 @@ class RecordingSink final : public OdometrySink {
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
     motions[radar].push_back(motion);
   }
+  void on_odometry(const Odometry& odometry) override { odometries.push_back(odometry); }
   void on_fused(const EgoMotion& motion, std::int32_t) override { fused.push_back(motion); }
   void on_status(std::size_t radar, const RadarStatus& status) override {
     statuses[radar].push_back(status);
@@ -34,6 +35,7 @@ class RecordingSink final : public OdometrySink {
   [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<std::vector<EgoMotion>> motions;
+  std::vector<Odometry> odometries;
   std::vector<EgoMotion> fused;
   std::vector<std::vector<RadarStatus>> statuses;
   std::vector<std::vector<RadarScan>> scans;

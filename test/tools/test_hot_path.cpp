@@ -9,6 +9,7 @@
 #include "daemon/candump.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/odometry_writer.hpp"
 #include "daemon/tum_writer.hpp"
 #include "test/daemon/datagram_pair.hpp"
 #include "test/estimator/allocation_guard.hpp"
@@ -44,6 +45,18 @@ long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySin
   return AllocationGuard::stop();
 }
 
+/// Shows that the odometry filter was at work.
+class OdometryCounter final : public OdometrySink {
+ public:
+  void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
+  void on_odometry(const Odometry& odometry) override {
+    good_odometries += odometry.status == OdometryStatus::ok ? 1 : 0;
+  }
+  [[nodiscard]] std::uint64_t failures() const override { return 0; }
+
+  int good_odometries = 0;
+};
+
 /// A sink that does what no sink may.
 class AllocatingSink final : public OdometrySink {
  public:
@@ -67,11 +80,14 @@ TEST_CASE("The guard fires: a sink that allocates is caught in the pipeline") {
   CHECK(allocations >= static_cast<long>(sink.calls()));
 }
 
-TEST_CASE("From a line of text to CSV and trajectory, nothing allocates") {
+TEST_CASE("From a line of text to ego-motions, odometry and trajectory, nothing allocates") {
   const Drive simulated = simulate();
   CsvWriter csv("/dev/null", {"front", "rear"});
-  TumWriter tum("/dev/null", 0);
-  CHECK(allocations_of_replay(simulated, {&csv, &tum}) == 0);
+  OdometryWriter odometry("/dev/null");
+  TumWriter tum("/dev/null", std::nullopt);
+  OdometryCounter counter;
+  CHECK(allocations_of_replay(simulated, {&csv, &odometry, &tum, &counter}) == 0);
+  CHECK(counter.good_odometries > 100);
 }
 
 TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates") {

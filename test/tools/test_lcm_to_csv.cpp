@@ -13,6 +13,7 @@
 
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/odometry_writer.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/eval/temporary_folder.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 /// A drive with losses, so that there are rows of all kinds, published into an LCM log and written
 /// as CSV.
-void record_drive(const std::string& log, const std::string& csv) {
+void record_drive(const std::string& log, const std::string& csv, const std::string& odometry) {
   const std::vector<RadarConfiguration> radars = default_radars();
   SimulationOptions options;
   options.duration_s = 8.0;
@@ -33,12 +34,14 @@ void record_drive(const std::string& log, const std::string& csv) {
   LcmPublisher publisher(log, configuration_of(radars));
   REQUIRE(publisher.connect().empty());
   CsvWriter writer(csv, {"front", "rear"});
+  OdometryWriter odometry_writer(odometry);
   const NoSource source;
   const PipelineClock clock{[] {
     static std::int64_t now_us = 0;
     return now_us += 17;
   }};
-  Pipeline pipeline(configuration_of(radars), source, {&publisher, &writer}, clock);
+  Pipeline pipeline(configuration_of(radars), source, {&publisher, &writer, &odometry_writer},
+                    clock);
   for (const CanFrame& frame : simulated.frames) {
     pipeline.on_frame(frame);
   }
@@ -88,7 +91,8 @@ Converted convert(const std::string& path) {
 TEST_CASE("An LCM log becomes the CSV that the daemon would have written, byte for byte") {
   const TemporaryFolder folder;
   const std::string log = folder.file("drive.lcm");
-  record_drive("file://" + log + "?mode=w", folder.file("direct.csv"));
+  record_drive("file://" + log + "?mode=w", folder.file("direct.csv"),
+               folder.file("direct-odometry.csv"));
   const Converted converted = convert(log);
   CHECK(converted.csv == content(folder.file("direct.csv")));
   CHECK(converted.counters.motions > 150);
@@ -96,10 +100,15 @@ TEST_CASE("An LCM log becomes the CSV that the daemon would have written, byte f
   CHECK_FALSE(converted.counters.ends_inside_message);
 
   const ToolRun run =
-      run_tool("cremed-lcm-to-csv", folder, log + " --output " + folder.file("tool.csv"));
+      run_tool("cremed-lcm-to-csv", folder,
+               log + " --output " + folder.file("tool.csv") + " --odometry " +
+                   folder.file("tool-odometry.csv"));
   CHECK(run.status == 0);
   CHECK(run.error.empty());
   CHECK(content(folder.file("tool.csv")) == converted.csv);
+  const std::string odometry = content(folder.file("tool-odometry.csv"));
+  CHECK(odometry == content(folder.file("direct-odometry.csv")));
+  CHECK(std::count(odometry.begin(), odometry.end(), '\n') > 100);
 }
 
 TEST_CASE("Messages that are none of ours are left out and counted") {
@@ -157,6 +166,10 @@ TEST_CASE("A log that cannot be good is a failure that says why") {
   write_log(log, encoded(message()));
   CHECK(error_of(log, 0).empty());
   CHECK(error_of(log + " --output " + log, 2).find("name another file") != std::string::npos);
+  CHECK(error_of(log + " --odometry " + log, 2).find("name another file") != std::string::npos);
+  CHECK(error_of(log + " --odometry -", 2).find("cannot hold both") != std::string::npos);
+  CHECK(error_of(log + " --odometry " + folder.file("o.csv"), 1).find("no odometry") !=
+        std::string::npos);
   CHECK(error_of(log + " --output /no/such/a.csv", 1).find("cannot be written") !=
         std::string::npos);
   std::filesystem::resize_file(log, std::filesystem::file_size(log) - 1);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -111,6 +113,11 @@ TEST_CASE("The same frames give the same bits") {
     CHECK(has_same_bits(a.motions[0][i].motion, b.motions[0][i].motion));
     CHECK(has_same_bits(a.motions[0][i].covariance, b.motions[0][i].covariance));
   }
+  REQUIRE(a.odometries.size() == b.odometries.size());
+  for (std::size_t i = 0; i < a.odometries.size(); ++i) {
+    CHECK(has_same_bits(a.odometries[i].odom_pose, b.odometries[i].odom_pose));
+    CHECK(has_same_bits(a.odometries[i].covariance, b.odometries[i].covariance));
+  }
 }
 
 TEST_CASE("Each radar's result does not depend on the other radars of the vehicle") {
@@ -129,6 +136,133 @@ TEST_CASE("Each radar's result does not depend on the other radars of the vehicl
   for (std::size_t i = 1; i < alone.motions[0].size(); ++i) {
     CHECK(has_same_bits(alone.motions[0][i].motion, both.motions[1][i].motion));
   }
+}
+
+/// Frames of the drive but for those of an interface between two times since its start.
+std::vector<CanFrame> without(const Drive& simulated, std::uint8_t interface, double from_s,
+                              double to_s) {
+  const auto at_us = [&](double s) {
+    return simulated.frames.front().stamp_us + static_cast<std::int64_t>(s * 1e6);
+  };
+  std::vector<CanFrame> frames;
+  std::copy_if(simulated.frames.begin(), simulated.frames.end(), std::back_inserter(frames),
+               [&](const CanFrame& frame) {
+                 return frame.interface != interface || frame.stamp_us < at_us(from_s) ||
+                        frame.stamp_us >= at_us(to_s);
+               });
+  return frames;
+}
+
+/// Whether the pose in the frame of the anchor is within five sigma of truth.
+bool is_credible(const Odometry& odometry, const TrueTrajectory& truth) {
+  const auto true_pose = truth.motion(odometry.utime_anchor_us, odometry.utime_us);
+  const Eigen::Vector3d sigma = odometry.covariance.diagonal().cwiseSqrt();
+  return !true_pose ||
+         ((odometry.pose - *true_pose).array().abs() <= 5.0 * sigma.array() + 1e-6).all();
+}
+
+TEST_CASE("Odometry: outputs follow each other, and the fused motions are those between them") {
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(6, 20.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, simulated.frames);
+  const TrueTrajectory truth = truth_of(simulated);
+  REQUIRE(sink.odometries.size() > 400);
+  REQUIRE(sink.fused.size() == sink.odometries.size());
+  for (std::size_t i = 0; i < sink.fused.size(); ++i) {
+    const Odometry& odometry = sink.odometries[i];
+    const EgoMotion& fused = sink.fused[i];
+    CHECK((i == 0 || odometry.utime_before_us == sink.odometries[i - 1].utime_us));
+    CHECK(fused.utime_start_us == odometry.utime_before_us);
+    CHECK(fused.utime_us == odometry.utime_us);
+    CHECK(fused.targets > 0);
+    const bool is_good = odometry.status == OdometryStatus::ok;
+    CHECK(fused.has_estimate() == is_good);
+    if (is_good) {
+      CHECK(has_same_bits(fused.motion, odometry.motion));
+      CHECK(has_same_bits(fused.covariance, odometry.motion_covariance));
+      CHECK(is_credible(odometry, truth));
+    }
+  }
+  const auto true_motion = truth.motion(sink.odometries.front().utime_before_us,
+                                        sink.odometries.back().utime_us);
+  REQUIRE(true_motion);
+  const Eigen::Vector3d error = sink.odometries.back().odom_pose - *true_motion;
+  CHECK(error.head<2>().norm() < 0.02 * 20.0 * 8.0);  // 2 % of the way.
+  for (std::size_t radar = 0; radar < 2; ++radar) {
+    CHECK(sink.statuses[radar].back().scans_in_odometry > 150);
+  }
+}
+
+TEST_CASE("Odometry of one radar: a state, and no fused motion") {
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(6, 20.0));
+  const RecordingSink sink =
+      run_pipeline({simulated.radars[0]}, without(simulated, 1, 0.0, 100.0));
+  const TrueTrajectory truth = truth_of(simulated);
+  CHECK(sink.fused.empty());
+  REQUIRE(sink.odometries.size() > 200);
+  CHECK(sink.odometries.back().status == OdometryStatus::ok);
+  for (const Odometry& odometry : sink.odometries) {
+    CHECK((odometry.status != OdometryStatus::ok || is_credible(odometry, truth)));
+  }
+}
+
+TEST_CASE("Odometry that is switched off is neither there nor fused") {
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(6, 2.0));
+  Configuration configuration = configuration_of(simulated.radars);
+  configuration.odometry.enabled = false;
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  for (const CanFrame& frame : simulated.frames) {
+    pipeline.on_frame(frame);
+  }
+  pipeline.finish();
+  CHECK(sink.motions[0].size() > 20);
+  CHECK(sink.odometries.empty());
+  CHECK(sink.fused.empty());
+  CHECK_FALSE(pipeline.odometry());
+}
+
+TEST_CASE("Odometry goes on while a radar is silent, and takes it back within a second") {
+  const std::uint8_t silent = GENERATE(std::uint8_t{0}, std::uint8_t{1});
+  CAPTURE(int{silent});
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(7, 20.0));
+  const RecordingSink sink = run_pipeline(simulated.radars, without(simulated, silent, 6.0, 12.0));
+  const TrueTrajectory truth = truth_of(simulated);
+  const std::int64_t begin_us = simulated.frames.front().stamp_us;
+  bool is_back = false;
+  for (const Odometry& odometry : sink.odometries) {
+    const double time_s = static_cast<double>(odometry.utime_us - begin_us) * 1e-6;
+    CAPTURE(time_s);
+    const bool takes_part = ((odometry.radars >> silent) & 1U) != 0;
+    if (time_s > 2.0) {
+      CHECK(odometry.status == OdometryStatus::ok);
+      CHECK(is_credible(odometry, truth));
+    }
+    CHECK_FALSE((takes_part && time_s > 6.2 && time_s < 11.8));
+    is_back = is_back || (takes_part && time_s > 12.0 && time_s < 13.0);
+  }
+  CHECK(is_back);
+}
+
+TEST_CASE("No odometry spans a step of the clock") {
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(8, 8.0));
+  RecordingSink sink(2);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  const std::size_t middle = simulated.frames.size() / 2;
+  for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
+    if (i == middle) {
+      pipeline.on_clock_step();
+    }
+    pipeline.on_frame(simulated.frames[i]);
+  }
+  pipeline.finish();
+  const std::int64_t step_us = simulated.frames[middle].stamp_us;
+  for (const Odometry& odometry : sink.odometries) {
+    CHECK((odometry.utime_us < step_us) == (odometry.utime_before_us < step_us));
+    CHECK((odometry.utime_us < step_us) == (odometry.utime_anchor_us < step_us));
+  }
+  CHECK(sink.odometries.back().status == OdometryStatus::ok);
 }
 
 TEST_CASE("Lost frames cost their targets and nothing else") {
@@ -197,6 +331,8 @@ TEST_CASE("A clock that is set back costs one estimate and then goes on") {
     CHECK(motions.back().has_estimate());
     CHECK(motions.back().utime_us < simulated.frames.front().stamp_us);
   }
+  CHECK(sink.odometries.back().status == OdometryStatus::ok);
+  CHECK(sink.odometries.back().utime_us < simulated.frames.front().stamp_us);
   // The status goes on at 1 Hz of the new time.
   CHECK(sink.statuses[0].size() >= 6);
 }

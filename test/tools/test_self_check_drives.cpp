@@ -162,10 +162,11 @@ TEST_CASE("Self-check: a healthy drive raises no doubt") {
     CAPTURE(radar);
     CHECK(doubts(sink, radar) == 0);
     CHECK(report(healthy.radars[radar], sink.statuses[radar].back()).empty());
-    CHECK(belief.motions_fused > 450);
-    CHECK(belief.motions_left_out <= 5);
+    const RadarReport& odometry = sink.statuses[radar].back().odometry;
+    CHECK(sink.statuses[radar].back().scans_in_odometry > 450);
     for (const double innovation :
-         {belief.doppler_innovation, belief.next_innovation, belief.radars_innovation}) {
+         {belief.doppler_innovation, belief.next_innovation, odometry.doppler_innovation,
+          odometry.lateral_innovation, odometry.yaw_innovation}) {
       CHECK(innovation > 0.15);
       CHECK(innovation < 1.8);
     }
@@ -180,8 +181,8 @@ TEST_CASE("Self-check: each fault shows within a minute, and the fused motion st
     const RecordingSink sink = run_pipeline(told, healthy.frames);
     const BeliefStatus& belief = last_belief(sink, fault.radar);
     const std::string text = report(told[fault.radar], sink.statuses[fault.radar].back());
-    CAPTURE(fault.name, belief.doppler_innovation, belief.next_innovation, belief.radars_innovation,
-            text);
+    CAPTURE(fault.name, belief.doppler_innovation, belief.next_innovation, text,
+            sink.statuses[fault.radar].back().odometry.doppler_innovation);
     CHECK(belief.doubts == fault.doubts);
     CHECK(last_belief(sink, 1 - fault.radar).doubts == 0);
     for (const std::string& cause : fault.causes) {

@@ -11,15 +11,18 @@
 #include <string_view>
 
 #include <cremed/ego_motion_t.hpp>
+#include <cremed/odometry_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
 #include "daemon/csv_writer.hpp"
 #include "daemon/message_text.hpp"
+#include "daemon/odometry_writer.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr std::string_view kChannel = "CREMED_EGO_MOTION";
+constexpr std::string_view kMotionChannel = "CREMED_EGO_MOTION";
+constexpr std::string_view kOdometryChannel = "CREMED_ODOMETRY";
 constexpr std::size_t kLongestSource = 15;
 
 /// The daemon's names have no comma and fit a row; others must not break one.
@@ -28,8 +31,18 @@ bool is_source(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c != ','; });
 }
 
-std::optional<ego_motion_t> decode(const lcm::LogEvent& event) {
-  ego_motion_t message;
+bool is_good(const ego_motion_t& message) {
+  return is_source(message.source) && message.status >= 0 &&
+         message.status < static_cast<int>(kMotionStatusCount);
+}
+
+bool is_good(const odometry_t& message) {
+  return message.status >= 0 && message.status < static_cast<int>(kOdometryStatusCount);
+}
+
+template <typename Message>
+std::optional<Message> decode(const lcm::LogEvent& event) {
+  Message message;
   try {
     if (message.decode(event.data, 0, event.datalen) != event.datalen) {
       return std::nullopt;
@@ -37,9 +50,11 @@ std::optional<ego_motion_t> decode(const lcm::LogEvent& event) {
   } catch (const std::length_error&) {  // The generated code takes a string length of 0 for -1.
     return std::nullopt;
   }
-  const bool is_good = is_source(message.source) && message.status >= 0 &&
-                       message.status < static_cast<int>(kMotionStatusCount);
-  return is_good ? std::optional(message) : std::nullopt;
+  return is_good(message) ? std::optional(message) : std::nullopt;
+}
+
+Eigen::Matrix3d matrix(const double (&row_major)[9]) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&row_major[0]);
 }
 
 EgoMotion ego_motion(const ego_motion_t& message) {
@@ -49,36 +64,66 @@ EgoMotion ego_motion(const ego_motion_t& message) {
   motion.status = static_cast<MotionStatus>(message.status);
   motion.motion << message.x_in_start_frame_m, message.y_in_start_frame_m,
       message.yaw_in_start_frame_rad;
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    for (Eigen::Index column = 0; column < 3; ++column) {
-      motion.covariance(row, column) = message.covariance_x_y_yaw_m_rad[3 * row + column];
-    }
-  }
+  motion.covariance = matrix(message.covariance_x_y_yaw_m_rad);
   motion.targets = message.num_targets;
   motion.iterations = message.num_iterations;
   return motion;
 }
 
+/// What a row holds of it.
+Odometry odometry(const odometry_t& message) {
+  Odometry odometry;
+  odometry.utime_us = message.utime;
+  odometry.utime_anchor_us = message.utime_anchor;
+  odometry.status = static_cast<OdometryStatus>(message.status);
+  odometry.pose << message.x_in_anchor_frame_m, message.y_in_anchor_frame_m,
+      message.yaw_in_anchor_frame_rad;
+  odometry.covariance = matrix(message.covariance_x_y_yaw_in_anchor_frame_m_rad);
+  odometry.odom_pose << message.x_in_odom_frame_m, message.y_in_odom_frame_m,
+      message.yaw_in_odom_frame_rad;
+  odometry.twist << message.vx_in_vehicle_frame_mps, message.vy_in_vehicle_frame_mps,
+      message.yaw_rate_radps;
+  odometry.twist_covariance = matrix(message.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps);
+  return odometry;
+}
+
+/// Writes the event's message as the row that `to_row` makes of it; counts it, or that it is bad.
+template <typename Message, typename ToRow>
+void convert(const lcm::LogEvent& event, const ToRow& to_row, std::ostream& csv,
+             std::uint64_t& count, std::uint64_t& bad) {
+  if (const std::optional<Message> message = decode<Message>(event)) {
+    csv << to_row(*message).view();
+    ++count;
+  } else {
+    ++bad;
+  }
+}
+
 }  // namespace
 
-LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv) {
+LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv,
+                          std::ostream* odometry_csv) {
   lcm::LogFile log(log_path, "r");
   if (!log.good()) {
     throw std::runtime_error(concat({"cannot read ", log_path}));
   }
-  csv << kOdometryCsvHeader;
+  csv << kMotionCsvHeader;
+  if (odometry_csv != nullptr) {
+    *odometry_csv << kOdometryCsvHeader;
+  }
+  const auto motion_row = [](const ego_motion_t& m) {
+    return motion_csv_row(m.source, ego_motion(m), m.solve_us);
+  };
+  const auto odometry_row = [](const odometry_t& m) { return odometry_csv_row(odometry(m)); };
   LcmLogCounters counters;
   std::int64_t read_bytes = 0;
   while (const lcm::LogEvent* event = log.readNextEvent()) {
     read_bytes = std::ftell(log.getFilePtr());
-    if (event->channel != kChannel) {
-      continue;
-    }
-    if (const std::optional<ego_motion_t> message = decode(*event)) {
-      csv << odometry_csv_row(message->source, ego_motion(*message), message->solve_us).view();
-      ++counters.motions;
-    } else {
-      ++counters.bad_messages;
+    if (event->channel == kMotionChannel) {
+      convert<ego_motion_t>(*event, motion_row, csv, counters.motions, counters.bad_messages);
+    } else if (event->channel == kOdometryChannel && odometry_csv != nullptr) {
+      convert<odometry_t>(*event, odometry_row, *odometry_csv, counters.odometries,
+                          counters.bad_messages);
     }
   }
   counters.ends_inside_message =

@@ -18,27 +18,55 @@ namespace {
 constexpr int kRunTimeFailure = 1;
 constexpr int kBadUsage = 2;
 
-cremed::LcmLogCounters convert(const std::string& log, const std::string& output) {
-  std::ofstream file;
-  if (output != "-") {
-    file.open(output, std::ios::binary);
+struct Arguments {
+  std::string log;
+  std::string output = "-";
+  std::string odometry;  // Empty: not asked for.
+};
+
+std::ostream& open(std::ofstream& file, const std::string& path) {
+  if (path == "-") {
+    return std::cout;
   }
-  std::ostream& csv = output == "-" ? std::cout : file;
-  if (!csv) {
-    throw std::runtime_error(output + ": cannot be written");
+  file.open(path, std::ios::binary);
+  if (!file) {
+    throw std::runtime_error(path + ": cannot be written");
   }
-  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(log, csv);
-  if (!csv.flush()) {
-    throw std::runtime_error(output + ": writing failed");
+  return file;
+}
+
+void flush(std::ostream& stream, const std::string& path) {
+  if (!stream.flush()) {
+    throw std::runtime_error(path + ": writing failed");
   }
+}
+
+cremed::LcmLogCounters convert(const Arguments& arguments) {
+  std::ofstream motion_file;
+  std::ofstream odometry_file;
+  std::ostream& motions = open(motion_file, arguments.output);
+  if (arguments.odometry.empty()) {
+    const cremed::LcmLogCounters counters = cremed::lcm_to_csv(arguments.log, motions);
+    flush(motions, arguments.output);
+    return counters;
+  }
+  std::ostream& odometries = open(odometry_file, arguments.odometry);
+  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(arguments.log, motions, &odometries);
+  flush(motions, arguments.output);
+  flush(odometries, arguments.odometry);
   return counters;
 }
 
 /// Whether the log was as it should be.
-bool report(const std::string& log, const cremed::LcmLogCounters& counters) {
+bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) {
+  const std::string& log = arguments.log;
+  const bool has_odometry = arguments.odometry.empty() || counters.odometries != 0;
   if (counters.bad_messages != 0) {
     std::cerr << log << ": left out " << counters.bad_messages
-              << " messages on CREMED_EGO_MOTION that are no cremed.ego_motion_t of this version\n";
+              << " messages that are not of this version's type of their channel\n";
+  }
+  if (!has_odometry) {
+    std::cerr << log << ": no odometry on CREMED_ODOMETRY\n";
   }
   if (counters.ends_inside_message) {
     std::cerr << log << ": is no LCM log or ends inside a message\n";
@@ -46,27 +74,38 @@ bool report(const std::string& log, const cremed::LcmLogCounters& counters) {
   if (counters.motions == 0) {
     std::cerr << log << ": no motion on CREMED_EGO_MOTION; record with lcm-logger\n";
   }
-  return counters.bad_messages == 0 && !counters.ends_inside_message && counters.motions != 0;
+  return counters.bad_messages == 0 && !counters.ends_inside_message && counters.motions != 0 &&
+         has_odometry;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Odometry of an LCM log as the CSV that cremed --output-csv writes"};
-  std::string log;
-  std::string output = "-";
+  CLI::App app{
+      "Ego-motions and odometry of an LCM log as the CSV that cremed --output-csv and\n"
+      "--output-odometry write"};
+  Arguments arguments;
   app.set_version_flag("--version", CREMED_VERSION);
-  app.add_option("LOG", log, "Log of lcm-logger")->required();
-  app.add_option("--output", output, "CSV file; '-': standard output")->capture_default_str();
+  app.add_option("LOG", arguments.log, "Log of lcm-logger")->required();
+  app.add_option("--output", arguments.output, "CSV file of the ego-motions; '-': standard output")
+      ->capture_default_str();
+  app.add_option("--odometry", arguments.odometry, "CSV file of the vehicle's state");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUsage;
   }
   std::error_code not_there;
-  if (std::filesystem::equivalent(log, output, not_there)) {
-    std::cerr << "cremed-lcm-to-csv: " << log << " is to be read and written; name another file\n";
+  for (const std::string& output : {arguments.output, arguments.odometry}) {
+    if (std::filesystem::equivalent(arguments.log, output, not_there)) {
+      std::cerr << "cremed-lcm-to-csv: " << arguments.log
+                << " is to be read and written; name another file\n";
+      return kBadUsage;
+    }
+  }
+  if (arguments.output == arguments.odometry) {
+    std::cerr << "cremed-lcm-to-csv: " << arguments.output << " cannot hold both outputs\n";
     return kBadUsage;
   }
-  return report(log, convert(log, output)) ? 0 : kRunTimeFailure;
+  return report(arguments, convert(arguments)) ? 0 : kRunTimeFailure;
 }
 
 }  // namespace

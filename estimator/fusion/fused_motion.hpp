@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "estimator/ego_motion_estimator.hpp"
+#include "estimator/fusion/odometry.hpp"
+
+namespace cremed {
+
+/// The motion since the output before, in the form of one radar's: an estimate where the odometry
+/// is ok or standing_still. Otherwise initialising is told as no_reference, predicted and lost as
+/// gap_too_long, ambiguous as itself. `targets`: in the scan that it ends with.
+EgoMotion fused_motion(const Odometry& odometry, std::size_t targets);
+
+}  // namespace cremed

@@ -25,6 +25,7 @@ void read_vehicle(TomlReader& reader, OdometryOptions& options) {
 void read_radar_errors(TomlReader& reader, OdometryOptions& options) {
   reader.number("mount_yaw_std_rad", options.mount_yaw_std_rad, kAngleRad);
   reader.number("mount_yaw_walk_rad_per_sqrt_s", options.mount_yaw_walk, kAngleRad);
+  reader.number("mount_position_std_m", options.lever_std_m, {0.0, 10.0});
   reader.number("doppler_scale_std", options.doppler_scale_std, {0.0, 1.0});
   reader.number("doppler_std_mps", options.doppler_std_mps, {0.001, 10.0});
   reader.number("doppler_x_std_mps", options.doppler_x.std, kVelocityMps);
@@ -33,7 +34,7 @@ void read_radar_errors(TomlReader& reader, OdometryOptions& options) {
   reader.number("doppler_y_time_s", options.doppler_y.time_s, kTimeS);
   reader.number("doppler_offset_std_mps", options.offset.std, kVelocityMps);
   reader.number("doppler_offset_time_s", options.offset.time_s, kTimeS);
-  reader.number("azimuth_scale_std", options.yaw_scale_std, {0.0, 1.0});
+  reader.number("azimuth_scale_std", options.azimuth_scale_std, {0.0, 1.0});
 }
 
 void read_limits(TomlReader& reader, OdometryOptions& options) {

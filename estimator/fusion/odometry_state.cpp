@@ -146,7 +146,7 @@ void OdometryState::renew_anchor() {
   }
 }
 
-RadarModel OdometryState::model(std::size_t radar) const {
+MeasurementModel OdometryState::model(std::size_t radar) const {
   return {gaussian, options_, mounts_[radar], first_of(radar)};
 }
 

@@ -41,7 +41,7 @@ class OdometryState {
   /// The pose becomes the anchor: all poses are given in its frame from now on.
   void renew_anchor();
 
-  [[nodiscard]] RadarModel model(std::size_t radar) const;
+  [[nodiscard]] MeasurementModel model(std::size_t radar) const;
   [[nodiscard]] int scan(std::size_t radar) const;
   [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
   [[nodiscard]] int error(std::size_t radar, int which) const;

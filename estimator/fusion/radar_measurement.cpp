@@ -12,7 +12,7 @@ namespace cremed {
 
 using namespace state_layout;
 
-LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double age_s) const {
+LinearMeasurement MeasurementModel::doppler(const DopplerVelocity& velocity, double age_s) const {
   const double dt_s = -std::max(age_s, 0.0);
   const double v = state.mean(kSpeed) + dt_s * state.mean(kAcceleration);
   const double w = state.mean(kYawRate) + dt_s * state.mean(kYawAcceleration);
@@ -55,20 +55,20 @@ LinearMeasurement RadarModel::doppler(const DopplerVelocity& velocity, double ag
   return result;
 }
 
-Eigen::Vector2d RadarModel::apparent(const Eigen::Vector3d& relative) const {
+Eigen::Vector2d MeasurementModel::apparent(const Eigen::Vector3d& relative) const {
   const double scale = 1.0 + at(kYawScale) + state.mean(kCommonYawScale);
   return {relative.y() - at(kMountYaw) * (relative.x() - relative.z() * vehicle_from_radar.y_m) +
               at(kLateralPerMetre) * relative.x(),
           relative.z() * scale + at(kYawPerMetre) * relative.x()};
 }
 
-Eigen::Vector3d RadarModel::expected_motion(int keyframe, const Eigen::Vector3d& scan) const {
+Eigen::Vector3d MeasurementModel::expected_motion(int keyframe, const Eigen::Vector3d& scan) const {
   const Eigen::Vector3d relative = relative_pose(state.mean().segment<3>(keyframe), scan);
   const Eigen::Vector2d seen = apparent(relative);
   return {relative.x(), seen.x(), seen.y()};
 }
 
-void RadarModel::add_lateness(double age_s, LinearMeasurement& measurement) const {
+void MeasurementModel::add_lateness(double age_s, LinearMeasurement& measurement) const {
   const auto rate_variance = [age_s](const ForgettingNoise& noise) {
     return 2.0 * noise.std * noise.std / noise.time_s * age_s * age_s * age_s / 3.0;
   };
@@ -79,7 +79,7 @@ void RadarModel::add_lateness(double age_s, LinearMeasurement& measurement) cons
   measurement.noise += rate_variance(options.yaw_acceleration) * lever * lever.transpose();
 }
 
-LinearMeasurement RadarModel::position(int keyframe, int scan,
+LinearMeasurement MeasurementModel::position(int keyframe, int scan,
                                        const Eigen::Vector3d& motion) const {
   const Eigen::Vector3d from = state.mean().segment<3>(keyframe);
   const Eigen::Vector3d relative = relative_pose(from, state.mean().segment<3>(scan));

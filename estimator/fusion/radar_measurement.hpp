@@ -11,7 +11,7 @@
 namespace cremed {
 
 /// What the state says about the measurements of one radar, mounted at (l_x, l_y), linearised.
-struct RadarModel {
+struct MeasurementModel {
   const GaussianState& state;
   const OdometryOptions& options;
   Pose2 vehicle_from_radar;

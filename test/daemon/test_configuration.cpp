@@ -214,6 +214,7 @@ doppler_y_time_s = 1.18
 doppler_offset_std_mps = 1.19
 doppler_offset_time_s = 1.20
 azimuth_scale_std = 0.21
+mount_position_std_m = 0.23
 min_targets = 22
 max_doppler_nis = 1.23
 max_position_nis = 1.24
@@ -231,8 +232,9 @@ max_gap_s = 1.30
         std::array{1.01, 1.02, 1.03, 1.04, 0.05, 0.06, 1.07, 1.08, 1.09, 1.10});
   CHECK(std::array{o.mount_yaw_std_rad, o.mount_yaw_walk, o.doppler_scale_std, o.doppler_std_mps,
                    o.doppler_x.std, o.doppler_x.time_s, o.doppler_y.std, o.doppler_y.time_s,
-                   o.offset.std, o.offset.time_s, o.yaw_scale_std} ==
+                   o.offset.std, o.offset.time_s, o.azimuth_scale_std} ==
         std::array{0.11, 0.12, 0.13, 1.14, 1.15, 1.16, 1.17, 1.18, 1.19, 1.20, 0.21});
+  CHECK(o.lever_std_m == 0.23);
   CHECK(o.min_targets == 22);
   CHECK(std::array{o.max_doppler_nis, o.max_position_nis, o.standstill_mps, o.predicted_s, o.lost_s,
                    o.anchor_period_s, o.max_lateness_s, o.max_gap_s} ==

@@ -14,6 +14,7 @@
 #include "estimator/self_check.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
+#include "test/estimator/odometry_drive.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 
@@ -266,6 +267,32 @@ TEST_CASE("self-check does not allocate, whatever the radar says") {
   CHECK(count == 0);
   CHECK(check->doubts() != 0);
   CHECK(count_allocations([&] { check->forget(); }) == 0);
+}
+
+TEST_CASE("the odometry filter does not allocate, whatever the radars say") {
+  simulation::OdometryDrive drive(
+      {{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}, {2.4, 0.8, 1.55}}, 1);
+  const TargetSet nothing;
+  long count = 0;
+  int registered = 0;
+  const auto update = [&](std::size_t radar, const TargetSet& targets, std::int64_t stamp_us) {
+    Odometry odometry;
+    count += count_allocations(
+        [&] { odometry = drive.filter().update(radar, targets, stamp_us); });
+    registered += odometry.status == OdometryStatus::ok ? 1 : 0;
+  };
+  for (int i = 0; i < 200; ++i) {
+    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A lie.
+    drive.radar(1).world_mps = drive.radar(2).world_mps = i > 150 ? 3.0 : 0.0;
+    drive.pass(19000);
+    const auto radar = static_cast<std::size_t>(i) % 4;
+    update(radar, i % 17 == 16 ? nothing : drive.see(radar), drive.stamp_us() - (i % 3) * 20000);
+  }
+  drive.pass(20'000'000);
+  update(0, drive.see(0), drive.stamp_us());
+  CHECK(count == 0);
+  CHECK(registered > 100);
+  CHECK(count_allocations([&] { drive.filter().forget(); }) == 0);
 }
 
 }  // namespace

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <Eigen/Core>
+#include <catch2/catch.hpp>
+
+#include "test/estimator/odometry_drive.hpp"
+
+namespace cremed {
+namespace {
+
+using simulation::OdometryDrive;
+
+const Pose2 kFront{3.4, 0.0, 0.0};
+const Pose2 kRearLeft{-0.6, 0.6, 3.05};
+const Pose2 kRearRight{-0.6, -0.6, -3.05};
+const Pose2 kLeft{2.4, 0.8, 1.55};
+
+bool is_good(const Odometry& odometry) {
+  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
+}
+
+/// Largest error of speed and yaw rate in standard deviations, where the odometry vouches for it.
+double twist_error(const Odometry& odometry, const OdometryDrive& drive) {
+  const Eigen::Vector3d error =
+      odometry.twist - Eigen::Vector3d(drive.speed_mps(), 0.0, drive.yaw_rate_radps());
+  return is_good(odometry)
+             ? std::max(std::abs(error.x()) / std::sqrt(odometry.twist_covariance(0, 0)),
+                        std::abs(error.z()) / std::sqrt(odometry.twist_covariance(2, 2)))
+             : 0.0;
+}
+
+TEST_CASE("straight on and in a turn the pose since the anchor is known, with one radar or three") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft, kRearRight});
+  const double yaw_rate_radps = GENERATE(0.0, 0.3);
+  OdometryDrive drive(mounts, 1);
+  drive.set_motion(9.0, yaw_rate_radps);
+  std::map<std::int64_t, Eigen::Vector3d> true_poses;
+  int good = 0;
+  double most = 0.0;
+  for (int i = 0; i < 150; ++i) {
+    const Odometry odometry = drive.next();
+    true_poses[drive.stamp_us()] = drive.pose();
+    REQUIRE(odometry.utime_us == drive.stamp_us());
+    good += is_good(odometry) ? 1 : 0;
+    if (is_good(odometry) && true_poses.count(odometry.utime_anchor_us) != 0 &&
+        odometry.utime_anchor_us != odometry.utime_us) {
+      const Eigen::Vector3d error =
+          odometry.pose - relative_pose(true_poses[odometry.utime_anchor_us], drive.pose());
+      most = std::max(most, numeric::normalised_error(error, odometry.covariance, 3) / 3.0);
+      CHECK(std::sqrt(odometry.covariance.topLeftCorner<2, 2>().trace()) < 0.5);
+    }
+    CHECK(twist_error(odometry, drive) < 5.0);
+  }
+  CHECK(good > 130);
+  CHECK(most < 8.0);
+  CHECK(most > 0.01);
+}
+
+TEST_CASE("motions since the output before lead to the pose since the start") {
+  OdometryDrive drive({kFront, kRearLeft}, 2);
+  drive.set_motion(9.0, 0.2);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::int64_t end_us = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Odometry odometry = drive.next();
+    if (!odometry.is_new) {
+      continue;
+    }
+    CHECK((end_us == 0 || odometry.utime_before_us == end_us));
+    end_us = odometry.utime_us;
+    sum = composed_pose(sum, odometry.motion);
+    CHECK((sum - odometry.odom_pose).norm() < 1e-9);
+    CHECK(odometry.odom_covariance.trace() >= 0.999 * odometry.covariance.trace());
+    CHECK(odometry.motion_covariance.diagonal().minCoeff() > 0.0);
+  }
+}
+
+TEST_CASE("the row at a new anchor's time still refers to the old one") {
+  OdometryDrive drive({kFront}, 3);
+  Odometry before = drive.next();
+  int renewed = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Odometry odometry = drive.next();
+    if (odometry.utime_anchor_us != before.utime_anchor_us) {
+      CHECK(odometry.utime_anchor_us == before.utime_us);
+      CHECK(static_cast<double>(before.utime_us - before.utime_anchor_us) * 1e-6 ==
+            Approx(OdometryOptions().anchor_period_s).margin(0.1));
+      ++renewed;
+    }
+    before = odometry;
+  }
+  CHECK(renewed == 3);
+}
+
+TEST_CASE("standing is told as such, and driving off too") {
+  OdometryDrive drive({kFront, kRearLeft}, 4);
+  drive.set_motion(0.0, 0.0);
+  CHECK(drive.drive(1.5).status == OdometryStatus::standing_still);
+  for (int i = 0; i < 100; ++i) {
+    CHECK(drive.next().status == OdometryStatus::standing_still);
+  }
+  for (double speed_mps = 0.0; speed_mps < 6.0; speed_mps += 0.1) {
+    drive.set_motion(speed_mps, 0.0);
+    CHECK(twist_error(drive.next(), drive) < 5.0);
+  }
+  CHECK(drive.drive(0.5).status == OdometryStatus::ok);
+}
+
+TEST_CASE("a radar that lies is left out and named, and back within a second of agreeing again") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 5);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  drive.radar(0).world_mps = GENERATE(2.0, 8.0);
+  for (int i = 0; i < 100; ++i) {
+    const Odometry odometry = drive.next();
+    CHECK(is_good(odometry));
+    CHECK(twist_error(odometry, drive) < 5.0);
+    if (i > 20) {
+      CHECK(odometry.left_out == 1U);
+      CHECK((odometry.radars & 1U) == 0U);
+    }
+  }
+  drive.radar(0).world_mps = 0.0;
+  CHECK(drive.drive(1.0).left_out == 0U);
+  std::uint32_t radars = 0;
+  for (int i = 0; i < 3; ++i) {
+    radars |= drive.next().radars;
+  }
+  CHECK(radars == 7U);
+}
+
+TEST_CASE("most radars win over the one that the filter followed") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 6);
+  // The one that lies speaks alone at first.
+  drive.radar(0).world_mps = 5.0;
+  drive.radar(1).is_silent = true;
+  drive.radar(2).is_silent = true;
+  drive.drive(2.0);
+  drive.radar(1).is_silent = false;
+  drive.radar(2).is_silent = false;
+  drive.drive(1.0);
+  for (int i = 0; i < 60; ++i) {
+    const Odometry odometry = drive.next();
+    CHECK(is_good(odometry));
+    CHECK(twist_error(odometry, drive) < 5.0);
+    CHECK(odometry.left_out == 1U);
+  }
+}
+
+TEST_CASE("of two radars that contradict each other from the start none is believed") {
+  OdometryDrive drive({kFront, kRearLeft}, 7);
+  drive.radar(GENERATE(std::size_t{0}, std::size_t{1})).world_mps = 4.0;
+  for (int i = 0; i < 100; ++i) {
+    CHECK_FALSE(is_good(drive.next()));
+  }
+  CHECK(drive.next().status == OdometryStatus::ambiguous);
+  drive.radar(0).world_mps = drive.radar(1).world_mps = 0.0;
+  drive.drive(1.0);
+  CHECK(is_good(drive.next()));
+}
+
+TEST_CASE("a lone radar that changes its mind is not followed at once") {
+  OdometryDrive drive({kFront}, 8);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  drive.radar(0).world_mps = 8.0;  // It drives behind something large.
+  double variance = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const Odometry odometry = drive.next();
+    CHECK(twist_error(odometry, drive) < 5.0);
+    CHECK(odometry.twist.x() == Approx(8.0).margin(0.5));
+    CHECK(odometry.twist_covariance(0, 0) > variance);
+    variance = odometry.twist_covariance(0, 0);
+  }
+  CHECK(drive.next().status == OdometryStatus::predicted);
+  drive.radar(0).world_mps = 0.0;
+  CHECK(is_good(drive.drive(1.0)));
+}
+
+TEST_CASE("a gap in time is bridged, a long one begins anew") {
+  OdometryDrive drive({kFront, kRearLeft}, 9);
+  drive.drive(3.0);
+  drive.pass(1'500'000);
+  CHECK(drive.next().status != OdometryStatus::initialising);
+  CHECK(is_good(drive.drive(1.0)));
+  drive.pass(5'000'000);
+  const Odometry odometry = drive.next();
+  CHECK(odometry.status == OdometryStatus::initialising);
+  CHECK(odometry.utime_anchor_us == drive.stamp_us());
+  CHECK(is_good(drive.drive(1.0)));
+}
+
+TEST_CASE("scans that come late are used") {
+  // All scans of the rear radar come after those of the front that were taken 50 ms later.
+  OdometryOptions options;
+  OdometryDrive drive({kFront}, 10, options);
+  drive.set_motion(9.0, 0.3);
+  const std::vector<OdometryRadar> radars{{kFront, {}}, {kRearLeft, {}}};
+  OdometryFilter filter(options, radars);
+  OdometryDrive rear({kRearLeft}, 10, options);
+  rear.set_motion(9.0, 0.3);
+  rear.pass(OdometryDrive::kPeriodUs - 50000);
+  drive.pass(OdometryDrive::kPeriodUs);
+  double most = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const Odometry first = filter.update(0, drive.see(0), drive.stamp_us());
+    const Odometry late = filter.update(1, rear.see(0), rear.stamp_us());
+    CHECK((first.is_new || i == 0));
+    CHECK_FALSE(late.is_new);
+    CHECK(late.utime_us == first.utime_us);
+    if (i > 15) {
+      CHECK(late.left_out == 0U);
+      CHECK(late.twist_covariance(0, 0) < first.twist_covariance(0, 0));
+      most = std::max({most, twist_error(late, drive), twist_error(first, drive)});
+    }
+    drive.pass(OdometryDrive::kPeriodUs);
+    rear.pass(OdometryDrive::kPeriodUs);
+  }
+  CHECK(most < 5.0);
+  CHECK(filter.report(1).doppler_innovation < 2.0);
+  CHECK(filter.report(1).doppler_innovation > 0.05);
+}
+
+TEST_CASE("a mount that is off is learned") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
+  drive.radar(0).mount.yaw_rad += 0.015;
+  for (int i = 0; i < 12; ++i) {
+    drive.set_motion(9.0, i % 2 == 0 ? 0.2 : -0.2);
+    CHECK(drive.drive(1.0).left_out == 0U);
+  }
+  const RadarReport front = drive.filter().report(0);
+  const RadarReport rear = drive.filter().report(1);
+  // Slip takes a part of what all have in common.
+  CHECK(front.mount_yaw_rad - rear.mount_yaw_rad == Approx(0.015).margin(0.004));
+  CHECK(front.mount_yaw_std_rad < 0.9 * OdometryOptions().mount_yaw_std_rad);
+}
+
+}  // namespace
+}  // namespace cremed

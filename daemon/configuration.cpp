@@ -154,9 +154,8 @@ bool is_fused(const Configuration& configuration) {
 std::optional<std::size_t> tum_radar(const Configuration& configuration) {
   const std::string& source = configuration.output.tum_source;
   const auto& radars = configuration.radars;
-  const auto found = std::find_if(radars.begin(), radars.end(), [&](const auto& radar) {
-    return radar.name == source;
-  });
+  const auto found = std::find_if(radars.begin(), radars.end(),
+                                  [&](const auto& radar) { return radar.name == source; });
   if (found != radars.end()) {
     return found - radars.begin();
   }

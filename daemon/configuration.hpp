@@ -47,9 +47,9 @@ struct OdometryConfiguration {
 
 struct OutputConfiguration {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  ///< "none": no LCM.
-  std::string csv;             ///< Path of the ego-motions as CSV; empty: none.
-  std::string odometry;        ///< Path of the vehicle's state as CSV; empty: none.
-  std::string tum;             ///< Path of the trajectory; empty: none.
+  std::string csv;       ///< Path of the ego-motions as CSV; empty: none.
+  std::string odometry;  ///< Path of the vehicle's state as CSV; empty: none.
+  std::string tum;       ///< Path of the trajectory; empty: none.
   /// What the trajectory follows: a radar, or the odometry. Empty: the odometry where there are two
   /// radars or more, otherwise the radar.
   std::string tum_source;

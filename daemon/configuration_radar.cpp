@@ -30,8 +30,7 @@ bool is_name(std::string_view text) {
            c == '-';
   };
   return !text.empty() && text.size() <= kMaxName && text != kFusedSource &&
-         text != kOdometrySource &&
-         std::all_of(text.begin(), text.end(), fits);
+         text != kOdometrySource && std::all_of(text.begin(), text.end(), fits);
 }
 
 bool is_interface(std::string_view text) {
@@ -42,8 +41,9 @@ bool is_interface(std::string_view text) {
 constexpr std::string_view kRotationLead = "rotation_lead_s";
 
 constexpr TextRule kName = {
-    is_name, "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and neither \"fused\" nor "
-             "\"odometry\""};
+    is_name,
+    "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and neither \"fused\" nor "
+    "\"odometry\""};
 constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
 
 void read_ars408(TomlReader& reader, RadarConfiguration& radar) {

@@ -19,8 +19,8 @@
 
 namespace cremed {
 
-/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t. Messages are
-/// encoded into a member buffer and handed to lcm_publish: no allocation.
+/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t.
+/// Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
   /// Does not connect yet: until connect() succeeds, every message is a failure.

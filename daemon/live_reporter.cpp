@@ -213,8 +213,8 @@ std::string LiveReporter::report_odometry() {
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
   const std::string state(is_new ? to_string(odometry->status) : "none");
   const int kind = seconds_without_odometry_ < kPatienceS ? 0
-                   : is_new ? static_cast<int>(odometry->status)
-                            : static_cast<int>(kOdometryStatusCount);
+                   : is_new                               ? static_cast<int>(odometry->status)
+                                                          : static_cast<int>(kOdometryStatusCount);
   log_.update("odometry", kind, [&] { return state; });
   return "odometry: " + state;
 }

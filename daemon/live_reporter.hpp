@@ -49,7 +49,7 @@ class LiveReporter {
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // As last looked at.
   std::vector<Progress> progress_;
-  std::int64_t odometry_us_ = 0;        // As last looked at.
+  std::int64_t odometry_us_ = 0;  // As last looked at.
   int seconds_without_odometry_ = 0;
   bool is_connected_ = false;
   std::uint64_t failures_ = 0;

@@ -20,13 +20,15 @@ void refuse_files(const CommandLine& command_line, const Configuration& configur
   if (command_line.output_csv || command_line.output_odometry || command_line.output_tum ||
       command_line.timing) {
     throw UsageError(
-        "--output-csv, --output-odometry, --output-tum and --timing need --replay; record a live drive with "
+        "--output-csv, --output-odometry, --output-tum and --timing need --replay; record a live "
+        "drive with "
         "`lcm-logger` and turn it into CSV with cremed-lcm-to-csv");
   }
   const OutputConfiguration& output = configuration.output;
   if (!output.csv.empty() || !output.odometry.empty() || !output.tum.empty()) {
     spdlog::warn(
-        "output.csv, output.odometry and output.tum are written in replays only; record a live drive with "
+        "output.csv, output.odometry and output.tum are written in replays only; record a live "
+        "drive with "
         "`lcm-logger`");
   }
 }

@@ -54,8 +54,8 @@ struct Odometry {
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
 
-  std::uint32_t radars = 0;   ///< Bit i: radar i took part since the output before.
-  std::uint32_t left_out = 0; ///< Bit i: radar i contradicts what the others say.
+  std::uint32_t radars = 0;    ///< Bit i: radar i took part since the output before.
+  std::uint32_t left_out = 0;  ///< Bit i: radar i contradicts what the others say.
 };
 
 /// How one radar does.

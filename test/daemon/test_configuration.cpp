@@ -237,8 +237,8 @@ max_gap_s = 1.30
   CHECK(o.lever_std_m == 0.23);
   CHECK(o.min_targets == 22);
   CHECK(std::array{o.max_doppler_nis, o.max_position_nis, o.standstill_mps, o.predicted_s, o.lost_s,
-                   o.anchor_period_s, o.max_lateness_s, o.max_gap_s} ==
-        std::array{1.23, 1.24, 0.25, 1.26, 1.27, 1.28, 0.29, 1.30});
+                   o.anchor_period_s, o.max_lateness_s,
+                   o.max_gap_s} == std::array{1.23, 1.24, 0.25, 1.26, 1.27, 1.28, 0.29, 1.30});
 }
 
 TEST_CASE("The trajectory follows the odometry of several radars, or what is named") {

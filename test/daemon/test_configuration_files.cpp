@@ -88,11 +88,11 @@ std::string text_of(const OdometryConfiguration& odometry) {
   const auto& [enabled, o] = odometry;
   out << enabled << '\n'
       << o.acceleration << ' ' << o.yaw_acceleration << ' ' << o.slip_std_rad << ' ' << o.slip_walk
-      << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' '
-      << o.start_yaw_rate_std_radps << '\n'
-      << o.lever_std_m << ' ' << o.mount_yaw_std_rad << ' ' << o.mount_yaw_walk << ' ' << o.doppler_scale_std << ' '
-      << o.doppler_std_mps << ' ' << o.doppler_x << ' ' << o.doppler_y << ' ' << o.offset << ' '
-      << o.azimuth_scale_std << '\n'
+      << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' ' << o.start_yaw_rate_std_radps
+      << '\n'
+      << o.lever_std_m << ' ' << o.mount_yaw_std_rad << ' ' << o.mount_yaw_walk << ' '
+      << o.doppler_scale_std << ' ' << o.doppler_std_mps << ' ' << o.doppler_x << ' ' << o.doppler_y
+      << ' ' << o.offset << ' ' << o.azimuth_scale_std << '\n'
       << o.min_targets << ' ' << o.max_doppler_nis << ' ' << o.max_position_nis << ' '
       << o.standstill_mps << ' ' << o.predicted_s << ' ' << o.lost_s << ' ' << o.anchor_period_s
       << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << '\n';

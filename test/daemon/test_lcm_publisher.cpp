@@ -159,13 +159,14 @@ TEST_CASE("odometry_t carries every field, in one datagram") {
   const double twist[9] = {21, 22, 23, 22, 25, 26, 23, 26, 29};
   CHECK(std::memcmp(m.covariance_x_y_yaw_in_anchor_frame_m_rad, anchor, sizeof(anchor)) == 0);
   CHECK(std::memcmp(m.covariance_x_y_yaw_in_odom_frame_m_rad, odom, sizeof(odom)) == 0);
-  CHECK(std::memcmp(m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps, twist,
-                    sizeof(twist)) == 0);
+  CHECK(std::memcmp(m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps, twist, sizeof(twist)) ==
+        0);
   CHECK(m.seq == 0);
   CHECK(decode<odometry_t>(received[1]).seq == 1);
 }
 
-TEST_CASE("Doubts of a radar's status go out with its motions, those of radars used with odometry") {
+TEST_CASE(
+    "Doubts of a radar's status go out with its motions, those of radars used with odometry") {
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus doubted;

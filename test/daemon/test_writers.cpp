@@ -128,13 +128,13 @@ TEST_CASE("TUM: follows the odometry if no radar is named, and only then") {
     std::optional<std::size_t> radar;
     const char* last;
   };
-  for (const Row& row :
-       {Row{0, "2.000000 3.000000 "}, Row{std::nullopt, "2.000000 7.000000 "}}) {
+  for (const Row& row : {Row{0, "2.000000 3.000000 "}, Row{std::nullopt, "2.000000 7.000000 "}}) {
     const TemporaryFile file;
     TumWriter writer(file.path(), row.radar);
     for (std::int64_t i = 0; i < 2; ++i) {
       writer.on_motion(0, estimate(i * 1'000'000, (i + 1) * 1'000'000, 1.5, 0.0), 0);
-      writer.on_odometry(state(i * 1'000'000, (i + 1) * 1'000'000, 3.5 * static_cast<double>(i + 1)));
+      writer.on_odometry(
+          state(i * 1'000'000, (i + 1) * 1'000'000, 3.5 * static_cast<double>(i + 1)));
     }
     const auto rows = lines(file.content());
     REQUIRE(rows.size() == 3);

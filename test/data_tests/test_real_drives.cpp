@@ -38,19 +38,19 @@ std::vector<CanFrame> read_frames(const std::string& log, const Configuration& c
   return frames;
 }
 
-struct Odometry {
+struct DriveOutcome {
   RecordingSink sink;
   TrueTrajectory truth;
 };
 
-Odometry drive(const RealDrive& scene) {
+DriveOutcome drive(const RealDrive& scene) {
   const std::string folder = std::string("data/nuscenes/") + scene.name;
   const Configuration configuration =
       load_configuration(std::string(CREMED_SOURCE_DIR "/config/") + scene.configuration + ".toml");
   REQUIRE(configuration.radars[0].name == "front");
   const auto frames = read_frames(read_shared(folder + "/can.log.xz"), configuration);
   std::istringstream csv(read_shared(folder + "/truth.csv"));
-  Odometry odometry{run_pipeline(configuration.radars, frames), TrueTrajectory(csv)};
+  DriveOutcome odometry{run_pipeline(configuration.radars, frames), TrueTrajectory(csv)};
   for (std::size_t radar = 0; radar < configuration.radars.size(); ++radar) {
     CAPTURE(configuration.radars[radar].name);
     const RadarStatus& status = odometry.sink.statuses[radar].back();
@@ -76,7 +76,7 @@ TEST_CASE(
   Credibility fused(3);
   for (const RealDrive& scene : scenes) {
     CAPTURE(scene.name);
-    const Odometry odometry = drive(scene);
+    const DriveOutcome odometry = drive(scene);
     const std::vector<EgoMotion>& motions = odometry.sink.motions[0];
     const Credibility of_scene = credibility_of(motions, odometry.truth);
     std::printf("%s front: %s\n", scene.name, to_line(of_scene).c_str());

@@ -99,10 +99,9 @@ TEST_CASE("An LCM log becomes the CSV that the daemon would have written, byte f
   CHECK(converted.counters.bad_messages == 0);
   CHECK_FALSE(converted.counters.ends_inside_message);
 
-  const ToolRun run =
-      run_tool("cremed-lcm-to-csv", folder,
-               log + " --output " + folder.file("tool.csv") + " --odometry " +
-                   folder.file("tool-odometry.csv"));
+  const ToolRun run = run_tool("cremed-lcm-to-csv", folder,
+                               log + " --output " + folder.file("tool.csv") + " --odometry " +
+                                   folder.file("tool-odometry.csv"));
   CHECK(run.status == 0);
   CHECK(run.error.empty());
   CHECK(content(folder.file("tool.csv")) == converted.csv);

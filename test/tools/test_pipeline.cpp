@@ -182,8 +182,8 @@ TEST_CASE("Odometry: outputs follow each other, and the fused motions are those 
       CHECK(is_credible(odometry, truth));
     }
   }
-  const auto true_motion = truth.motion(sink.odometries.front().utime_before_us,
-                                        sink.odometries.back().utime_us);
+  const auto true_motion =
+      truth.motion(sink.odometries.front().utime_before_us, sink.odometries.back().utime_us);
   REQUIRE(true_motion);
   const Eigen::Vector3d error = sink.odometries.back().odom_pose - *true_motion;
   CHECK(error.head<2>().norm() < 0.02 * 20.0 * 8.0);  // 2 % of the way.
@@ -194,8 +194,7 @@ TEST_CASE("Odometry: outputs follow each other, and the fused motions are those 
 
 TEST_CASE("Odometry of one radar: a state, and no fused motion") {
   const Drive simulated = drive(scenario("bends"), default_radars(), options(6, 20.0));
-  const RecordingSink sink =
-      run_pipeline({simulated.radars[0]}, without(simulated, 1, 0.0, 100.0));
+  const RecordingSink sink = run_pipeline({simulated.radars[0]}, without(simulated, 1, 0.0, 100.0));
   const TrueTrajectory truth = truth_of(simulated);
   CHECK(sink.fused.empty());
   REQUIRE(sink.odometries.size() > 200);

@@ -30,7 +30,10 @@ constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
                    std::vector<OdometrySink*> sinks, PipelineClock clock)
-    : source_(source), sinks_(std::move(sinks)), clock_(clock) {
+    : source_(source),
+      sinks_(std::move(sinks)),
+      clock_(clock),
+      standstill_mps_(configuration.odometry.filter.standstill_mps) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarConfiguration& radar = configuration.radars[i];
     radars_.push_back(
@@ -174,7 +177,7 @@ void Pipeline::publish_odometry(const RadarChannel& radar, const EgoMotion& moti
 }
 
 void Pipeline::publish_fused(std::size_t targets, std::int64_t solve_us) {
-  const EgoMotion fused = fused_motion(*odometry_, targets);
+  const EgoMotion fused = fused_motion(*odometry_, targets, standstill_mps_);
   for (OdometrySink* sink : sinks_) {
     sink->on_fused(fused, static_cast<std::int32_t>(solve_us));
   }

@@ -79,6 +79,7 @@ class Pipeline {
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<OdometryFilter> filter_;
+  double standstill_mps_;
   std::optional<Odometry> odometry_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::uint8_t last_interface_ = 0;      // Of the last frame.

@@ -4,9 +4,11 @@
 
 #include <array>
 
+#include "estimator/stamps.hpp"
+
 namespace cremed {
 
-EgoMotion fused_motion(const Odometry& odometry, std::size_t targets) {
+EgoMotion fused_motion(const Odometry& odometry, std::size_t targets, double standstill_mps) {
   static constexpr std::array<MotionStatus, kOdometryStatusCount> kStatuses{
       MotionStatus::ok,           MotionStatus::standing_still, MotionStatus::no_reference,
       MotionStatus::gap_too_long, MotionStatus::ambiguous,      MotionStatus::gap_too_long};
@@ -18,6 +20,10 @@ EgoMotion fused_motion(const Odometry& odometry, std::size_t targets) {
   if (fused.has_estimate()) {
     fused.motion = odometry.motion;
     fused.covariance = odometry.motion_covariance;
+    const double dt_s = seconds_between(fused.utime_start_us, fused.utime_us);
+    if (fused.motion.head<2>().norm() > standstill_mps * dt_s) {
+      fused.status = MotionStatus::ok;
+    }
   }
   return fused;
 }

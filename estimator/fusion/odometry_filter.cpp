@@ -24,6 +24,11 @@ constexpr double kMaxDisagreement = 4.0;
 
 double squared(double value) { return value * value; }
 
+/// To the last bit, as users may expect.
+Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
+  return 0.5 * (matrix + matrix.transpose());
+}
+
 std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
   std::vector<Pose2> result;
   for (const OdometryRadar& radar : radars) {
@@ -235,8 +240,8 @@ void OdometryFilter::tell(Odometry& odometry) {
   odometry.status = status();
   odometry.pose = state_.gaussian.mean().head<kPose>();
   odometry.covariance = state_.gaussian.covariance().topLeftCorner<kPose, kPose>();
-  odometry.odom_covariance =
-      composed_covariance(anchor_pose_, odom_covariance_, odometry.pose, odometry.covariance);
+  odometry.odom_covariance = symmetric(
+      composed_covariance(anchor_pose_, odom_covariance_, odometry.pose, odometry.covariance));
   const double v = state_.gaussian.mean(kSpeed);
   const double slip = state_.gaussian.mean(kSlip);
   Eigen::Matrix3d by_state;
@@ -244,7 +249,7 @@ void OdometryFilter::tell(Odometry& odometry) {
   constexpr std::array<int, 3> kTwist{kSpeed, kYawRate, kSlip};
   const Eigen::Matrix3d covariance = state_.gaussian.covariance()(kTwist, kTwist);
   odometry.twist = {v, slip * v, state_.gaussian.mean(kYawRate)};
-  odometry.twist_covariance = by_state * covariance * by_state.transpose();
+  odometry.twist_covariance = symmetric(by_state * covariance * by_state.transpose());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     odometry.left_out |= tracks_[i]->trust.is_left_out ? 1U << i : 0U;
   }
@@ -262,7 +267,7 @@ void OdometryFilter::tell_motion(Odometry& odometry) {
   odometry.motion = relative_pose(before, odometry.pose);
   const auto jacobian = relative_pose_jacobian(before, odometry.motion);
   const Eigen::Matrix<double, 6, 6> covariance = state_.gaussian.covariance()(kPoses, kPoses);
-  odometry.motion_covariance = jacobian * covariance * jacobian.transpose();
+  odometry.motion_covariance = symmetric(jacobian * covariance * jacobian.transpose());
   odometry.radars = radars_;
   odom_pose_ = composed_pose(odom_pose_, odometry.motion);
   output_us_ = time_us_;

@@ -56,6 +56,7 @@ EstimateChecker::EstimateChecker(const Configuration& configuration, const Fault
   }
   options_[kFused] = options_[0];
   options_[kFused].max_gap_s = configuration.odometry.filter.max_gap_s;
+  options_[kFused].standstill_mps = configuration.odometry.filter.standstill_mps;
   found_.reserve(kKept);
   beyond_.reserve(kKept);
 }

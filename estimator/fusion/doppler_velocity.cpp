@@ -119,8 +119,7 @@ std::optional<DopplerVelocity> DopplerVelocityEstimator::fit(const TargetSet& ta
     scale = std::max(std_mps, kNarrowing * scale);
   }
   DopplerVelocity result;
-  result.residual_std_mps =
-      median_residual(targets, solution, kTukey * std_mps) / kMedianPerStd;
+  result.residual_std_mps = median_residual(targets, solution, kTukey * std_mps) / kMedianPerStd;
   const Eigen::Matrix2d inverse = sums.information.topLeftCorner<2, 2>().inverse();
   result.velocity_mps = inverse * sums.weighted.head<2>();
   result.per_offset = inverse * sums.information.topRightCorner<2, 1>();

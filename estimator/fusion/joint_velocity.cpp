@@ -26,9 +26,9 @@ void JointVelocity::add(const DopplerVelocity& velocity, const Pose2& vehicle_fr
   const double changed = squared(kAccelerationMps2 * age_s);
   Eigen::Matrix2d noise = velocity.covariance;
   noise(0, 0) += squared(options_.doppler_x.std) + squared(options_.offset.std) + changed;
-  noise(1, 1) += squared(options_.doppler_y.std) + changed +
-                 squared(speed) *
-                     (squared(options_.mount_yaw_std_rad) + squared(options_.slip_std_rad));
+  noise(1, 1) +=
+      squared(options_.doppler_y.std) + changed +
+      squared(speed) * (squared(options_.mount_yaw_std_rad) + squared(options_.slip_std_rad));
   Eigen::Matrix2d by;
   by << 1.0, -vehicle_from_radar.y_m, 0.0, vehicle_from_radar.x_m;
   const Eigen::Matrix2d weight = noise.inverse();

@@ -17,8 +17,8 @@ struct LinearMeasurement {
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< Covariance of z.
   int states = 0;
-  std::array<int, kMaxStates> state{};         ///< Which state,
-  std::array<Column, kMaxStates> jacobian{};   ///< and its column of dh/dx.
+  std::array<int, kMaxStates> state{};        ///< Which state,
+  std::array<Column, kMaxStates> jacobian{};  ///< and its column of dh/dx.
 
   void depend_on(int which, const Column& column) {
     state[static_cast<std::size_t>(states)] = which;

@@ -84,8 +84,9 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   const bool is_unknown = state_.gaussian.std(kSpeed) > kUnknownSpeedStdMps;
   std::optional<Eigen::Vector2d> expected;
   if (!is_unknown) {
-    expected = Eigen::Vector2d(state_.gaussian.mean(kSpeed) - state_.gaussian.mean(kYawRate) * mount.y_m,
-                               state_.gaussian.mean(kYawRate) * mount.x_m);
+    expected =
+        Eigen::Vector2d(state_.gaussian.mean(kSpeed) - state_.gaussian.mean(kYawRate) * mount.y_m,
+                        state_.gaussian.mean(kYawRate) * mount.x_m);
   }
   const auto scan = tracks_[radar]->velocity(targets, expected);
   if (!scan) {
@@ -145,8 +146,7 @@ void OdometryFilter::ask_majority(std::int64_t stamp_us) {
       joint.add(trust.velocity, track->mount(), age_s);
     }
   }
-  if (joint.radars() < 2 || joint.radars() <= agreeing ||
-      joint.disagreement() > kMaxDisagreement) {
+  if (joint.radars() < 2 || joint.radars() <= agreeing || joint.disagreement() > kMaxDisagreement) {
     return;
   }
   const Eigen::Vector2d wrong(state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
@@ -174,8 +174,8 @@ void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets, 
   std::array<std::optional<RadarTrack::Pair>, kKeyframes> pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (track.can_match(i, targets)) {
-      pairs[i] = track.match(
-          i, targets, state_.model(radar).expected_motion(state_.keyframe(radar, i), pose));
+      pairs[i] = track.match(i, targets,
+                             state_.model(radar).expected_motion(state_.keyframe(radar, i), pose));
     }
   }
   state_.clone_scan(radar, age_s, options_.scan_noise_share * track.scan_covariance());
@@ -192,8 +192,8 @@ void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets, 
 void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
                               const RadarTrack::Pair& pair) {
   RadarTrust& trust = tracks_[radar]->trust;
-  LinearMeasurement measurement = state_.model(radar).position(
-      state_.keyframe(radar, keyframe), state_.scan(radar), pair.motion);
+  LinearMeasurement measurement = state_.model(radar).position(state_.keyframe(radar, keyframe),
+                                                               state_.scan(radar), pair.motion);
   measurement.noise = trust.position_noise.value() * options_.pair_noise_factor *
                       (options_.pair_noise_start + options_.pair_noise_per_lag * pair.lag) *
                       pair.covariance.bottomRightCorner<2, 2>();
@@ -228,9 +228,10 @@ OdometryStatus OdometryFilter::status() const {
   if (seconds_between(clear_us_, time_us_) > options_.ambiguous_s) {
     return OdometryStatus::ambiguous;
   }
-  const bool stands = std::abs(state_.gaussian.mean(kSpeed)) <= options_.standstill_mps &&
-                      state_.gaussian.std(kSpeed) <= options_.standstill_mps &&
-                      std::abs(state_.gaussian.mean(kYawRate)) <= 3.0 * state_.gaussian.std(kYawRate);
+  const bool stands =
+      std::abs(state_.gaussian.mean(kSpeed)) <= options_.standstill_mps &&
+      state_.gaussian.std(kSpeed) <= options_.standstill_mps &&
+      std::abs(state_.gaussian.mean(kYawRate)) <= 3.0 * state_.gaussian.std(kYawRate);
   return stands ? OdometryStatus::standing_still : OdometryStatus::ok;
 }
 
@@ -286,15 +287,9 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  return {trust.is_left_out,
-          trust.doppler.mean(),
-          trust.lateral.mean(),
-          trust.yaw.mean(),
-          trust.doppler_noise.value(),
-          trust.position_noise.value(),
-          state.mean(mount_yaw),
-          state.std(mount_yaw),
-          state.mean(doppler_scale),
+  return {trust.is_left_out,       trust.doppler.mean(),        trust.lateral.mean(),
+          trust.yaw.mean(),        trust.doppler_noise.value(), trust.position_noise.value(),
+          state.mean(mount_yaw),   state.std(mount_yaw),        state.mean(doppler_scale),
           state.std(doppler_scale)};
 }
 

@@ -31,8 +31,9 @@ struct OdometryRadar {
 /// that change slowly, and clones of the pose (Roumeliotis and Burdick, "Stochastic cloning", ICRA
 /// 2002): at a few keyframes of each radar, at its current scan and at the last output. Of a scan
 /// come one measurement of velocity by its Doppler and up to kKeyframes of the motion since a
-/// keyframe by positions (MeasurementModel). A clone of a scan carries the noise of that scan's positions
-/// as a part of its pose, so that it counts once in however many pairs the scan takes part.
+/// keyframe by positions (MeasurementModel). A clone of a scan carries the noise of that scan's
+/// positions as a part of its pose, so that it counts once in however many pairs the scan takes
+/// part.
 ///
 /// Everything is told relative to the anchor, a pose of the recent past that is known without error
 /// because it is the origin. When it is renewed all poses are expressed in its frame; covariances

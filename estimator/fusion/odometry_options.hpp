@@ -29,11 +29,11 @@ struct OdometryOptions {
   double start_yaw_rate_std_radps = 0.3;
 
   // Errors of one radar that change slowly.
-  double mount_yaw_std_rad = 0.0075;   ///< Of a mount measured by hand.
+  double mount_yaw_std_rad = 0.0075;       ///< Of a mount measured by hand.
   double mount_yaw_across_std_rad = 0.02;  ///< And more for one that looks across the way.
-  double mount_yaw_walk = 0.0003;      ///< rad/sqrt(s): it is screwed on.
-  double lever_std_m = 0.1;            ///< Of its place, along each axis.
-  double doppler_scale_std = 0.002;    ///< Of one, after calibration.
+  double mount_yaw_walk = 0.0003;          ///< rad/sqrt(s): it is screwed on.
+  double lever_std_m = 0.1;                ///< Of its place, along each axis.
+  double doppler_scale_std = 0.002;        ///< Of one, after calibration.
   /// The same of all radars together: what elevation of targets takes from Doppler differs between
   /// drives.
   double common_scale_std = 0.002;
@@ -50,12 +50,12 @@ struct OdometryOptions {
   /// And more for radars that look across the way, m/s: an ARS408 tells velocities in steps of
   /// 0.25 m/s, 0.25 / sqrt(12) of which all targets share where the speed along the axis is steady.
   double offset_across_mps = 0.07;
-  ForgettingNoise common_offset{0.01, 1.0};    ///< The same of all radars together.
+  ForgettingNoise common_offset{0.01, 1.0};  ///< The same of all radars together.
   double common_offset_per_yaw_rate_m = 0.1;
-  double yaw_scale_std = 0.02;         ///< Of yaw by positions, of one: azimuths err by so much.
-  double common_yaw_scale_std = 0.015; ///< The same of all radars together.
-  ForgettingNoise yaw_per_metre{0.0003, 5.0};     ///< rad/m, of yaw by positions over distance.
-  ForgettingNoise lateral_per_metre{0.02, 5.0};   ///< Of y by positions over distance.
+  double yaw_scale_std = 0.02;          ///< Of yaw by positions, of one: azimuths err by so much.
+  double common_yaw_scale_std = 0.015;  ///< The same of all radars together.
+  ForgettingNoise yaw_per_metre{0.0003, 5.0};    ///< rad/m, of yaw by positions over distance.
+  ForgettingNoise lateral_per_metre{0.02, 5.0};  ///< Of y by positions over distance.
 
   // Doppler.
   double doppler_std_mps = 0.13;        ///< Of one target: start of what is learned from residuals.
@@ -64,15 +64,15 @@ struct OdometryOptions {
   double max_doppler_nis = 16.0;        ///< Gate, two degrees of freedom: 0.03 % by chance.
 
   // Positions.
-  int keyframe_period = 5;             ///< Every so many scans of a radar is a keyframe.
-  int min_lag = 4;                     ///< Scans from keyframe to current: nearer ones are biased.
-  int min_targets = 20;                ///< Fewer in a scan: chance neighbours pass for pairs.
-  double min_matched_share = 0.35;     ///< Of targets found again.
-  double scan_noise_share = 0.45;      ///< Part of a registration's covariance that is each scan's.
-  double pair_noise_factor = 3.0;      ///< Rest: factor (start + per_lag * lag) covariance.
+  int keyframe_period = 5;          ///< Every so many scans of a radar is a keyframe.
+  int min_lag = 4;                  ///< Scans from keyframe to current: nearer ones are biased.
+  int min_targets = 20;             ///< Fewer in a scan: chance neighbours pass for pairs.
+  double min_matched_share = 0.35;  ///< Of targets found again.
+  double scan_noise_share = 0.45;   ///< Part of a registration's covariance that is each scan's.
+  double pair_noise_factor = 3.0;   ///< Rest: factor (start + per_lag * lag) covariance.
   double pair_noise_start = 0.3;
   double pair_noise_per_lag = 0.05;
-  double max_position_nis = 18.0;      ///< Gate, two degrees of freedom: 0.01 % by chance.
+  double max_position_nis = 18.0;  ///< Gate, two degrees of freedom: 0.01 % by chance.
 
   // Status.
   double standstill_mps = 0.1;
@@ -81,12 +81,12 @@ struct OdometryOptions {
   int settled_scans = 5;
   double predicted_s = 0.25;  ///< Two scans of an ARS408 are missing.
   double ambiguous_s = 1.0;
-  double lost_s = 1.0;        ///< By then the speed may have changed by several m/s.
+  double lost_s = 1.0;  ///< By then the speed may have changed by several m/s.
 
   // Time.
-  double anchor_period_s = 2.2;        ///< The pose is told relative to an anchor renewed so often.
-  double max_lateness_s = 0.2;         ///< A scan older than the latest by more is not used.
-  double max_gap_s = 2.0;              ///< Longer without any scan: begins anew.
+  double anchor_period_s = 2.2;  ///< The pose is told relative to an anchor renewed so often.
+  double max_lateness_s = 0.2;   ///< A scan older than the latest by more is not used.
+  double max_gap_s = 2.0;        ///< Longer without any scan: begins anew.
 };
 
 }  // namespace cremed

@@ -43,10 +43,9 @@ void OdometryState::start() {
   for (int i = 0; i < gaussian.size(); ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
-  start_motion(Eigen::Vector2d::Zero(),
-               Eigen::Vector2d(squared(options_.start_speed_std_mps),
-                               squared(options_.start_yaw_rate_std_radps))
-                   .asDiagonal());
+  start_motion(Eigen::Vector2d::Zero(), Eigen::Vector2d(squared(options_.start_speed_std_mps),
+                                                        squared(options_.start_yaw_rate_std_radps))
+                                            .asDiagonal());
   gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
   gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
@@ -113,8 +112,7 @@ Eigen::Vector3d OdometryState::pose_before(double age_s) const {
   return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
 }
 
-void OdometryState::clone_scan(std::size_t radar, double age_s,
-                               const Eigen::Matrix3d& scan_noise) {
+void OdometryState::clone_scan(std::size_t radar, double age_s, const Eigen::Matrix3d& scan_noise) {
   const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), -age_s, options_);
   const Eigen::Vector3d pose = step.state.head<kPose>();
   gaussian.clone<kMotionStates>(scan(radar), pose, step.jacobian.topRows<kPose>(),

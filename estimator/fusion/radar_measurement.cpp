@@ -80,7 +80,7 @@ void MeasurementModel::add_lateness(double age_s, LinearMeasurement& measurement
 }
 
 LinearMeasurement MeasurementModel::position(int keyframe, int scan,
-                                       const Eigen::Vector3d& motion) const {
+                                             const Eigen::Vector3d& motion) const {
   const Eigen::Vector3d from = state.mean().segment<3>(keyframe);
   const Eigen::Vector3d relative = relative_pose(from, state.mean().segment<3>(scan));
   const double d = at(kMountYaw);

@@ -78,8 +78,7 @@ std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
     return std::nullopt;
   }
   const double share = std::min(kMaxLearningShare, best->targets / kLearningTargets);
-  const double std =
-      std::clamp(best->residual_std_mps, kMinDopplerStdMps, kMaxDopplerStdMps);
+  const double std = std::clamp(best->residual_std_mps, kMinDopplerStdMps, kMaxDopplerStdMps);
   doppler_std_mps_ =
       std::sqrt((1.0 - share) * doppler_std_mps_ * doppler_std_mps_ + share * std * std);
   return ScanVelocity{*best, is_majority(*best, targets)};

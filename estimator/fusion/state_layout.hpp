@@ -28,21 +28,21 @@ inline constexpr int kOutput = 12;          ///< Clone of the pose at the last o
 inline constexpr int kFirstRadar = 15;
 
 // Of one radar, from its first on.
-inline constexpr int kMountYaw = 0;          ///< rad
-inline constexpr int kDopplerScale = 1;      ///< 1
-inline constexpr int kDopplerX = 2;          ///< m/s
-inline constexpr int kDopplerY = 3;          ///< m/s
-inline constexpr int kOffset = 4;            ///< m/s
-inline constexpr int kYawScale = 5;          ///< 1
-inline constexpr int kYawPerMetre = 6;       ///< rad/m
-inline constexpr int kLateralPerMetre = 7;   ///< 1
-inline constexpr int kLeverX = 8;            ///< m
-inline constexpr int kLeverY = 9;            ///< m
+inline constexpr int kMountYaw = 0;         ///< rad
+inline constexpr int kDopplerScale = 1;     ///< 1
+inline constexpr int kDopplerX = 2;         ///< m/s
+inline constexpr int kDopplerY = 3;         ///< m/s
+inline constexpr int kOffset = 4;           ///< m/s
+inline constexpr int kYawScale = 5;         ///< 1
+inline constexpr int kYawPerMetre = 6;      ///< rad/m
+inline constexpr int kLateralPerMetre = 7;  ///< 1
+inline constexpr int kLeverX = 8;           ///< m
+inline constexpr int kLeverY = 9;           ///< m
 inline constexpr int kErrorStates = 10;
-inline constexpr int kScan = 10;             ///< Clone of the pose at the current scan.
-inline constexpr int kKeyframe = 13;         ///< Clones of the poses at the keyframes.
+inline constexpr int kScan = 10;      ///< Clone of the pose at the current scan.
+inline constexpr int kKeyframe = 13;  ///< Clones of the poses at the keyframes.
 inline constexpr int kKeyframes = 3;
-inline constexpr int kPose = 3;              ///< States of a clone.
+inline constexpr int kPose = 3;  ///< States of a clone.
 inline constexpr int kRadarStates = kKeyframe + kKeyframes * kPose;
 
 inline constexpr int radar(int index) { return kFirstRadar + index * kRadarStates; }

@@ -14,8 +14,8 @@
 #include "estimator/self_check.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
-#include "test/estimator/odometry_drive.hpp"
 #include "test/estimator/numeric.hpp"
+#include "test/estimator/odometry_drive.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {
@@ -277,8 +277,7 @@ TEST_CASE("the odometry filter does not allocate, whatever the radars say") {
   int registered = 0;
   const auto update = [&](std::size_t radar, const TargetSet& targets, std::int64_t stamp_us) {
     Odometry odometry;
-    count += count_allocations(
-        [&] { odometry = drive.filter().update(radar, targets, stamp_us); });
+    count += count_allocations([&] { odometry = drive.filter().update(radar, targets, stamp_us); });
     registered += odometry.status == OdometryStatus::ok ? 1 : 0;
   };
   for (int i = 0; i < 200; ++i) {

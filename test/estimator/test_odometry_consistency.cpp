@@ -89,8 +89,8 @@ class ModelDrive {
     truth_.advance_errors(radar, dt_s);
     for (int i = 0; i < kErrorStates; ++i) {
       const int which = truth_.error(radar, i);
-      truth_.gaussian.set_mean(which, truth_.gaussian.mean(which) +
-                                          truth_.gaussian.std(which) * normal_(random_));
+      truth_.gaussian.set_mean(
+          which, truth_.gaussian.mean(which) + truth_.gaussian.std(which) * normal_(random_));
     }
     estimate_.advance_errors(radar, dt_s);
   }
@@ -99,8 +99,8 @@ class ModelDrive {
   void draw_forgetting(int which, const Advance& advance) {
     truth_.gaussian.set(which, truth_.gaussian.mean(which), 0.0);
     advance(truth_);
-    truth_.gaussian.set_mean(which, truth_.gaussian.mean(which) +
-                                        truth_.gaussian.std(which) * normal_(random_));
+    truth_.gaussian.set_mean(
+        which, truth_.gaussian.mean(which) + truth_.gaussian.std(which) * normal_(random_));
   }
 
   void measure_doppler(std::size_t radar) {
@@ -175,8 +175,7 @@ TEST_CASE("on its own model every state's covariance is true, and stays one") {
     const Eigen::VectorXd error = drive.estimate().mean() - drive.truth().mean();
     const Eigen::MatrixXd& covariance = drive.estimate().covariance();
     REQUIRE(covariance == covariance.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance,
-                                                                Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, Eigen::EigenvaluesOnly);
     REQUIRE(solver.eigenvalues().minCoeff() > -1e-12);
     if (squares.size() == 0) {
       squares.setZero(error.size());
@@ -188,7 +187,8 @@ TEST_CASE("on its own model every state's covariance is true, and stays one") {
     nis += drive.nis() * drive.measurements();
     measurements += drive.measurements();
   }
-  // Of chi-square with kRuns degrees of freedom, over as many, 99.99 %: 1 +- 3.9 sigma and its skew.
+  // Of chi-square with kRuns degrees of freedom, over as many, 99.99 %: 1 +- 3.9 sigma and its
+  // skew.
   const double sigma = numeric::anees_deviation(kRuns, 1);
   for (Eigen::Index i = 0; i < squares.size(); ++i) {
     CAPTURE(i);
@@ -198,8 +198,8 @@ TEST_CASE("on its own model every state's covariance is true, and stays one") {
   CHECK(pose_nees / (3 * kRuns) == Approx(1.0).margin(4.0 * numeric::anees_deviation(kRuns, 3)));
   // Innovations of a consistent filter are independent of each other.
   CHECK(nis / measurements ==
-        Approx(1.0).margin(4.0 * numeric::anees_deviation(static_cast<std::size_t>(measurements),
-                                                          2)));
+        Approx(1.0).margin(4.0 *
+                           numeric::anees_deviation(static_cast<std::size_t>(measurements), 2)));
 }
 
 }  // namespace

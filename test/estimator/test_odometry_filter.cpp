@@ -35,7 +35,8 @@ double twist_error(const Odometry& odometry, const OdometryDrive& drive) {
 }
 
 TEST_CASE("straight on and in a turn the pose since the anchor is known, with one radar or three") {
-  const auto mounts = GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft, kRearRight});
+  const auto mounts =
+      GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft, kRearRight});
   const double yaw_rate_radps = GENERATE(0.0, 0.3);
   OdometryDrive drive(mounts, 1);
   drive.set_motion(9.0, yaw_rate_radps);

@@ -29,9 +29,13 @@ OdometryState busy_state(const OdometryOptions& options) {
   for (int i = 0; i < state.gaussian.size(); ++i) {
     state.gaussian.set_mean(i, uniform(random));
   }
-  const std::vector<std::pair<int, double>> values{
-      {kX, 3.0},  {kY, -1.0}, {kYaw, 0.7}, {kSpeed, 8.0}, {kAcceleration, -1.2}, {kYawRate, 0.4},
-      {kYawAcceleration, 0.3}};
+  const std::vector<std::pair<int, double>> values{{kX, 3.0},
+                                                   {kY, -1.0},
+                                                   {kYaw, 0.7},
+                                                   {kSpeed, 8.0},
+                                                   {kAcceleration, -1.2},
+                                                   {kYawRate, 0.4},
+                                                   {kYawAcceleration, 0.3}};
   for (const auto& [which, value] : values) {
     state.gaussian.set_mean(which, value);
   }
@@ -94,9 +98,8 @@ TEST_CASE("a registration's start is what the measurement expects") {
   const OdometryState state = busy_state(options);
   const Eigen::Vector3d scan = state.gaussian.mean().segment<3>(state.scan(1));
   const Eigen::Vector3d expected = state.model(1).expected_motion(state.keyframe(1, 1), scan);
-  CHECK(state.model(1)
-            .position(state.keyframe(1, 1), state.scan(1), expected)
-            .residual.norm() < 1e-12);
+  CHECK(state.model(1).position(state.keyframe(1, 1), state.scan(1), expected).residual.norm() <
+        1e-12);
 }
 
 TEST_CASE("derivatives of the motion are those of the motion, forward and back") {
@@ -131,8 +134,8 @@ TEST_CASE("noise of the motion does not depend on how time is cut") {
   const MotionStep second = moved(first.state, 0.06, options);
   const MotionStep::Matrix noise =
       second.jacobian * first.noise * second.jacobian.transpose() + second.noise;
-  for (const int i : {+kSpeed, +kAcceleration, +kYawRate, +kYawAcceleration, +kSlip,
-                      +kBodyVelocity}) {
+  for (const int i :
+       {+kSpeed, +kAcceleration, +kYawRate, +kYawAcceleration, +kSlip, +kBodyVelocity}) {
     CAPTURE(i);
     // Accelerations fade by a tenth to a fifth in that time.
     CHECK(noise(i, i) == Approx(whole.noise(i, i)).epsilon(0.2));
@@ -144,9 +147,8 @@ TEST_CASE("derivatives of a relative pose are those of the pose") {
   const Poses at = (Poses() << 1.0, -2.0, 0.8, 4.0, 1.0, 1.1).finished();
   const Eigen::Vector3d relative = relative_pose(at.head<3>(), at.tail<3>());
   const auto expected = numeric::central_differences(
-      at, 1e-6, [](const Poses& x) -> Eigen::Vector3d {
-        return relative_pose(x.head<3>(), x.tail<3>());
-      });
+      at, 1e-6,
+      [](const Poses& x) -> Eigen::Vector3d { return relative_pose(x.head<3>(), x.tail<3>()); });
   CHECK((relative_pose_jacobian(at.head<3>(), relative) - expected).norm() < 1e-7);
   CHECK((composed_pose(at.head<3>(), relative) - at.tail<3>()).norm() < 1e-12);
 }

@@ -168,7 +168,7 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
     }
     const Eigen::Vector3d step = -*inverse * equations.gradient;
     const double squared_step = -step.dot(equations.gradient);
-    if (squared_step < kStepTolerance) {
+    if (squared_step < options_.step_tolerance) {
       return RegistrationStatus::converged;
     }
     // The sum over all targets: the one found again moves by its root mean square.

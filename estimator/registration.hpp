@@ -23,7 +23,7 @@ namespace cremed {
 
 /// How a registration ended.
 enum class RegistrationStatus : std::uint8_t {
-  converged,       ///< Step below kStepTolerance, or no step lowers the cost.
+  converged,       ///< Step below step_tolerance, or no step lowers the cost.
   degenerate,      ///< The information is not positive definite: the targets do not fix all states.
   ambiguous,       ///< Too few targets found again, too many possible partners for a
                    ///< target, or another motion fits nearly as well.
@@ -68,10 +68,9 @@ struct RegistrationResult {
 ///     const RegistrationResult result = registration.solve(current_targets, dt_s);
 class Registration {
  public:
-  /// A stage ends at a step shorter than this, squared, in standard deviations (step' J'J step).
-  /// The first stage only has to end near enough for the second, which is less to ask of it where
-  /// the second climbs the exclusive likelihood.
-  static constexpr double kStepTolerance = 1e-5;
+  /// The first stage ends at a step shorter than this, squared, in standard deviations. It only has
+  /// to end near enough for the second, which is less to ask of it where the second climbs the
+  /// exclusive likelihood.
   static constexpr double kStartStepTolerance = 1e-2;
   static constexpr double kExclusiveStartStepTolerance = 0.1;
 

@@ -61,6 +61,9 @@ struct RegistrationOptions {
   double start_doppler_scale = 2.0;  ///< Further factor on the Doppler ones in the first stage.
   int max_start_iterations = 5;      ///< Gauss-Newton steps of the first stage.
   int max_iterations = 100;          ///< Gauss-Newton steps of the second stage.
+  /// The second stage ends at a step shorter than this, squared, in standard deviations (step' J'J
+  /// step).
+  double step_tolerance = 1e-5;
   /// Where few targets are found again, search from other yaw angles. Of use where the start is a
   /// guess, not where it is a prediction.
   bool restarts = true;

@@ -69,7 +69,7 @@ RegistrationResult Registration::search(const Problem& problem,
   const Stage wide{options_.start_scale, options_.start_scale * options_.start_doppler_scale,
                    options_.max_start_iterations,
                    is_exclusive ? kExclusiveStartStepTolerance : kStartStepTolerance};
-  const Stage exact{1.0, 1.0, options_.max_iterations, kStepTolerance};
+  const Stage exact{1.0, 1.0, options_.max_iterations, options_.step_tolerance};
   RegistrationResult result;
   if (is_exclusive && !has_two_stages && starts.size() == 1) {
     result.motion = starts.front();

@@ -11,7 +11,8 @@ GaussianState::GaussianState(int size)
     : mean_(Eigen::VectorXd::Zero(size)),
       covariance_(Eigen::MatrixXd::Zero(size, size)),
       gain_(Rows2::Zero(size, 2)),
-      whitened_residual_(Eigen::Vector2d::Zero()) {}
+      whitened_residual_(Eigen::Vector2d::Zero()),
+      innovations_(Eigen::Vector2d::Zero()) {}
 
 double GaussianState::std(int i) const { return std::sqrt(covariance_(i, i)); }
 
@@ -79,6 +80,7 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
     gain_.setZero();
     return std::numeric_limits<double>::infinity();
   }
+  innovations_ = measurement.residual.cwiseAbs2().cwiseQuotient(innovation.diagonal());
   gain_.col(0) /= l00;
   gain_.col(1) = (gain_.col(1) - l10 * gain_.col(0)) / l11;
   whitened_residual_.x() = measurement.residual.x() / l00;

@@ -19,6 +19,8 @@ using namespace state_layout;
 constexpr double kUnknownSpeedStdMps = 1.0;
 /// What a radar said longer ago says nothing of now.
 constexpr double kVerdictS = 0.3;
+/// Of a slow radar: how long a contradiction may have lasted.
+constexpr double kScanPeriodS = 0.1;
 /// Radars agree on a velocity up to this mean square, in standard deviations.
 constexpr double kMaxDisagreement = 4.0;
 
@@ -157,7 +159,7 @@ void OdometryFilter::ask_majority(std::int64_t stamp_us) {
     if (trust.has_verdict && trust.agrees) {
       state_.start_errors(i);
     } else {
-      since_s = std::max(since_s, trust.contradictions * 0.1);
+      since_s = std::max(since_s, trust.contradictions * kScanPeriodS);
       trust.forgive();
     }
   }
@@ -198,8 +200,8 @@ void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
                       (options_.pair_noise_start + options_.pair_noise_per_lag * pair.lag) *
                       pair.covariance.bottomRightCorner<2, 2>();
   const double nis = state_.gaussian.innovate(measurement);
-  trust.lateral.add(time_us_, 0.5 * nis);
-  trust.yaw.add(time_us_, 0.5 * nis);
+  trust.lateral.add(time_us_, state_.gaussian.innovations().x());
+  trust.yaw.add(time_us_, state_.gaussian.innovations().y());
   trust.position_noise.add(0.5 * nis);
   if (nis <= options_.max_position_nis) {
     state_.gaussian.update();

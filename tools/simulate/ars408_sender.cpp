@@ -57,6 +57,10 @@ constexpr double kDoubtShare = 0.35;
 /// A slower target counts as standing, as far as Doppler can tell.
 constexpr double kStandingDopplerMps = 0.5;
 
+/// A frame carries lateral velocities up to 64 m/s, which a turn of 0.5 rad/s exceeds at 130 m. No
+/// source says what the sensor does then; here it does not send the target.
+constexpr double kGreatestSpeedMps = 63.0;
+
 double square(double value) { return value * value; }
 
 /// Variance that a code of table R stands for.
@@ -127,6 +131,11 @@ PolarStd Ars408Sender::noise(const RadarView& view) const {
                                   square(across_mps / view.range_m) * position_rounding;
   std.doppler_mps = std::sqrt(std::max(0.0, doppler_2 - doppler_rounding));
   return std;
+}
+
+bool Ars408Sender::can_report(const Measurement& measurement) const {
+  const double across_mps = static_across(measurement.range_m, measurement.azimuth_rad);
+  return std::hypot(measurement.doppler_mps, across_mps) < kGreatestSpeedMps;
 }
 
 void Ars408Sender::encode(const std::vector<Measurement>& targets, std::uint32_t cycle,

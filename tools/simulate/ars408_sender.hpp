@@ -36,6 +36,7 @@ class Ars408Sender : public RadarSender {
 
  protected:
   [[nodiscard]] PolarStd noise(const RadarView& view) const override;
+  [[nodiscard]] bool can_report(const Measurement& measurement) const override;
   void encode(const std::vector<Measurement>& targets, std::uint32_t cycle,
               std::vector<CanFrame>& list) override;
 

@@ -78,7 +78,7 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
     target.azimuth_rad += std.azimuth_rad * random_.normal();
     target.doppler_mps =
         with_shared_errors(target.doppler_mps) + std.doppler_mps * random_.normal();
-    targets_.push_back(target);
+    if (can_report(target)) targets_.push_back(target);
   }
   std::stable_sort(targets_.begin(), targets_.end(),
                    [](const auto& a, const auto& b) { return a.range_m < b.range_m; });

@@ -84,6 +84,9 @@ class RadarSender : public BusSender {
   /// Errors to draw, so that after rounding they have the reported standard deviations.
   [[nodiscard]] virtual PolarStd noise(const RadarView& view) const = 0;
 
+  /// Whether the target fits into a frame; it is not sent otherwise.
+  [[nodiscard]] virtual bool can_report(const Measurement& /*measurement*/) const { return true; }
+
   /// Appends all frames of a scan. `cycle` counts the scans since power-on.
   virtual void encode(const std::vector<Measurement>& targets, std::uint32_t cycle,
                       std::vector<CanFrame>& list) = 0;

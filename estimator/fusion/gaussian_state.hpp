@@ -37,8 +37,8 @@ class GaussianState {
 
   /// Three states from `to` on become a function of the first `Size`, plus noise.
   template <int Size>
-  void clone(int to, const Eigen::Vector3d& mean,
-             const Eigen::Matrix<double, 3, Size>& jacobian, const Eigen::Matrix3d& noise);
+  void clone(int to, const Eigen::Vector3d& mean, const Eigen::Matrix<double, 3, Size>& jacobian,
+             const Eigen::Matrix3d& noise);
   /// Three states become a copy of three others.
   void copy(int from, int to);
   /// Three states from `to` on, which are a function of themselves and of the first three.
@@ -58,8 +58,8 @@ class GaussianState {
 
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
-  Rows2 gain_;  // P H' L^-T with S = L L'
-  Eigen::Vector2d whitened_residual_;   // L^-1 residual
+  Rows2 gain_;                         // P H' L^-T with S = L L'
+  Eigen::Vector2d whitened_residual_;  // L^-1 residual
   Eigen::Vector2d innovations_;
 };
 

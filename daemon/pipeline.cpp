@@ -149,6 +149,13 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   }
 }
 
+/// A radar in doubt has no say while there is one that is not.
+bool Pipeline::is_believed(const RadarChannel& radar) const {
+  return radar.self_check.is_believable() ||
+         std::none_of(radars_.begin(), radars_.end(),
+                      [](const auto& other) { return other->self_check.is_believable(); });
+}
+
 /// Of every scan with usable targets, whether or not it could be registered with the one before.
 void Pipeline::publish_odometry(const RadarChannel& radar, const EgoMotion& motion) {
   const TargetSet& targets = radar.estimator.targets();
@@ -159,7 +166,8 @@ void Pipeline::publish_odometry(const RadarChannel& radar, const EgoMotion& moti
     filter_->forget();
   }
   const std::int64_t begin_us = clock_.now_us();
-  const Odometry odometry = filter_->update(radar.index, targets, motion.utime_us);
+  const Odometry odometry =
+      filter_->update(radar.index, targets, motion.utime_us, is_believed(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
   if (!odometry.is_new) {
     return;

@@ -70,6 +70,7 @@ class Pipeline {
   RadarChannel* first_to_close(Condition condition);
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
+  [[nodiscard]] bool is_believed(const RadarChannel& radar) const;
   void publish_odometry(const RadarChannel& radar, const EgoMotion& motion);
   void publish_fused(std::size_t targets, std::int64_t solve_us);
   void publish_status();

@@ -36,6 +36,8 @@ class SelfCheck {
 
   /// Doubts in this radar by itself.
   [[nodiscard]] std::uint32_t doubts() const;
+  /// Whether none of them says that its errors are greater than its covariance.
+  [[nodiscard]] bool is_believable() const { return (doubts() & ~covariance_too_large) == 0; }
 
  private:
   void compare_with_last(const EgoMotion& motion);

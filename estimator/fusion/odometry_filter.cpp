@@ -50,8 +50,8 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
   }
 }
 
-Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets,
-                                std::int64_t stamp_us) {
+Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
+                                bool is_believed) {
   if (!has_started_ || seconds_between(time_us_, stamp_us) > options_.max_gap_s) {
     start(stamp_us);
   }
@@ -60,6 +60,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets,
     state_.advance(seconds_between(time_us_, stamp_us));
     time_us_ = std::max(time_us_, stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
+    tracks_[radar]->trust.is_believed = is_believed;
     if (use_doppler(radar, targets, stamp_us)) {
       use_positions(radar, targets, seconds_between(stamp_us, time_us_));
     }
@@ -94,7 +95,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
-  if (is_unknown) {
+  if (is_unknown && tracks_[radar]->trust.is_believed) {
     state_.gaussian.set_mean(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, *scan, stamp_us);
@@ -117,7 +118,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
     ask_majority(stamp_us);
     return false;
   }
-  if (trust.is_left_out) {
+  if (trust.is_left_out || !trust.is_believed) {
     return false;
   }
   state_.gaussian.update();
@@ -132,7 +133,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
 int OdometryFilter::count_verdicts(std::int64_t stamp_us, bool agree) const {
   return static_cast<int>(std::count_if(tracks_.begin(), tracks_.end(), [&](const auto& track) {
     const RadarTrust& trust = track->trust;
-    return trust.has_verdict && trust.agrees == agree &&
+    return trust.has_verdict && trust.is_believed && trust.agrees == agree &&
            seconds_between(trust.verdict_us, stamp_us) <= kVerdictS;
   }));
 }
@@ -144,7 +145,7 @@ void OdometryFilter::ask_majority(std::int64_t stamp_us) {
   for (const auto& track : tracks_) {
     const RadarTrust& trust = track->trust;
     const double age_s = seconds_between(trust.verdict_us, stamp_us);
-    if (trust.has_verdict && !trust.agrees && age_s <= kVerdictS) {
+    if (trust.has_verdict && trust.is_believed && !trust.agrees && age_s <= kVerdictS) {
       joint.add(trust.velocity, track->mount(), age_s);
     }
   }

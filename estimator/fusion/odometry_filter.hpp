@@ -52,8 +52,10 @@ class OdometryFilter {
   OdometryFilter(const OdometryFilter&) = delete;
   OdometryFilter& operator=(const OdometryFilter&) = delete;
 
-  /// Takes the usable targets of a scan; where the vehicle is at the latest stamp so far.
-  Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
+  /// Takes the usable targets of a scan; where the vehicle is at the latest stamp so far. A radar
+  /// that is not believed (SelfCheck) is compared with the others, but not used.
+  Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
+                  bool is_believed = true);
 
   /// The clock of the stamps was set: begins anew, but for the pose since the start.
   void forget() { has_started_ = false; }

@@ -37,6 +37,7 @@ struct RadarTrust {
   NoiseFactor position_noise;
   int contradictions = 0;
   bool is_left_out = false;
+  bool is_believed = true;  ///< By its self-check: it has a say.
   // Its last scan:
   bool has_verdict = false;
   bool agrees = false;

@@ -116,7 +116,8 @@ Configuration read_configuration(const toml::table& table, ReadContext& context)
   Configuration configuration;
   EgoMotionOptions defaults;
   read_estimator(reader.table("estimator"), defaults);
-  const std::vector<PlacedRadar> radars = read_radars(reader, defaults);
+  std::vector<PlacedRadar> radars = read_radars(reader, defaults);
+  read_calibrated(reader.table("calibrated"), radars);
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
   }
@@ -197,7 +198,8 @@ Configuration load_configuration(const std::string& path) {
 std::set<std::string> known_configuration_keys() {
   std::set<std::string> keys;
   ReadContext context{Diagnostics(""), &keys};
-  if (const auto table = parse_toml("[[radar]]\ntype = \"ars408\"\n[[radar]]\ntype = \"bosch_gpr\"",
+  if (const auto table = parse_toml("[[radar]]\nname = \"front\"\ntype = \"ars408\"\n"
+                                    "[[radar]]\ntype = \"bosch_gpr\"",
                                     context.diagnostics)) {
     read_configuration(*table, context);  // What it reports as missing does not matter here.
   }

@@ -104,13 +104,10 @@ void read_decoder(TomlReader& reader, RadarConfiguration& radar) {
   reader.refuse(keys_of(read_gpr), "is a key of type \"bosch_gpr\"; must be left out here");
 }
 
-void read_mount(TomlReader reader, Pose2& vehicle_from_radar) {
-  constexpr Presence kRequired = Presence::required;
-  reader.number("x_m", vehicle_from_radar.x_m, {-kMaxMountM, kMaxMountM}, kRequired);
-  reader.number("y_m", vehicle_from_radar.y_m, {-kMaxMountM, kMaxMountM}, kRequired);
-  reader.number("yaw_rad", vehicle_from_radar.yaw_rad, {-kFullCircleRad, kFullCircleRad},
-                kRequired);
-  reader.finish();
+void read_mount(TomlReader& reader, Pose2& vehicle_from_radar, Presence presence) {
+  reader.number("x_m", vehicle_from_radar.x_m, {-kMaxMountM, kMaxMountM}, presence);
+  reader.number("y_m", vehicle_from_radar.y_m, {-kMaxMountM, kMaxMountM}, presence);
+  reader.number("yaw_rad", vehicle_from_radar.yaw_rad, {-kFullCircleRad, kFullCircleRad}, presence);
 }
 
 void read_limits(TomlReader reader, DetectionLimits& limits) {
@@ -122,20 +119,23 @@ void read_limits(TomlReader reader, DetectionLimits& limits) {
   reader.finish();
 }
 
-/// Of a sensor that is told the yaw rate: the default is that of the type.
-void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
+/// That of the type.
+double default_rotation_lead_s(const RadarConfiguration& radar) {
   const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
-  if (ars408 == nullptr) {
+  return ars408 != nullptr && ars408->output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
+}
+
+/// Of a sensor that is told the yaw rate.
+void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
+  if (!std::holds_alternative<Ars408Options>(radar.decoder)) {
     reader.refuse(std::array{kRotationLead},
                   "is a key of type \"ars408\", which is told the yaw rate; must be left out here");
     return;
   }
-  double& lead_s = radar.ego_motion.correction.rotation_lead_s;
-  lead_s = ars408->output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
-  reader.number(kRotationLead, lead_s, {-0.2, 0.2});
+  reader.number(kRotationLead, radar.ego_motion.correction.rotation_lead_s, {-0.2, 0.2});
 }
 
-void read_calibration(TomlReader reader, RadarConfiguration& radar) {
+void read_calibration(TomlReader& reader, RadarConfiguration& radar) {
   DetectionCorrection& correction = radar.ego_motion.correction;
   read_rotation_lead(reader, radar);
   reader.number("stamp_offset_s", radar.stamp_offset_s, {-0.5, 0.5});
@@ -144,7 +144,17 @@ void read_calibration(TomlReader reader, RadarConfiguration& radar) {
   reader.number("range_std_factor", correction.range_std_factor, {0.1, 10.0});
   reader.number("azimuth_std_factor", correction.azimuth_std_factor, {0.1, 10.0});
   reader.number("doppler_std_factor", correction.doppler_std_factor, {0.1, 10.0});
-  reader.finish();
+}
+
+/// The tables of one radar that calibration is about.
+void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
+  TomlReader mount = reader.table("mount");
+  read_mount(mount, radar.ego_motion.vehicle_from_radar, Presence::required);
+  mount.finish();
+  radar.ego_motion.correction.rotation_lead_s = default_rotation_lead_s(radar);
+  TomlReader calibration = reader.table("calibration");
+  read_calibration(calibration, radar);
+  calibration.finish();
 }
 
 }  // namespace
@@ -157,12 +167,24 @@ PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
   reader.text("interface", radar.interface, kInterface, Presence::required);
   reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 0.06});
   read_decoder(reader, radar);
-  read_mount(reader.table("mount"), radar.ego_motion.vehicle_from_radar);
-  read_calibration(reader.table("calibration"), radar);
+  read_calibrated(reader, radar);
   read_limits(reader.table("limits"), radar.ego_motion.limits);
   read_estimator(reader.table("estimator"), radar.ego_motion);
   reader.finish();
   return placed;
+}
+
+void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars) {
+  for (PlacedRadar& placed : radars) {
+    RadarConfiguration& radar = placed.radar;
+    if (!radar.name.empty()) {
+      TomlReader own = reader.table(radar.name);
+      read_mount(own, radar.ego_motion.vehicle_from_radar, Presence::optional);
+      read_calibration(own, radar);
+      own.finish();
+    }
+  }
+  reader.finish();
 }
 
 }  // namespace cremed

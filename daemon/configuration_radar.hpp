@@ -21,6 +21,10 @@ struct PlacedRadar {
 /// Reads one [[radar]] table; `defaults` are those of [estimator].
 PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults);
 
+/// Reads [calibrated], whose tables have the names of radars: what is in them takes the place of
+/// what is in [radar.mount] and [radar.calibration].
+void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars);
+
 /// Reports radars of one name, and radars on one interface that would hear each other's frames.
 void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics);
 

@@ -72,6 +72,24 @@ calibration.doppler_std_factor = 2.5
   CHECK(correction.doppler_std_factor == 2.5);
 }
 
+TEST_CASE("a calibrated table takes the place of single keys, wherever it stands") {
+  const std::string calibrated = "[calibrated.front]\nyaw_rad = 0.3\nrotation_lead_s = 0.035\n";
+  const std::string front = kArs408 + "calibration.doppler_scale = 1.01\n";
+  for (const std::string& text : {front + calibrated, calibrated + front}) {
+    const EgoMotionOptions options = parse(text).radars.at(0).ego_motion;
+    CHECK(options.vehicle_from_radar.x_m == 3.4);
+    CHECK(options.vehicle_from_radar.yaw_rad == 0.3);
+    CHECK(options.correction.rotation_lead_s == 0.035);
+    CHECK(options.correction.doppler_scale == 1.01);
+  }
+  check_refused({{front + "[calibrated.rear]\nyaw_rad = 0.3\n", 7, "calibrated.rear", "unknown key",
+                  "\"front\""},
+                 {front + "[calibrated.front]\nyaw_ra = 0.3\n", 8, "calibrated.front.yaw_ra",
+                  "unknown key", "yaw_rad"},
+                 {kGpr + "[calibrated.left]\nrotation_lead_s = 0.3\n", 7,
+                  "calibrated.left.rotation_lead_s", "is a key of type", "left out"}});
+}
+
 TEST_CASE("the rotation lead is that of the sensor's type and output unless it is given") {
   const auto lead_s = [](const std::string& radar) {
     return parse(radar).radars.at(0).ego_motion.correction.rotation_lead_s;

@@ -42,7 +42,7 @@ Configuration disturbed(Configuration configuration) {
 
 std::vector<double> yaws_deg(const Configuration& configuration, const std::string& log) {
   std::vector<double> yaws;
-  for (const RadarCalibration& radar : calibrate(configuration, {log}, nullptr)) {
+  for (const RadarCalibration& radar : calibrate(configuration, {log}, nullptr).radars) {
     yaws.push_back(radar.fit.value[kYaw] / kDegree);
   }
   return yaws;

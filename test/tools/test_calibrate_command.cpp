@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -22,6 +23,11 @@ std::string write_configuration(const TemporaryFolder& folder, const std::string
   return folder.file(name);
 }
 
+std::string text_of(const std::string& path) {
+  std::ifstream input(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+}
+
 TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   const TemporaryFolder folder;
   const std::string right =
@@ -36,15 +42,42 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
-  for (const char* words : {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference",
-                            "Doppler offset m/s ", "stamp offset ms ", "range std factor "}) {
+  for (const char* words :
+       {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference", "Doppler offset m/s ",
+        "stamp offset ms ", "rotation lead ms ", "positions ahead ms ", "range std factor ",
+        "relative to the direction the vehicle rolls in"}) {
     CHECK_THAT(result.error, Catch::Contains(words));
   }
-  const RadarConfiguration found =
-      parse_configuration(kHead + result.output, "calibrated").radars.at(0);
-  CHECK(found.ego_motion.vehicle_from_radar.x_m == 3.4);
-  CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.1).margin(0.005));
-  CHECK(found.ego_motion.correction.doppler_std_factor == Approx(1.0).margin(0.15));
+  const std::string before = text_of(wrong);
+  for (const std::string& pasted : {before + result.output, result.output + before}) {
+    const RadarConfiguration found = parse_configuration(pasted, "calibrated").radars.at(0);
+    CHECK(found.ego_motion.vehicle_from_radar.x_m == 3.4);
+    CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.1).margin(0.008));
+    CHECK(found.ego_motion.correction.doppler_std_factor == Approx(1.0).margin(0.15));
+  }
+  CHECK(text_of(wrong) == before);
+}
+
+TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") {
+  const TemporaryFolder folder;
+  const std::string mount = "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 } # by tape\n";
+  const std::string file = write_configuration(folder, "c.toml", mount);
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration 15 --config " + file + " --output " + log)
+              .status == 0);
+  const ToolRun result =
+      run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  CHECK_THAT(text_of(file),
+             Catch::StartsWith(kHead + "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = "));
+  CHECK_THAT(text_of(file), Catch::Contains(" } # by tape\n"));
+  const auto yaw_rad = [](const std::string& text) {
+    return parse_configuration(text, "c").radars.at(0).ego_motion.vehicle_from_radar.yaw_rad;
+  };
+  CHECK(yaw_rad(text_of(file)) == yaw_rad(kHead + mount + result.output));
+  CHECK(yaw_rad(text_of(file)) != 0.1);
 }
 
 TEST_CASE("cremed-eval calibrate says what is wrong") {

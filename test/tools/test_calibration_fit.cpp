@@ -13,7 +13,7 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kBeginUs = 1'700'000'000'000'000;
-constexpr CalibrationVector kWide = {0.5, 0.5, 0.5, 0.5, 0.05, 1e-3, 1e-3, 1e-3};
+constexpr CalibrationVector kWide = {0.5, 0.5, 0.5, 0.5, 0.05, 1e-3, 0.05, 0.05, 1e-3, 1e-3};
 
 struct Vehicle {
   static double v_mps(double t_s) { return 8.0 + 2.0 * std::sin(0.7 * t_s); }
@@ -45,7 +45,7 @@ class Drive {
       }
       radars.push_back({start, std, start, {}});
     }
-    CalibrationFit result(radars, {});
+    CalibrationFit result(radars, {}, {});
     result.set_measurements(velocities_, yaw_rates_);
     return result;
   }
@@ -60,15 +60,16 @@ class Drive {
     const double y = w * truth[kX];
     const double c = std::cos(truth[kYaw]);
     const double s = std::sin(truth[kYaw]);
-    const DopplerState state{c * x + s * y, c * y - s * x, truth[kOffset], 0.0};
+    const DopplerState state(c * x + s * y, c * y - s * x, truth[kOffset], 0.0, truth[kLead]);
     DopplerEquations equations;
-    equations.root = 1.0 / 0.03 * Eigen::Matrix4d::Identity();
+    equations.root = 1.0 / 0.03 * DopplerMatrix::Identity();
     equations.measured = equations.root * state;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < kDopplerStates; ++i) {
       equations.measured[i] += normal_(random_);
     }
     velocities_.push_back({radar, kBeginUs + us, equations});
-    yaw_rates_.push_back({radar, kBeginUs + us, w + 0.02 * normal_(random_), 0.02});
+    const double late_w = Vehicle::w_radps(t_s + truth[kPositionLead]);
+    yaw_rates_.push_back({radar, kBeginUs + us, late_w + 0.02 * normal_(random_), 0.02});
   }
 
   std::vector<CalibrationVector> truths_;
@@ -78,20 +79,23 @@ class Drive {
   std::vector<YawRateMeasurement> yaw_rates_;
 };
 
-const std::vector<CalibrationVector> kTruths = {
-    {0.02, 3.4, 0.1, 0.0, 0.0}, {1.6, 2.4, 0.8, 0.1, 0.02}, {-3.0, -0.6, -0.5, -0.2, -0.01}};
+const std::vector<CalibrationVector> kTruths = {{0.02, 3.4, 0.1, 0.0, 0.0, 0.0, 0.0, 0.04},
+                                                {1.6, 2.4, 0.8, 0.1, 0.02, 0.0, 0.03, 0.02},
+                                                {-3.0, -0.6, -0.5, -0.2, -0.01, 0.0, -0.01, -0.03}};
 
 TEST_CASE("the fit finds every state of every radar, as well as it says") {
-  const CalibrationVector error = {0.2, 0.3, -0.2, 0.1, 0.01, 0.0, 0.0, 0.0};
+  const CalibrationVector error = {0.2, 0.3, -0.2, 0.1, 0.01, 0.0, -0.02, -0.02, 0.0, 0.0};
   double squares = 0.0;
   double worst = 0.0;
   int count = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     CalibrationFit fit = Drive(kTruths, seed).fit(error);
-    fit.solve();
+    for (int round = 0; round < 4; ++round) {
+      fit.solve();  // Times need to know how the vehicle moves.
+    }
     for (std::size_t radar = 0; radar < kTruths.size(); ++radar) {
       const FittedRadar& found = fit.radars()[radar];
-      for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
+      for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp, kLead, kPositionLead}) {
         if (found.prior_std[state] == 0.0) {
           CHECK(found.value[state] == Approx(kTruths[radar][state]).margin(1e-5));
           continue;
@@ -99,7 +103,7 @@ TEST_CASE("the fit finds every state of every radar, as well as it says") {
         const double z = (found.value[state] - kTruths[radar][state]) / found.std[state];
         CAPTURE(seed, radar, state, found.value[state], found.std[state]);
         CHECK(std::abs(z) < 4.5);
-        CHECK(found.std[state] < 0.02);
+        CHECK(found.std[state] < 0.03);
         squares += z * z;
         worst = std::max(worst, std::abs(z));
         ++count;
@@ -107,12 +111,12 @@ TEST_CASE("the fit finds every state of every radar, as well as it says") {
     }
   }
   CHECK(squares / count < 1.3);
-  CHECK(squares / count > 0.4);  // The larger of two standard deviations: somewhat below 1.
+  CHECK(squares / count > 0.7);
 }
 
 TEST_CASE("what is held stays, and the vehicle's motion comes out") {
   CalibrationFit fit = Drive(kTruths, 1).fit({});
-  fit.hold(1, kX);
+  fit.limit(1, kX, 0.0);
   fit.solve();
   CHECK(fit.radars()[1].value[kX] == Approx(2.4).margin(1e-6));
   const auto motion = fit.motion(0, kBeginUs + 30'000'000);

@@ -10,7 +10,8 @@ namespace cremed {
 struct CalibrateArguments {
   std::vector<std::string> logs;
   std::string config;
-  std::string truth;  ///< Empty: none.
+  std::string truth;   ///< Empty: none.
+  bool write = false;  ///< What is found goes into the configuration as well.
 };
 
 /// cremed-eval calibrate: a table for people on standard error, TOML to paste on standard output.

@@ -3,10 +3,12 @@
 #include "tools/eval/calibration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <Eigen/Dense>
 
@@ -15,17 +17,22 @@
 namespace cremed {
 namespace {
 
-/// How well a radar is known beforehand.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.005, 0.01, 0.03};
+/// How well a radar is known beforehand, in the order of CalibrationState.
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.01, 0.05, 0.05, 0.01, 0.03};
 /// Known no better, the configured value is kept: a tape measure does as well.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.15, 0.007, 0.0, 0.0, 0.0};
-/// What remains unknown however long the drive: by so much more than their standard deviations do
-/// estimates from two drives of one vehicle differ (four real drives of 20 s, and simulated ones).
-/// Errors that depend on azimuth look like an offset, of up to 0.2 m/s.
-constexpr CalibrationVector kLeastStd = {0.0025, 0.02, 0.02, 0.1, 0.003, 0.0, 0.0, 0.0};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.05, 0.007, 0.002, 0.005};
+/// States that are told; the others are nuisances or checks.
+constexpr std::array kTold = {kYaw, kX, kY, kOffset, kStamp, kScale, kLead};
+/// The frame's direction, and the slip of a rear axle: 0.005 rad s^2/m is 800 kg on tyres whose
+/// cornering stiffness is 160 kN/rad.
+constexpr std::array<double, kRollingStates> kVehiclePriorStd = {0.05, 0.005};
+/// Errors of a scan's velocity that no target tells of, of one radar: four nuScenes drives, front
+/// and rear.
+constexpr double kSharedVelocityStdMps = 0.04;
 constexpr double kSignificant = 3.0;  // Standard deviations.
 constexpr int kRounds = 3;
-constexpr double kSlowestMps = 0.5;  // Slower, Doppler has no direction.
+constexpr int kRegisteredRounds = 2;  // Then mounts are so good that registrations stay the same.
+constexpr double kSlowestMps = 0.5;   // Slower, Doppler has no direction.
 constexpr double kSlackMps = 0.1;
 constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
 
@@ -38,10 +45,18 @@ CalibrationVector configured(const RadarConfiguration& radar) {
   return state;
 }
 
+bool has_rotation_lead(const RadarConfiguration& radar) {
+  const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
+  return ars408 != nullptr && ars408->output == Ars408Output::clusters;
+}
+
 std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth) {
   std::vector<FittedRadar> radars;
   for (const RadarConfiguration& radar : configuration.radars) {
     radars.push_back({configured(radar), kPriorStd, configured(radar), {}});
+    if (!has_rotation_lead(radar)) {
+      radars.back().prior_std[kLead] = 0.0;
+    }
   }
   if (!has_truth) {
     for (const CalibrationState state : {kY, kStamp, kScale}) {
@@ -51,16 +66,26 @@ std::vector<FittedRadar> start(const Configuration& configuration, bool has_trut
   return radars;
 }
 
-MotionPrior motion_prior(const Configuration& configuration) {
-  const auto& errors = configuration.radars.front().ego_motion.registration.shared_errors;
-  return {errors.acceleration_std_mps2, errors.yaw_acceleration_std_radps2};
+FittedVehicle vehicle_start(bool has_truth) {
+  FittedVehicle vehicle;
+  vehicle.prior_std = kVehiclePriorStd;
+  vehicle.prior_std[kRoll] = has_truth ? kVehiclePriorStd[kRoll] : 0.0;
+  return vehicle;
 }
 
-/// The estimator takes sideways motion for none, so a mount's yaw is never known too well.
-bool is_better(const FittedRadar& radar, CalibrationState state) {
+MotionPrior motion_prior(const Configuration& configuration) {
+  const auto& errors = configuration.radars.front().ego_motion.registration.shared_errors;
+  return {errors.acceleration_std_mps2, errors.yaw_acceleration_std_radps2,
+          errors.velocity_std_mps};
+}
+
+/// A mount's yaw is what odometry errs by most: it is better as soon as it is known as well as the
+/// configuration says of its own, `yaw_std_rad`.
+bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad) {
   const double change = std::abs(radar.value[state] - radar.prior[state]);
+  const bool is_good_yaw = state == kYaw && radar.std[kYaw] <= yaw_std_rad;
   return radar.prior_std[state] > 0.0 && radar.std[state] <= kWorstStd[state] &&
-         (state == kYaw || change > kSignificant * radar.std[state]);
+         (is_good_yaw || change > kSignificant * radar.std[state]);
 }
 
 /// What scatters less than it says is left alone: a few large errors count more than many small
@@ -77,7 +102,7 @@ class Calibrator {
 
   void refine();
   void finish();
-  [[nodiscard]] std::vector<RadarCalibration> result() const { return radars_; }
+  [[nodiscard]] Calibration result() const { return {radars_, fit_.vehicle()}; }
 
  private:
   [[nodiscard]] std::vector<VelocityMeasurement> velocities() const;
@@ -92,6 +117,7 @@ class Calibrator {
   const Configuration& configuration_;
   const std::vector<std::string>& logs_;
   std::vector<RecordedRadar> recorded_;
+  std::vector<RecordedRadar> registered_;
   CalibrationFit fit_;
   bool is_started_ = false;
   int round_ = 0;
@@ -103,7 +129,8 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
     : configuration_(configuration),
       logs_(logs),
       recorded_(record_drive(configuration, logs)),
-      fit_(start(configuration, truth != nullptr), motion_prior(configuration)),
+      fit_(start(configuration, truth != nullptr), vehicle_start(truth != nullptr),
+           motion_prior(configuration)),
       radars_(configuration.radars.size()) {
   fit_.set_truth(truth);
   for (std::size_t i = 0; i < radars_.size(); ++i) {
@@ -115,9 +142,9 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
 }
 
 DopplerNoise Calibrator::noise(std::size_t radar) const {
-  return {
-      radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
-      configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps};
+  return {radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
+          configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps,
+          kSharedVelocityStdMps};
 }
 
 /// At first a scan's own targets have to agree, later all radars know how the vehicle moves.
@@ -134,21 +161,27 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
       if (!state || state->head<2>().norm() < kSlowestMps) {
         continue;
       }
-      const auto targets = static_targets(scan.targets, *state, {}, kSlackMps);
-      result.push_back({radar, scan.stamp_us, doppler_equations(targets, *state, noise(radar))});
+      const RecordedScan fixed = static_part(scan, *state, {}, kSlackMps);
+      result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
     }
   }
   return result;
 }
 
-/// A wrong mount would turn into yaw. So sideways motion is free until the mounts are about right;
-/// then it would only cost yaw its precision.
+/// Registers positions alone, in the frame of the direction that the vehicle rolls in. A wrong
+/// mount would turn into yaw. So sideways motion is free until the mounts are about right; then it
+/// would only cost yaw its precision.
 Configuration Calibrator::trial() const {
   Configuration result = calibrated(configuration_, radars_);
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    EgoMotionOptions& options = result.radars[i].ego_motion;
+    options.registration.doppler.enabled = false;
     if (round_ == 0) {
-      result.radars[i].ego_motion.registration.degrees_of_freedom = 3;
+      options.registration.degrees_of_freedom = 3;
     }
+    options.vehicle_from_radar.yaw_rad -= fit_.vehicle().value[kRoll];
+    options.correction.rotation_lead_s =
+        configuration_.radars[i].ego_motion.correction.rotation_lead_s;
     result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
   }
   return result;
@@ -156,14 +189,14 @@ Configuration Calibrator::trial() const {
 
 std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
   std::vector<YawRateMeasurement> result;
-  const auto drive = record_drive(trial(), logs_);
-  for (std::size_t radar = 0; radar < drive.size(); ++radar) {
+  for (std::size_t radar = 0; radar < registered_.size(); ++radar) {
     std::vector<ScaledError> errors;
     const std::size_t first = result.size();
-    for (const EgoMotion& motion : drive[radar].motions) {
+    for (const EgoMotion& motion : registered_[radar].motions) {
       const double dt_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
       const std::int64_t middle_us = motion.utime_start_us + std::llround(dt_s * 0.5e6);
-      const auto expected = fit_.motion(radar, middle_us);
+      const FittedRadar& fit = fit_.radars()[radar];
+      const auto expected = fit_.motion(radar, middle_us, fit.value[kPositionLead]);
       if (!expected) {
         continue;
       }
@@ -188,14 +221,14 @@ void Calibrator::solve() {
                         is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
   fit_.solve();
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    FittedRadar& radar = radars_[i].fit = fit_.radars()[i];
-    for (std::size_t state = 0; state < kCalibrationStates; ++state) {
-      radar.std[state] = std::hypot(radar.std[state], kLeastStd[state]);
-    }
+    radars_[i].fit = fit_.radars()[i];
   }
 }
 
 void Calibrator::refine() {
+  if (round_ < kRegisteredRounds) {
+    registered_ = record_drive(trial(), logs_);
+  }
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);
   }
@@ -205,19 +238,22 @@ void Calibrator::refine() {
 }
 
 void Calibrator::choose_changes() {
-  for (RadarCalibration& radar : radars_) {
-    radar.free = radar.fit;
-    for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
-      radar.is_changed[state] = is_better(radar.free, state);
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    const double yaw_std_rad =
+        configuration_.radars[i].ego_motion.registration.shared_errors.mount_yaw_std_rad;
+    radars_[i].free = radars_[i].fit;
+    for (const CalibrationState state : kTold) {
+      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad);
     }
   }
 }
 
+/// What is kept is known as well as by a tape measure.
 void Calibrator::finish() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp}) {
+    for (const CalibrationState state : kTold) {
       if (!radars_[i].is_changed[state]) {
-        fit_.hold(i, state);
+        fit_.limit(i, state, kWorstStd[state]);
       }
     }
   }
@@ -226,9 +262,8 @@ void Calibrator::finish() {
 
 }  // namespace
 
-std::vector<RadarCalibration> calibrate(const Configuration& configuration,
-                                        const std::vector<std::string>& logs,
-                                        const TrueTrajectory* truth) {
+Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
+                      const TrueTrajectory* truth) {
   Calibrator calibrator(configuration, logs, truth);
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
@@ -250,7 +285,9 @@ Configuration calibrated(const Configuration& configuration,
     radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
     radar.stamp_offset_s += value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;
-    correction.doppler_offset_mps += value[kOffset];
+    correction.doppler_offset_mps += value[kOffset] / correction.doppler_scale;
+    correction.doppler_scale /= 1.0 + value[kScale];
+    correction.rotation_lead_s += value[kLead];
     correction.range_std_factor *= above_one(found.noise.range);
     correction.azimuth_std_factor *= above_one(found.noise.azimuth);
     correction.doppler_std_factor *= above_one(found.noise.doppler);

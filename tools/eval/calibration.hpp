@@ -25,11 +25,17 @@ struct RadarCalibration {
   std::size_t scans = 0;
 };
 
-/// Calibrates all radars of the configuration together. `truth` may be null: then the first radar's
-/// y and stamps are what those of the others are compared with. Throws std::runtime_error.
-std::vector<RadarCalibration> calibrate(const Configuration& configuration,
-                                        const std::vector<std::string>& logs,
-                                        const TrueTrajectory* truth);
+struct Calibration {
+  std::vector<RadarCalibration> radars;
+  FittedVehicle vehicle;
+};
+
+/// Calibrates all radars of the configuration together. With `truth`, mounts are in its frame, and
+/// the direction the vehicle rolls in is found as well. It may be null: then mounts are relative to
+/// that direction, and the first radar's y, stamps and scale are what those of the others are
+/// compared with. Throws std::runtime_error.
+Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
+                      const TrueTrajectory* truth);
 
 /// The configuration with what was found.
 Configuration calibrated(const Configuration& configuration,

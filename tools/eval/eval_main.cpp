@@ -143,7 +143,10 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
       "calibrate", "Mounts, offsets and noise of the radars from a recorded drive, as TOML");
   command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
   command->add_option("--config", arguments.config, "Configuration to start from")->required();
-  command->add_option("--truth", arguments.truth, "CSV, if there is one: utime,x_m,y_m,yaw_rad");
+  command->add_option("--truth", arguments.truth,
+                      "CSV, if there is one: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
+  command->add_flag("--write", arguments.write,
+                    "Change the configuration too: only what the drive tells better");
   return command;
 }
 

@@ -8,11 +8,13 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "daemon/candump_log.hpp"
 #include "daemon/message_text.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/replay.hpp"
+#include "estimator/rotation_lead.hpp"
 
 namespace cremed {
 namespace {
@@ -29,7 +31,8 @@ class RecordingSink final : public OdometrySink {
     }
     targets_.assign(scan, {}, options.limits, counters_, options.correction);
     if (targets_.is_finite()) {
-      radars_[radar].scans.push_back({scan.stamp_us, {targets_.begin(), targets_.end()}});
+      radars_[radar].scans.push_back(
+          {scan.stamp_us, {targets_.begin(), targets_.end()}, told_yaw_rate_radps(radar, scan)});
     }
   }
 
@@ -37,6 +40,14 @@ class RecordingSink final : public OdometrySink {
     if (motion.has_estimate()) {
       radars_[radar].motions.push_back(motion);
     }
+  }
+
+  /// Of clusters: the velocity across of an object is measured.
+  [[nodiscard]] double told_yaw_rate_radps(std::size_t radar, const RadarScan& scan) const {
+    const auto* ars408 = std::get_if<Ars408Options>(&configuration_.radars[radar].decoder);
+    return ars408 != nullptr && ars408->output == Ars408Output::clusters
+               ? reported_yaw_rate_radps(scan)
+               : 0.0;
   }
 
   [[nodiscard]] std::uint64_t failures() const override { return 0; }

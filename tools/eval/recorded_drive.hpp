@@ -17,6 +17,9 @@ namespace cremed {
 struct RecordedScan {
   std::int64_t stamp_us = 0;
   std::vector<Target> targets;
+  /// What the sensor itself takes for the vehicle's yaw rate (estimator/rotation_lead.hpp); 0: it
+  /// is not told.
+  double told_yaw_rate_radps = 0.0;
 };
 
 /// What the pipeline makes of one radar's frames.

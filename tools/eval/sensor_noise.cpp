@@ -56,23 +56,32 @@ MatchErrors match_errors(const std::vector<RecordedScan>& scans, const Calibrati
   return errors;
 }
 
+/// The state that fits one scan best; too little of it shows in one scan to fit the rotation lead.
+constexpr int kFitted = kDopplerStates - 1;
+DopplerState nearest_state(const DopplerEquations& equations, const DopplerState& expected) {
+  DopplerState state = expected;
+  state.head<kFitted>() = equations.root.leftCols<kFitted>().fullPivHouseholderQr().solve(
+      equations.measured - equations.root.col(kFitted) * expected[kFitted]);
+  return state;
+}
+
 /// Of one scan; `noise` is assumed.
 void add_doppler_errors(const RecordedScan& scan, const DopplerState& expected,
                         const DopplerNoise& noise, std::vector<ScaledError>& errors) {
   const double gate = noise.doppler_std_factor * kErrorGate / kGateSigma;
-  const auto targets = static_targets(scan.targets, expected, {gate, gate, 0.0}, kSlackMps);
-  if (targets.size() < kFewestTargets) {
+  const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kSlackMps);
+  if (fixed.targets.size() < kFewestTargets) {
     return;
   }
-  const DopplerEquations equations = doppler_equations(targets, expected, noise);
-  const DopplerState state = equations.root.fullPivHouseholderQr().solve(equations.measured);
-  const auto count = static_cast<double>(targets.size());
-  const double lost = std::sqrt(count / (count - 4.0));  // To the four numbers of the state.
-  for (const Target& target : targets) {
+  const DopplerState state = nearest_state(doppler_equations(fixed, expected, noise), expected);
+  const auto count = static_cast<double>(fixed.targets.size());
+  const double lost = std::sqrt(count / (count - kFitted));
+  for (const Target& target : fixed.targets) {
     const double std_mps = noise.doppler_std_factor * target.doppler_std_mps;
     const double by_azimuth =
         noise.azimuth_std_factor * doppler_std_by_azimuth_mps(target, expected) / std_mps;
-    const double error_mps = target.doppler_mps - doppler_row(target, expected) * state;
+    const double error_mps =
+        target.doppler_mps - doppler_row(target, expected, scan.told_yaw_rate_radps) * state;
     errors.push_back({scan.stamp_us, lost * error_mps / std_mps, by_azimuth * by_azimuth});
   }
 }
@@ -86,7 +95,7 @@ SensorNoise measured_noise(const std::vector<RecordedScan>& scans, const Calibra
   SensorNoise result;
   result.range = of_any_drive(noise_factor(matches.range, assumed.range));
   result.azimuth = of_any_drive(noise_factor(matches.azimuth, assumed.azimuth));
-  const DopplerNoise noise{at_least_one(before.doppler), result.azimuth.value, 0.0};
+  const DopplerNoise noise{at_least_one(before.doppler), result.azimuth.value, 0.0, 0.0};
   std::vector<ScaledError> errors;
   for (const RecordedScan& scan : scans) {
     if (const auto expected = fit.expected(radar, scan.stamp_us)) {

@@ -21,8 +21,8 @@ double std_mps(const Target& target, const DopplerState& state, const DopplerNoi
                     noise.azimuth_std_factor * doppler_std_by_azimuth_mps(target, state));
 }
 
-double residual_mps(const Target& target, const DopplerState& state) {
-  return target.doppler_mps - doppler_row(target, state) * state;
+double residual_mps(const Target& target, const DopplerState& state, double told_yaw_rate_radps) {
+  return target.doppler_mps - doppler_row(target, state, told_yaw_rate_radps) * state;
 }
 
 /// The velocity that two targets fix.
@@ -31,24 +31,41 @@ std::optional<DopplerState> velocity_of(const Target& a, const Target& b) {
   if (std::abs(determinant) < kNarrowestRad) {
     return std::nullopt;
   }
-  return DopplerState{(a.sin_bearing * b.doppler_mps - b.sin_bearing * a.doppler_mps) / determinant,
+  return DopplerState((a.sin_bearing * b.doppler_mps - b.sin_bearing * a.doppler_mps) / determinant,
                       (b.cos_bearing * a.doppler_mps - a.cos_bearing * b.doppler_mps) / determinant,
-                      0.0, 0.0};
+                      0.0, 0.0, 0.0);
 }
 
 double disagreement(std::span<const Target> targets, const DopplerState& state) {
   double sum = 0.0;
   for (const Target& target : targets) {
-    sum += std::min(std::abs(residual_mps(target, state)) / std_mps(target, state, {}), kGateSigma);
+    sum += std::min(std::abs(residual_mps(target, state, 0.0)) / std_mps(target, state, {}),
+                    kGateSigma);
   }
   return sum;
 }
 
+/// Information and its right-hand side once errors of the first three states that have these
+/// standard deviations are unknowns too, eliminated.
+void add_shared_errors(const Eigen::Vector3d& std, DopplerMatrix& information,
+                       DopplerState& right) {
+  const Eigen::Matrix<double, kDopplerStates, 3> along =
+      information.leftCols<3>() * std.asDiagonal();
+  const Eigen::Vector3d sum = std.cwiseProduct(right.head<3>());
+  const Eigen::Matrix3d eliminated =
+      Eigen::Matrix3d::Identity() + std.asDiagonal() * along.topRows<3>();
+  const Eigen::LLT<Eigen::Matrix3d> factors(eliminated);
+  right -= along * factors.solve(sum);
+  information -= along * factors.solve(along.transpose());
+}
+
 }  // namespace
 
-Eigen::RowVector4d doppler_row(const Target& target, const DopplerState& near) {
+DopplerRow doppler_row(const Target& target, const DopplerState& near, double told_yaw_rate_radps) {
   const double turned = near.x() * target.sin_bearing - near.y() * target.cos_bearing;
-  return {-target.cos_bearing, -target.sin_bearing, 1.0, -turned * target.bearing_rad};
+  const double range_m = std::hypot(target.x_m, target.y_m);
+  return DopplerRow(-target.cos_bearing, -target.sin_bearing, 1.0, -turned * target.bearing_rad,
+                    told_yaw_rate_radps * told_yaw_rate_radps * range_m);
 }
 
 double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& state) {
@@ -77,38 +94,36 @@ std::optional<DopplerState> agreed_velocity(std::span<const Target> targets) {
   return best;
 }
 
-std::vector<Target> static_targets(std::span<const Target> targets, const DopplerState& expected,
-                                   const DopplerNoise& noise, double slack_mps) {
-  std::vector<Target> result;
-  std::copy_if(targets.begin(), targets.end(), std::back_inserter(result), [&](const Target& t) {
-    return std::abs(residual_mps(t, expected)) <
-           kGateSigma * std_mps(t, expected, noise) + slack_mps;
-  });
+RecordedScan static_part(const RecordedScan& scan, const DopplerState& expected,
+                         const DopplerNoise& noise, double slack_mps) {
+  RecordedScan result{scan.stamp_us, {}, scan.told_yaw_rate_radps};
+  std::copy_if(scan.targets.begin(), scan.targets.end(), std::back_inserter(result.targets),
+               [&](const Target& t) {
+                 return std::abs(residual_mps(t, expected, scan.told_yaw_rate_radps)) <
+                        kGateSigma * std_mps(t, expected, noise) + slack_mps;
+               });
   return result;
 }
 
-DopplerEquations doppler_equations(std::span<const Target> targets, const DopplerState& near,
+DopplerEquations doppler_equations(const RecordedScan& scan, const DopplerState& near,
                                    const DopplerNoise& noise) {
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  for (const Target& target : targets) {
+  DopplerMatrix information = DopplerMatrix::Zero();
+  DopplerState right = DopplerState::Zero();
+  for (const Target& target : scan.targets) {
     const double std = std_mps(target, near, noise);
-    const Eigen::RowVector4d row = doppler_row(target, near) / std;
+    const DopplerRow row = doppler_row(target, near, scan.told_yaw_rate_radps) / std;
     information += row.transpose() * row;
     right += row.transpose() * (target.doppler_mps / std);
   }
-  // The shared error is an unknown along the offset, with a prior of its own, eliminated.
-  const double shared = noise.shared_std_mps * noise.shared_std_mps;
-  const Eigen::Vector4d along = information.col(2);
-  const double gain = shared / (1.0 + shared * along.z());
-  const double sum = right.z();
-  information -= gain * along * along.transpose();
-  right -= gain * along * sum;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(information);
-  const Eigen::Vector4d root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  add_shared_errors(
+      {noise.shared_velocity_std_mps, noise.shared_velocity_std_mps, noise.shared_offset_std_mps},
+      information, right);
+  const Eigen::SelfAdjointEigenSolver<DopplerMatrix> eigen(information);
+  const DopplerState root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   DopplerEquations equations;
-  for (int i = 0; i < 4; ++i) {
-    if (root[i] > 1e-6 * root[3]) {  // Less is rounding: few targets leave directions open.
+  for (int i = 0; i < kDopplerStates; ++i) {
+    // Less is rounding: few targets leave directions open.
+    if (root[i] > 1e-6 * root[kDopplerStates - 1]) {
       equations.root.row(i) = root[i] * eigen.eigenvectors().col(i).transpose();
       equations.measured[i] = eigen.eigenvectors().col(i).dot(right) / root[i];
     }

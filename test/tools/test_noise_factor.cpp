@@ -38,7 +38,7 @@ TEST_CASE("the noise factor is that of the errors, whatever nonsense is among th
   CAPTURE(row.factor, row.other_std, row.nonsense);
   double squares = 0.0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
-    const NoiseFactor found = noise_factor(draw(row, seed));
+    const StdFactor found = noise_factor(draw(row, seed));
     CHECK(found.value == Approx(row.factor).epsilon(0.15));
     squares += std::pow((found.value - row.factor) / found.std, 2);
   }

@@ -70,7 +70,7 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
                column.decimals, number(fit.prior[state]));
 }
 
-void print_factor(const char* label, const NoiseFactor& factor) {
+void print_factor(const char* label, const StdFactor& factor) {
   if (factor.std > 0.0) {
     std::fprintf(stderr, "  %-22s%10.3f +- %.3f\n", label, factor.value, factor.std);
   } else {

@@ -90,7 +90,7 @@ bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_
 
 /// What scatters less than it says is left alone: a few large errors count more than many small
 /// ones, and estimates would promise too much.
-double above_one(const NoiseFactor& factor) {
+double above_one(const StdFactor& factor) {
   return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
 }
 

@@ -42,7 +42,7 @@ double most_likely_factor(const std::vector<ScaledError>& errors) {
 
 }  // namespace
 
-NoiseFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
+StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
   if (errors.size() < kFewestErrors) {
     return {};
   }

@@ -15,7 +15,7 @@ struct ScaledError {
 };
 
 /// How many reported standard deviations make a true one.
-struct NoiseFactor {
+struct StdFactor {
   double value = 1.0;
   double std = 0.0;  ///< 0: not known.
 };
@@ -27,6 +27,6 @@ inline constexpr double kErrorGate = 5.0;
 /// gate): the most likely factor and share of nonsense. Its standard deviation comes from how
 /// blocks of 2 s disagree. `assumed` is a factor that the errors' standard deviations already have;
 /// the result includes it.
-NoiseFactor noise_factor(const std::vector<ScaledError>& errors, double assumed = 1.0);
+StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed = 1.0);
 
 }  // namespace cremed

@@ -22,11 +22,11 @@ constexpr std::size_t kFewestTargets = 12;  // In a scan whose Doppler is compar
 
 constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not see all kinds.
 
-NoiseFactor of_any_drive(const NoiseFactor& factor) {
+StdFactor of_any_drive(const StdFactor& factor) {
   return {factor.value, factor.std > 0.0 ? std::hypot(factor.std, kLeastFactorStd) : 0.0};
 }
 
-double at_least_one(const NoiseFactor& factor) { return std::max(factor.value, 1.0); }
+double at_least_one(const StdFactor& factor) { return std::max(factor.value, 1.0); }
 
 /// Pose of the radar at the second stamp in its frame at the first.
 std::optional<Pose2> radar_motion(const CalibrationFit& fit, std::size_t radar,

@@ -13,9 +13,9 @@ namespace cremed {
 
 /// Factors on the standard deviations that a sensor reports.
 struct SensorNoise {
-  NoiseFactor range;
-  NoiseFactor azimuth;
-  NoiseFactor doppler;
+  StdFactor range;
+  StdFactor azimuth;
+  StdFactor doppler;
 };
 
 /// Range and azimuth: of targets found again, moved as `fit` says. Doppler: of a scan's targets

@@ -36,10 +36,10 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, start, iterations, restarts, work, covariance, ray,
-               doppler, errors] = options;
+  const auto& [freedom, scale, doppler_scale, start, iterations, tolerance, restarts, work,
+               covariance, ray, doppler, errors] = options;
   out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations << ' '
-      << restarts << ' ' << work << ' ' << static_cast<int>(covariance);
+      << tolerance << ' ' << restarts << ' ' << work << ' ' << static_cast<int>(covariance);
   const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
   out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
       << ' ' << field_of_view;
@@ -291,18 +291,18 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
 
 TEST_CASE("the nuScenes files have five radars where they are on the cars") {
   check_nuscenes("nuscenes-boston.toml", {
-                                             {"front", "can0", {3.412, 0.0, -0.004537856}},
-                                             {"left", "can1", {2.422, 0.8, 1.582664566}},
-                                             {"right", "can2", {2.422, -0.8, -1.566258471}},
-                                             {"rear_left", "can3", {-0.562, 0.628, 3.049788335}},
-                                             {"rear_right", "can4", {-0.562, -0.618, -3.054326191}},
+                                             {"front", "can0", {3.412, 0.0, 0.00142}},
+                                             {"left", "can1", {2.422, 0.8, 1.58637}},
+                                             {"right", "can2", {2.422, -0.8, -1.57516}},
+                                             {"rear_left", "can3", {-0.562, 0.628, 3.05431}},
+                                             {"rear_right", "can4", {-0.562, -0.618, -3.06559}},
                                          });
   check_nuscenes("nuscenes-singapore.toml",
                  {
-                     {"front", "can0", {3.412, 0.0, 0.003490659}},
-                     {"left", "can1", {2.422, 0.8, 1.542172927}},
-                     {"right", "can2", {2.422, -0.8, -1.587900553}},
-                     {"rear_left", "can3", {-0.562, 0.628, 3.044028748}},
+                     {"front", "can0", {3.412, 0.0, -0.01045}},
+                     {"left", "can1", {2.422, 0.8, 1.55612}},
+                     {"right", "can2", {2.422, -0.8, -1.57599}},
+                     {"rear_left", "can3", {-0.562, 0.628, 3.06197}},
                      {"rear_right", "can4", {-0.562, -0.618, -3.073699346}},
                  });
 }

@@ -29,8 +29,8 @@ struct SimulationOptions {
   double body_velocity_std_mps = 0.01;
   /// Of all Doppler of one radar; slowly varying.
   double doppler_offset_std_mps = 0.01;
-  /// Of the factor on all Doppler of one radar that calibration leaves, drawn once a drive. An ARS408
-  /// without calibration tells 0.005 too little.
+  /// Of the factor on all Doppler of one radar that calibration leaves, drawn once a drive. An
+  /// ARS408 without calibration tells 0.005 too little.
   double doppler_scale_std = 0.002;
   /// Of the difference between where a radar is and where the configuration says: drawn once a
   /// drive, 0.3 degrees and 1 cm, what mounting with care leaves.

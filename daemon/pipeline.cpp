@@ -26,6 +26,20 @@ std::vector<OdometryRadar> odometry_radars(const Configuration& configuration) {
 /// by less; a fraction of any time-out.
 constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 
+/// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
+OdometryOptions odometry_options(const Configuration& configuration) {
+  constexpr double kSkidRad = 0.25;
+  OdometryOptions options = configuration.odometry.filter;
+  const bool may_skid = std::any_of(
+      configuration.radars.begin(), configuration.radars.end(),
+      [](const auto& radar) { return radar.ego_motion.registration.degrees_of_freedom == 3; });
+  if (may_skid) {
+    options.slip_std_rad = std::max(options.slip_std_rad, kSkidRad);
+    options.slip_walk = std::max(options.slip_walk, kSkidRad);
+  }
+  return options;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
@@ -40,7 +54,7 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
         std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
   if (configuration.odometry.enabled) {
-    filter_.emplace(configuration.odometry.filter, odometry_radars(configuration));
+    filter_.emplace(odometry_options(configuration), odometry_radars(configuration));
   }
 }
 

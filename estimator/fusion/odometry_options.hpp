@@ -23,7 +23,7 @@ struct OdometryOptions {
   double slip_walk = 0.001;
   /// Velocity of the body that carries the radars over that of the wheels' contact: pitch,
   /// suspension; m/s.
-  ForgettingNoise body_velocity{0.04, 1.0};
+  ForgettingNoise body_velocity{0.03, 1.0};
   /// Before the first scan.
   double start_speed_std_mps = 30.0;
   double start_yaw_rate_std_radps = 0.3;
@@ -76,8 +76,10 @@ struct OdometryOptions {
 
   // Status.
   double standstill_mps = 0.1;
-  double settled_speed_std_mps = 0.3;
-  double settled_yaw_rate_std_radps = 0.03;
+  /// The start is over once the prior no longer shows: where few targets are seen (tunnel, open
+  /// field) yaw rate stays as uncertain as Doppler and mounts leave it, 0.03 to 0.06 rad/s.
+  double settled_speed_std_mps = 0.5;
+  double settled_yaw_rate_std_radps = 0.1;
   int settled_scans = 5;
   double predicted_s = 0.25;  ///< Two scans of an ARS408 are missing.
   double ambiguous_s = 1.0;

@@ -66,12 +66,16 @@ Ars408RadarState radar_state(const Ars408Options& options, bool is_told_motion) 
   return state;
 }
 
+/// An error that stays for a whole drive: one standard deviation to either side, so that a few
+/// drives have the variance that is asked for, which a few draws of a Gaussian have not.
+double constant_error(Random& random, double std) { return random.uniform() < 0.5 ? -std : std; }
+
 Pose2 real_mount(const Pose2& stated, const SimulationOptions& options, std::size_t radar) {
   Random random(options.seed, kMountStream + radar);
   Pose2 real = stated;
-  real.yaw_rad += options.mount_yaw_std_rad * random.normal();
-  real.x_m += options.mount_position_std_m * random.normal();
-  real.y_m += options.mount_position_std_m * random.normal();
+  real.yaw_rad += constant_error(random, options.mount_yaw_std_rad);
+  real.x_m += constant_error(random, options.mount_position_std_m);
+  real.y_m += constant_error(random, options.mount_position_std_m);
   return real;
 }
 
@@ -79,7 +83,7 @@ Pose2 real_mount(const Pose2& stated, const SimulationOptions& options, std::siz
 DopplerErrors doppler_errors(const DetectionCorrection& correction,
                              const SimulationOptions& options, std::size_t radar) {
   Random random(options.seed, kDopplerScaleStream + radar);
-  return {(1.0 + options.doppler_scale_std * random.normal()) / correction.doppler_scale,
+  return {(1.0 + constant_error(random, options.doppler_scale_std)) / correction.doppler_scale,
           correction.doppler_offset_mps, options.doppler_offset_std_mps};
 }
 

@@ -155,7 +155,7 @@ void ScanAssembler::adopt_header(const ScanPart& part) {
 }
 
 bool ScanAssembler::is_damaged_header(const ScanPart& part) const {
-  return is_open_ && !is_after_pause_ && cycle_step_ != 0 &&
+  return is_open_ && !is_after_pause_ && cycle_step_ != 0 && part.counter != closed_counter_ &&
          step_to(part.counter, open_.counter) > kMostCycles * cycle_step_;
 }
 

@@ -54,17 +54,28 @@ TEST_CASE("A conflict hides missing parts") {
   CHECK(bench.counters().missing_parts == 3);
 }
 
-TEST_CASE("Lost frames spoil the open scan, whatever else arrives") {
-  for (const std::uint16_t announced : std::vector<std::uint16_t>{1, 300}) {
+TEST_CASE("Lost frames spoil the open scan, and hide no contradiction in it") {
+  struct Row {
+    std::uint16_t announced;
+    bool has_conflict;
+    ScanStatus status;
+  };
+  for (const Row& row : {Row{1, false, ScanStatus::dropped_frames},
+                         Row{1, true, ScanStatus::conflicting_parts},
+                         Row{300, false, ScanStatus::over_capacity},
+                         Row{300, true, ScanStatus::over_capacity}}) {
+    CAPTURE(row.announced, row.has_conflict);
     ScanBench bench(kWithHeader);
-    bench.header(1, announced);
+    bench.header(1, row.announced);
     bench.first(0);
     bench.mark_dropped();
-    bench.first(0, 9);  // Conflict.
+    if (row.has_conflict) {
+      bench.first(0, 9);
+    }
     bench.second(0);
     bench.finish();
     REQUIRE(bench.scans.size() == 1);
-    CHECK(bench.scans[0].status == ScanStatus::dropped_frames);
+    CHECK(bench.scans[0].status == row.status);
     CHECK(bench.scans[0].count == 1);
     CHECK(bench.counters().incomplete_scans == 1);
   }

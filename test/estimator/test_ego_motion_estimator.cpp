@@ -244,17 +244,17 @@ TEST_CASE("stamps at the ends of time are gaps, not motions") {
   }
 }
 
-TEST_CASE("selection counts the detections of whole scans") {
+TEST_CASE("selection counts the detections of scans that serve") {
   Drive drive({8.0, 0.0, 0.0}, kFront);
   const auto estimator = make_estimator(kFront);
   RadarScan scan = drive.next();
   const std::uint64_t count = scan.count;
   estimator->update(scan);
   CHECK(estimator->selection().used == count);
-  scan.status = ScanStatus::dropped_frames;
+  scan.status = ScanStatus::conflicting_parts;
   estimator->update(scan);
   CHECK(estimator->selection().used == count);
-  scan.status = ScanStatus::complete;
+  scan.status = GENERATE(ScanStatus::complete, ScanStatus::missing_parts);
   scan.detections[0].validity = Validity::moving;
   scan.detections[1].validity = Validity::no_noise;
   scan.detections[2].range_m = 400.0;

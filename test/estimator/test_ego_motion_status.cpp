@@ -67,7 +67,7 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
       {"uncertain y", driving,
        [](EgoMotionOptions& o) {
          o.registration.degrees_of_freedom = 3;
-         o.max_std_m = 0.01;
+         o.max_std_m = 0.001;
        },
        MotionStatus::degenerate},
       {"no time", driving,

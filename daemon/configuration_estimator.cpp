@@ -55,7 +55,7 @@ void read_shared_errors(TomlReader reader, SharedErrorOptions& errors) {
   reader.number("doppler_offset_std_mps", errors.doppler_offset_std_mps, {0.0, 10.0});
   reader.number("mount_yaw_std_rad", errors.mount_yaw_std_rad, {0.0, 1.0});
   reader.number("velocity_std_mps", errors.velocity_std_mps, {0.0, 10.0});
-  reader.number("stamp_std_s", errors.stamp_std_s, {0.0, 1.0});
+  reader.number("doppler_scale_std", errors.doppler_scale_std, {0.0, 0.1});
   reader.number("acceleration_std_mps2", errors.acceleration_std_mps2, {0.0, 100.0});
   reader.number("yaw_acceleration_std_radps2", errors.yaw_acceleration_std_radps2, {0.0, 100.0});
   reader.finish();

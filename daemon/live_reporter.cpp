@@ -211,7 +211,7 @@ std::string LiveReporter::report_odometry() {
   const bool is_good = is_new && (odometry->status == OdometryStatus::ok ||
                                   odometry->status == OdometryStatus::standing_still);
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
-  const std::string state(is_new ? to_string(odometry->status) : "none");
+  std::string state(is_new ? to_string(odometry->status) : "none");
   const int kind = seconds_without_odometry_ < kPatienceS ? 0
                    : is_new                               ? static_cast<int>(odometry->status)
                                                           : static_cast<int>(kOdometryStatusCount);

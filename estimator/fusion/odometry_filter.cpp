@@ -21,6 +21,9 @@ constexpr double kUnknownSpeedStdMps = 1.0;
 constexpr double kVerdictS = 0.3;
 /// Of a slow radar: how long a contradiction may have lasted.
 constexpr double kScanPeriodS = 0.1;
+/// Mean innovation of a radar in doubt above which it contradicts the others: if all of its error
+/// stayed the same for a minute, chance would still exceed 5.4 once in 1000 only.
+constexpr double kContradiction = 5.0;
 /// Radars agree on a velocity up to this mean square, in standard deviations.
 constexpr double kMaxDisagreement = 4.0;
 
@@ -60,7 +63,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     state_.advance(seconds_between(time_us_, stamp_us));
     time_us_ = std::max(time_us_, stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
-    tracks_[radar]->trust.is_believed = is_believed;
+    believe(radar, is_believed);
     if (use_doppler(radar, targets, stamp_us)) {
       use_positions(radar, targets, seconds_between(stamp_us, time_us_));
     }
@@ -68,6 +71,18 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   Odometry odometry;
   tell(odometry);
   return odometry;
+}
+
+/// What a radar has taught that is believed no longer is forgotten as far as it goes: it may have
+/// turned the slip, and its own mount, until it agreed.
+void OdometryFilter::believe(std::size_t radar, bool is_believed) {
+  RadarTrust& trust = tracks_[radar]->trust;
+  if (trust.is_believed && !is_believed) {
+    state_.start_errors(radar);
+    state_.start_slip();
+    trust.doppler_noise.clear();
+  }
+  trust.is_believed = is_believed;
 }
 
 void OdometryFilter::start(std::int64_t stamp_us) {
@@ -111,7 +126,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   const bool is_expected = nis <= options_.max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
-  if (!trust.is_left_out) {
+  if (!trust.is_left_out && trust.is_believed) {
     trust.doppler_noise.add(0.5 * nis);
   }
   if (!is_expected) {
@@ -290,9 +305,16 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  return {trust.is_left_out,       trust.doppler.mean(),        trust.lateral.mean(),
-          trust.yaw.mean(),        trust.doppler_noise.value(), trust.position_noise.value(),
-          state.mean(mount_yaw),   state.std(mount_yaw),        state.mean(doppler_scale),
+  const bool contradicts = !trust.is_believed && trust.doppler.exceeds(kContradiction);
+  return {trust.is_left_out || contradicts,
+          trust.doppler.mean(),
+          trust.lateral.mean(),
+          trust.yaw.mean(),
+          trust.doppler_noise.value(),
+          trust.position_noise.value(),
+          state.mean(mount_yaw),
+          state.std(mount_yaw),
+          state.mean(doppler_scale),
           state.std(doppler_scale)};
 }
 

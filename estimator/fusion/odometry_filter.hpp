@@ -65,6 +65,7 @@ class OdometryFilter {
 
  private:
   void start(std::int64_t stamp_us);
+  void believe(std::size_t radar, bool is_believed);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, double age_s);

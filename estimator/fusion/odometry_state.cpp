@@ -46,7 +46,7 @@ void OdometryState::start() {
   start_motion(Eigen::Vector2d::Zero(), Eigen::Vector2d(squared(options_.start_speed_std_mps),
                                                         squared(options_.start_yaw_rate_std_radps))
                                             .asDiagonal());
-  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  start_slip();
   gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
@@ -55,6 +55,8 @@ void OdometryState::start() {
     start_errors(i);
   }
 }
+
+void OdometryState::start_slip() { gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad)); }
 
 void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance) {
   gaussian.set(kSpeed, value.x(), covariance(0, 0));

@@ -26,6 +26,8 @@ class OdometryState {
   void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
   /// So do the errors of a radar.
   void start_errors(std::size_t radar);
+  /// So does the slip.
+  void start_slip();
 
   /// The vehicle moves on.
   void advance(double dt_s);

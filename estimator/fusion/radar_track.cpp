@@ -35,7 +35,6 @@ RegistrationOptions positions_only(RegistrationOptions options) {
   options.restarts = false;
   options.covariance = CovarianceModel::exclusive;
   options.doppler.enabled = false;
-  options.shared_errors.stamp_std_s = 0.0;
   options.shared_errors.velocity_std_mps = 0.0;
   return options;
 }

@@ -46,8 +46,8 @@ void write(std::ostream& out, const RegistrationOptions& options) {
   const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;
   out << "\ndoppler " << enabled << ' ' << both_scans << ' ' << stamp_std << ' ' << moving_weight
       << ' ' << moving_std;
-  const auto& [offset, mount_yaw, velocity, stamp, acceleration, yaw_acceleration] = errors;
-  out << "\nshared " << offset << ' ' << mount_yaw << ' ' << velocity << ' ' << stamp << ' '
+  const auto& [offset, mount_yaw, velocity, scale_std, acceleration, yaw_acceleration] = errors;
+  out << "\nshared " << offset << ' ' << mount_yaw << ' ' << velocity << ' ' << scale_std << ' '
       << acceleration << ' ' << yaw_acceleration;
 }
 

@@ -59,7 +59,7 @@ RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool wit
   if (with_shared) {
     options.shared_errors = SharedErrorOptions();
     options.shared_errors.velocity_std_mps = 0.0;  // No measurement shows these.
-    options.shared_errors.stamp_std_s = 0.0;
+    options.shared_errors.doppler_scale_std = 0.0;
   }
   return options;
 }

@@ -17,10 +17,10 @@ constexpr int kMaxHalvings = 12;
 /// in standard deviations, is no more than this.
 constexpr double kStuckStep = 0.1;
 
-/// Of a vehicle that begins to brake hard. Doppler at both ends tells how the velocity changes in
-/// between, but not when: that moves by up to jerk dt^3 / 12, 0.4 mm from scan to scan and 53 mm
-/// over a gap of 0.4 s.
-constexpr double kJerkMps3 = 10.0;
+/// How fast an acceleration of one deviation sets in: 10 m/s^3 for 3 m/s^2, as hard brakes do.
+/// Doppler at both ends tells how the velocity changes in between, but not when: that moves by up
+/// to jerk dt^3 / 12, 0.4 mm from scan to scan and 53 mm over a gap of 0.4 s.
+constexpr double kJerkPerAcceleration = 10.0 / 3.0;
 
 Symmetric2 operator*(double factor, const Symmetric2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
@@ -199,7 +199,9 @@ void Registration::add_unseen_errors(const Problem& problem, RegistrationResult&
   const double noise_m = std::sqrt(result.covariance(0, 0));
   const double by_velocity_m =
       rolling_part(result.motion, noise_m, problem.dt_s) * errors.velocity_std_mps * problem.dt_s;
-  const double by_jerk_m = by_doppler ? kJerkMps3 * std::pow(problem.dt_s, 3) / 12.0 : 0.0;
+  const double by_jerk_m = by_doppler ? kJerkPerAcceleration * errors.acceleration_std_mps2 *
+                                            std::pow(problem.dt_s, 3) / 12.0
+                                      : 0.0;
   const double variance_m2 = by_velocity_m * by_velocity_m + by_jerk_m * by_jerk_m;
   result.covariance(0, 0) += variance_m2;
   result.covariance(1, 1) += options_.degrees_of_freedom == 3 ? variance_m2 : 0.0;

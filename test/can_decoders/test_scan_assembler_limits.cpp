@@ -60,10 +60,9 @@ TEST_CASE("Lost frames spoil the open scan, and hide no contradiction in it") {
     bool has_conflict;
     ScanStatus status;
   };
-  for (const Row& row : {Row{1, false, ScanStatus::dropped_frames},
-                         Row{1, true, ScanStatus::conflicting_parts},
-                         Row{300, false, ScanStatus::over_capacity},
-                         Row{300, true, ScanStatus::over_capacity}}) {
+  for (const Row& row :
+       {Row{1, false, ScanStatus::dropped_frames}, Row{1, true, ScanStatus::conflicting_parts},
+        Row{300, false, ScanStatus::over_capacity}, Row{300, true, ScanStatus::over_capacity}}) {
     CAPTURE(row.announced, row.has_conflict);
     ScanBench bench(kWithHeader);
     bench.header(1, row.announced);

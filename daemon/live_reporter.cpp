@@ -118,6 +118,7 @@ LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& p
 
 std::string LiveReporter::report() {
   std::string line;
+  has_scans_ = false;
   for (std::size_t i = 0; i < progress_.size(); ++i) {
     line += (line.empty() ? "" : "; ") + report_radar(i);
   }
@@ -184,13 +185,16 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   const std::uint64_t estimates = cremed::estimates(status) - progress.estimates;
   progress.scans += scans;
   progress.estimates += estimates;
-  progress.seconds_without_scan = scans == 0 ? progress.seconds_without_scan + 1 : 0;
-  progress.seconds_without_estimate = estimates == 0 ? progress.seconds_without_estimate + 1 : 0;
+  has_scans_ = has_scans_ || scans != 0;
 
   const int condition = condition_of(status.bus, buses_[channel.interface]);
   if (condition != good && scans == 0) {
+    // The bus is to blame, and was: the radar has its patience once frames come again.
+    progress.seconds_without_scan = progress.seconds_without_estimate = 0;
     return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
   }
+  progress.seconds_without_scan = scans == 0 ? progress.seconds_without_scan + 1 : 0;
+  progress.seconds_without_estimate = estimates == 0 ? progress.seconds_without_estimate + 1 : 0;
   const int kind = progress.seconds_without_scan >= kPatienceS       ? 1
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
@@ -203,15 +207,20 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
 }
 
-/// Once a radar is named, why is its own affair: here is said that all of them give no odometry.
+/// Once a radar is named, why is its own affair: here is said that all of them give no odometry,
+/// although there are scans.
 std::string LiveReporter::report_odometry() {
   const std::optional<Odometry>& odometry = pipeline_.odometry();
   const bool is_new = odometry && odometry->utime_us != odometry_us_;
   odometry_us_ = odometry ? odometry->utime_us : 0;
   const bool is_good = is_new && (odometry->status == OdometryStatus::ok ||
                                   odometry->status == OdometryStatus::standing_still);
-  seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
   std::string state(is_new ? to_string(odometry->status) : "none");
+  if (!has_scans_) {
+    seconds_without_odometry_ = 0;
+    return "odometry: " + state;
+  }
+  seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
   const int kind = seconds_without_odometry_ < kPatienceS ? 0
                    : is_new                               ? static_cast<int>(odometry->status)
                                                           : static_cast<int>(kOdometryStatusCount);

@@ -49,6 +49,7 @@ class LiveReporter {
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // As last looked at.
   std::vector<Progress> progress_;
+  bool has_scans_ = false;        // Of any radar, since then.
   std::int64_t odometry_us_ = 0;  // As last looked at.
   int seconds_without_odometry_ = 0;
   bool is_connected_ = false;

@@ -23,6 +23,11 @@ class GaussianState {
   [[nodiscard]] double std(int i) const;
 
   void set_mean(int i, double value) { mean_(i) = value; }
+  /// The mean is as if x_i were `value`; covariances stay. For one that is next to unknown: what
+  /// is measured then is linearised where it is.
+  void assume(int i, double value) {
+    mean_ += (value - mean_(i)) / covariance_(i, i) * covariance_.col(i);
+  }
   /// The state becomes independent of all others.
   void set(int i, double value, double variance);
   void add_variance(int i, double variance) { covariance_(i, i) += variance; }

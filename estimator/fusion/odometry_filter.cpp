@@ -55,7 +55,10 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_believed) {
-  if (!has_started_ || seconds_between(time_us_, stamp_us) > options_.max_gap_s) {
+  if (!has_started_) {
+    start(stamp_us);
+  } else if (const double gap_s = seconds_between(time_us_, stamp_us); gap_s > options_.max_gap_s) {
+    bridge(gap_s);
     start(stamp_us);
   }
   if (seconds_between(stamp_us, time_us_) <= options_.max_lateness_s &&
@@ -85,15 +88,37 @@ void OdometryFilter::believe(std::size_t radar, bool is_believed) {
   trust.is_believed = is_believed;
 }
 
+void OdometryFilter::forget() {
+  bridge(options_.max_gap_s);
+  has_started_ = false;
+}
+
+/// The pose since the start stays where it is; where the vehicle went meanwhile nobody knows.
+void OdometryFilter::bridge(double gap_s) {
+  const double way_m = options_.start_speed_std_mps * gap_s;
+  const double turn_rad = options_.start_yaw_rate_std_radps * gap_s;
+  odom_covariance_ =
+      composed_covariance(anchor_pose_, odom_covariance_, state_.gaussian.mean().head<kPose>(),
+                          state_.gaussian.covariance().topLeftCorner<kPose, kPose>());
+  odom_covariance_.diagonal() += Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
+  anchor_pose_ = odom_pose_;
+}
+
 void OdometryFilter::start(std::int64_t stamp_us) {
-  state_.start();
   for (const auto& track : tracks_) {
     track->clear();
   }
   has_started_ = true;
   is_settled_ = false;
   used_scans_ = 0;
-  time_us_ = used_us_ = clear_us_ = anchor_us_ = output_us_ = stamp_us;
+  time_us_ = used_us_ = clear_us_ = stamp_us;
+  anchor_here();
+}
+
+/// Knowing nothing but that.
+void OdometryFilter::anchor_here() {
+  state_.start();
+  anchor_us_ = output_us_ = time_us_;
 }
 
 bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
@@ -111,7 +136,12 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     return false;
   }
   if (is_unknown && tracks_[radar]->trust.is_believed) {
-    state_.gaussian.set_mean(kSpeed, scan->velocity.velocity_mps.x());
+    if (used_scans_ == 0) {
+      // The way since the start cannot be had from a speed that was not known at all.
+      bridge(0.0);
+      anchor_here();
+    }
+    state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, *scan, stamp_us);
 }

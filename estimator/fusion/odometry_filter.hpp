@@ -58,13 +58,15 @@ class OdometryFilter {
                   bool is_believed = true);
 
   /// The clock of the stamps was set: begins anew, but for the pose since the start.
-  void forget() { has_started_ = false; }
+  void forget();
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
+  void bridge(double gap_s);
   void start(std::int64_t stamp_us);
+  void anchor_here();
   void believe(std::size_t radar, bool is_believed);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);

@@ -194,6 +194,46 @@ TEST_CASE("a gap in time is bridged, a long one begins anew") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
+TEST_CASE("the pose since the start stands still over a gap, and says that it may be wrong") {
+  OdometryDrive drive({kFront}, 9);
+  const Odometry before = drive.drive(3.0);
+  const bool is_set = GENERATE(false, true);
+  if (is_set) {
+    drive.filter().forget();
+    drive.pass(1'500'000);
+  } else {
+    drive.pass(5'000'000);
+  }
+  drive.next();
+  const Odometry after = drive.next();
+  CHECK((after.odom_pose - before.odom_pose).norm() < 1.0);
+  const Eigen::Vector3d error = after.odom_pose - drive.pose();
+  CHECK(std::abs(error.x()) > 10.0);
+  CHECK(error.cwiseAbs2().cwiseQuotient(after.odom_covariance.diagonal()).maxCoeff() < 9.0);
+}
+
+TEST_CASE("what was driven before any scan told the speed is in no pose") {
+  OdometryDrive drive({kFront, kRearLeft}, 12);
+  Odometry blind;
+  for (int i = 0; i < 3; ++i) {
+    drive.pass(OdometryDrive::kPeriodUs / 2);
+    blind = drive.filter().update(0, TargetSet(), drive.stamp_us());
+  }
+  CHECK(blind.status == OdometryStatus::initialising);
+  CHECK(std::sqrt(blind.covariance(0, 0)) > 1.0);
+  for (int i = 0; i < 30; ++i) {
+    const std::int64_t anchor_us = blind.utime_anchor_us;
+    const Odometry odometry = drive.next();
+    CHECK(odometry.utime_anchor_us > anchor_us);
+    if (odometry.is_new) {
+      const double way_m = drive.speed_mps() * 1e-6 *
+                           static_cast<double>(odometry.utime_us - odometry.utime_anchor_us);
+      CHECK(std::abs(odometry.pose.x() - way_m) < 5.0 * std::sqrt(odometry.covariance(0, 0)));
+      CHECK(odometry.covariance.llt().info() == Eigen::Success);
+    }
+  }
+}
+
 TEST_CASE("scans that come late are used") {
   // All scans of the rear radar come after those of the front that were taken 50 ms later.
   OdometryOptions options;

@@ -67,6 +67,10 @@ std::optional<std::int64_t> ScanAssembler::deadline_us() const {
   return is_open_ ? std::optional(shifted(open_.last_part_us, timeout_us_)) : std::nullopt;
 }
 
+std::optional<std::int64_t> ScanAssembler::open_stamp_us() const {
+  return is_open_ ? std::optional(open_.stamp_us + stamp_offset_us_) : std::nullopt;
+}
+
 void ScanAssembler::mark_dropped() { open_.dropped = true; }
 
 void ScanAssembler::finish() {

@@ -79,6 +79,9 @@ class ScanAssembler {
   /// When the open scan times out if no further part comes; nothing if no scan is open.
   [[nodiscard]] std::optional<std::int64_t> deadline_us() const;
 
+  /// Stamp of the open scan; nothing if no scan is open.
+  [[nodiscard]] std::optional<std::int64_t> open_stamp_us() const;
+
   /// The frame source lost frames: the open scan, if any, can no longer be whole.
   void mark_dropped();
 

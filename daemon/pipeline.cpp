@@ -26,6 +26,9 @@ std::vector<OdometryRadar> odometry_radars(const Configuration& configuration) {
 /// by less; a fraction of any time-out.
 constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 
+/// How long a scan waits for one that began before it: an ARS408 sends for less than its cycle.
+constexpr std::int64_t kLongestScanUs = 75'000;
+
 /// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
@@ -98,6 +101,7 @@ void Pipeline::on_frame(const CanFrame& frame) {
       publish_motions(*radar, begin_us);
     }
   }
+  publish_held();
 }
 
 /// The clocks of two buses need not agree. A frame that comes after one of another bus, but was
@@ -149,6 +153,9 @@ void Pipeline::publish_motions(RadarChannel& radar, std::int64_t begin_us) {
 }
 
 void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us) {
+  while (radar.held_us) {
+    publish_odometry(*first_held());  // This radar's targets go.
+  }
   const std::int64_t solve_begin_us = clock_.now_us();
   const EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
@@ -156,7 +163,8 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   for (OdometrySink* sink : sinks_) {
     sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
   }
-  publish_odometry(radar, motion);
+  hold(radar, motion);
+  publish_held();
   radar.note_duration(clock_.now_us() - begin_us, solve_us);
   for (OdometrySink* sink : sinks_) {
     sink->on_scan(radar.index, scan);
@@ -170,18 +178,61 @@ bool Pipeline::is_believed(const RadarChannel& radar) const {
                       [](const auto& other) { return other->self_check.is_believable(); });
 }
 
-/// Of every scan with usable targets, whether or not it could be registered with the one before.
-void Pipeline::publish_odometry(const RadarChannel& radar, const EgoMotion& motion) {
-  const TargetSet& targets = radar.estimator.targets();
-  if (!filter_ || targets.size() == 0) {
+/// Every scan with usable targets, whether or not it could be registered with the one before.
+void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
+  if (!filter_ || radar.estimator.targets().size() == 0) {
     return;
   }
   if (motion.utime_us < motion.utime_start_us - kClockSetBackUs) {
+    forget_odometry();
+  }
+  radar.held_us = motion.utime_us;
+}
+
+void Pipeline::forget_odometry() {
+  for (const auto& radar : radars_) {
+    radar->held_us.reset();
+  }
+  if (filter_) {
     filter_->forget();
   }
+}
+
+/// The earliest; null if none is held.
+RadarChannel* Pipeline::first_held() const {
+  RadarChannel* first = nullptr;
+  for (const auto& radar : radars_) {
+    if (radar->held_us && (first == nullptr || *radar->held_us < *first->held_us)) {
+      first = radar.get();
+    }
+  }
+  return first;
+}
+
+void Pipeline::publish_held() {
+  for (RadarChannel* first = first_held(); first != nullptr && !is_awaiting(*first);
+       first = first_held()) {
+    publish_odometry(*first);
+  }
+}
+
+/// Whether a scan that began before the held one is still coming in.
+bool Pipeline::is_awaiting(const RadarChannel& radar) const {
+  return *time_us_ - *radar.held_us <= kLongestScanUs &&
+         std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
+           const bool is_comparable =
+               other->interface == radar.interface || (other->shares_clock && radar.shares_clock);
+           const auto open_us = other->assembler.open_stamp_us();
+           return is_comparable && open_us && *open_us < *radar.held_us;
+         });
+}
+
+void Pipeline::publish_odometry(RadarChannel& radar) {
+  const std::int64_t stamp_us = *radar.held_us;
+  const TargetSet& targets = radar.estimator.targets();
+  radar.held_us.reset();
   const std::int64_t begin_us = clock_.now_us();
-  const Odometry odometry =
-      filter_->update(radar.index, targets, motion.utime_us, is_believed(radar));
+  const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_believed(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
   if (!odometry.is_new) {
     return;
@@ -244,14 +295,13 @@ void Pipeline::on_clock_step() {
     radar->estimator.forget_reference();
     radar->self_check.forget();
   }
-  if (filter_) {
-    filter_->forget();
-  }
+  forget_odometry();
 }
 
 void Pipeline::on_idle(std::int64_t now_us) {
   on_time(now_us);
   expire(now_us);
+  publish_held();
 }
 
 std::size_t Pipeline::frames_to_next_scan() const {
@@ -269,6 +319,7 @@ void Pipeline::finish() {
     radar->assembler.finish();
     publish_motions(*radar, clock_.now_us());
   }
+  publish_held();
   if (time_us_) {
     publish_status();
   }

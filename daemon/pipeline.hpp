@@ -31,6 +31,9 @@ struct PipelineClock {
 ///                                                          |                    |
 ///                                           of all radars  +-> OdometryFilter --+
 ///
+/// The odometry takes scans in the order of their stamps: one that is whole waits for those that
+/// began before it and are still coming in.
+///
 /// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So
 /// frames that come in the order of their stamps give the same motions in the same order, live and
 /// in a replay. After construction nothing allocates, locks or logs.
@@ -71,7 +74,12 @@ class Pipeline {
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
   [[nodiscard]] bool is_believed(const RadarChannel& radar) const;
-  void publish_odometry(const RadarChannel& radar, const EgoMotion& motion);
+  void hold(RadarChannel& radar, const EgoMotion& motion);
+  [[nodiscard]] RadarChannel* first_held() const;
+  void publish_held();
+  [[nodiscard]] bool is_awaiting(const RadarChannel& radar) const;
+  void forget_odometry();
+  void publish_odometry(RadarChannel& radar);
   void publish_fused(std::size_t targets, std::int64_t solve_us);
   void publish_status();
 

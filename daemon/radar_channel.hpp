@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct RadarChannel {
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
   SelfCheck self_check;
+  /// Stamp of its last scan while the odometry still has to take it.
+  std::optional<std::int64_t> held_us;
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 

@@ -192,6 +192,37 @@ TEST_CASE("Odometry: outputs follow each other, and the fused motions are those 
   }
 }
 
+/// Stamps of all radars' scans in the order in which they were whole.
+class CompletionSink final : public OdometrySink {
+ public:
+  void on_scan(std::size_t, const RadarScan&) override {}
+  void on_motion(std::size_t, const EgoMotion& motion, std::int32_t) override {
+    whole_us.push_back(motion.utime_us);
+  }
+  void on_odometry(const Odometry& odometry) override { used_us.push_back(odometry.utime_us); }
+  void on_fused(const EgoMotion&, std::int32_t) override {}
+  void on_status(std::size_t, const RadarStatus&) override {}
+  [[nodiscard]] std::uint64_t failures() const override { return 0; }
+
+  std::vector<std::int64_t> whole_us;
+  std::vector<std::int64_t> used_us;
+};
+
+TEST_CASE("Odometry takes scans in the order of their stamps, whichever is whole first") {
+  const Drive simulated = drive(scenario("bends"), default_radars(), options(7, 5.0));
+  CompletionSink sink;
+  const NoSource source;
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  for (const CanFrame& frame : simulated.frames) {
+    pipeline.on_frame(frame);
+  }
+  pipeline.finish();
+  CHECK_FALSE(std::is_sorted(sink.whole_us.begin(), sink.whole_us.end()));
+  std::sort(sink.whole_us.begin(), sink.whole_us.end());
+  // The first scan is where the odometry starts.
+  CHECK(std::vector(sink.whole_us.begin() + 1, sink.whole_us.end()) == sink.used_us);
+}
+
 TEST_CASE("Odometry of one radar: a state, and no fused motion") {
   const Drive simulated = drive(scenario("bends"), default_radars(), options(6, 20.0));
   const RecordingSink sink = run_pipeline({simulated.radars[0]}, without(simulated, 1, 0.0, 100.0));

@@ -130,8 +130,9 @@ TEST_CASE("Without stamps of the clock, latency counts from when the last frame 
     pipeline.on_frame(frame);
   }
   const RadarChannel& front = *pipeline.radars()[0];
-  // Handed in, before and after the solver, before and after the odometry, published.
-  CHECK(front.latencies.max_us() == 50);
+  // Handed in, before and after the solver, before and after the odometry, published; at most
+  // before and after the odometry of a scan of the other radar too, which waited for this one.
+  CHECK(front.latencies.max_us() == 70);
   CHECK(front.solve_times.max_us() == 10);
 }
 

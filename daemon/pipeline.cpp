@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "estimator/fusion/fused_motion.hpp"
+#include "estimator/fusion/motion_witness.hpp"
 
 namespace cremed {
 namespace {
@@ -157,8 +158,12 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
     publish_odometry(*first_held());  // This radar's targets go.
   }
   const std::int64_t solve_begin_us = clock_.now_us();
-  const EgoMotion motion = radar.estimator.update(scan);
+  EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
+  radar.self_check.add(motion);
+  if (odometry_ && contradicts(*odometry_, motion)) {
+    motion = withdrawn(motion);
+  }
   radar.count(motion);
   for (OdometrySink* sink : sinks_) {
     sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));

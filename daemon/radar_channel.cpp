@@ -37,7 +37,6 @@ void RadarChannel::count(const EgoMotion& motion) {
     status_.utime_last_estimate_us = motion.utime_us;
     status_.motions_of_incomplete_scans += motion.incomplete ? 1 : 0;
   }
-  self_check.add(motion);
 }
 
 void RadarChannel::count(const Odometry& odometry) {

@@ -10,10 +10,6 @@
 namespace cremed {
 namespace {
 
-/// What a road vehicle does not exceed.
-constexpr double kMaxAccelerationMps2 = 10.0;
-constexpr double kMaxYawAccelerationRadps2 = 2.0;
-
 /// Another speed is a rival in at least so many places and so large a share of those that fit.
 struct RivalLimits {
   std::size_t places;

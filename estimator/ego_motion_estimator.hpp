@@ -32,9 +32,14 @@ enum class MotionStatus : std::uint8_t {
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
   ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well or
                         ///< has the Doppler of many targets, and only one motion can be the
-                        ///< continuation of the scan before: not this one, or both.
+                        ///< continuation of the scan before: not this one, or both. Or it fits
+                        ///< but contradicts the odometry (fusion/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
+
+/// What a road vehicle does not exceed.
+inline constexpr double kMaxAccelerationMps2 = 10.0;
+inline constexpr double kMaxYawAccelerationRadps2 = 2.0;
 
 /// The name of a status as in the CSV, e.g. "ok".
 std::string_view to_string(MotionStatus status);

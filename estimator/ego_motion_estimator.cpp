@@ -6,19 +6,10 @@
 #include <cmath>
 
 #include "estimator/stamps.hpp"
+#include "estimator/vehicle_limits.hpp"
 
 namespace cremed {
 namespace {
-
-/// Another speed is a rival in at least so many places and so large a share of those that fit.
-struct RivalLimits {
-  std::size_t places;
-  double share;
-};
-constexpr RivalLimits kRival{5, 0.25};
-/// The same while it is not known which world is the road, which ends after so many scans without.
-constexpr RivalLimits kDoubtfulRival{3, 0.1};
-constexpr int kClearScans = 10;
 
 /// Reorders the range, which must not be empty.
 template <typename Iterator>
@@ -41,7 +32,7 @@ std::string_view to_string(MotionStatus status) {
 EgoMotionEstimator::EgoMotionEstimator(const EgoMotionOptions& options)
     : options_(options),
       registration_(options.registration, options.vehicle_from_radar),
-      rival_speed_(options.vehicle_from_radar) {}
+      two_worlds_(options.vehicle_from_radar) {}
 
 EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   EgoMotion motion;
@@ -67,6 +58,10 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   reference_stamp_us_ = scan.stamp_us;
   has_reference_ = true;
   return motion;
+}
+
+void EgoMotionEstimator::expect(const std::optional<Eigen::Vector3d>& twist) {
+  expected_velocity_ = twist;
 }
 
 void EgoMotionEstimator::forget_reference() {
@@ -135,7 +130,7 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
       std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
     return MotionStatus::implausible;
   }
-  if (has_rival(result, dt_s)) {
+  if (sees_two_worlds(result, dt_s)) {
     return MotionStatus::ambiguous;
   }
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
@@ -143,32 +138,25 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
 
 /// Chance finds next to never what no vehicle could have departed from since the last estimate.
 bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
-  const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
+  const Eigen::Vector3d& before = expected_velocity_ ? *expected_velocity_ : last_velocity_;
+  const Eigen::Vector3d departure = (result.motion - before * dt_s).cwiseAbs();
   const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
                                  kMaxYawAccelerationRadps2);
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
-  return has_velocity_ && sigma.x() > 0.0 &&
+  return knows_velocity() && sigma.x() > 0.0 &&
          (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
 }
 
-/// Asks Doppler even where it takes no part in the estimate. The motion before settles it if it
-/// leads to this one and not to the other.
-bool EgoMotionEstimator::has_rival(const RegistrationResult& result, double dt_s) {
+/// Asks Doppler even where it takes no part in the estimate.
+bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, double dt_s) {
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
-  const SpeedVotes votes = rival_speed_.count(targets_, result.motion / dt_s,
-                                              0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps);
-  const RivalLimits& limits = doubtful_scans_ > 0 ? kDoubtfulRival : kRival;
   RegistrationResult other = result;
-  other.motion.x() = votes.rival_mps * dt_s;
-  const bool is_rival =
-      votes.rival >= limits.places &&
-      static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
-  if (is_rival && (continues(other, dt_s) || !continues(result, dt_s))) {
-    doubtful_scans_ = kClearScans;
-  } else if (doubtful_scans_ > 0) {
-    --doubtful_scans_;
-  }
-  return doubtful_scans_ > 0;
+  return two_worlds_.look(targets_, result.motion / dt_s,
+                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !knows_velocity(),
+                          [&](double speed_mps) {
+                            other.motion.x() = speed_mps * dt_s;
+                            return continues(other, dt_s);
+                          });
 }
 
 /// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -12,8 +13,8 @@
 #include "can_decoders/radar_scan.hpp"
 #include "estimator/ego_motion_options.hpp"
 #include "estimator/registration.hpp"
-#include "estimator/rival_speed.hpp"
 #include "estimator/target_set.hpp"
+#include "estimator/two_worlds.hpp"
 
 namespace cremed {
 
@@ -36,10 +37,6 @@ enum class MotionStatus : std::uint8_t {
                         ///< but contradicts the odometry (fusion/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
-
-/// What a road vehicle does not exceed.
-inline constexpr double kMaxAccelerationMps2 = 10.0;
-inline constexpr double kMaxYawAccelerationRadps2 = 2.0;
 
 /// The name of a status as in the CSV, e.g. "ok".
 std::string_view to_string(MotionStatus status);
@@ -73,6 +70,10 @@ class EgoMotionEstimator {
 
   EgoMotion update(const RadarScan& scan);
 
+  /// What is known from elsewhere of (m/s, m/s, rad/s) as the next scan comes; nothing. It tells
+  /// which of two motions continues the one before, in place of this radar's last.
+  void expect(const std::optional<Eigen::Vector3d>& twist);
+
   /// The clock of the stamps was set: the next scan has no reference.
   void forget_reference();
 
@@ -84,23 +85,24 @@ class EgoMotionEstimator {
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
+  [[nodiscard]] bool knows_velocity() const { return has_velocity_ || expected_velocity_; }
   [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
   bool is_standing(const RegistrationResult& result, double dt_s);
   double median_normalised_doppler();
   double doppler_speed_mps();
-  bool has_rival(const RegistrationResult& result, double dt_s);
+  bool sees_two_worlds(const RegistrationResult& result, double dt_s);
 
   EgoMotionOptions options_;
   Registration registration_;
-  RivalSpeed rival_speed_;
+  TwoWorlds two_worlds_;
   TargetSet targets_;
   SelectionCounters selection_;
   std::array<double, kMaxDetections> scratch_{};
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
+  std::optional<Eigen::Vector3d> expected_velocity_;
   bool has_reference_ = false;
   bool has_velocity_ = false;  // last_velocity_ is that of the scan before
-  int doubtful_scans_ = 0;     // to come, unless another speed has a part of the Doppler again
 };
 
 }  // namespace cremed

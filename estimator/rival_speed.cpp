@@ -98,11 +98,10 @@ SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& ve
     return std::abs(vote.speed_mps - speed_mps) <= kReach * vote.std_mps;
   });
   const Votes rival = largest_group({first_other, votes.end()});
-  if (rival.empty()) {
-    return {};
-  }
+  const double rival_mps =
+      rival.empty() ? 0.0 : 0.5 * (rival.front().speed_mps + rival.back().speed_mps);
   return {count_places(targets, Votes(votes.begin(), first_other)), count_places(targets, rival),
-          0.5 * (rival.front().speed_mps + rival.back().speed_mps)};
+          rival_mps, targets.size() - votes.size()};
 }
 
 }  // namespace cremed

@@ -21,6 +21,7 @@ struct SpeedVotes {
   std::size_t own = 0;
   std::size_t rival = 0;
   double rival_mps = 0.0;
+  std::size_t abeam = 0;  ///< Targets, not places, that have no vote.
 };
 
 /// In a jam most targets may be on cars that drive as we do. The radar then sees two worlds, each

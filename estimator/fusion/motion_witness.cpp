@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimator/stamps.hpp"
+#include "estimator/vehicle_limits.hpp"
 
 namespace cremed {
 namespace {
@@ -22,12 +23,15 @@ double mean_distance_s(double distance_s, double span_s) {
 
 }  // namespace
 
+bool is_sure_at(const Odometry& known, std::int64_t utime_us) {
+  return (known.status == OdometryStatus::ok || known.status == OdometryStatus::standing_still) &&
+         std::abs(seconds_between(known.utime_us, utime_us)) <= kMaxAgeS;
+}
+
 bool contradicts(const Odometry& known, const EgoMotion& motion) {
-  const bool is_sure =
-      known.status == OdometryStatus::ok || known.status == OdometryStatus::standing_still;
   const double span_s = seconds_between(motion.utime_start_us, motion.utime_us);
   const double since_s = seconds_between(known.utime_us, motion.utime_us);
-  if (!is_sure || !motion.has_estimate() || std::abs(since_s) > kMaxAgeS) {
+  if (!motion.has_estimate() || std::abs(since_s) > kMaxAgeS) {
     return false;
   }
   const double time_s = mean_distance_s(std::abs(since_s - 0.5 * span_s), span_s);

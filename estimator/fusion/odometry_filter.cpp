@@ -9,6 +9,7 @@
 #include "estimator/fusion/joint_velocity.hpp"
 #include "estimator/fusion/pose_chain.hpp"
 #include "estimator/stamps.hpp"
+#include "estimator/vehicle_limits.hpp"
 
 namespace cremed {
 namespace {
@@ -19,6 +20,7 @@ using namespace state_layout;
 constexpr double kUnknownSpeedStdMps = 1.0;
 /// What a radar said longer ago says nothing of now.
 constexpr double kVerdictS = 0.3;
+constexpr std::int64_t kLongAgoUs = 1'000'000;
 /// Of a slow radar: how long a contradiction may have lasted.
 constexpr double kScanPeriodS = 0.1;
 /// Mean innovation of a radar in doubt above which it contradicts the others: if all of its error
@@ -26,6 +28,8 @@ constexpr double kScanPeriodS = 0.1;
 constexpr double kContradiction = 5.0;
 /// Radars agree on a velocity up to this mean square, in standard deviations.
 constexpr double kMaxDisagreement = 4.0;
+/// Between a speed and the one that is expected, where chance must not decide: once in 370.
+constexpr double kSigmas = 3.0;
 
 /// Targets beside the way pass by too fast to be found again four scans later: what registers then
 /// turned the yaw of scenes 0061 and 0103 after 10 s by 0.48 and 0.20 degrees, without it 0.34 and
@@ -116,6 +120,7 @@ void OdometryFilter::start(std::int64_t stamp_us) {
   has_started_ = true;
   is_settled_ = false;
   used_scans_ = 0;
+  doubt_us_ = stamp_us - kLongAgoUs;
   time_us_ = used_us_ = clear_us_ = stamp_us;
   anchor_here();
 }
@@ -129,9 +134,8 @@ void OdometryFilter::anchor_here() {
 bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
                                  std::int64_t stamp_us) {
   const Pose2& mount = tracks_[radar]->mount();
-  const bool is_unknown = state_.gaussian.std(kSpeed) > kUnknownSpeedStdMps;
   std::optional<Eigen::Vector2d> expected;
-  if (!is_unknown) {
+  if (!is_unknown()) {
     expected =
         Eigen::Vector2d(state_.gaussian.mean(kSpeed) - state_.gaussian.mean(kYawRate) * mount.y_m,
                         state_.gaussian.mean(kYawRate) * mount.x_m);
@@ -140,7 +144,11 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
-  if (is_unknown && tracks_[radar]->trust.is_believed) {
+  if (sees_two_worlds(radar, targets, *scan, stamp_us)) {
+    doubt_us_ = time_us_;
+    return false;
+  }
+  if (is_unknown() && tracks_[radar]->trust.is_believed) {
     if (used_scans_ == 0) {
       // The way since the start cannot be had from a speed that was not known at all.
       bridge(0.0);
@@ -149,6 +157,24 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, *scan, stamp_us);
+}
+
+/// Whether the radar may have followed a world that drives as we do: by its own Doppler, and by
+/// what the state says that the vehicle can do.
+bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets,
+                                     const ScanVelocity& scan, std::int64_t stamp_us) {
+  RadarTrack& track = *tracks_[radar];
+  const double w = state_.gaussian.mean(kYawRate);
+  const Eigen::Vector2d& sensor_mps = scan.velocity.velocity_mps;
+  const Eigen::Vector3d velocity(sensor_mps.x() + w * track.mount().y_m,
+                                 sensor_mps.y() - w * track.mount().x_m, w);
+  const double std_mps = std::sqrt(scan.velocity.covariance(0, 0));
+  const double since_s = seconds_between(std::min(used_us_, stamp_us), stamp_us);
+  const double reach_mps = kSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
+  return track.two_worlds.look(
+      targets, velocity, kSigmas * std_mps, !is_settled_ || is_unknown(), [&](double speed_mps) {
+        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= reach_mps;
+      });
 }
 
 bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
@@ -262,6 +288,10 @@ void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
   }
 }
 
+bool OdometryFilter::is_unknown() const {
+  return state_.gaussian.std(kSpeed) > kUnknownSpeedStdMps;
+}
+
 bool OdometryFilter::is_known() const {
   return state_.gaussian.std(kSpeed) <= options_.settled_speed_std_mps &&
          state_.gaussian.std(kYawRate) <= options_.settled_yaw_rate_std_radps &&
@@ -271,6 +301,10 @@ bool OdometryFilter::is_known() const {
 
 OdometryStatus OdometryFilter::status() const {
   const double unused_s = seconds_between(used_us_, time_us_);
+  const bool is_doubtful = seconds_between(doubt_us_, time_us_) <= kVerdictS;
+  if (is_doubtful && (!is_settled_ || unused_s > options_.predicted_s)) {
+    return OdometryStatus::ambiguous;
+  }
   if (unused_s > options_.lost_s) {
     return OdometryStatus::lost;
   }

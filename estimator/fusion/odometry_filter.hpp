@@ -69,6 +69,8 @@ class OdometryFilter {
   void anchor_here();
   void believe(std::size_t radar, bool is_believed);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
+  bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
+                       std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, double age_s);
   void use_pair(std::size_t radar, std::size_t keyframe, const RadarTrack::Pair& pair);
@@ -78,6 +80,7 @@ class OdometryFilter {
   void tell_motion(Odometry& odometry);
   [[nodiscard]] OdometryStatus status() const;
   [[nodiscard]] bool is_known() const;
+  [[nodiscard]] bool is_unknown() const;
 
   OdometryOptions options_;
   OdometryState state_;
@@ -87,6 +90,7 @@ class OdometryFilter {
   std::int64_t time_us_ = 0;
   std::int64_t used_us_ = 0;   // Last measurement used.
   std::int64_t clear_us_ = 0;  // Last one with most of its scan's targets behind it.
+  std::int64_t doubt_us_ = 0;  // Last scan that showed two worlds.
   int used_scans_ = 0;
   std::int64_t anchor_us_ = 0;
   std::int64_t output_us_ = 0;

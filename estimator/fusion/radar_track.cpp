@@ -47,7 +47,10 @@ bool is_majority(const DopplerVelocity& velocity, const TargetSet& targets) {
 
 RadarTrack::RadarTrack(const OdometryOptions& options, const Pose2& mount,
                        const RegistrationOptions& registration)
-    : options_(options), mount_(mount), registration_(positions_only(registration), mount) {
+    : two_worlds(mount),
+      options_(options),
+      mount_(mount),
+      registration_(positions_only(registration), mount) {
   clear();
 }
 
@@ -59,6 +62,7 @@ void RadarTrack::clear() {
   doppler_std_mps_ = options_.doppler_std_mps;
   scan_covariance_ = kScanVariance.asDiagonal();
   trust = {};
+  two_worlds.clear();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {

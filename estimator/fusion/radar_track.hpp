@@ -15,6 +15,7 @@
 #include "estimator/pose2.hpp"
 #include "estimator/registration.hpp"
 #include "estimator/target_set.hpp"
+#include "estimator/two_worlds.hpp"
 
 namespace cremed {
 
@@ -66,6 +67,7 @@ class RadarTrack {
   std::optional<std::size_t> keep(const TargetSet& targets);
 
   RadarTrust trust;
+  TwoWorlds two_worlds;
 
  private:
   const OdometryOptions& options_;

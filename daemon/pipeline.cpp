@@ -51,6 +51,7 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
     : source_(source),
       sinks_(std::move(sinks)),
       clock_(clock),
+      is_predicted_(configuration.odometry.filter.rate_hz != 0),
       standstill_mps_(configuration.odometry.filter.standstill_mps) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarConfiguration& radar = configuration.radars[i];
@@ -128,9 +129,25 @@ void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) 
     return is_told && radar.assembler.is_overdue(now_us);
   };
   while (RadarChannel* radar = first_to_close(is_overdue)) {
+    const std::int64_t deadline_us = *radar->assembler.deadline_us();
+    reach(deadline_us);
+    event_us_ = deadline_us + 1;
     radar->assembler.expire(now_us);
     publish_motions(*radar, now_us);
   }
+  reach(now_us);
+}
+
+/// Scans held for too long go, and predictions that are due, each at its time.
+void Pipeline::reach(std::int64_t now_us) {
+  for (RadarChannel* held = first_held();
+       held != nullptr && *held->held_us + kLongestScanUs < now_us; held = first_held()) {
+    event_us_ = *held->held_us + kLongestScanUs + 1;
+    publish_predictions(event_us_ - 1);
+    publish_held();
+  }
+  event_us_ = now_us;
+  publish_predictions(now_us);
 }
 
 /// Of the open scans that fulfil the condition, whose time-out comes first?
@@ -223,7 +240,7 @@ void Pipeline::publish_held() {
 
 /// Whether a scan that began before the held one is still coming in.
 bool Pipeline::is_awaiting(const RadarChannel& radar) const {
-  return *time_us_ - *radar.held_us <= kLongestScanUs &&
+  return event_us_ - *radar.held_us <= kLongestScanUs &&
          std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
            const bool is_comparable =
                other->interface == radar.interface || (other->shares_clock && radar.shares_clock);
@@ -236,6 +253,7 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   const std::int64_t stamp_us = *radar.held_us;
   const TargetSet& targets = radar.estimator.targets();
   radar.held_us.reset();
+  publish_predictions(stamp_us);
   const std::int64_t begin_us = clock_.now_us();
   const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_believed(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
@@ -246,11 +264,22 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   for (const auto& each : radars_) {
     each->count(odometry);
   }
-  for (OdometrySink* sink : sinks_) {
-    sink->on_odometry(odometry);
+  if (!is_predicted_) {
+    for (OdometrySink* sink : sinks_) {
+      sink->on_odometry(odometry);
+    }
   }
   if (radars_.size() > 1) {
     publish_fused(targets.size(), solve_us);
+  }
+}
+
+/// Those that are due: at most max_gap_s of them, however long nothing was heard.
+void Pipeline::publish_predictions(std::int64_t now_us) {
+  while (const auto odometry = filter_ ? filter_->predict_next(now_us) : std::nullopt) {
+    for (OdometrySink* sink : sinks_) {
+      sink->on_odometry(*odometry);
+    }
   }
 }
 
@@ -306,7 +335,6 @@ void Pipeline::on_clock_step() {
 void Pipeline::on_idle(std::int64_t now_us) {
   on_time(now_us);
   expire(now_us);
-  publish_held();
 }
 
 std::size_t Pipeline::frames_to_next_scan() const {

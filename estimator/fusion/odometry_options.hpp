@@ -89,6 +89,9 @@ struct OdometryOptions {
   double anchor_period_s = 2.2;  ///< The pose is told relative to an anchor renewed so often.
   double max_lateness_s = 0.2;   ///< A scan older than the latest by more is not used.
   double max_gap_s = 2.0;        ///< Longer without any scan: begins anew.
+  /// Outputs between scans, of the state predicted to whole multiples of 1 / rate; anchors are then
+  /// renewed at these. 0: none.
+  int rate_hz = 0;
 };
 
 }  // namespace cremed

@@ -7,15 +7,11 @@
 #include <utility>
 
 #include "estimator/fusion/pose_chain.hpp"
-#include "estimator/fusion/vehicle_motion.hpp"
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
-
-/// Accelerations are constant within so short a step.
-constexpr double kMaxStepS = 0.1;
 
 double squared(double value) { return value * value; }
 
@@ -84,14 +80,19 @@ void OdometryState::start_errors(std::size_t radar) {
 }
 
 void OdometryState::advance(double dt_s) {
-  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxStepS) {
-    const double step_s = std::min(left_s, kMaxStepS);
+  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
+    const double step_s = std::min(left_s, kMaxMotionStepS);
     const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
     const double turning = std::abs(gaussian.mean(kYawRate));
     forget(gaussian, kCommonOffset, options_.common_offset,
            options_.common_offset_per_yaw_rate_m * turning, step_s);
   }
+}
+
+VehicleEstimate OdometryState::vehicle() const {
+  return {gaussian.mean().head<kMotionStates>(),
+          gaussian.covariance().topLeftCorner<kMotionStates, kMotionStates>()};
 }
 
 void OdometryState::advance_errors(std::size_t radar, double dt_s) {

@@ -10,6 +10,7 @@
 #include "estimator/fusion/odometry_options.hpp"
 #include "estimator/fusion/radar_measurement.hpp"
 #include "estimator/fusion/state_layout.hpp"
+#include "estimator/fusion/vehicle_motion.hpp"
 #include "estimator/pose2.hpp"
 
 namespace cremed {
@@ -31,6 +32,7 @@ class OdometryState {
 
   /// The vehicle moves on.
   void advance(double dt_s);
+  [[nodiscard]] VehicleEstimate vehicle() const;
   /// A radar's scans come in order: its errors are those of its last scan's time.
   void advance_errors(std::size_t radar, double dt_s);
 

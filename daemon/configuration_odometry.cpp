@@ -55,6 +55,8 @@ void read_limits(TomlReader& reader, OdometryOptions& options) {
 
 void read_odometry(TomlReader reader, OdometryConfiguration& odometry) {
   reader.boolean("enabled", odometry.enabled);
+  reader.text("state_file", odometry.state_file,
+              {[](std::string_view) { return true; }, "a path, or \"\" for none"});
   read_vehicle(reader, odometry.filter);
   read_radar_errors(reader, odometry.filter);
   read_limits(reader, odometry.filter);

@@ -15,10 +15,13 @@ constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 /// A radar's stamps go back by less if frames are reordered.
 constexpr std::int64_t kClockSetBackUs = 1'000'000;
 
-std::vector<OdometryRadar> odometry_radars(const Configuration& configuration) {
+std::vector<OdometryRadar> odometry_radars(
+    const Configuration& configuration, const std::vector<std::optional<LearnedErrors>>& learned) {
   std::vector<OdometryRadar> radars;
   for (const RadarConfiguration& radar : configuration.radars) {
-    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration});
+    const std::size_t i = radars.size();
+    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration,
+                      i < learned.size() ? learned[i] : std::nullopt});
   }
   return radars;
 }
@@ -47,7 +50,8 @@ OdometryOptions odometry_options(const Configuration& configuration) {
 }  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
-                   std::vector<OdometrySink*> sinks, PipelineClock clock)
+                   std::vector<OdometrySink*> sinks, PipelineClock clock,
+                   const std::vector<std::optional<LearnedErrors>>& learned)
     : source_(source),
       sinks_(std::move(sinks)),
       clock_(clock),
@@ -59,7 +63,7 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
         std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
   if (configuration.odometry.enabled) {
-    filter_.emplace(odometry_options(configuration), odometry_radars(configuration));
+    filter_.emplace(odometry_options(configuration), odometry_radars(configuration, learned));
   }
 }
 
@@ -345,6 +349,12 @@ std::size_t Pipeline::frames_to_next_scan() const {
     }
   }
   return least.value_or(0);
+}
+
+std::vector<std::optional<LearnedErrors>> Pipeline::learned() const {
+  const bool is_good = odometry_ && (odometry_->status == OdometryStatus::ok ||
+                                     odometry_->status == OdometryStatus::standing_still);
+  return is_good ? filter_->learned() : std::vector<std::optional<LearnedErrors>>();
 }
 
 void Pipeline::finish() {

@@ -34,17 +34,19 @@ struct PipelineClock {
 /// The odometry takes scans in the order of their stamps: one that is whole waits for those that
 /// began before it and are still coming in.
 ///
-/// With odometry.rate_hz sinks are told the odometry of the last scan predicted to the times of that
-/// rate, each once the stamp of a frame, a time-out or silence has reached it.
+/// With odometry.rate_hz sinks are told the odometry of the last scan predicted to the times of
+/// that rate, each once the stamp of a frame, a time-out or silence has reached it.
 ///
 /// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So
 /// frames that come in the order of their stamps give the same motions in the same order, live and
 /// in a replay. After construction nothing allocates, locks or logs.
 class Pipeline {
  public:
-  /// `source` (for its counters) and `sinks` must outlive the pipeline.
+  /// `source` (for its counters) and `sinks` must outlive the pipeline. `learned`: of the radars in
+  /// a drive before; may be empty.
   Pipeline(const Configuration& configuration, const FrameSource& source,
-           std::vector<OdometrySink*> sinks, PipelineClock clock);
+           std::vector<OdometrySink*> sinks, PipelineClock clock,
+           const std::vector<std::optional<LearnedErrors>>& learned = {});
 
   /// Takes the source's next event all the way; false at its end. The loop of the daemon.
   bool take_next(FrameSource& source);
@@ -65,6 +67,9 @@ class Pipeline {
   [[nodiscard]] std::size_t frames_to_next_scan() const;
 
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
+  /// What the odometry learned of the radars, by radar, for a next start; empty while it is neither
+  /// ok nor standing_still. Not for the hot path.
+  [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
   /// The last at a scan; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 

@@ -47,11 +47,19 @@ std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
   return result;
 }
 
+std::vector<std::optional<LearnedErrors>> learned_before(std::span<const OdometryRadar> radars) {
+  std::vector<std::optional<LearnedErrors>> result;
+  for (const OdometryRadar& radar : radars) {
+    result.push_back(radar.learned);
+  }
+  return result;
+}
+
 }  // namespace
 
 OdometryFilter::OdometryFilter(const OdometryOptions& options,
                                std::span<const OdometryRadar> radars)
-    : options_(options), state_(options, mounts(radars)) {
+    : options_(options), state_(options, mounts(radars), learned_before(radars)) {
   for (const OdometryRadar& radar : radars) {
     tracks_.push_back(
         std::make_unique<RadarTrack>(options_, radar.vehicle_from_radar, radar.registration));
@@ -409,6 +417,17 @@ Odometry OdometryFilter::predicted(std::int64_t utime_us) const {
   odometry.odom_pose = composed_pose(anchor.pose, odometry.pose);
   odometry.radars = radars_since_prediction_;
   return odometry;
+}
+
+std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
+  std::vector<std::optional<LearnedErrors>> result(tracks_.size());
+  const std::vector<LearnedErrors> learned = state_.learned();
+  for (std::size_t i = 0; i < learned.size(); ++i) {
+    if (!report(i).is_left_out) {
+      result[i] = learned[i];
+    }
+  }
+  return result;
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

@@ -25,6 +25,7 @@ namespace cremed {
 struct OdometryRadar {
   Pose2 vehicle_from_radar;
   RegistrationOptions registration;
+  std::optional<LearnedErrors> learned = std::nullopt;  ///< In a drive before.
 };
 
 /// One state of the vehicle from the scans of all its radars: an extended Kalman filter.
@@ -69,6 +70,8 @@ class OdometryFilter {
   void forget();
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
+  /// What a next drive may begin with, by radar: nothing of one that is left out. Allocates.
+  [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:

@@ -32,8 +32,12 @@ struct OdometryOptions {
   double mount_yaw_std_rad = 0.0075;       ///< Of a mount measured by hand.
   double mount_yaw_across_std_rad = 0.02;  ///< And more for one that looks across the way.
   double mount_yaw_walk = 0.0003;          ///< rad/sqrt(s): it is screwed on.
-  double lever_std_m = 0.1;                ///< Of its place, along each axis.
-  double doppler_scale_std = 0.002;        ///< Of one, after calibration.
+  /// What changes of mount yaw (rad) and Doppler scale from one drive to the next, where they are
+  /// taken over: mounts calibrated on drives of one car agree within 0.0005 rad.
+  double mount_yaw_restart_std_rad = 0.001;
+  double doppler_scale_restart_std = 0.0005;
+  double lever_std_m = 0.1;          ///< Of its place, along each axis.
+  double doppler_scale_std = 0.002;  ///< Of one, after calibration.
   /// The same of all radars together: what elevation of targets takes from Doppler differs between
   /// drives.
   double common_scale_std = 0.002;

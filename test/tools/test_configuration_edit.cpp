@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 
 #include "tools/eval/configuration_edit.hpp"
-#include "tools/eval/replaced_file.hpp"
+#include "daemon/replaced_file.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {

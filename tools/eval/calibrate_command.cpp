@@ -14,7 +14,7 @@
 #include "tools/eval/calibration_keys.hpp"
 #include "tools/eval/configuration_edit.hpp"
 #include "tools/eval/input_file.hpp"
-#include "tools/eval/replaced_file.hpp"
+#include "daemon/replaced_file.hpp"
 
 namespace cremed {
 namespace {

@@ -84,7 +84,7 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   const std::string csv = command_line.output_csv.value_or(output.csv);
   const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
-  refuse_overwriting(command_line, {csv, odometry, tum});
+  refuse_overwriting(command_line, {csv, odometry, tum, command_line.state_file.value_or("")});
   if (!odometry.empty() && !configuration.odometry.enabled) {
     throw UsageError("there is no odometry to write: odometry.enabled = false");
   }

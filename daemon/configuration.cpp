@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -136,16 +133,6 @@ Configuration read_configuration(const toml::table& table, ReadContext& context)
   return configuration;
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-[[noreturn]] void throw_unreadable(const std::string& path, int error) {
-  throw ConfigurationError(
-      concat({path, ": cannot be read: ", std::generic_category().message(error),
-              "; must be a readable TOML file"}));
-}
-
 }  // namespace
 
 bool is_fused(const Configuration& configuration) {
@@ -182,17 +169,13 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
 }
 
 Configuration load_configuration(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) {
-    throw_unreadable(path, errno);
+  try {
+    return parse_configuration(read_toml(path), path);
+  } catch (const std::system_error& error) {
+    throw ConfigurationError(
+        concat({path, ": cannot be read: ", std::generic_category().message(error.code().value()),
+                "; must be a readable TOML file"}));
   }
-  std::string text(kMaxTomlBytes + 1, '\0');  // One byte more than allowed shows that it is more.
-  errno = 0;
-  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-  if (std::ferror(file.get()) != 0) {
-    throw_unreadable(path, errno);
-  }
-  return parse_configuration(text, path);
 }
 
 std::set<std::string> known_configuration_keys() {

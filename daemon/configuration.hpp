@@ -42,6 +42,7 @@ struct RadarConfiguration {
 
 struct OdometryConfiguration {
   bool enabled = true;
+  std::string state_file;  ///< Path of what was learned (LearnedFile); empty: none.
   OdometryOptions filter;
 };
 

@@ -47,6 +47,7 @@ void read_limits(TomlReader& reader, OdometryOptions& options) {
   reader.number("anchor_period_s", options.anchor_period_s, {0.1, 60.0});
   reader.number("max_lateness_s", options.max_lateness_s, {0.0, 1.0});
   reader.number("max_gap_s", options.max_gap_s, {0.1, 60.0});
+  reader.integer("rate_hz", options.rate_hz, 0, 200);
   reader.require_less("predicted_s", options.predicted_s, "lost_s", options.lost_s);
 }
 
@@ -54,6 +55,8 @@ void read_limits(TomlReader& reader, OdometryOptions& options) {
 
 void read_odometry(TomlReader reader, OdometryConfiguration& odometry) {
   reader.boolean("enabled", odometry.enabled);
+  reader.text("state_file", odometry.state_file,
+              {[](std::string_view) { return true; }, "a path, or \"\" for none"});
   read_vehicle(reader, odometry.filter);
   read_radar_errors(reader, odometry.filter);
   read_limits(reader, odometry.filter);

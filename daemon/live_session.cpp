@@ -5,11 +5,14 @@
 #include <algorithm>
 
 #include "daemon/clocks.hpp"
+#include "daemon/message_text.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr std::int64_t kReportPeriodUs = 1'000'000;
+/// Power is cut without notice; a flash memory bears a write a minute.
+constexpr std::int64_t kSavePeriodUs = 60'000'000;
 constexpr std::int64_t kFirstConnectPauseUs = 1'000'000;
 constexpr std::int64_t kLongestConnectPauseUs = 5'000'000;
 
@@ -24,14 +27,27 @@ std::optional<LcmPublisher> publisher_of(const Configuration& configuration,
 }  // namespace
 
 LiveSession::LiveSession(const Configuration& configuration, const std::string& lcm_url,
-                         const volatile std::sig_atomic_t* stop)
-    : source_(configuration, stop),
+                         const std::string& state_file, const volatile std::sig_atomic_t* stop)
+    : learned_file_(state_file, configuration),
+      source_(configuration, stop),
       publisher_(publisher_of(configuration, lcm_url)),
       feedback_(configuration, source_),
-      pipeline_(configuration, source_, sinks(), PipelineClock{&realtime_us, true}),
+      pipeline_(configuration, source_, sinks(), PipelineClock{&realtime_us, true},
+                state_file.empty() ? std::vector<std::optional<LearnedErrors>>()
+                                   : learned_file_.read_and_log()),
       reporter_(configuration, pipeline_, source_, publisher_ ? &*publisher_ : nullptr),
-      next_report_us_(monotonic_us() + kReportPeriodUs) {
+      next_report_us_(monotonic_us() + kReportPeriodUs),
+      next_save_us_(monotonic_us() + kSavePeriodUs) {
+  if (!state_file.empty()) {
+    learned_writer_.emplace(state_file);
+  }
   connect(monotonic_us());
+}
+
+LiveSession::~LiveSession() {
+  if (auto text = learned_writer_ ? learned_file_.text(pipeline_.learned()) : std::nullopt) {
+    learned_writer_->put(*std::move(text));
+  }
 }
 
 std::vector<OdometrySink*> LiveSession::sinks() {
@@ -57,6 +73,20 @@ void LiveSession::connect(std::int64_t monotonic_us) {
   next_connect_us_ = monotonic_us + connect_pause_us_;
 }
 
+void LiveSession::save_learned() {
+  if (!learned_writer_) {
+    return;
+  }
+  if (auto text = learned_file_.text(pipeline_.learned())) {
+    learned_writer_->offer(*std::move(text));
+  }
+  if (const auto problem = learned_writer_->problem()) {
+    log_.update("state file", problem->empty() ? 0 : 1, [&] {
+      return concat({*problem, "; what was learned of the radars is not kept"});
+    });
+  }
+}
+
 bool LiveSession::turn(const ServiceNotifier& notifier) {
   source_.expect(pipeline_.frames_to_next_scan());
   const bool goes_on = pipeline_.take_next(source_);
@@ -65,6 +95,10 @@ bool LiveSession::turn(const ServiceNotifier& notifier) {
     next_report_us_ = now_us + kReportPeriodUs;
     connect(now_us);
     notifier.status(reporter_.report());
+  }
+  if (now_us >= next_save_us_) {
+    next_save_us_ = now_us + kSavePeriodUs;
+    save_learned();
   }
   return goes_on;
 }

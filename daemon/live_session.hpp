@@ -9,6 +9,8 @@
 
 #include "daemon/configuration.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/learned_file.hpp"
+#include "daemon/learned_writer.hpp"
 #include "daemon/live_reporter.hpp"
 #include "daemon/motion_feedback.hpp"
 #include "daemon/pipeline.hpp"
@@ -20,9 +22,14 @@ namespace cremed {
 /// All that works by one configuration, live: made anew when the configuration changes.
 class LiveSession {
  public:
-  /// Opens what can be opened; the rest is tried again while it runs. `lcm_url` may be "none".
+  /// Opens what can be opened; the rest is tried again while it runs. `lcm_url` may be "none",
+  /// `state_file` (LearnedFile) empty.
   LiveSession(const Configuration& configuration, const std::string& lcm_url,
-              const volatile std::sig_atomic_t* stop);
+              const std::string& state_file, const volatile std::sig_atomic_t* stop);
+  /// Keeps what was learned.
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
 
   /// One event of the buses, and once a second a report to log and service manager. false: the end.
   bool turn(const ServiceNotifier& notifier);
@@ -31,7 +38,10 @@ class LiveSession {
  private:
   std::vector<OdometrySink*> sinks();
   void connect(std::int64_t monotonic_us);
+  void save_learned();
 
+  LearnedFile learned_file_;
+  std::optional<LearnedWriter> learned_writer_;
   SocketCan source_;
   std::optional<LcmPublisher> publisher_;
   MotionFeedback feedback_;
@@ -39,6 +49,7 @@ class LiveSession {
   LiveReporter reporter_;
   ConditionLog log_;
   std::int64_t next_report_us_ = 0;
+  std::int64_t next_save_us_ = 0;
   std::int64_t next_connect_us_ = 0;
   std::int64_t connect_pause_us_ = 0;
 };

@@ -20,7 +20,8 @@ class OdometrySink {
 
   virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
   virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
-  /// The state of the vehicle after each scan that is later than those before.
+  /// The state of the vehicle after each scan that is later than those before, or predicted at
+  /// odometry.rate_hz.
   virtual void on_odometry(const Odometry& /*odometry*/) {}
   /// Its motion since the odometry before, where there are two radars or more.
   virtual void on_fused(const EgoMotion& /*motion*/, std::int32_t /*solve_us*/) {}

@@ -15,10 +15,13 @@ constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 /// A radar's stamps go back by less if frames are reordered.
 constexpr std::int64_t kClockSetBackUs = 1'000'000;
 
-std::vector<OdometryRadar> odometry_radars(const Configuration& configuration) {
+std::vector<OdometryRadar> odometry_radars(
+    const Configuration& configuration, const std::vector<std::optional<LearnedErrors>>& learned) {
   std::vector<OdometryRadar> radars;
   for (const RadarConfiguration& radar : configuration.radars) {
-    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration});
+    const std::size_t i = radars.size();
+    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration,
+                      i < learned.size() ? learned[i] : std::nullopt});
   }
   return radars;
 }
@@ -47,10 +50,12 @@ OdometryOptions odometry_options(const Configuration& configuration) {
 }  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
-                   std::vector<OdometrySink*> sinks, PipelineClock clock)
+                   std::vector<OdometrySink*> sinks, PipelineClock clock,
+                   const std::vector<std::optional<LearnedErrors>>& learned)
     : source_(source),
       sinks_(std::move(sinks)),
       clock_(clock),
+      is_predicted_(configuration.odometry.filter.rate_hz != 0),
       standstill_mps_(configuration.odometry.filter.standstill_mps) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const RadarConfiguration& radar = configuration.radars[i];
@@ -58,7 +63,7 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
         std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
   }
   if (configuration.odometry.enabled) {
-    filter_.emplace(odometry_options(configuration), odometry_radars(configuration));
+    filter_.emplace(odometry_options(configuration), odometry_radars(configuration, learned));
   }
 }
 
@@ -128,9 +133,25 @@ void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) 
     return is_told && radar.assembler.is_overdue(now_us);
   };
   while (RadarChannel* radar = first_to_close(is_overdue)) {
+    const std::int64_t deadline_us = *radar->assembler.deadline_us();
+    reach(deadline_us);
+    event_us_ = deadline_us + 1;
     radar->assembler.expire(now_us);
     publish_motions(*radar, now_us);
   }
+  reach(now_us);
+}
+
+/// Scans held for too long go, and predictions that are due, each at its time.
+void Pipeline::reach(std::int64_t now_us) {
+  for (RadarChannel* held = first_held();
+       held != nullptr && *held->held_us + kLongestScanUs < now_us; held = first_held()) {
+    event_us_ = *held->held_us + kLongestScanUs + 1;
+    publish_predictions(event_us_ - 1);
+    publish_held();
+  }
+  event_us_ = now_us;
+  publish_predictions(now_us);
 }
 
 /// Of the open scans that fulfil the condition, whose time-out comes first?
@@ -225,7 +246,7 @@ void Pipeline::publish_held() {
 
 /// Whether a scan that began before the held one is still coming in.
 bool Pipeline::is_awaiting(const RadarChannel& radar) const {
-  return *time_us_ - *radar.held_us <= kLongestScanUs &&
+  return event_us_ - *radar.held_us <= kLongestScanUs &&
          std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
            const bool is_comparable =
                other->interface == radar.interface || (other->shares_clock && radar.shares_clock);
@@ -238,6 +259,7 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   const std::int64_t stamp_us = *radar.held_us;
   const TargetSet& targets = radar.estimator.targets();
   radar.held_us.reset();
+  publish_predictions(stamp_us);
   const std::int64_t begin_us = clock_.now_us();
   const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_believed(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
@@ -248,11 +270,22 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   for (const auto& each : radars_) {
     each->count(odometry);
   }
-  for (OdometrySink* sink : sinks_) {
-    sink->on_odometry(odometry);
+  if (!is_predicted_) {
+    for (OdometrySink* sink : sinks_) {
+      sink->on_odometry(odometry);
+    }
   }
   if (radars_.size() > 1) {
     publish_fused(targets.size(), solve_us);
+  }
+}
+
+/// Those that are due: at most max_gap_s of them, however long nothing was heard.
+void Pipeline::publish_predictions(std::int64_t now_us) {
+  while (const auto odometry = filter_ ? filter_->predict_next(now_us) : std::nullopt) {
+    for (OdometrySink* sink : sinks_) {
+      sink->on_odometry(*odometry);
+    }
   }
 }
 
@@ -308,7 +341,6 @@ void Pipeline::on_clock_step() {
 void Pipeline::on_idle(std::int64_t now_us) {
   on_time(now_us);
   expire(now_us);
-  publish_held();
 }
 
 std::size_t Pipeline::frames_to_next_scan() const {
@@ -319,6 +351,12 @@ std::size_t Pipeline::frames_to_next_scan() const {
     }
   }
   return least.value_or(0);
+}
+
+std::vector<std::optional<LearnedErrors>> Pipeline::learned() const {
+  const bool is_good = odometry_ && (odometry_->status == OdometryStatus::ok ||
+                                     odometry_->status == OdometryStatus::standing_still);
+  return is_good ? filter_->learned() : std::vector<std::optional<LearnedErrors>>();
 }
 
 void Pipeline::finish() {

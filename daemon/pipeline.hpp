@@ -34,14 +34,19 @@ struct PipelineClock {
 /// The odometry takes scans in the order of their stamps: one that is whole waits for those that
 /// began before it and are still coming in.
 ///
+/// With odometry.rate_hz sinks are told the odometry of the last scan predicted to the times of
+/// that rate, each once the stamp of a frame, a time-out or silence has reached it.
+///
 /// Time is that of the frames' stamps; `clock` is for durations only: solve_us and latency. So
 /// frames that come in the order of their stamps give the same motions in the same order, live and
 /// in a replay. After construction nothing allocates, locks or logs.
 class Pipeline {
  public:
-  /// `source` (for its counters) and `sinks` must outlive the pipeline.
+  /// `source` (for its counters) and `sinks` must outlive the pipeline. `learned`: of the radars in
+  /// a drive before; may be empty.
   Pipeline(const Configuration& configuration, const FrameSource& source,
-           std::vector<OdometrySink*> sinks, PipelineClock clock);
+           std::vector<OdometrySink*> sinks, PipelineClock clock,
+           const std::vector<std::optional<LearnedErrors>>& learned = {});
 
   /// Takes the source's next event all the way; false at its end. The loop of the daemon.
   bool take_next(FrameSource& source);
@@ -62,7 +67,10 @@ class Pipeline {
   [[nodiscard]] std::size_t frames_to_next_scan() const;
 
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
-  /// The last; nothing before the first.
+  /// What the odometry learned of the radars, by radar, for a next start; empty while it is neither
+  /// ok nor standing_still. Not for the hot path.
+  [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
+  /// The last at a scan; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 
  private:
@@ -80,6 +88,8 @@ class Pipeline {
   [[nodiscard]] bool is_awaiting(const RadarChannel& radar) const;
   void forget_odometry();
   void publish_odometry(RadarChannel& radar);
+  void reach(std::int64_t now_us);
+  void publish_predictions(std::int64_t now_us);
   void publish_fused(std::size_t targets, std::int64_t solve_us);
   void publish_status();
 
@@ -88,10 +98,12 @@ class Pipeline {
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<OdometryFilter> filter_;
+  bool is_predicted_;
   double standstill_mps_;
   std::optional<Odometry> odometry_;
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::uint8_t last_interface_ = 0;      // Of the last frame.
+  std::int64_t event_us_ = 0;            // What happens now happens at that time.
   std::int64_t next_status_us_ = 0;
 };
 

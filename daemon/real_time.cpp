@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 
@@ -44,6 +45,8 @@ RealTimeState enter_real_time() {
   state.has_priority =
       (policy == SCHED_FIFO || policy == SCHED_RR) && ::sched_getparam(0, &parameters) == 0;
   state.priority = parameters.sched_priority;
+  // Another thread's own arena would be locked too, 64 MiB of it.
+  ::mallopt(M_ARENA_MAX, 1);
   state.memory_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   touch_stack();
   return state;

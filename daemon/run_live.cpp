@@ -52,7 +52,10 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
                                    const Configuration& configuration,
                                    const volatile std::sig_atomic_t* stop) {
   return std::make_unique<LiveSession>(
-      configuration, command_line.lcm_url.value_or(configuration.output.lcm_url), stop);
+      configuration, command_line.lcm_url.value_or(configuration.output.lcm_url),
+      command_line.state_file.value_or(
+          configuration.odometry.enabled ? configuration.odometry.state_file : std::string()),
+      stop);
 }
 
 /// The file's new configuration, or nothing if it is bad.

@@ -17,8 +17,10 @@
 #include "daemon/clocks.hpp"
 #include "daemon/csv_writer.hpp"
 #include "daemon/lcm_publisher.hpp"
+#include "daemon/learned_file.hpp"
 #include "daemon/odometry_writer.hpp"
 #include "daemon/pipeline.hpp"
+#include "daemon/replaced_file.hpp"
 #include "daemon/replay.hpp"
 #include "daemon/report.hpp"
 #include "daemon/signals.hpp"
@@ -82,7 +84,7 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   const std::string csv = command_line.output_csv.value_or(output.csv);
   const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
-  refuse_overwriting(command_line, {csv, odometry, tum});
+  refuse_overwriting(command_line, {csv, odometry, tum, command_line.state_file.value_or("")});
   if (!odometry.empty() && !configuration.odometry.enabled) {
     throw UsageError("there is no odometry to write: odometry.enabled = false");
   }
@@ -199,15 +201,24 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
   const Sinks sinks = open_sinks(command_line, configuration);
+  std::optional<LearnedFile> learned;
+  if (command_line.state_file) {
+    learned.emplace(*command_line.state_file, configuration);
+  }
   const PipelineClock no_clock{[] { return std::int64_t{0}; }};
-  Pipeline pipeline(configuration, *replay, sinks.pointers(),
-                    command_line.timing ? PipelineClock{&monotonic_us} : no_clock);
+  Pipeline pipeline(
+      configuration, *replay, sinks.pointers(),
+      command_line.timing ? PipelineClock{&monotonic_us} : no_clock,
+      learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
   const std::int64_t begin_us = monotonic_us();
   while (pipeline.take_next(*replay)) {
   }
   pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
+  if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {
+    replace_file(learned->path(), *text);
+  }
 
   const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",

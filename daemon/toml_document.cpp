@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/toml_document.hpp"
 
+#include <cerrno>
+#include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "daemon/message_text.hpp"
 #include "daemon/toml.hpp"
@@ -95,7 +98,25 @@ bool prepare(std::string& text, Diagnostics& diagnostics) {
   return true;
 }
 
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
 }  // namespace
+
+std::string read_toml(const std::string& path) {
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  if (!file) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  std::string text(kMaxTomlBytes + 1, '\0');  // One byte more than allowed shows that it is more.
+  errno = 0;
+  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  if (std::ferror(file.get()) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  return text;
+}
 
 std::shared_ptr<const toml::table> parse_toml(std::string_view text, Diagnostics& diagnostics) {
   if (text.size() > kMaxTomlBytes) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "daemon/diagnostics.hpp"
@@ -19,6 +20,10 @@ namespace cremed {
 
 /// A larger file is no configuration.
 inline constexpr std::size_t kMaxTomlBytes = std::size_t{256} * 1024;
+
+/// What a file holds, of a file that is too large only so much that it shows. Throws
+/// std::system_error.
+std::string read_toml(const std::string& path);
 
 /// Syntax errors are added to `diagnostics`; the result is then null. Throws nothing.
 std::shared_ptr<const toml::table> parse_toml(std::string_view text, Diagnostics& diagnostics);

@@ -31,6 +31,7 @@ class GaussianState {
   /// The state becomes independent of all others.
   void set(int i, double value, double variance);
   void add_variance(int i, double variance) { covariance_(i, i) += variance; }
+  void add_covariance(int i, int j, double covariance) { covariance_(i, j) += covariance; }
   /// x_i becomes factor x_i + noise.
   void forget(int i, double factor, double noise_variance);
 

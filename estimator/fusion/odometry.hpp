@@ -27,8 +27,9 @@ inline constexpr std::size_t kOdometryStatusCount = 6;
 /// The name of a status as in the CSV, e.g. "ok".
 std::string_view to_string(OdometryStatus status);
 
-/// Where the vehicle is and how it moves, at `utime_us`. Poses are (x_m, y_m, yaw_rad) of the
-/// vehicle frame (rear axle), covariances in the same order.
+/// Where the vehicle is and how it moves, at `utime_us`: of a scan, or predicted from the last
+/// scan. Poses are (x_m, y_m, yaw_rad) of the vehicle frame (rear axle), covariances in the same
+/// order.
 struct Odometry {
   std::int64_t utime_us = 0;
   OdometryStatus status = OdometryStatus::initialising;
@@ -49,7 +50,8 @@ struct Odometry {
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
 
-  /// Motion since the output before, at utime_before_us: pose in the frame of that.
+  /// Motion since the output before, at utime_before_us: pose in the frame of that. Not told of a
+  /// prediction; utime_before_us is then that of the prediction before.
   std::int64_t utime_before_us = 0;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();

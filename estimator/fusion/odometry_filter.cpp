@@ -51,11 +51,19 @@ std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
   return result;
 }
 
+std::vector<std::optional<LearnedErrors>> learned_before(std::span<const OdometryRadar> radars) {
+  std::vector<std::optional<LearnedErrors>> result;
+  for (const OdometryRadar& radar : radars) {
+    result.push_back(radar.learned);
+  }
+  return result;
+}
+
 }  // namespace
 
 OdometryFilter::OdometryFilter(const OdometryOptions& options,
                                std::span<const OdometryRadar> radars)
-    : options_(options), state_(options, mounts(radars)) {
+    : options_(options), state_(options, mounts(radars), learned_before(radars)) {
   for (const OdometryRadar& radar : radars) {
     tracks_.push_back(
         std::make_unique<RadarTrack>(options_, radar.vehicle_from_radar, radar.registration));
@@ -72,8 +80,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   if (seconds_between(stamp_us, time_us_) <= options_.max_lateness_s &&
       tracks_[radar]->is_in_order(stamp_us) && targets.is_finite()) {
-    state_.advance(seconds_between(time_us_, stamp_us));
-    time_us_ = std::max(time_us_, stamp_us);
+    advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     believe(radar, is_believed);
     if (use_doppler(radar, targets, stamp_us)) {
@@ -81,8 +88,24 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     }
   }
   Odometry odometry;
-  tell(odometry);
+  tell(state_.vehicle(), anchor_, time_us_, odometry);
+  odometry.is_new = time_us_ > output_us_;
+  if (odometry.is_new) {
+    tell_motion(odometry);
+  }
+  odometry.odom_pose = odom_pose_;
   return odometry;
+}
+
+/// Stops at the next anchor if it is on the way.
+void OdometryFilter::advance_to(std::int64_t stamp_us) {
+  if (next_anchor_us_ && *next_anchor_us_ <= stamp_us) {
+    state_.advance(seconds_between(time_us_, *next_anchor_us_));
+    time_us_ = *next_anchor_us_;
+    renew_anchor();
+  }
+  state_.advance(seconds_between(time_us_, stamp_us));
+  time_us_ = std::max(time_us_, stamp_us);
 }
 
 /// What a radar has taught that is believed no longer is forgotten as far as it goes: it may have
@@ -100,17 +123,19 @@ void OdometryFilter::believe(std::size_t radar, bool is_believed) {
 void OdometryFilter::forget() {
   bridge(options_.max_gap_s);
   has_started_ = false;
+  predicted_us_ = std::numeric_limits<std::int64_t>::min();
 }
 
-/// The pose since the start stays where it is; where the vehicle went meanwhile nobody knows.
+/// The pose since the start stays where it was told last; where the vehicle went meanwhile nobody
+/// knows.
 void OdometryFilter::bridge(double gap_s) {
   const double way_m = options_.start_speed_std_mps * gap_s;
   const double turn_rad = options_.start_yaw_rate_std_radps * gap_s;
-  odom_covariance_ =
-      composed_covariance(anchor_pose_, odom_covariance_, state_.gaussian.mean().head<kPose>(),
-                          state_.gaussian.covariance().topLeftCorner<kPose, kPose>());
-  odom_covariance_.diagonal() += Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
-  anchor_pose_ = odom_pose_;
+  anchor_ = anchor_.next(time_us_, state_.vehicle());
+  anchor_.covariance.diagonal() +=
+      Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
+  odom_pose_ = gap_s > 0.0 && predicted_us_ > time_us_ ? predicted_odom_pose_ : odom_pose_;
+  anchor_.pose = odom_pose_;
 }
 
 void OdometryFilter::start(std::int64_t stamp_us) {
@@ -122,13 +147,15 @@ void OdometryFilter::start(std::int64_t stamp_us) {
   used_scans_ = 0;
   doubt_us_ = stamp_us - kLongAgoUs;
   time_us_ = used_us_ = clear_us_ = stamp_us;
+  predicted_us_ = std::max(predicted_us_, stamp_us);
   anchor_here();
 }
 
 /// Knowing nothing but that.
 void OdometryFilter::anchor_here() {
   state_.start();
-  anchor_us_ = output_us_ = time_us_;
+  anchor_.utime_us = output_us_ = time_us_;
+  next_anchor_us_.reset();
 }
 
 bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
@@ -299,9 +326,9 @@ bool OdometryFilter::is_known() const {
          count_verdicts(time_us_, true) > count_verdicts(time_us_, false);
 }
 
-OdometryStatus OdometryFilter::status() const {
-  const double unused_s = seconds_between(used_us_, time_us_);
-  const bool is_doubtful = seconds_between(doubt_us_, time_us_) <= kVerdictS;
+OdometryStatus OdometryFilter::status(const VehicleEstimate& vehicle, std::int64_t utime_us) const {
+  const double unused_s = seconds_between(used_us_, utime_us);
+  const bool is_doubtful = seconds_between(doubt_us_, utime_us) <= kVerdictS;
   if (is_doubtful && (!is_settled_ || unused_s > options_.predicted_s)) {
     return OdometryStatus::ambiguous;
   }
@@ -315,40 +342,43 @@ OdometryStatus OdometryFilter::status() const {
   if (unused_s > options_.predicted_s) {
     return OdometryStatus::predicted;
   }
-  if (seconds_between(clear_us_, time_us_) > options_.ambiguous_s) {
+  if (seconds_between(clear_us_, utime_us) > options_.ambiguous_s) {
     return OdometryStatus::ambiguous;
   }
-  const bool stands =
-      std::abs(state_.gaussian.mean(kSpeed)) <= options_.standstill_mps &&
-      state_.gaussian.std(kSpeed) <= options_.standstill_mps &&
-      std::abs(state_.gaussian.mean(kYawRate)) <= 3.0 * state_.gaussian.std(kYawRate);
+  const auto std = [&](int i) { return std::sqrt(vehicle.covariance(i, i)); };
+  const bool stands = std::abs(vehicle.mean(kSpeed)) <= options_.standstill_mps &&
+                      std(kSpeed) <= options_.standstill_mps &&
+                      std::abs(vehicle.mean(kYawRate)) <= 3.0 * std(kYawRate);
   return stands ? OdometryStatus::standing_still : OdometryStatus::ok;
 }
 
-void OdometryFilter::tell(Odometry& odometry) {
-  odometry.utime_us = time_us_;
-  odometry.utime_anchor_us = anchor_us_;
-  odometry.status = status();
-  odometry.pose = state_.gaussian.mean().head<kPose>();
-  odometry.covariance = state_.gaussian.covariance().topLeftCorner<kPose, kPose>();
-  odometry.odom_covariance = symmetric(
-      composed_covariance(anchor_pose_, odom_covariance_, odometry.pose, odometry.covariance));
-  const double v = state_.gaussian.mean(kSpeed);
-  const double slip = state_.gaussian.mean(kSlip);
+OdometryFilter::Anchor OdometryFilter::Anchor::next(std::int64_t at_us,
+                                                    const VehicleEstimate& vehicle) const {
+  const Eigen::Vector3d moved = vehicle.mean.head<kPose>();
+  return {at_us, composed_pose(pose, moved),
+          symmetric(composed_covariance(pose, covariance, moved,
+                                        vehicle.covariance.topLeftCorner<kPose, kPose>()))};
+}
+
+void OdometryFilter::tell(const VehicleEstimate& vehicle, const Anchor& anchor,
+                          std::int64_t utime_us, Odometry& odometry) const {
+  odometry.utime_us = utime_us;
+  odometry.utime_anchor_us = anchor.utime_us;
+  odometry.status = status(vehicle, utime_us);
+  odometry.pose = vehicle.mean.head<kPose>();
+  odometry.covariance = symmetric(vehicle.covariance.topLeftCorner<kPose, kPose>());
+  odometry.odom_covariance = anchor.next(utime_us, vehicle).covariance;
+  const double v = vehicle.mean(kSpeed);
+  const double slip = vehicle.mean(kSlip);
   Eigen::Matrix3d by_state;
   by_state << 1.0, 0.0, 0.0, slip, 0.0, v, 0.0, 1.0, 0.0;
   constexpr std::array<int, 3> kTwist{kSpeed, kYawRate, kSlip};
-  const Eigen::Matrix3d covariance = state_.gaussian.covariance()(kTwist, kTwist);
-  odometry.twist = {v, slip * v, state_.gaussian.mean(kYawRate)};
+  const Eigen::Matrix3d covariance = vehicle.covariance(kTwist, kTwist);
+  odometry.twist = {v, slip * v, vehicle.mean(kYawRate)};
   odometry.twist_covariance = symmetric(by_state * covariance * by_state.transpose());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     odometry.left_out |= tracks_[i]->trust.is_left_out ? 1U << i : 0U;
   }
-  odometry.is_new = time_us_ > output_us_;
-  if (odometry.is_new) {
-    tell_motion(odometry);
-  }
-  odometry.odom_pose = odom_pose_;
 }
 
 void OdometryFilter::tell_motion(Odometry& odometry) {
@@ -362,14 +392,76 @@ void OdometryFilter::tell_motion(Odometry& odometry) {
   odometry.radars = radars_;
   odom_pose_ = composed_pose(odom_pose_, odometry.motion);
   output_us_ = time_us_;
+  radars_since_prediction_ |= radars_;
   radars_ = 0;
   state_.clone_output();
-  if (seconds_between(anchor_us_, time_us_) >= options_.anchor_period_s) {
-    odom_covariance_ = odometry.odom_covariance;
-    anchor_pose_ = composed_pose(anchor_pose_, odometry.pose);
-    state_.renew_anchor();
-    anchor_us_ = time_us_;
+  if (options_.rate_hz == 0 &&
+      seconds_between(anchor_.utime_us, time_us_) >= options_.anchor_period_s) {
+    renew_anchor();
   }
+}
+
+/// It is where the vehicle is now.
+void OdometryFilter::renew_anchor() {
+  anchor_ = anchor_.next(time_us_, state_.vehicle());
+  state_.renew_anchor();
+  next_anchor_us_.reset();
+}
+
+/// The state stays where the last scan left it, so that one that was measured before this time
+/// still finds it there. It passes a new anchor later than the predictions that are told in its
+/// frame.
+std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
+  if (options_.rate_hz == 0 || !has_started_) {
+    return std::nullopt;
+  }
+  const std::int64_t utime_us =
+      next_multiple_us(std::max(predicted_us_, time_us_ - 1), options_.rate_hz);
+  if (utime_us > now_us || seconds_between(time_us_, utime_us) > options_.max_gap_s) {
+    return std::nullopt;
+  }
+  const Odometry odometry = predicted(utime_us);
+  predicted_us_ = utime_us;
+  predicted_odom_pose_ = odometry.odom_pose;
+  radars_since_prediction_ = 0;
+  const double anchored_s = seconds_between(anchor_.utime_us, utime_us);
+  if (!next_anchor_us_ && anchored_s >= options_.anchor_period_s) {
+    next_anchor_us_ = utime_us;
+  }
+  return odometry;
+}
+
+Odometry OdometryFilter::predicted(std::int64_t utime_us) const {
+  VehicleEstimate vehicle = state_.vehicle();
+  std::int64_t from_us = time_us_;
+  Anchor anchor = anchor_;
+  anchor.pose = composed_pose(
+      odom_pose_,
+      relative_pose(state_.gaussian.mean().segment<kPose>(kOutput), Eigen::Vector3d::Zero()));
+  if (next_anchor_us_) {
+    vehicle = vehicle.predicted(seconds_between(from_us, *next_anchor_us_), options_);
+    from_us = *next_anchor_us_;
+    anchor = anchor.next(from_us, vehicle);
+    vehicle = vehicle.at_origin();
+  }
+  Odometry odometry;
+  tell(vehicle.predicted(seconds_between(from_us, utime_us), options_), anchor, utime_us, odometry);
+  odometry.is_new = true;
+  odometry.utime_before_us = predicted_us_;
+  odometry.odom_pose = composed_pose(anchor.pose, odometry.pose);
+  odometry.radars = radars_since_prediction_;
+  return odometry;
+}
+
+std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
+  std::vector<std::optional<LearnedErrors>> result(tracks_.size());
+  const std::vector<LearnedErrors> learned = state_.learned();
+  for (std::size_t i = 0; i < learned.size(); ++i) {
+    if (!report(i).is_left_out) {
+      result[i] = learned[i];
+    }
+  }
+  return result;
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

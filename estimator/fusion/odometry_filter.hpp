@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +25,7 @@ namespace cremed {
 struct OdometryRadar {
   Pose2 vehicle_from_radar;
   RegistrationOptions registration;
+  std::optional<LearnedErrors> learned = std::nullopt;  ///< In a drive before.
 };
 
 /// One state of the vehicle from the scans of all its radars: an extended Kalman filter.
@@ -57,16 +60,34 @@ class OdometryFilter {
   Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                   bool is_believed = true);
 
+  /// With options.rate_hz: the next output due by `now_us`, which the state is predicted to;
+  /// nothing if there is none, before the first scan, and once the last is max_gap_s ago.
+  /// Predictions are told in order, once each; the next may be earlier than the time of a scan that
+  /// comes later.
+  std::optional<Odometry> predict_next(std::int64_t now_us);
+
   /// The clock of the stamps was set: begins anew, but for the pose since the start.
   void forget();
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
+  /// What a next drive may begin with, by radar: nothing of one that is left out. Allocates.
+  [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
+  /// Its pose since the start.
+  struct Anchor {
+    std::int64_t utime_us = 0;
+    Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+    [[nodiscard]] Anchor next(std::int64_t utime_us, const VehicleEstimate& vehicle) const;
+  };
   void bridge(double gap_s);
   void start(std::int64_t stamp_us);
   void anchor_here();
+  void advance_to(std::int64_t stamp_us);
+  void renew_anchor();
   void believe(std::size_t radar, bool is_believed);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
@@ -76,9 +97,11 @@ class OdometryFilter {
   void use_pair(std::size_t radar, std::size_t keyframe, const RadarTrack::Pair& pair);
   void ask_majority(std::int64_t stamp_us);
   [[nodiscard]] int count_verdicts(std::int64_t stamp_us, bool agree) const;
-  void tell(Odometry& odometry);
+  void tell(const VehicleEstimate& vehicle, const Anchor& anchor, std::int64_t utime_us,
+            Odometry& odometry) const;
   void tell_motion(Odometry& odometry);
-  [[nodiscard]] OdometryStatus status() const;
+  [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
+  [[nodiscard]] OdometryStatus status(const VehicleEstimate& vehicle, std::int64_t utime_us) const;
   [[nodiscard]] bool is_known() const;
   [[nodiscard]] bool is_unknown() const;
 
@@ -92,12 +115,15 @@ class OdometryFilter {
   std::int64_t clear_us_ = 0;  // Last one with most of its scan's targets behind it.
   std::int64_t doubt_us_ = 0;  // Last scan that showed two worlds.
   int used_scans_ = 0;
-  std::int64_t anchor_us_ = 0;
+  Anchor anchor_;
   std::int64_t output_us_ = 0;
   std::uint32_t radars_ = 0;
+  /// The last prediction, and what took part since; the one that is to be the next anchor.
+  std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();
+  Eigen::Vector3d predicted_odom_pose_ = Eigen::Vector3d::Zero();
+  std::uint32_t radars_since_prediction_ = 0;
+  std::optional<std::int64_t> next_anchor_us_;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d odom_covariance_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d anchor_pose_ = Eigen::Vector3d::Zero();  // Since the start.
 };
 
 }  // namespace cremed

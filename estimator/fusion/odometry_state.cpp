@@ -7,15 +7,11 @@
 #include <utility>
 
 #include "estimator/fusion/pose_chain.hpp"
-#include "estimator/fusion/vehicle_motion.hpp"
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
-
-/// Accelerations are constant within so short a step.
-constexpr double kMaxStepS = 0.1;
 
 double squared(double value) { return value * value; }
 
@@ -32,12 +28,39 @@ void forget(GaussianState& state, int which, const ForgettingNoise& noise, doubl
   state.forget(which, left, squared(noise.std + more) * (1.0 - left * left));
 }
 
+std::vector<LearnedError> unlearned_of(const OdometryOptions& options,
+                                       const std::vector<Pose2>& mounts,
+                                       LearnedError LearnedErrors::*which) {
+  std::vector<LearnedError> unlearned;
+  for (const Pose2& mount : mounts) {
+    unlearned.push_back(unlearned_errors(options, mount).*which);
+  }
+  return unlearned;
+}
+
+SharedPrior prior_of(const OdometryOptions& options, const std::vector<Pose2>& mounts,
+                     const std::vector<std::optional<LearnedErrors>>& learned,
+                     LearnedError LearnedErrors::*which, double restart_std) {
+  std::vector<std::optional<LearnedError>> errors(mounts.size());
+  for (std::size_t i = 0; i < mounts.size(); ++i) {
+    if (i < learned.size() && learned[i]) {
+      errors[i] = (*learned[i]).*which;
+    }
+  }
+  return prior_after(errors, unlearned_of(options, mounts, which), restart_std);
+}
+
 }  // namespace
 
-OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts)
+OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
+                             const std::vector<std::optional<LearnedErrors>>& learned)
     : gaussian(size(static_cast<int>(mounts.size()))),
       options_(options),
-      mounts_(std::move(mounts)) {}
+      mounts_(std::move(mounts)),
+      mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
+                          options.mount_yaw_restart_std_rad)),
+      doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
+                              options.doppler_scale_restart_std)) {}
 
 void OdometryState::start() {
   for (int i = 0; i < gaussian.size(); ++i) {
@@ -52,7 +75,22 @@ void OdometryState::start() {
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
   gaussian.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    start_errors(i);
+    start_passing_errors(i);
+  }
+  start_shared(kMountYaw, mount_yaw_);
+  start_shared(kDopplerScale, doppler_scale_);
+}
+
+void OdometryState::start_shared(int which, const SharedPrior& prior) {
+  for (std::size_t i = 0; i < prior.own.size(); ++i) {
+    gaussian.set(error(i, which), prior.own[i].value, squared(prior.own[i].std));
+  }
+  for (std::size_t i = 0; i < prior.own.size(); ++i) {
+    for (std::size_t j = 0; j < prior.own.size(); ++j) {
+      if (prior.own[i].is_learned && prior.own[j].is_learned) {
+        gaussian.add_covariance(error(i, which), error(j, which), prior.common_variance);
+      }
+    }
   }
 }
 
@@ -66,13 +104,21 @@ void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matr
 }
 
 void OdometryState::start_errors(std::size_t radar) {
+  const LearnedErrors unlearned = unlearned_errors(options_, mounts_[radar]);
+  mount_yaw_.own[radar] = {unlearned.mount_yaw_rad, false};
+  doppler_scale_.own[radar] = {unlearned.doppler_scale, false};
+  gaussian.set(error(radar, kMountYaw), 0.0, squared(unlearned.mount_yaw_rad.std));
+  gaussian.set(error(radar, kDopplerScale), 0.0, squared(unlearned.doppler_scale.std));
+  start_passing_errors(radar);
+}
+
+/// All but mount yaw and Doppler scale.
+void OdometryState::start_passing_errors(std::size_t radar) {
   const int first = first_of(radar);
   const double across = across_share(mounts_[radar]);
   const auto set = [&](int which, double std, double more = 0.0) {
     gaussian.set(first + which, 0.0, squared(std) + squared(more));
   };
-  set(kMountYaw, options_.mount_yaw_std_rad, across * options_.mount_yaw_across_std_rad);
-  set(kDopplerScale, options_.doppler_scale_std, across * options_.azimuth_scale_std);
   set(kDopplerX, options_.doppler_x.std);
   set(kDopplerY, options_.doppler_y.std);
   set(kOffset, options_.offset.std, across * options_.offset_across_mps);
@@ -84,14 +130,19 @@ void OdometryState::start_errors(std::size_t radar) {
 }
 
 void OdometryState::advance(double dt_s) {
-  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxStepS) {
-    const double step_s = std::min(left_s, kMaxStepS);
+  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
+    const double step_s = std::min(left_s, kMaxMotionStepS);
     const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
     const double turning = std::abs(gaussian.mean(kYawRate));
     forget(gaussian, kCommonOffset, options_.common_offset,
            options_.common_offset_per_yaw_rate_m * turning, step_s);
   }
+}
+
+VehicleEstimate OdometryState::vehicle() const {
+  return {gaussian.mean().head<kMotionStates>(),
+          gaussian.covariance().topLeftCorner<kMotionStates, kMotionStates>()};
 }
 
 void OdometryState::advance_errors(std::size_t radar, double dt_s) {
@@ -144,6 +195,24 @@ void OdometryState::renew_anchor() {
   for (int i = 0; i < kPose; ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
+}
+
+std::vector<LearnedErrors> OdometryState::learned() const {
+  const auto differences_of = [&](int which, LearnedError LearnedErrors::*error) {
+    std::vector<int> states;
+    for (std::size_t i = 0; i < mounts_.size(); ++i) {
+      states.push_back(this->error(i, which));
+    }
+    return differences(gaussian.mean()(states), gaussian.covariance()(states, states),
+                       unlearned_of(options_, mounts_, error));
+  };
+  const auto yaws = differences_of(kMountYaw, &LearnedErrors::mount_yaw_rad);
+  const auto scales = differences_of(kDopplerScale, &LearnedErrors::doppler_scale);
+  std::vector<LearnedErrors> result;
+  for (std::size_t i = 0; i < std::min(yaws.size(), scales.size()); ++i) {
+    result.push_back({yaws[i], scales[i]});
+  }
+  return result;
 }
 
 MeasurementModel OdometryState::model(std::size_t radar) const {

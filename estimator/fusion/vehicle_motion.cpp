@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/fusion/vehicle_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cremed {
@@ -81,6 +82,25 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   step.jacobian(kBodyVelocity, kBodyVelocity) = left;
   step.noise(kBodyVelocity, kBodyVelocity) = body.std * body.std * (1.0 - left * left);
   return step;
+}
+
+VehicleEstimate VehicleEstimate::predicted(double dt_s, const OdometryOptions& options) const {
+  VehicleEstimate result = *this;
+  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
+    const MotionStep step = moved(result.mean, std::min(left_s, kMaxMotionStepS), options);
+    const MotionStep::Matrix moved_covariance = step.jacobian * result.covariance;
+    result.covariance = moved_covariance * step.jacobian.transpose() + step.noise;
+    result.mean = step.state;
+  }
+  return result;
+}
+
+VehicleEstimate VehicleEstimate::at_origin() const {
+  VehicleEstimate result = *this;
+  result.mean.head<kPose>().setZero();
+  result.covariance.topRows<kPose>().setZero();
+  result.covariance.leftCols<kPose>().setZero();
+  return result;
 }
 
 }  // namespace cremed

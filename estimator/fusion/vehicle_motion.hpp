@@ -30,4 +30,18 @@ struct MotionStep {
 /// `dt_s` may be negative: the state at an earlier time, accelerations held.
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options);
 
+/// Accelerations are constant within so short a step.
+inline constexpr double kMaxMotionStepS = 0.1;
+
+/// What is known of the vehicle.
+struct VehicleEstimate {
+  MotionStep::Vector mean;
+  MotionStep::Matrix covariance;
+
+  /// Once it has moved on.
+  [[nodiscard]] VehicleEstimate predicted(double dt_s, const OdometryOptions& options) const;
+  /// In the frame of its own pose, which is known there.
+  [[nodiscard]] VehicleEstimate at_origin() const;
+};
+
 }  // namespace cremed

@@ -85,8 +85,8 @@ std::ostream& operator<<(std::ostream& out, const ForgettingNoise& noise) {
 std::string text_of(const OdometryConfiguration& odometry) {
   std::ostringstream out;
   out.precision(17);
-  const auto& [enabled, o] = odometry;
-  out << enabled << '\n'
+  const auto& [enabled, state_file, o] = odometry;
+  out << enabled << '|' << state_file << '\n'
       << o.acceleration << ' ' << o.yaw_acceleration << ' ' << o.slip_std_rad << ' ' << o.slip_walk
       << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' ' << o.start_yaw_rate_std_radps
       << '\n'
@@ -95,7 +95,7 @@ std::string text_of(const OdometryConfiguration& odometry) {
       << ' ' << o.offset << ' ' << o.azimuth_scale_std << '\n'
       << o.min_targets << ' ' << o.max_doppler_nis << ' ' << o.max_position_nis << ' '
       << o.standstill_mps << ' ' << o.predicted_s << ' ' << o.lost_s << ' ' << o.anchor_period_s
-      << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << '\n';
+      << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << ' ' << o.rate_hz << '\n';
   return out.str();
 }
 

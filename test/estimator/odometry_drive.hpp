@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,12 +33,15 @@ class OdometryDrive {
   };
 
   OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t seed,
-                const OdometryOptions& options = {})
+                const OdometryOptions& options = {},
+                const std::vector<std::optional<LearnedErrors>>& learned = {})
       : random_(seed) {
     std::vector<OdometryRadar> radars;
     for (const Pose2& mount : mounts) {
       radars_.push_back({mount, mount});
-      radars.push_back({mount, RegistrationOptions()});
+      const std::size_t i = radars.size();
+      radars.push_back(
+          {mount, RegistrationOptions(), i < learned.size() ? learned[i] : std::nullopt});
     }
     filter_ = std::make_unique<OdometryFilter>(options, radars);
     points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);

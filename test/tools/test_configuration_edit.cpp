@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
+#include "daemon/replaced_file.hpp"
 #include "tools/eval/configuration_edit.hpp"
-#include "tools/eval/replaced_file.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {
@@ -136,7 +136,10 @@ TEST_CASE("a file is replaced through a link, with its permissions, and no other
   CHECK((status.st_mode & 07777U) == 0640U);
   const std::filesystem::path parent = std::filesystem::path(file).parent_path();
   CHECK(std::distance(std::filesystem::directory_iterator(parent), {}) == 2);
-  CHECK_THROWS(replace_file(folder.file("none.toml"), ""));
+  replace_file(folder.file("none.toml"), "first");
+  REQUIRE(::stat(folder.file("none.toml").c_str(), &status) == 0);
+  CHECK((status.st_mode & 07777U) == 0644U);
+  CHECK_THROWS(replace_file(folder.file("none/none.toml"), ""));
 }
 
 }  // namespace

@@ -259,3 +259,39 @@ TEST_CASE("cremed-eval drive says what is wrong") {
   CHECK(result.status == row.status);
   CHECK(result.error.find(row.message) != std::string::npos);
 }
+
+TEST_CASE(
+    "cremed-eval drive --baselines puts the methods of others beside ours, on the same scans") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("radars.toml"))
+      << "[[radar]]\nname = \"front\"\ntype = \"ars408\"\ninterface = \"can0\"\n"
+         "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.0 }\n"
+         "[[radar]]\nname = \"rear\"\ntype = \"ars408\"\ninterface = \"can1\"\n"
+         "mount = { x_m = -0.6, y_m = 0.0, yaw_rad = 3.1 }\n";
+  const std::string config = " --config " + folder.file("radars.toml");
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration 12" + config + " --output " + log + " --truth " +
+                       folder.file("true.csv"))
+              .status == 0);
+  REQUIRE(run_tool("cremed", folder,
+                   "--replay " + log + config + " --lcm-url none --output-csv " +
+                       folder.file("odometry.csv"))
+              .status == 0);
+  const std::string drive = "drive " + folder.file("odometry.csv") + " " + folder.file("true.csv");
+  const ToolRun result = run(folder, drive + config + " --baselines " + log);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  const auto rows = cells(result.output);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[3][0] == "kellner");
+  CHECK(rows[4][0] == "submap");
+  for (const std::size_t baseline : {3, 4}) {
+    CHECK(std::stoi(rows[baseline][1]) > 120);
+    CHECK(std::stod(rows[baseline][2]) < 0.03);
+    CHECK(std::stod(rows[baseline][3]) < 0.4);
+    CHECK(std::stod(rows[baseline][2]) > 0.0);
+  }
+  CHECK(run(folder, drive + " --baselines " + log).status == 2);
+  CHECK(run(folder, drive + config).status == 2);
+}

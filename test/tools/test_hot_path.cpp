@@ -29,9 +29,12 @@ Drive simulate() {
 
 /// Text in, messages out, without an allocation: every line of the log is parsed and goes through
 /// both radars' stages into the sinks. Returns the number of allocations.
-long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks) {
+long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks,
+                           int rate_hz = 0) {
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, sinks, {&no_clock});
+  Configuration configuration = configuration_of(simulated.radars);
+  configuration.odometry.filter.rate_hz = rate_hz;
+  Pipeline pipeline(configuration, source, sinks, {&no_clock});
   std::string_view rest = simulated.log;
   const AllocationGuard guard;
   while (!rest.empty()) {
@@ -89,7 +92,8 @@ TEST_CASE("From a line of text to ego-motions, odometry and trajectory, nothing 
   OdometryWriter odometry("/dev/null");
   TumWriter tum("/dev/null", std::nullopt);
   OdometryCounter counter;
-  CHECK(allocations_of_replay(simulated, {&csv, &odometry, &tum, &counter}) == 0);
+  const int rate_hz = GENERATE(0, 50);
+  CHECK(allocations_of_replay(simulated, {&csv, &odometry, &tum, &counter}, rate_hz) == 0);
   CHECK(counter.good_odometries > 100);
 }
 

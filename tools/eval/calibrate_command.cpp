@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "daemon/configuration.hpp"
+#include "daemon/replaced_file.hpp"
 #include "tools/eval/calibration.hpp"
 #include "tools/eval/calibration_keys.hpp"
 #include "tools/eval/configuration_edit.hpp"
 #include "tools/eval/input_file.hpp"
-#include "tools/eval/replaced_file.hpp"
 
 namespace cremed {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "tools/eval/baselines.hpp"
 #include "tools/eval/drive_json.hpp"
 #include "tools/eval/drive_report.hpp"
 #include "tools/eval/drive_tables.hpp"
@@ -63,6 +64,15 @@ std::vector<TruthAgainstWheels> compare_references(const DriveReference& referen
   return result;
 }
 
+void add_baselines(const DriveFiles& files, const DriveReference& reference,
+                   std::vector<SourceEvaluation>& sources) {
+  if (!files.baselines.empty()) {
+    for (const auto& odometry : baselines(load_configuration(files.config), files.baselines)) {
+      sources.push_back(evaluate_source(odometry, reference));
+    }
+  }
+}
+
 void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                   const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {
   print_drive(file, sources, reference.truth_noise);
@@ -76,11 +86,12 @@ void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
 
 void run_drive(const DriveFiles& files) {
   const DriveReference reference = read_reference(files);
-  const auto sources = with_input(
-      files.odometry, [&](std::istream& input) { return evaluate_drive(input, reference); });
+  auto sources = with_input(files.odometry,
+                            [&](std::istream& input) { return evaluate_drive(input, reference); });
   if (sources.empty()) {
     throw std::runtime_error(files.odometry + ": no odometry");
   }
+  add_baselines(files, reference, sources);
   const auto print = files.as_json ? print_json : print_tables;
   print(stdout, sources, reference, compare_references(reference));
   say_what_is_missing(sources);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/eval/truth_noise.hpp"
 #include "tools/eval/wheel_reference.hpp"
@@ -17,7 +18,10 @@ struct DriveFiles {
   TruthNoise truth_noise;  ///< How far truth may be off.
   std::string plot;        ///< Picture to draw; empty: none.
   std::string truth_tum;   ///< Truth to write in TUM format; empty: none.
-  bool as_json = false;    ///< Prints JSON in place of the tables.
+  std::vector<std::string>
+      baselines;         ///< candump logs that other methods are run on; may be empty.
+  std::string config;    ///< Configuration of the radars in these.
+  bool as_json = false;  ///< Prints JSON in place of the tables.
 };
 
 /// cremed-eval drive: prints how far the odometry of a drive is from truth and draws it. Throws

@@ -38,6 +38,8 @@ std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int
   return running_nees(nees, dof, kNeesWindowUs);
 }
 
+}  // namespace
+
 SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
                                  const DriveReference& reference) {
   SourceEvaluation result;
@@ -55,6 +57,8 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
   }
   return result;
 }
+
+namespace {
 
 SourceEvaluation evaluate_states(const RecordedStates& states, const DriveReference& reference) {
   SourceEvaluation result = evaluate_source(motions_since_anchors(states), reference);

@@ -15,6 +15,7 @@
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/driven_path.hpp"
 #include "tools/eval/path_drift.hpp"
+#include "tools/eval/recorded_odometry.hpp"
 #include "tools/eval/running_nees.hpp"
 #include "tools/eval/trajectory_segments.hpp"
 #include "tools/eval/true_trajectory.hpp"
@@ -57,10 +58,13 @@ struct SourceEvaluation {
 
 inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
+/// Compares every estimate of a source with the reference. One whose cov_yy is 0 throughout is
+/// taken as 2 DoF.
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference);
+
 /// Reads what cremed wrote and compares every estimate with the reference: odometry CSV, sources in
 /// order of appearance, or, told by its header, the vehicle's state (--output-odometry), one source
-/// "odometry" whose motions are those since their anchors. A source whose cov_yy is 0 throughout is
-/// taken as 2 DoF. Throws std::runtime_error.
+/// "odometry" whose motions are those since their anchors. Throws std::runtime_error.
 std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
                                              const DriveReference& reference);
 

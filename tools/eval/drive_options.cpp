@@ -77,6 +77,13 @@ void add_drive(CLI::App& app, DriveFiles& files) {
       ->required();
   command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
   add_references(*command, files);
+  auto* logs = command->add_option("--baselines", files.baselines,
+                                   "candump log of the drive: methods of others beside ours, "
+                                   "Kellner's velocity by Doppler and a submap of scans matched by "
+                                   "NDT as Kung et al. do; may repeat");
+  auto* config = command->add_option("--config", files.config, "Configuration of its radars");
+  logs->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->needs(config);
+  config->needs(logs);
   command->add_flag("--json", files.as_json, "Print one JSON object in place of the tables");
   command->add_option("--plot", files.plot,
                       "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/eval/replaced_file.hpp"
+#include "daemon/replaced_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -16,6 +16,8 @@
 
 namespace cremed {
 namespace {
+
+constexpr mode_t kUsualPermissions = 0644;
 
 /// Beside the file that it will replace; removed unless it did.
 class TemporaryFile {
@@ -44,16 +46,24 @@ class TemporaryFile {
   }
 
   void replace(const std::string& target) {
-    struct stat status {};
-    check(::stat(target.c_str(), &status) == 0 && ::fchmod(file_, status.st_mode & 07777U) == 0);
-    if (::fchown(file_, status.st_uid, status.st_gid) != 0) {
-      errno = 0;  // Only root can; the file is then that of who edits it.
-    }
+    keep_permissions(target);
     check(::fsync(file_) == 0 && std::rename(path_.c_str(), target.c_str()) == 0);
     path_.clear();
   }
 
  private:
+  void keep_permissions(const std::string& target) const {
+    struct stat status {};
+    if (::stat(target.c_str(), &status) != 0) {
+      check(errno == ENOENT && ::fchmod(file_, kUsualPermissions) == 0);
+      return;
+    }
+    check(::fchmod(file_, status.st_mode & 07777U) == 0);
+    if (::fchown(file_, status.st_uid, status.st_gid) != 0) {
+      errno = 0;  // Only root can; the file is then that of who edits it.
+    }
+  }
+
   void check(bool is_good) const {
     if (!is_good) {
       throw std::runtime_error(
@@ -68,7 +78,7 @@ class TemporaryFile {
 }  // namespace
 
 void replace_file(const std::string& path, std::string_view text) {
-  const std::string target = std::filesystem::canonical(path).string();
+  const std::string target = std::filesystem::weakly_canonical(path).string();
   TemporaryFile file(target);
   file.write(text);
   file.replace(target);

@@ -8,7 +8,7 @@
 namespace cremed {
 
 /// Replaces a file, which a symbolic link may lead to, at once: nobody ever reads a part of it. It
-/// keeps its permissions. Throws std::runtime_error.
+/// keeps its permissions; a new one has the usual ones. Throws std::runtime_error.
 void replace_file(const std::string& path, std::string_view text);
 
 }  // namespace cremed

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/learned_writer.hpp"
+
+#include <csignal>
+#include <stdexcept>
+#include <utility>
+
+#include "daemon/replaced_file.hpp"
+
+namespace cremed {
+namespace {
+
+/// Signals are for the loop, whose reads they end: a thread begun in this scope gets none.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+}  // namespace
+
+LearnedWriter::LearnedWriter(std::string path) : path_(std::move(path)) {
+  const SignalsBlocked blocked;
+  thread_ = std::thread(&LearnedWriter::run, this);
+}
+
+LearnedWriter::~LearnedWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+bool LearnedWriter::offer(std::string text) {
+  {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) {
+      return false;
+    }
+    text_ = std::move(text);
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void LearnedWriter::put(std::string text) {
+  {
+    const std::lock_guard lock(mutex_);
+    text_ = std::move(text);
+  }
+  changed_.notify_one();
+}
+
+std::optional<std::string> LearnedWriter::problem() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  return lock ? std::optional(problem_) : std::nullopt;
+}
+
+void LearnedWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return is_ending_ || text_; });
+    if (!text_) {
+      return;
+    }
+    const std::string text = *std::exchange(text_, std::nullopt);
+    lock.unlock();
+    std::string problem;
+    try {
+      replace_file(path_, text);
+    } catch (const std::runtime_error& error) {
+      problem = error.what();
+    }
+    lock.lock();
+    problem_ = std::move(problem);
+  }
+}
+
+}  // namespace cremed

@@ -30,6 +30,10 @@ constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 /// How long a scan waits for one that began before it: an ARS408 sends for less than its cycle.
 constexpr std::int64_t kLongestScanUs = 75'000;
 
+/// Of RadarChannel::shares_clock.
+static_assert(kMaxRadars <= 32);
+constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
+
 /// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
@@ -106,16 +110,16 @@ void Pipeline::on_frame(const CanFrame& frame) {
 }
 
 /// The clocks of two buses need not agree. A frame that comes after one of another bus, but was
-/// stamped before it, shows that they do not: then only the bus's own frames tell its time.
+/// stamped before it, shows that they do not: then frames of that bus do not tell its time.
 void Pipeline::note_clock(const CanFrame& frame) {
-  if (!time_us_ || frame.interface == last_interface_) {
-    last_interface_ = frame.interface;
+  const std::uint32_t before = bit_of(std::exchange(last_interface_, frame.interface));
+  if (!time_us_ || before == bit_of(frame.interface)) {
     return;
   }
-  last_interface_ = frame.interface;
+  const bool agree = *time_us_ - frame.stamp_us <= kMaxClockDifferenceUs;
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
-      radar->shares_clock = *time_us_ - frame.stamp_us <= kMaxClockDifferenceUs;
+      radar->shares_clock = (radar->shares_clock & ~before) | (agree ? before : 0U);
     }
   }
 }
@@ -124,7 +128,8 @@ void Pipeline::note_clock(const CanFrame& frame) {
 /// silence on all of them. The order is that of their time-outs, whoever tells the time.
 void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) {
   const auto is_overdue = [&](const RadarChannel& radar) {
-    const bool is_told = !told_by || *told_by == radar.interface || radar.shares_clock;
+    const bool is_told =
+        !told_by || *told_by == radar.interface || (radar.shares_clock & bit_of(*told_by)) != 0;
     return is_told && radar.assembler.is_overdue(now_us);
   };
   while (RadarChannel* radar = first_to_close(is_overdue)) {

@@ -78,6 +78,7 @@ class OdometryFilter {
   void tell_motion(Odometry& odometry);
   [[nodiscard]] OdometryStatus status() const;
   [[nodiscard]] bool is_known() const;
+  [[nodiscard]] bool is_lost() const;
 
   OdometryOptions options_;
   OdometryState state_;

@@ -34,6 +34,10 @@ constexpr std::int64_t kLongestScanUs = 75'000;
 static_assert(kMaxRadars <= 32);
 constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
+bool share_clock(const RadarChannel& a, const RadarChannel& b) {
+  return (a.shares_clock & bit_of(b.interface)) != 0 && (b.shares_clock & bit_of(a.interface)) != 0;
+}
+
 /// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
@@ -165,7 +169,7 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   const std::int64_t solve_begin_us = clock_.now_us();
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
-  radar.self_check.add(motion);
+  radar.self_check.add(motion, radar.estimator.targets());
   if (odometry_ && contradicts(*odometry_, motion)) {
     motion = withdrawn(motion);
   }
@@ -231,7 +235,7 @@ bool Pipeline::is_awaiting(const RadarChannel& radar) const {
   return *time_us_ - *radar.held_us <= kLongestScanUs &&
          std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
            const bool is_comparable =
-               other->interface == radar.interface || (other->shares_clock && radar.shares_clock);
+               other->interface == radar.interface || share_clock(*other, radar);
            const auto open_us = other->assembler.open_stamp_us();
            return is_comparable && open_us && *open_us < *radar.held_us;
          });

@@ -125,6 +125,7 @@ inline void print(const FaultOutcome& outcome) {
 
 /// What is held of a kind of fault.
 struct FaultBound {
+  double radar_beyond = 0.001;     ///< Share of the radars' estimates.
   double odometry_beyond = 0.001;  ///< Share of the odometry's and fused estimates.
   double ratio = 1.2;              ///< RMSE of the odometry over that of the best radar.
 };
@@ -215,7 +216,7 @@ inline void check_faults(const std::vector<FaultDrive>& drives,
         kind.c_str(), summary.radars.estimates, summary.radars.beyond, summary.odometry.estimates,
         summary.odometry.beyond, ratio_x, ratio_yaw);
     CAPTURE(kind);
-    CHECK(summary.radars.beyond <= 0.001 * summary.radars.estimates);
+    CHECK(summary.radars.beyond <= bound.radar_beyond * summary.radars.estimates);
     CHECK(summary.odometry.beyond <= bound.odometry_beyond * summary.odometry.estimates);
     CHECK(ratio_x <= bound.ratio);
     CHECK(ratio_yaw <= bound.ratio);

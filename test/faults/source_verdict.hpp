@@ -44,12 +44,12 @@ struct SquaredErrors {
 /// What became of one source in one drive.
 struct SourceVerdict {
   std::string source;
-  bool is_side = false;       ///< A radar that looks across the way, ...
-  bool is_doubted = false;    ///< ... and is named in doubt in its last status.
-  std::size_t estimates = 0;  ///< Published as to be used.
-  std::size_t beyond = 0;     ///< Off by more than kMaxSigmas of their own sigma and truth's.
-  std::size_t after = 0;      ///< Of these, a second after the fault's end and later:
-  std::size_t beyond_after = 0;
+  bool is_side = false;          ///< A radar that looks across the way, ...
+  bool is_doubted = false;       ///< ... and is named in doubt in its last status.
+  std::size_t estimates = 0;     ///< Published as to be used.
+  std::size_t beyond = 0;        ///< Off by more than kMaxSigmas of their own sigma and truth's.
+  std::size_t after = 0;         ///< Of these, that end a second after the fault's end and later.
+  std::size_t beyond_after = 0;  ///< That begin then.
   SquaredErrors errors;
   SquaredErrors errors_of_odometry;  ///< Over the same times. Of a radar only.
 
@@ -157,7 +157,7 @@ class Judge {
     const bool is_after = fault_.until_us <= start_us - kWholeAfterUs;
     ++verdict.estimates;
     verdict.beyond += is_beyond ? 1 : 0;
-    verdict.after += is_after ? 1 : 0;
+    verdict.after += fault_.until_us <= end_us - kWholeAfterUs ? 1 : 0;
     verdict.beyond_after += is_after && is_beyond ? 1 : 0;
     verdict.errors.add(error);
   }

@@ -39,7 +39,7 @@ TEST_CASE("Real drives: each fault, what each source makes of it") {
   check_faults(drives,
                {// At 4.4 m/s (0061) a knock of 0.1 rad passes the gate as a change of the yaw rate,
                 // and then contradicts positions only, which are left out one by one.
-                {"knocked", {.odometry_beyond = 0.05}},
+                {"knocked", {.odometry_beyond = 0.05, .ratio = 1.3}},
                 // Its end is a clock that is set by 50 ms, and nobody tells.
                 {"clock offset", {.radar_beyond = 0.002}}},
                false);

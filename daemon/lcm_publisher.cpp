@@ -76,6 +76,7 @@ void fill_belief(const BeliefStatus& belief, status_t& m) {
   m.innovation_doppler = static_cast<float>(belief.doppler_innovation);
   m.innovation_next = static_cast<float>(belief.next_innovation);
   m.doubts = static_cast<std::int32_t>(belief.doubts);
+  m.speed_checked = belief.is_speed_checked ? 1 : 0;
 }
 
 void fill_odometry(const RadarReport& report, status_t& m) {

@@ -33,6 +33,14 @@ constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 /// How long a scan waits for one that began before it: an ARS408 sends for less than its cycle.
 constexpr std::int64_t kLongestScanUs = 75'000;
 
+/// Of RadarChannel::shares_clock.
+static_assert(kMaxRadars <= 32);
+constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
+
+bool share_clock(const RadarChannel& a, const RadarChannel& b) {
+  return (a.shares_clock & bit_of(b.interface)) != 0 && (b.shares_clock & bit_of(a.interface)) != 0;
+}
+
 /// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
@@ -111,16 +119,16 @@ void Pipeline::on_frame(const CanFrame& frame) {
 }
 
 /// The clocks of two buses need not agree. A frame that comes after one of another bus, but was
-/// stamped before it, shows that they do not: then only the bus's own frames tell its time.
+/// stamped before it, shows that they do not: then frames of that bus do not tell its time.
 void Pipeline::note_clock(const CanFrame& frame) {
-  if (!time_us_ || frame.interface == last_interface_) {
-    last_interface_ = frame.interface;
+  const std::uint32_t before = bit_of(std::exchange(last_interface_, frame.interface));
+  if (!time_us_ || before == bit_of(frame.interface)) {
     return;
   }
-  last_interface_ = frame.interface;
+  const bool agree = *time_us_ - frame.stamp_us <= kMaxClockDifferenceUs;
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
-      radar->shares_clock = *time_us_ - frame.stamp_us <= kMaxClockDifferenceUs;
+      radar->shares_clock = (radar->shares_clock & ~before) | (agree ? before : 0U);
     }
   }
 }
@@ -129,7 +137,8 @@ void Pipeline::note_clock(const CanFrame& frame) {
 /// silence on all of them. The order is that of their time-outs, whoever tells the time.
 void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) {
   const auto is_overdue = [&](const RadarChannel& radar) {
-    const bool is_told = !told_by || *told_by == radar.interface || radar.shares_clock;
+    const bool is_told =
+        !told_by || *told_by == radar.interface || (radar.shares_clock & bit_of(*told_by)) != 0;
     return is_told && radar.assembler.is_overdue(now_us);
   };
   while (RadarChannel* radar = first_to_close(is_overdue)) {
@@ -183,7 +192,7 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   radar.estimator.expect(is_known ? std::optional(odometry_->twist) : std::nullopt);
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
-  radar.self_check.add(motion);
+  radar.self_check.add(motion, radar.estimator.targets());
   if (odometry_ && contradicts(*odometry_, motion)) {
     motion = withdrawn(motion);
   }
@@ -249,7 +258,7 @@ bool Pipeline::is_awaiting(const RadarChannel& radar) const {
   return event_us_ - *radar.held_us <= kLongestScanUs &&
          std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
            const bool is_comparable =
-               other->interface == radar.interface || (other->shares_clock && radar.shares_clock);
+               other->interface == radar.interface || share_clock(*other, radar);
            const auto open_us = other->assembler.open_stamp_us();
            return is_comparable && open_us && *open_us < *radar.held_us;
          });

@@ -67,6 +67,7 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.selection = estimator.selection();
   status_.belief.doppler_innovation = self_check.doppler().mean();
   status_.belief.next_innovation = self_check.next().mean();
+  status_.belief.is_speed_checked = self_check.speed().is_checked();
   status_.belief.doubts =
       self_check.doubts() |
       (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);

@@ -44,9 +44,8 @@ struct RadarChannel {
 
   std::size_t index;
   std::uint8_t interface;
-  /// Its frames and those of the other interfaces are stamped by clocks that agree, as far as
-  /// known.
-  bool shares_clock = false;
+  /// Bit i: its frames and those of interface i are stamped by clocks that agree, as far as known.
+  std::uint32_t shares_clock = 0;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;

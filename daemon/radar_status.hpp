@@ -28,6 +28,8 @@ struct BeliefStatus {
   double doppler_innovation = 0.0;  ///< Positions against Doppler.
   double next_innovation = 0.0;     ///< Each motion against the one before.
   std::uint32_t doubts = 0;         ///< Doubt bits; 0: believable, as far as is known.
+  /// Positions told a speed in the last seconds; else Doppler cannot be checked by them.
+  bool is_speed_checked = false;
 };
 
 /// Everything countable about one radar's way through the pipeline.

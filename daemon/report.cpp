@@ -277,6 +277,15 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
   }
 }
 
+void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
+  if ((belief.doubts & positions_contradict_speed) != 0) {
+    findings.push_back(
+        {Severity::warning, "the positions of its targets tell another speed than their Doppler",
+         "Doppler has the wrong sign, is stuck or over ground (it must be relative to the sensor), "
+         "or the stamps run at another pace than time: compare both with the speedometer"});
+  }
+}
+
 void add_left_out(const RadarStatus& status, Findings& findings) {
   if ((status.belief.doubts & other_radars_contradict) != 0) {
     findings.push_back(
@@ -339,6 +348,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
+  add_wrong_speed(status.belief, findings);
   add_left_out(status, findings);
   return findings;
 }

@@ -24,7 +24,10 @@ double duration_s(const EgoMotion& motion) {
 
 }  // namespace
 
-void SelfCheck::add(const EgoMotion& motion) {
+void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
+  if (targets.is_finite()) {
+    speed_.add(targets, motion.utime_us);
+  }
   if (motion.status == MotionStatus::ok) {
     if (std::isfinite(motion.doppler_innovation)) {
       doppler_.add(motion.utime_us, motion.doppler_innovation);
@@ -34,7 +37,10 @@ void SelfCheck::add(const EgoMotion& motion) {
   last_ = motion;
 }
 
-void SelfCheck::forget() { last_ = EgoMotion(); }
+void SelfCheck::forget() {
+  last_ = EgoMotion();
+  speed_.forget();
+}
 
 void SelfCheck::compare_with_last(const EgoMotion& motion) {
   if (last_.status != MotionStatus::ok || last_.utime_us != motion.utime_start_us) {
@@ -61,6 +67,9 @@ std::uint32_t SelfCheck::doubts() const {
   }
   if (next_.exceeds(kTooGreat)) {
     result |= motions_contradict_each_other;
+  }
+  if (speed_.is_contradicted()) {
+    result |= positions_contradict_speed;
   }
   if (doppler_.is_enough() && doppler_.mean() < kTooSmallByDoppler && next_.is_enough() &&
       next_.mean() < kTooSmallByNext) {

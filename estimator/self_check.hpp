@@ -6,6 +6,7 @@
 
 #include "estimator/ego_motion_estimator.hpp"
 #include "estimator/innovation_mean.hpp"
+#include "estimator/speed_check.hpp"
 
 namespace cremed {
 
@@ -15,6 +16,7 @@ enum Doubt : std::uint32_t {
   motions_contradict_each_other = 1U << 1U,     ///< It jumps more than a vehicle can.
   other_radars_contradict = 1U << 2U,           ///< OdometryFilter leaves it out.
   covariance_too_large = 1U << 3U,              ///< Noise is set far too high.
+  positions_contradict_speed = 1U << 4U,        ///< Doppler or the stamps' pace is wrong.
 };
 
 /// Compares, while driving, what a radar says with what it says itself in another way. No truth is
@@ -24,7 +26,8 @@ class SelfCheck {
  public:
   explicit SelfCheck(const RegistrationOptions& options) : options_(options) {}
 
-  void add(const EgoMotion& motion);
+  /// A motion, and the targets of the scan at its end.
+  void add(const EgoMotion& motion, const TargetSet& targets);
   /// The clock of the stamps was set.
   void forget();
 
@@ -33,6 +36,9 @@ class SelfCheck {
   /// A motion's velocity against that of the one before it, which differ by what the vehicle may
   /// accelerate (SharedErrorOptions) as well.
   [[nodiscard]] const InnovationMean& next() const { return next_; }
+
+  /// Its Doppler against the speed by its positions.
+  [[nodiscard]] const SpeedCheck& speed() const { return speed_; }
 
   /// Doubts in this radar by itself.
   [[nodiscard]] std::uint32_t doubts() const;
@@ -45,6 +51,7 @@ class SelfCheck {
   RegistrationOptions options_;
   InnovationMean doppler_;
   InnovationMean next_;
+  SpeedCheck speed_;
   EgoMotion last_;
 };
 

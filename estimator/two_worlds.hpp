@@ -32,7 +32,6 @@ class TwoWorlds {
     return is_in_doubt();
   }
   [[nodiscard]] bool is_in_doubt() const { return doubtful_scans_ > 0; }
-  void clear() { doubtful_scans_ = 0; }
 
  private:
   static constexpr int kClearScans = 10;

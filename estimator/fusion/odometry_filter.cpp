@@ -74,8 +74,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
                                 bool is_believed) {
   if (!has_started_) {
     start(stamp_us);
-  } else if (const double gap_s = seconds_between(time_us_, stamp_us); gap_s > options_.max_gap_s) {
-    bridge(gap_s);
+  } else if (const double gap_s = seconds_between(time_us_, stamp_us);
+             gap_s > options_.max_gap_s || (is_lost() && is_believed)) {
+    bridge(seconds_between(used_us_, stamp_us));
     start(stamp_us);
   }
   if (seconds_between(stamp_us, time_us_) <= options_.max_lateness_s &&
@@ -175,12 +176,10 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     doubt_us_ = time_us_;
     return false;
   }
-  if (is_unknown() && tracks_[radar]->trust.is_believed) {
-    if (used_scans_ == 0) {
-      // The way since the start cannot be had from a speed that was not known at all.
-      bridge(0.0);
-      anchor_here();
-    }
+  if (is_unknown() && tracks_[radar]->trust.is_believed && used_scans_ == 0) {
+    // The way since the start cannot be had from a speed that was not known at all.
+    bridge(0.0);
+    anchor_here();
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, *scan, stamp_us);
@@ -324,6 +323,10 @@ bool OdometryFilter::is_known() const {
          state_.gaussian.std(kYawRate) <= options_.settled_yaw_rate_std_radps &&
          used_scans_ >= options_.settled_scans &&
          count_verdicts(time_us_, true) > count_verdicts(time_us_, false);
+}
+
+bool OdometryFilter::is_lost() const {
+  return seconds_between(used_us_, time_us_) > options_.lost_s;
 }
 
 OdometryStatus OdometryFilter::status(const VehicleEstimate& vehicle, std::int64_t utime_us) const {

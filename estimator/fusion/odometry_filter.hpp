@@ -104,6 +104,7 @@ class OdometryFilter {
   [[nodiscard]] OdometryStatus status(const VehicleEstimate& vehicle, std::int64_t utime_us) const;
   [[nodiscard]] bool is_known() const;
   [[nodiscard]] bool is_unknown() const;
+  [[nodiscard]] bool is_lost() const;
 
   OdometryOptions options_;
   OdometryState state_;

@@ -62,7 +62,6 @@ void RadarTrack::clear() {
   doppler_std_mps_ = options_.doppler_std_mps;
   scan_covariance_ = kScanVariance.asDiagonal();
   trust = {};
-  two_worlds.clear();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {

@@ -67,7 +67,7 @@ class RadarTrack {
   std::optional<std::size_t> keep(const TargetSet& targets);
 
   RadarTrust trust;
-  TwoWorlds two_worlds;
+  TwoWorlds two_worlds;  ///< A start anew ends no doubt.
 
  private:
   const OdometryOptions& options_;

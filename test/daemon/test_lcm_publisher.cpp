@@ -86,16 +86,18 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
         static_cast<int>(motions_contradict_each_other));
   CHECK(status_t::DOUBT_OTHER_RADARS_CONTRADICT == static_cast<int>(other_radars_contradict));
   CHECK(status_t::DOUBT_COVARIANCE_TOO_LARGE == static_cast<int>(covariance_too_large));
+  CHECK(status_t::DOUBT_POSITIONS_CONTRADICT_SPEED == static_cast<int>(positions_contradict_speed));
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;
-  status.belief = {1.5, 2.5, registration_contradicts_doppler | covariance_too_large};
+  status.belief = {1.5, 2.5, registration_contradicts_doppler | covariance_too_large, true};
   const auto received = receive(publisher, [&] { publisher.on_status(1, status); });
   REQUIRE(received.size() == 1);
   const auto m = decode<status_t>(received[0]);
   CHECK(m.innovation_doppler == 1.5F);
   CHECK(m.innovation_next == 2.5F);
   CHECK(m.doubts == 1 + 8);
+  CHECK(m.speed_checked == 1);
 }
 
 TEST_CASE("status_t says what the odometry filter knows of the radar") {

@@ -217,6 +217,16 @@ TEST_CASE("Each doubt in the covariance is named with its figure and what to do"
   CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
 }
 
+TEST_CASE("A speed by positions that is not Doppler's is named with its causes") {
+  RadarStatus status = healthy();
+  status.belief.doubts = positions_contradict_speed;
+  const auto findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].severity == Severity::warning);
+  CHECK_THAT(findings[0].what, Catch::Contains("another speed than their Doppler"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains("over ground") && Catch::Contains("pace"));
+}
+
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {
   RadarConfiguration radar = front();
   std::get<Ars408Options>(radar.decoder).keep_dyn_props = 0xFF;

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "daemon/candump.hpp"
-#include "test/data_tests/shared_data.hpp"
+#include "test/data_tests/real_drive.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/eval/against_wheels.hpp"
 #include "tools/eval/truth_noise.hpp"
@@ -25,22 +22,6 @@ struct RealDrive {
   double rmse_m;  ///< Of the reference implementation, front radar, on this scene's pairs.
   double rmse_deg;
 };
-
-std::vector<CanFrame> read_frames(const std::string& log, const Configuration& configuration) {
-  const std::vector<std::string> names = interface_names(configuration);
-  std::vector<CanFrame> frames;
-  std::string_view rest = log;
-  while (!rest.empty()) {
-    const std::size_t end = rest.find('\n');
-    CandumpLine line = parse_candump_line(rest.substr(0, end));
-    REQUIRE(line.status == CandumpStatus::frame);
-    line.frame.interface = static_cast<std::uint8_t>(
-        std::find(names.begin(), names.end(), line.interface_name) - names.begin());
-    frames.push_back(line.frame);
-    rest.remove_prefix(end + 1);
-  }
-  return frames;
-}
 
 struct DriveOutcome {
   RecordingSink sink;
@@ -82,8 +63,7 @@ void add_noisy(Credibility& credibility, const std::vector<EgoMotion>& motions,
 
 DriveOutcome drive(const RealDrive& scene) {
   const std::string folder = std::string("data/nuscenes/") + scene.name;
-  const Configuration configuration =
-      load_configuration(std::string(CREMED_SOURCE_DIR "/config/") + scene.configuration + ".toml");
+  const Configuration configuration = configuration_of_car(scene.configuration);
   REQUIRE(configuration.radars[0].name == "front");
   const auto frames = read_frames(read_shared(folder + "/can.log.xz"), configuration);
   std::istringstream truth(read_shared(folder + "/truth.csv"));

@@ -256,13 +256,14 @@ TEST_CASE("self-check does not allocate, whatever the radar says") {
   const EgoMotionOptions options = simulation::drawn_options(2);
   simulation::DrawnVehicle vehicle(simulation::in_bends, simulation::drawn_radars(1), options, 1);
   const auto check = std::make_unique<SelfCheck>(options.registration);
+  const TargetSet targets;  // test_hot_path has the check of their speed.
   long count = 0;
   while (vehicle.time_s() < 20.0) {
     simulation::DrawnMotion drawn = vehicle.next();
     if (drawn.motion.has_estimate() && vehicle.time_s() > 8.0) {
       drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;  // Lies.
     }
-    count += count_allocations([&] { check->add(drawn.motion); });
+    count += count_allocations([&] { check->add(drawn.motion, targets); });
   }
   CHECK(count == 0);
   CHECK(check->doubts() != 0);

@@ -29,7 +29,7 @@ SelfCheck checked(int degrees_of_freedom,
     DrawnMotion drawn = vehicle.next();
     drawn.motion.doppler_innovation = 1.0;
     alter(vehicle.time_s(), drawn.motion);
-    check.add(drawn.motion);
+    check.add(drawn.motion, {});
   }
   return check;
 }
@@ -90,7 +90,7 @@ TEST_CASE("self-check: what was before the clock was set is not compared with wh
   DrawnVehicle vehicle(simulation::in_bends, drawn_radars(1), options, 3);
   SelfCheck check(options.registration);
   while (vehicle.time_s() < 10.0) {
-    check.add(vehicle.next().motion);
+    check.add(vehicle.next().motion, {});
     check.forget();
   }
   CHECK(check.next().count() == 0);

@@ -417,6 +417,21 @@ TEST_CASE("Two buses whose clocks disagree by an hour do not disturb each other"
   }
 }
 
+TEST_CASE("A bus whose clock is 100 ms ahead does not close the scans of others that agree") {
+  Drive simulated = drive(scenario("bends"), one_of_each_kind(), options(11, 5.0));
+  const RecordingSink together = run_pipeline(simulated.radars, simulated.frames);
+  for (CanFrame& frame : simulated.frames) {
+    frame.stamp_us += frame.interface == 1 ? 100'000 : 0;
+  }
+  const RecordingSink apart = run_pipeline(simulated.radars, simulated.frames);
+  for (std::size_t radar = 0; radar < simulated.radars.size(); ++radar) {
+    CAPTURE(radar);
+    const AssemblerCounters& counters = apart.statuses[radar].back().assembler;
+    CHECK(counters.scans == together.statuses[radar].back().assembler.scans);
+    CHECK(counters.incomplete_scans == together.statuses[radar].back().assembler.incomplete_scans);
+  }
+}
+
 TEST_CASE("Without a frame there is no status with an invented time") {
   CHECK(run_pipeline(default_radars(), {}).statuses[0].empty());
 }

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Faults of sensors, buses and clocks, put into the frames of a healthy drive.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "can_decoders/ars408.hpp"
+#include "can_decoders/ars408_messages.hpp"
+#include "can_decoders/can_frame.hpp"
+#include "tools/simulate/ars408_encoder.hpp"
+#include "tools/simulate/random.hpp"
+
+namespace cremed::test {
+
+using Frames = std::vector<CanFrame>;
+
+/// When a fault acts, by the stamps of the drive.
+struct FaultTime {
+  std::int64_t from_us = 0;
+  std::int64_t until_us = 0;
+  [[nodiscard]] bool has(const CanFrame& frame) const {
+    return frame.stamp_us >= from_us && frame.stamp_us < until_us;
+  }
+};
+
+inline constexpr std::uint64_t kFaultStream = 910;
+
+/// Each frame is lost with that probability; nobody tells.
+inline Frames with_loss(Frames frames, FaultTime time, double share) {
+  Random random(1, kFaultStream);
+  std::erase_if(frames,
+                [&](const CanFrame& frame) { return time.has(frame) && random.chance(share); });
+  return frames;
+}
+
+/// The radars that `is_silent` says are.
+template <typename IsSilent>
+Frames with_silence(Frames frames, FaultTime time, IsSilent is_silent) {
+  std::erase_if(frames, [&](const CanFrame& frame) {
+    return time.has(frame) && is_silent(std::size_t{frame.interface});
+  });
+  return frames;
+}
+
+/// Frames as they arrive at other times than they were stamped; of one time in the order given.
+class Arrivals {
+ public:
+  void add(std::int64_t arrival_us, const CanFrame& frame) {
+    frames_.push_back({arrival_us, frame});
+  }
+  [[nodiscard]] Frames in_order() {
+    std::stable_sort(frames_.begin(), frames_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    Frames result;
+    for (const auto& [arrival_us, frame] : frames_) result.push_back(frame);
+    return result;
+  }
+
+ private:
+  std::vector<std::pair<std::int64_t, CanFrame>> frames_;
+};
+
+/// A radar's frames come 50 to 150 ms after they were stamped, in their order.
+inline Frames with_lateness(const Frames& frames, FaultTime time, std::size_t radar) {
+  constexpr double kMeanUs = 100'000.0;
+  constexpr double kMostLessMeanUs = 50'000.0;
+  constexpr double kPeriodUs = 3e6;
+  Arrivals arrivals;
+  for (const CanFrame& frame : frames) {
+    const double phase = 2.0 * std::numbers::pi *
+                         static_cast<double>(frame.stamp_us - frames.front().stamp_us) / kPeriodUs;
+    const bool is_late = frame.interface == radar && time.has(frame);
+    const double late_us = is_late ? kMeanUs + kMostLessMeanUs * std::sin(phase) : 0.0;
+    arrivals.add(frame.stamp_us + static_cast<std::int64_t>(late_us), frame);
+  }
+  return arrivals.in_order();
+}
+
+/// The clock of one radar's bus is ahead; frames come as before.
+inline Frames with_clock_offset(Frames frames, FaultTime time, std::size_t radar,
+                                std::int64_t ahead_us) {
+  for (CanFrame& frame : frames) {
+    if (frame.interface == radar && time.has(frame)) frame.stamp_us += ahead_us;
+  }
+  return frames;
+}
+
+/// Two sensors send with one id: the frames of radar `other` are on the bus of `radar` as well.
+inline Frames with_doubled_id(const Frames& frames, FaultTime time, std::size_t radar,
+                              std::size_t other) {
+  Frames result;
+  for (const CanFrame& frame : frames) {
+    result.push_back(frame);
+    if (frame.interface == other && time.has(frame)) {
+      result.push_back(frame);
+      result.back().interface = static_cast<std::uint8_t>(radar);
+    }
+  }
+  return result;
+}
+
+/// Of each bus every so many frames one is overtaken by 1 to 20 others, and half of those that are
+/// get the stamp of the last of them.
+inline Frames with_reordering(const Frames& frames, FaultTime time, double share) {
+  constexpr std::size_t kMostOvertaking = 20;
+  struct Held {
+    CanFrame frame;
+    std::size_t overtaken_by = 0;
+    bool keeps_stamp = false;
+  };
+  Random random(1, kFaultStream);
+  std::vector<std::optional<Held>> held(256);
+  Frames result;
+  const auto release = [&](std::optional<Held>& late, std::int64_t stamp_us) {
+    result.push_back(late->frame);
+    if (!late->keeps_stamp) result.back().stamp_us = stamp_us;
+    late.reset();
+  };
+  for (const CanFrame& frame : frames) {
+    auto& late = held[frame.interface];
+    if (!late && time.has(frame) && random.chance(share)) {
+      late = Held{frame, 1 + random.index(kMostOvertaking), random.chance(0.5)};
+      continue;
+    }
+    result.push_back(frame);
+    if (late && --late->overtaken_by == 0) release(late, frame.stamp_us);
+  }
+  for (auto& late : held) {
+    if (late) release(late, late->frame.stamp_us);
+  }
+  return result;
+}
+
+/// One bit of a frame's data is another, in that share of frames, and one of its id in a tenth of
+/// that.
+inline Frames with_bit_flips(Frames frames, FaultTime time, double share) {
+  constexpr double kIdShare = 0.1;
+  constexpr std::size_t kIdBits = 11;
+  Random random(1, kFaultStream);
+  for (CanFrame& frame : frames) {
+    if (time.has(frame) && frame.length > 0 && random.chance(share)) {
+      frame.data[random.index(frame.length)] ^= static_cast<std::uint8_t>(1U << random.index(8));
+    }
+    if (time.has(frame) && random.chance(kIdShare * share)) {
+      frame.id ^= 1U << random.index(kIdBits);
+    }
+  }
+  return frames;
+}
+
+/// An ARS408 was knocked: it looks to another direction by `yaw_rad`, so all that it reports turns
+/// the other way, and is rounded once more.
+inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  for (CanFrame& frame : frames) {
+    if (frame.interface != radar || !time.has(frame) ||
+        frame.id != ars408_id(static_cast<std::uint32_t>(Ars408Message::cluster_general), 0)) {
+      continue;
+    }
+    auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+    if (!cluster) continue;
+    const Ars408General seen = *cluster;
+    cluster->x_m = c * seen.x_m + s * seen.y_m;
+    cluster->y_m = c * seen.y_m - s * seen.x_m;
+    cluster->vx_mps = c * seen.vx_mps + s * seen.vy_mps;
+    cluster->vy_mps = c * seen.vy_mps - s * seen.vx_mps;
+    frame.data = encode_ars408_cluster(0, *cluster).data;
+  }
+  return frames;
+}
+
+}  // namespace cremed::test

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/faults/fault_matrix.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+TEST_CASE("Simulated drives: each fault, what each source makes of it") {
+  std::vector<FaultDrive> drives;
+  for (const auto* name : {"straight", "bends", "stop-and-go", "city", "roundabout", "u-turn"}) {
+    drives.push_back(simulated_fault_drive(name, 20.0));
+  }
+  check_faults(
+      drives,
+      {// The yaw rate follows a knock that passes the gate at low speed, until positions of the
+       // other radars have brought it back; until the radar is left out x is off too.
+       {"knocked", {.odometry_beyond = 0.04, .ratio = 1.4}}},
+      true);
+}

@@ -221,10 +221,8 @@ std::string LiveReporter::report_odometry() {
     return "odometry: " + state;
   }
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
-  const int kind = seconds_without_odometry_ < kPatienceS ? 0
-                   : is_new                               ? static_cast<int>(odometry->status)
-                                                          : static_cast<int>(kOdometryStatusCount);
-  log_.update("odometry", kind, [&] { return state; });
+  // Once: what is missing then goes on to change in the status line.
+  log_.update("odometry", seconds_without_odometry_ < kPatienceS ? 0 : 1, [&] { return state; });
   return "odometry: " + state;
 }
 

@@ -188,8 +188,6 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
     publish_odometry(*first_held());  // This radar's targets go.
   }
   const std::int64_t solve_begin_us = clock_.now_us();
-  const bool is_known = odometry_ && is_sure_at(*odometry_, scan.stamp_us);
-  radar.estimator.expect(is_known ? std::optional(odometry_->twist) : std::nullopt);
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   radar.self_check.add(motion, radar.estimator.targets());

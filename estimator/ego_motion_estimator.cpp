@@ -60,10 +60,6 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   return motion;
 }
 
-void EgoMotionEstimator::expect(const std::optional<Eigen::Vector3d>& twist) {
-  expected_velocity_ = twist;
-}
-
 void EgoMotionEstimator::forget_reference() {
   has_reference_ = false;
   has_velocity_ = false;
@@ -138,12 +134,11 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
 
 /// Chance finds next to never what no vehicle could have departed from since the last estimate.
 bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
-  const Eigen::Vector3d& before = expected_velocity_ ? *expected_velocity_ : last_velocity_;
-  const Eigen::Vector3d departure = (result.motion - before * dt_s).cwiseAbs();
+  const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
   const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
                                  kMaxYawAccelerationRadps2);
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
-  return knows_velocity() && sigma.x() > 0.0 &&
+  return has_velocity_ && sigma.x() > 0.0 &&
          (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
 }
 
@@ -152,7 +147,7 @@ bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, doubl
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
   return two_worlds_.look(targets_, result.motion / dt_s,
-                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !knows_velocity(),
+                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !has_velocity_,
                           [&](double speed_mps) {
                             other.motion.x() = speed_mps * dt_s;
                             return continues(other, dt_s);

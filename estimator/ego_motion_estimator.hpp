@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -70,10 +69,6 @@ class EgoMotionEstimator {
 
   EgoMotion update(const RadarScan& scan);
 
-  /// What is known from elsewhere of (m/s, m/s, rad/s) as the next scan comes; nothing. It tells
-  /// which of two motions continues the one before, in place of this radar's last.
-  void expect(const std::optional<Eigen::Vector3d>& twist);
-
   /// The clock of the stamps was set: the next scan has no reference.
   void forget_reference();
 
@@ -85,7 +80,6 @@ class EgoMotionEstimator {
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
-  [[nodiscard]] bool knows_velocity() const { return has_velocity_ || expected_velocity_; }
   [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
   bool is_standing(const RegistrationResult& result, double dt_s);
   double median_normalised_doppler();
@@ -100,7 +94,6 @@ class EgoMotionEstimator {
   std::array<double, kMaxDetections> scratch_{};
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
-  std::optional<Eigen::Vector3d> expected_velocity_;
   bool has_reference_ = false;
   bool has_velocity_ = false;  // last_velocity_ is that of the scan before
 };

@@ -23,11 +23,6 @@ double mean_distance_s(double distance_s, double span_s) {
 
 }  // namespace
 
-bool is_sure_at(const Odometry& known, std::int64_t utime_us) {
-  return (known.status == OdometryStatus::ok || known.status == OdometryStatus::standing_still) &&
-         std::abs(seconds_between(known.utime_us, utime_us)) <= kMaxAgeS;
-}
-
 bool contradicts(const Odometry& known, const EgoMotion& motion) {
   const double span_s = seconds_between(motion.utime_start_us, motion.utime_us);
   const double since_s = seconds_between(known.utime_us, motion.utime_us);

@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-
 #include "estimator/ego_motion_estimator.hpp"
 #include "estimator/fusion/odometry.hpp"
 
 namespace cremed {
-
-/// Whether the odometry vouches for a velocity, and did so at most 0.3 s before or after.
-bool is_sure_at(const Odometry& known, std::int64_t utime_us);
 
 /// Whether no vehicle could have moved as one radar says, given what the odometry knew up to 0.3 s
 /// before: their speeds or yaw rates differ by more than 5 sigma of both and what 10 m/s^2 or

@@ -54,6 +54,10 @@ World world(Random& random, std::size_t count, Eigen::Vector2d from, Eigen::Vect
   return result;
 }
 
+bool is_good(OdometryStatus status) {
+  return status == OdometryStatus::ok || status == OdometryStatus::standing_still;
+}
+
 /// A vehicle that drives straight on, its radar and what cremed makes of it.
 class Stage {
  public:
@@ -92,8 +96,6 @@ class Stage {
 
  private:
   void take(const RadarScan& scan, double vehicle_mps) {
-    estimator_->expect(is_sure_at(odometry_, scan.stamp_us) ? std::optional(odometry_.twist)
-                                                            : std::nullopt);
     const EgoMotion motion = estimator_->update(scan);
     if (motion.has_estimate() && !contradicts(odometry_, motion)) {
       note(motion.motion.x() / kPeriodS, std::sqrt(motion.covariance(0, 0)) / kPeriodS, vehicle_mps,
@@ -101,7 +103,7 @@ class Stage {
     }
     odometry_ = filter_->update(0, estimator_->targets(), scan.stamp_us);
     last = odometry_.status;
-    if (is_sure_at(odometry_, scan.stamp_us)) {
+    if (is_good(odometry_.status)) {
       note(odometry_.twist.x(), std::sqrt(odometry_.twist_covariance(0, 0)), vehicle_mps,
            odometry_.status == OdometryStatus::standing_still);
     }

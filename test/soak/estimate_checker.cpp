@@ -72,6 +72,9 @@ void EstimateChecker::on_clock_step() {
 
 void EstimateChecker::on_motion(std::size_t radar, const EgoMotion& motion,
                                 std::int32_t /*solve_us*/) {
+  Past& past = past_[radar];
+  past.scan_stamps[past.next_stamp] = motion.utime_us;
+  past.next_stamp = (past.next_stamp + 1) % past.scan_stamps.size();
   check(radar, motion);
 }
 
@@ -200,12 +203,6 @@ void EstimateChecker::compare(std::size_t radar, const EgoMotion& motion) {
     beyond_.push_back(c);
     ++beyond_reported_;
   }
-}
-
-void EstimateChecker::on_scan(std::size_t radar, const RadarScan& scan) {
-  Past& past = past_[radar];
-  past.scan_stamps[past.next_stamp] = scan.stamp_us;
-  past.next_stamp = (past.next_stamp + 1) % past.scan_stamps.size();
 }
 
 void EstimateChecker::on_status(std::size_t radar, const RadarStatus& status) {

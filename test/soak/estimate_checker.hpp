@@ -103,7 +103,7 @@ class EstimateChecker final : public OdometrySink {
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
   void on_odometry(const Odometry& odometry) override;
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
-  void on_scan(std::size_t radar, const RadarScan& scan) override;
+  void on_scan(std::size_t, const RadarScan&) override {}
   void on_status(std::size_t radar, const RadarStatus& status) override;
   [[nodiscard]] std::uint64_t failures() const override { return violations(); }
 

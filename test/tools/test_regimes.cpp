@@ -129,8 +129,8 @@ TEST_CASE("Regimes: the covariance is that of the errors") {
   CHECK(joined[kRear].share(regime.status) >= regime.share);
 }
 
-TEST_CASE("Regimes: tight turns, of each radar and of both together") {
-  const auto* const name = GENERATE("roundabout", "garage", "u-turn");
+TEST_CASE("Regimes: tight turns and a slow start, of each radar and of both together") {
+  const auto* const name = GENERATE("roundabout", "garage", "u-turn", "slow-start");
   CAPTURE(name);
   const auto all = drives(name);
   for (std::size_t i = 0; i < all.size(); ++i) {

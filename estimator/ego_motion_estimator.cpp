@@ -50,7 +50,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {
     motion.status = MotionStatus::gap_too_long;
     last_velocity_.setZero();
-    has_velocity_ = false;
+    has_velocity_ = has_started_ = false;
   } else {
     motion.status = solve(dt_s, motion);
   }
@@ -61,8 +61,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
 }
 
 void EgoMotionEstimator::forget_reference() {
-  has_reference_ = false;
-  has_velocity_ = false;
+  has_reference_ = has_velocity_ = has_started_ = false;
 }
 
 /// Selects the targets; ok if the scan can be one end of an estimate.
@@ -90,6 +89,7 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
   const MotionStatus status = judge(result, dt_s);
   has_velocity_ = status == MotionStatus::ok || status == MotionStatus::standing_still;
   if (has_velocity_) {
+    has_started_ = true;
     motion.motion = result.motion;
     motion.covariance = result.covariance;
     motion.doppler_innovation = result.doppler_innovation;
@@ -147,7 +147,7 @@ bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, doubl
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
   return two_worlds_.look(targets_, result.motion / dt_s,
-                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !has_velocity_,
+                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !has_started_,
                           [&](double speed_mps) {
                             other.motion.x() = speed_mps * dt_s;
                             return continues(other, dt_s);

@@ -96,6 +96,7 @@ class EgoMotionEstimator {
   std::int64_t reference_stamp_us_ = 0;
   bool has_reference_ = false;
   bool has_velocity_ = false;  // last_velocity_ is that of the scan before
+  bool has_started_ = false;   // there was an estimate since the last gap
 };
 
 }  // namespace cremed

@@ -91,7 +91,8 @@ std::optional<SpeedSupport> PositionSpeed::compare(const TargetSet& previous,
   Pair& pair = pairs_[newest_];
   pair.asked = static_cast<std::size_t>(asked_step);
   for (std::size_t k = 0; k < kYawRates; ++k) {
-    const double steps = static_cast<double>(k) - static_cast<double>(kYawRates / 2);
+    constexpr std::size_t kMiddle = kYawRates / 2;
+    const double steps = static_cast<double>(k) - static_cast<double>(kMiddle);
     count(previous, current, dt_s, steps * kYawRateStepRadps, pair.votes[k]);
   }
   const SpeedSupport support = sum_up();

@@ -32,6 +32,7 @@ std::vector<LearnedError> unlearned_of(const OdometryOptions& options,
                                        const std::vector<Pose2>& mounts,
                                        LearnedError LearnedErrors::*which) {
   std::vector<LearnedError> unlearned;
+  unlearned.reserve(mounts.size());
   for (const Pose2& mount : mounts) {
     unlearned.push_back(unlearned_errors(options, mount).*which);
   }

@@ -77,7 +77,8 @@ DriveOutcome drive(const RealDrive& scene) {
     CHECK(status.assembler.incomplete_scans == 0);
     // These cars never stand; a sideways radar that sees next to no Doppler must not say so.
     CHECK(count_status(odometry.sink.motions[radar], MotionStatus::standing_still) == 0);
-    CHECK(credibility_of(odometry.sink.motions[radar], odometry.truth).count() >= 40);
+    // Of a sideways one most contradict the odometry, and are not published.
+    CHECK(credibility_of(odometry.sink.motions[radar], odometry.truth).count() >= 20);
   }
   return odometry;
 }

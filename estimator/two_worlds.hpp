@@ -13,8 +13,9 @@ namespace cremed {
 
 /// Whether the Doppler of one radar's scans shows two worlds, the road and what drives as we do,
 /// and nothing tells which is which. The motion before tells, if it leads to one speed and not to
-/// the other. Once in doubt, a smaller rival keeps it up, and it takes ten scans without any to end
-/// it.
+/// the other. Without one, what seems to be the road must be in more places than a truck, if two
+/// places speak against it. Once in doubt, a smaller rival keeps it up, and it takes ten scans
+/// without any to end it.
 class TwoWorlds {
  public:
   explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}
@@ -26,7 +27,7 @@ class TwoWorlds {
             bool is_start, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_open =
-        (is_start && votes.own + votes.abeam < kFewestPlaces) ||
+        (is_start && votes.own + votes.abeam < kFewestPlaces && votes.rival >= kFewestRivals) ||
         (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     return is_in_doubt();
@@ -37,6 +38,8 @@ class TwoWorlds {
   static constexpr int kClearScans = 10;
   /// The rear of a truck and its sides are three to five places of 3 m.
   static constexpr std::size_t kFewestPlaces = 6;
+  /// One place may be another car.
+  static constexpr std::size_t kFewestRivals = 2;
 
   [[nodiscard]] bool is_rival(const SpeedVotes& votes) const;
 

@@ -221,7 +221,7 @@ TEST_CASE("a slow car is known as precisely as Doppler tells") {
   options.registration.shared_errors = simulation::no_shared_errors();
   int vague = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Drive drive({1.3, 0.0, 0.0}, kFront, seed, 50);
+    Drive drive({1.3, 0.0, 0.0}, kFront, seed, 36);
     drive.set_noise({0.1, 0.01, 0.03});
     const auto estimator = std::make_unique<EgoMotionEstimator>(options);
     estimator->update(drive.next());

@@ -19,6 +19,8 @@ TEST_CASE("text that is not TOML is refused at its line") {
       {kArs408 + "sensor_id = 08\n", 6, "syntax", "Error", "leading zeroes are prohibited"},
       {kArs408 + "[output]\ncsv = \"a\n\"\n", 7, "syntax", "Error", "string"},
       {"a = 1\vb\n", 1, "syntax", "Error", "TOML 1.0"},
+      {"\n[=]\n", 2, "syntax", "Error while parsing key", "expected bare key"},
+      {"[[ #radar]]\n", 1, "syntax", "Error while parsing key", "expected bare key"},
   });
 }
 

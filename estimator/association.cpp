@@ -99,11 +99,12 @@ double Association::scale(bool over_relaxed) {
                            change_.begin() + static_cast<std::ptrdiff_t>(columns_));
 }
 
-int Association::solve() {
+int Association::solve(int max_rounds) {
   int rounds = 1;
-  while (scale(rounds > kPlainRounds) > kTolerance && rounds < kMaxRounds) {
+  while (scale(rounds > kPlainRounds) > kTolerance && rounds < max_rounds) {
     ++rounds;
   }
+  is_solved_ = rounds < max_rounds || max_rounds >= kMaxRounds;
   if (rounds > kPlainRounds) {
     scale(false);  // no column has more than one partner
   }

@@ -51,8 +51,11 @@ class Association {
 
   /// Sets the factors without regard to earlier ones.
   void start();
-  /// Computes the probabilities from the factors so far; returns the rounds it took.
-  int solve();
+  /// Computes the probabilities from the factors so far; returns the rounds it took. Where
+  /// `max_rounds` were too few the next call goes on from there.
+  int solve(int max_rounds = kMaxRounds);
+  /// Whether the last call took all the rounds it needed, or kMaxRounds.
+  [[nodiscard]] bool is_solved() const { return is_solved_; }
   /// Value of the minimum, an approximation of -log of the sum over all assignments.
   [[nodiscard]] double cost() const;
   /// -sum_ij g_ij (d p_ij / d state)' at the last solution. With a = d log u, b = d log v,
@@ -90,6 +93,7 @@ class Association {
   std::size_t size_ = 0;
   std::size_t rows_ = 0;
   std::size_t columns_ = 0;
+  bool is_solved_ = false;
   Factors row_factor_;     // u
   Factors column_factor_;  // v
   Factors row_sum_;        // scratch, as what follows

@@ -49,9 +49,12 @@ class ExclusiveLikelihood {
   bool list_pairs(const TargetSet& previous, const TargetSet& current,
                   const Eigen::Vector3d& motion);
 
-  /// Probabilities of the pairs, gradient, complete information and cost (-log L) at a motion.
+  /// Probabilities of the pairs, gradient, complete information and cost (-log L) at a motion. On
+  /// the way (`settle` false) the association goes on from the last motion's for a few rounds only.
   NormalEquations linearise(const TargetSet& previous, const TargetSet& current,
-                            const Eigen::Vector3d& motion);
+                            const Eigen::Vector3d& motion, bool settle = true);
+  /// Whether the last ones are as exact as they get.
+  [[nodiscard]] bool is_settled() const { return association_.is_solved(); }
 
   /// What not knowing the assignment takes from the information, at the last linearisation.
   [[nodiscard]] Eigen::Matrix3d missing_information(const Eigen::Vector3d& sigma) {

@@ -144,8 +144,9 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
 }
 
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
-                                                  const Eigen::Vector3d& motion) {
-  NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion);
+                                                  const Eigen::Vector3d& motion,
+                                                  bool settle) {
+  NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion, settle);
   if (options_.doppler.enabled) {
     shared_doppler_.add(previous_, problem.current, motion, problem.dt_s, equations);
   }
@@ -156,14 +157,15 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
                                        NormalEquations& equations) {
   // How far targets have moved since pairs were listed, in standard deviations.
   double moved = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < options_.max_iterations && !is_spent(); ++i) {
+  bool settle = false;
+  for (int steps = 0; steps < options_.max_iterations && !is_spent();) {
     if (moved > 0.5 * ExclusiveLikelihood::kListReach) {
       if (!likelihood_.list_pairs(previous_, problem.current, result.motion)) {
         return RegistrationStatus::ambiguous;
       }
       moved = 0.0;
     }
-    equations = linearise_exclusive(problem, result.motion);
+    equations = linearise_exclusive(problem, result.motion, settle);
     if (!std::isfinite(equations.cost)) {
       return RegistrationStatus::non_finite;
     }
@@ -174,12 +176,17 @@ RegistrationStatus Registration::climb(const Problem& problem, RegistrationResul
     const Eigen::Vector3d step = -*inverse * equations.gradient;
     const double squared_step = -step.dot(equations.gradient);
     if (squared_step < options_.step_tolerance) {
-      return RegistrationStatus::converged;
+      if (likelihood_.is_settled()) {
+        return RegistrationStatus::converged;
+      }
+      settle = true;
+      continue;
     }
     // The sum over all targets: the one found again moves by its root mean square.
     moved += std::sqrt(squared_step / std::max(likelihood_.matched(), 1.0));
     result.motion += step;
     ++result.iterations;
+    ++steps;
   }
   return RegistrationStatus::no_convergence;
 }

@@ -119,7 +119,8 @@ class Registration {
   /// Ascends the exclusive likelihood from result.motion.
   RegistrationStatus climb(const Problem& problem, RegistrationResult& result,
                            NormalEquations& equations);
-  NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion);
+  NormalEquations linearise_exclusive(const Problem& problem, const Eigen::Vector3d& motion,
+                                      bool settle);
   void add_doppler(const Problem& problem, const Eigen::Vector3d& motion, double scale,
                    NormalEquations& equations) const;
   void keep_equations(const Problem& problem, const NormalEquations& equations,

@@ -144,8 +144,7 @@ RegistrationStatus Registration::run_stage(const Problem& problem, const Stage& 
 }
 
 NormalEquations Registration::linearise_exclusive(const Problem& problem,
-                                                  const Eigen::Vector3d& motion,
-                                                  bool settle) {
+                                                  const Eigen::Vector3d& motion, bool settle) {
   NormalEquations equations = likelihood_.linearise(previous_, problem.current, motion, settle);
   if (options_.doppler.enabled) {
     shared_doppler_.add(previous_, problem.current, motion, problem.dt_s, equations);

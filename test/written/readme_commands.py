@@ -78,6 +78,12 @@ def all_commands():
     return list(found)
 
 
+def other_lines():
+    """What stands in code blocks and is no command line."""
+    return [plain(line) for path in documents() for line in blocks(path.read_text(encoding="utf-8"))
+            if plain(line) and not is_command(plain(line))]
+
+
 def vehicle_steps():
     """The numbered steps only: what follows them are examples."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -46,9 +46,9 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
       "Without --replay it runs on the CAN interfaces of the configuration.",
       "cremed"};
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
-  app.add_option("--config", c.config,
-                 "Configuration (default: /etc/cremed/cremed.toml, then the installed one)");
-  app.add_option("--check-config", c.check_config, "Check a configuration and exit");
+  app.add_option("--config", c.config, "Configuration (default: /etc/cremed/cremed.toml)");
+  app.add_option("--check-config", c.check_config,
+                 "Check a configuration, show what was understood, and exit");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

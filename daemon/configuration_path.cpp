@@ -5,19 +5,25 @@
 #include <filesystem>
 #include <system_error>
 
-#include "daemon/version.hpp"
+#include "daemon/configuration.hpp"
 
 namespace cremed {
 
-std::string configuration_path(const std::string& named) {
+std::string configuration_path(const std::string& named, const std::string& standard) {
   if (!named.empty()) {
     return named;
   }
-  // Only a file that is not there is passed over: one that cannot be read must be heard of.
-  const std::string local = "/etc/cremed/cremed.toml";
+  // A file that is there and cannot be read is told by the one who reads it.
   std::error_code error;
-  const bool is_absent = !std::filesystem::exists(local, error) && !error;
-  return is_absent ? kInstalledConfiguration : local;
+  if (!std::filesystem::exists(standard, error) && !error) {
+    throw ConfigurationError(
+        standard +
+        ": is absent; must say which radars there are and where: "
+        "`cremed-doctor --suggest-config` writes a first one from what is on the buses, "
+        "cremed.toml "
+        "in share/cremed explains every key; --config FILE names another file");
+  }
+  return standard;
 }
 
 }  // namespace cremed

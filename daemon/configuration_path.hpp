@@ -6,8 +6,11 @@
 
 namespace cremed {
 
-/// The file that --config names; without one /etc/cremed/cremed.toml, and where there is none, the
-/// installed one.
-std::string configuration_path(const std::string& named);
+inline constexpr const char* kStandardConfiguration = "/etc/cremed/cremed.toml";
+
+/// The file that --config names; without one the standard one. Where that is absent too it throws
+/// ConfigurationError: mounts cannot be guessed, and an example's would give wrong odometry.
+std::string configuration_path(const std::string& named,
+                               const std::string& standard = kStandardConfiguration);
 
 }  // namespace cremed

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
+#include "daemon/configuration_summary.hpp"
 #include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
 
@@ -16,17 +18,29 @@ namespace {
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
+void warn_of_doubts(const cremed::Configuration& configuration) {
+  for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
+    spdlog::warn("{}", doubt);
+  }
+}
+
+int check_configuration(const std::string& path) {
+  const auto configuration = cremed::load_configuration(path);
+  std::fputs(cremed::configuration_summary(configuration).c_str(), stdout);
+  warn_of_doubts(configuration);
+  spdlog::info("{}: good, number of radars: {}", path, configuration.radars.size());
+  return good;
+}
+
 int run(const cremed::CommandLine& command_line) {
   if (!command_line.check_config.empty()) {
-    const auto configuration = cremed::load_configuration(command_line.check_config);
-    spdlog::info("{}: good, number of radars: {}", command_line.check_config,
-                 configuration.radars.size());
-    return good;
+    return check_configuration(command_line.check_config);
   }
   const std::string path = cremed::configuration_path(command_line.config);
   const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
   spdlog::info("configuration: {}", path);
+  warn_of_doubts(configuration);
   return command_line.replay.empty() ? cremed::run_live(command_line, path, configuration)
                                      : cremed::run_replay(command_line, configuration);
 }

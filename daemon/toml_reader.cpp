@@ -3,7 +3,9 @@
 #include "daemon/toml_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "daemon/message_text.hpp"
@@ -51,6 +53,16 @@ std::optional<std::int64_t> integer_in(const toml::node& node, std::int64_t min,
   return within ? std::optional(integer->get()) : std::nullopt;
 }
 
+/// For an angle that would be right were it in degrees.
+std::string degrees_hint(std::string_view key, std::optional<double> value, Range range) {
+  const double angle_rad = value.value_or(0.0) * std::numbers::pi / 180.0;
+  const bool is_likely = key.ends_with("_rad") && value && std::abs(*value) >= 1.0 &&
+                         angle_rad >= range.min && angle_rad <= range.max;
+  return is_likely ? concat({" (", digits(*value), " degrees are ",
+                             digits(std::round(angle_rad * 1e4) / 1e4), ")"})
+                   : "";
+}
+
 bool has_control_character(std::string_view text) {
   return std::any_of(text.begin(), text.end(),
                      [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; });
@@ -73,7 +85,7 @@ void TomlReader::number(std::string_view key, double& value, Range range, Presen
     if (read && *read >= range.min && *read <= range.max) {  // false for NaN
       value = *read;
     } else {
-      report_wrong(key, *node, wanted);
+      report_wrong(key, *node, wanted + degrees_hint(key, read, range));
     }
   }
 }

@@ -74,6 +74,17 @@ TEST_CASE("Sources are told apart; rows without estimate and outside of truth ar
   CHECK(sources[1].without_estimate == 1);
 }
 
+TEST_CASE("All radars together come first, the others as they appear") {
+  const auto sources = evaluate(
+      "1000000,1100000,rear,1.0,0,0.01,0.01,0,0,0,0,0.0001,ok,50,6,0\n"
+      "1000000,1100000,front,1.0,0,0.01,0.01,0,0,0,0,0.0001,ok,50,6,0\n"
+      "1000000,1100000,fused,1.0,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n");
+  REQUIRE(sources.size() == 3);
+  CHECK(sources[0].source == "fused");
+  CHECK(sources[1].source == "rear");
+  CHECK(sources[2].source == "front");
+}
+
 TEST_CASE("A covariance with y is evaluated in three degrees of freedom") {
   const auto sources =
       evaluate("1000000,1100000,front,1.0,0.2,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n");
@@ -94,6 +105,10 @@ TEST_CASE("Each estimate's error, sigma and NEES are told, with the path they ma
   CHECK(front.errors[0].sigma.x() == Approx(0.1));
   CHECK(front.errors[0].sigma.z() == Approx(0.01));
   CHECK(front.errors[0].nees == Approx((1.0 + 4.0) / 2.0).epsilon(1e-5));
+  CHECK(front.errors[0].estimate.forward_mps == Approx(11.0));
+  CHECK(front.errors[0].truth.forward_mps == Approx(10.0));
+  CHECK(front.errors[0].estimate.yaw_radps == Approx(0.3));
+  CHECK(front.errors[0].truth.yaw_radps == Approx(0.1));
   REQUIRE(front.mean_nees.size() == 3);
   CHECK(front.mean_nees[2].mean == Approx(front.credibility.anees()));
   REQUIRE(front.path.size() == 5);

@@ -82,12 +82,12 @@ double Credibility::normalised_bias(int axis) const {
 
 std::string to_line(const Credibility& credibility) {
   std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%zu %.5f %.5f %.4f", credibility.count(),
+  std::snprintf(text.data(), text.size(), "%7zu %9.5f %9.5f %9.4f", credibility.count(),
                 credibility.rmse_m(), credibility.rmse_deg(), credibility.anees());
   std::string line = text.data();
   for (int axis = 0; axis < 3; ++axis) {
     for (int sigmas = 1; sigmas <= 3; ++sigmas) {
-      std::snprintf(text.data(), text.size(), " %.3f", credibility.coverage(axis, sigmas));
+      std::snprintf(text.data(), text.size(), " %6.3f", credibility.coverage(axis, sigmas));
       line += text.data();
     }
   }

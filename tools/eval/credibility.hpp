@@ -52,11 +52,12 @@ class Credibility {
   std::array<double, 3> normalised_sum_{};
 };
 
-/// "n rmse_m rmse_deg anees x_1s x_2s x_3s y_1s ... yaw_3s", without line end.
+/// "n rmse_m rmse_deg anees x_1s x_2s x_3s y_1s ... yaw_3s", in columns, without line end.
 std::string to_line(const Credibility& credibility);
 
 /// Names of the columns of to_line.
 inline constexpr const char* kCredibilityColumns =
-    "n rmse_m rmse_deg anees x_1s x_2s x_3s y_1s y_2s y_3s yaw_1s yaw_2s yaw_3s";
+    "      n    rmse_m  rmse_deg     anees   x_1s   x_2s   x_3s   y_1s   y_2s   y_3s yaw_1s yaw_2s "
+    "yaw_3s";
 
 }  // namespace cremed

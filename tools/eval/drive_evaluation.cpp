@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive_evaluation.hpp"
 
+#include <algorithm>
+
+#include "daemon/configuration.hpp"
 #include "tools/eval/csv_table.hpp"
 #include "tools/eval/motion_chain.hpp"
 #include "tools/eval/recorded_odometry.hpp"
@@ -10,10 +13,18 @@
 namespace cremed {
 namespace {
 
+MeanRates mean_rates(const Eigen::Vector3d& motion, double seconds) {
+  return {motion.x() / seconds, motion.z() / seconds};
+}
+
 EstimateError compare(const RecordedEstimate& estimate, const Eigen::Vector3d& truth, int dof) {
-  return {estimate.end_us, estimation_error(estimate.motion, truth),
+  const double seconds = static_cast<double>(estimate.end_us - estimate.start_us) * 1e-6;
+  return {estimate.end_us,
+          estimation_error(estimate.motion, truth),
           estimate.covariance.diagonal().cwiseSqrt(),
-          normalised_error_squared(estimate.motion, estimate.covariance, truth, dof) / dof};
+          normalised_error_squared(estimate.motion, estimate.covariance, truth, dof) / dof,
+          mean_rates(estimate.motion, seconds),
+          mean_rates(truth, seconds)};
 }
 
 void compare_estimates(const std::vector<RecordedEstimate>& estimates,
@@ -80,6 +91,9 @@ std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
   for (const RecordedOdometry& source : read_odometry(table)) {
     result.push_back(evaluate_source(source, reference));
   }
+  std::stable_partition(result.begin(), result.end(), [](const SourceEvaluation& source) {
+    return source.source == kFusedSource;
+  });
   return result;
 }
 

@@ -32,12 +32,20 @@ struct DriveReference {
   std::optional<WheelReference> wheels;  ///< If there are any.
 };
 
+/// Of a motion, over its time.
+struct MeanRates {
+  double forward_mps = 0.0;
+  double yaw_radps = 0.0;
+};
+
 /// An estimate against truth. Order of states: (x_m, y_m, yaw_rad).
 struct EstimateError {
   std::int64_t utime_us = 0;
   Eigen::Vector3d error;
   Eigen::Vector3d sigma;  ///< With the noise of truth.
   double nees = 0.0;      ///< Per degree of freedom.
+  MeanRates estimate;
+  MeanRates truth;
 };
 
 /// One source's odometry against truth.
@@ -62,9 +70,10 @@ inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 /// taken as 2 DoF.
 SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference);
 
-/// Reads what cremed wrote and compares every estimate with the reference: odometry CSV, sources in
-/// order of appearance, or, told by its header, the vehicle's state (--output-odometry), one source
-/// "odometry" whose motions are those since their anchors. Throws std::runtime_error.
+/// Reads what cremed wrote and compares every estimate with the reference: odometry CSV, "fused"
+/// first, then the others in order of appearance, or, told by its header, the vehicle's state
+/// (--output-odometry), one source "odometry" whose motions are those since their anchors. Throws
+/// std::runtime_error.
 std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
                                              const DriveReference& reference);
 

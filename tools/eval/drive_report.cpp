@@ -58,10 +58,15 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
 void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                  const TruthNoise& noise) {
   const std::string note = noise.note();
-  std::fprintf(file, "# source %s%s%s\n", kCredibilityColumns, note.empty() ? "" : "; ",
-               note.c_str());
+  std::fprintf(
+      file,
+      "# n estimates against truth: RMS errors; anees: the mean of (error / sigma)^2, 1 if "
+      "the covariance is true,\n# less if errors are smaller than it says; share of errors "
+      "within 1, 2, 3 sigma, of a Gaussian 0.683, 0.954, 0.997%s%s\n",
+      note.empty() ? "" : "; ", note.c_str());
+  std::fprintf(file, "%-16s %s\n", "# source", kCredibilityColumns);
   for (const SourceEvaluation& source : sources) {
-    std::fprintf(file, "%s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
+    std::fprintf(file, "%-16s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
   }
   std::fprintf(file,
                "# drift over segments of the true path, mean of all segments (KITTI)\n# %-24s", "");
@@ -114,15 +119,18 @@ void write_errors_csv(const std::string& path, const std::vector<SourceEvaluatio
   ReportFile file(path);
   std::fprintf(file.stream(),
                "source,time_s,x_m,y_m,yaw_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,nees,mean_nees,"
-               "mean_low,mean_high\n");
+               "mean_low,mean_high,speed_mps,true_speed_mps,yaw_rate_degps,true_yaw_rate_degps\n");
   for (const SourceEvaluation& source : sources) {
     for (std::size_t i = 0; i < source.errors.size(); ++i) {
       const EstimateError& e = source.errors[i];
       const RunningNees& running = source.mean_nees[i];
-      std::fprintf(file.stream(), "%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.5g,%.5g,%.5g,%.5g\n",
+      std::fprintf(file.stream(), "%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.5g,%.5g,%.5g,%.5g,",
                    source.source.c_str(), seconds(e.utime_us, truth), e.error.x(), e.error.y(),
                    kDegPerRad * e.error.z(), e.sigma.x(), e.sigma.y(), kDegPerRad * e.sigma.z(),
                    e.nees, running.mean, running.interval.low, running.interval.high);
+      std::fprintf(file.stream(), "%.4f,%.4f,%.4f,%.4f\n", e.estimate.forward_mps,
+                   e.truth.forward_mps, kDegPerRad * e.estimate.yaw_radps,
+                   kDegPerRad * e.truth.yaw_radps);
     }
   }
   file.close();

@@ -88,7 +88,7 @@ int run_pairs(const PairsArguments& arguments) {
   const auto count = static_cast<double>(results.size());
   std::printf("# method %s iterations solve_us no_convergence left_out\n",
               cremed::kCredibilityColumns);
-  std::printf("%s %s %.2f %.0f %zu %zu\n", arguments.method.c_str(),
+  std::printf("%-8s %s %10.2f %8.0f %14zu %8zu\n", arguments.method.c_str(),
               cremed::to_line(credibility).c_str(), iterations / count, solve_us / count,
               unfinished, left_out);
   if (!arguments.output.empty()) {

@@ -6,12 +6,9 @@
 
 namespace cremed {
 
-/// Was this program built with PCL?
-extern const bool kHasIcp;
-inline constexpr const char* kNoIcp = "ICP is not built: libpcl-dev";
-
-/// Point-to-point ICP of PCL in the plane, started at zero: every target of the current scan with
-/// the nearest of the previous one, all weighted alike. Covariance: icp_covariance().
+/// Point-to-point ICP in the plane (Besl and McKay 1992), started at zero: every target of the
+/// current scan with the nearest of the previous one, all weighted alike. Covariance:
+/// icp_covariance().
 RegistrationResult register_icp(const TargetSet& previous, const TargetSet& current,
                                 const RegistrationContext& context);
 

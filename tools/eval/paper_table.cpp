@@ -34,7 +34,6 @@ struct TableMethod {
   RegisterFunction solve;
   MakeOptions options;
   bool is_always_3dof = false;
-  bool is_built = true;
 };
 
 const std::vector<TableMethod>& table_methods() {
@@ -45,7 +44,7 @@ const std::vector<TableMethod>& table_methods() {
       {"MSM-D(paper)", "MSM-D", true, register_msm, paper_options},
       {"SA", "SA", false, register_sum_approximation, paper_options},
       {"SA-D", "SA-D", true, register_sum_approximation, paper_options},
-      {"ICP", "ICP", false, register_icp, paper_options, true, kHasIcp},
+      {"ICP", "ICP", false, register_icp, paper_options, true},
   };
   return kMethods;
 }
@@ -146,15 +145,12 @@ TableRow run_method(const PairSource& source, unsigned threads, const TableMetho
   row.method = method.name;
   row.paper = published_figures(problem.name, method.published);
   row.bound = bound;
-  row.is_built = method.is_built;
   row.degrees_of_freedom = method.is_always_3dof ? 3 : problem.degrees_of_freedom;
-  if (method.is_built) {
-    const RegistrationOptions options = method.options(problem.profile, method.doppler);
-    fill_in(
-        run(source, threads, method.name,
-            [&](const RegistrationPair& pair) { return solve_pair(pair, options, method.solve); }),
-        row);
-  }
+  const RegistrationOptions options = method.options(problem.profile, method.doppler);
+  const auto solve = [&](const RegistrationPair& pair) {
+    return solve_pair(pair, options, method.solve);
+  };
+  fill_in(run(source, threads, method.name, solve), row);
   return row;
 }
 

@@ -28,7 +28,6 @@ struct PaperTableOptions {
 struct TableRow {
   std::string_view problem;
   std::string_view method;
-  bool is_built = true;  ///< false: this program cannot run the method; nothing else is filled in.
   int degrees_of_freedom = 0;
   std::size_t count = 0;  ///< Estimates.
   Figures ours;

@@ -18,9 +18,6 @@ RegistrationMethod registration_method(std::string_view name) {
     return {"sa", register_sum_approximation, false};
   }
   if (name == "icp") {
-    if (!kHasIcp) {
-      throw std::runtime_error(kNoIcp);
-    }
     return {"icp", register_icp, true};
   }
   throw std::runtime_error("no method '" + std::string(name) + "': msm, sa or icp");

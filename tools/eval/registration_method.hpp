@@ -25,8 +25,7 @@ struct RegistrationMethod {
   bool is_always_3dof = false;  ///< Estimates y even if the options say 2 DoF.
 };
 
-/// "msm", "sa" or "icp". Throws std::runtime_error for another name, and for a method that this
-/// program was built without.
+/// "msm", "sa" or "icp". Throws std::runtime_error for another name.
 RegistrationMethod registration_method(std::string_view name);
 
 /// The product's own: class Registration.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "tools/eval/icp.hpp"
 #include "tools/eval/report_file.hpp"
 
 namespace cremed {
@@ -61,10 +60,6 @@ std::string csv(const Figures& f) {
 
 void print_row(std::FILE* stream, const TableRow& row) {
   std::fprintf(stream, "%-9s %-12s", row.problem.data(), row.method.data());
-  if (!row.is_built) {
-    std::fprintf(stream, " %s\n", kNoIcp);
-    return;
-  }
   const std::string ours = cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) +
                            cell(row.ours.anees, 8, 3) + cell(row.consistent.low, 8, 3) +
                            cell(row.consistent.high, 8, 3);
@@ -91,12 +86,10 @@ void write_table_csv(const std::string& path, const std::vector<TableRow>& rows)
       "paper_anees,bound_m,bound_deg,bound_anees\n",
       file.stream());
   for (const TableRow& row : rows) {
-    if (row.is_built) {
-      std::fprintf(file.stream(), "%s,%s,%d,%zu,%s,%.5f,%.5f,%s,%s\n", row.problem.data(),
-                   row.method.data(), row.degrees_of_freedom, row.count, csv(row.ours).c_str(),
-                   row.consistent.low, row.consistent.high, csv(row.paper).c_str(),
-                   csv(row.bound).c_str());
-    }
+    std::fprintf(file.stream(), "%s,%s,%d,%zu,%s,%.5f,%.5f,%s,%s\n", row.problem.data(),
+                 row.method.data(), row.degrees_of_freedom, row.count, csv(row.ours).c_str(),
+                 row.consistent.low, row.consistent.high, csv(row.paper).c_str(),
+                 csv(row.bound).c_str());
   }
   file.close();
 }
@@ -105,7 +98,7 @@ void write_nees_csv(const std::string& path, const std::vector<TableRow>& rows) 
   ReportFile file(path);
   std::fputs("problem,method,dof,low,count\n", file.stream());
   for (const TableRow& row : rows) {
-    for (std::size_t bin = 0; row.is_built && bin < NeesHistogram::kBins; ++bin) {
+    for (std::size_t bin = 0; bin < NeesHistogram::kBins; ++bin) {
       std::fprintf(file.stream(), "%s,%s,%d,%.2f,%zu\n", row.problem.data(), row.method.data(),
                    row.degrees_of_freedom, NeesHistogram::kBinWidth * static_cast<double>(bin),
                    row.nees.counts()[bin]);

@@ -48,7 +48,12 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
   app.add_option("--config", c.config,
                  "Configuration (default: /etc/cremed/cremed.toml, then the installed one)");
-  app.add_option("--check-config", c.check_config, "Check a configuration and exit");
+  std::string checked;
+  const auto* check_config =
+      app.add_option("--check-config", checked,
+                     "Check a configuration (without FILE that in the default places) and exit")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -66,6 +71,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     c.speed = parse_speed(speed);
+    c.check_config = check_config->count() != 0 ? std::optional(checked) : std::nullopt;
     check(c);
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? 0 : kBadUsage};

@@ -62,7 +62,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.add_option("--state-file", c.state_file,
                  "Begin with what was learned of the radars before, and keep it; live it overrides "
                  "odometry.state_file, which a replay leaves alone");
-  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV");
+  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output");
   app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
   app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");

@@ -6,6 +6,7 @@
 #include <climits>
 #include <cstdlib>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
@@ -52,8 +53,23 @@ LogSink::LogSink() {
   if (::fstat(STDERR_FILENO, &status) == 0) {
     is_journal_ = is_journal(status);
     is_socket_ = S_ISSOCK(status.st_mode);
+    is_shared_ = S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode);
   }
   is_terminal_ = ::isatty(STDERR_FILENO) == 1;
+}
+
+void LogSink::drop_when_full() {
+  drops_ = true;
+  if (is_journal_) {  // The connection is ours alone.
+    ::fcntl(STDERR_FILENO, F_SETFL, ::fcntl(STDERR_FILENO, F_GETFL) | O_NONBLOCK);
+  } else if (is_shared_) {
+    // Opened anew, whether it waits is our affair. Where that is not allowed, poll has to do.
+    const int own = ::open("/proc/self/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (own >= 0) {
+      ::dup2(own, STDERR_FILENO);
+      ::close(own);
+    }
+  }
 }
 
 void LogSink::log(const spdlog::details::log_msg& message) {
@@ -85,21 +101,21 @@ void LogSink::log_text(spdlog::level::level_enum level, std::string_view text) {
 }
 
 bool LogSink::put(std::string line) {
-  if (when_full_ == WhenFull::drop && line.size() > PIPE_BUF) {
+  if (drops_ && line.size() > PIPE_BUF) {
     line.replace(PIPE_BUF - 1, std::string::npos, "\n");  // More may not fit where poll sees room.
   }
   if (!has_room()) {
     return false;
   }
-  const ssize_t written = is_socket_ ? ::send(STDERR_FILENO, line.data(), line.size(),
-                                              when_full_ == WhenFull::drop ? MSG_DONTWAIT : 0)
-                                     : ::write(STDERR_FILENO, line.data(), line.size());
+  const ssize_t written =
+      is_socket_ ? ::send(STDERR_FILENO, line.data(), line.size(), drops_ ? MSG_DONTWAIT : 0)
+                 : ::write(STDERR_FILENO, line.data(), line.size());
   return written == static_cast<ssize_t>(line.size());
 }
 
 bool LogSink::has_room() const {
   pollfd output{STDERR_FILENO, POLLOUT, 0};
-  if (when_full_ == WhenFull::drop) {
+  if (drops_) {
     return ::poll(&output, 1, 0) == 1;
   }
   while (::poll(&output, 1, kLongestWaitMs) <= 0) {

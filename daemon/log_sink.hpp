@@ -15,15 +15,12 @@ namespace cremed {
 /// line begins with its priority ("<4>", sd-daemon(3)), on a terminal the level has its colour.
 class LogSink final : public spdlog::sinks::sink {
  public:
-  /// Of a line for which a pipe, a socket or a terminal has no room.
-  enum class WhenFull : std::uint8_t {
-    wait,  ///< Until there is, or a stop is requested (signals.hpp).
-    drop,  ///< At once; how many were lost is told when there is room again.
-  };
-
   LogSink();
 
-  void set_when_full(WhenFull when_full) { when_full_ = when_full; }
+  /// A line for which a pipe, a socket or a terminal has no room is waited with, until a stop is
+  /// requested (signals.hpp). From now on it is lost instead; how many were is told when there is
+  /// room again. What libraries print does not wait either.
+  void drop_when_full();
 
   void log(const spdlog::details::log_msg& message) override;
   void flush() override {}  // Nothing waits in a buffer.
@@ -38,7 +35,8 @@ class LogSink final : public spdlog::sinks::sink {
   bool is_journal_ = false;
   bool is_terminal_ = false;
   bool is_socket_ = false;
-  WhenFull when_full_ = WhenFull::wait;
+  bool is_shared_ = false;  // A pipe or terminal that others write to as well.
+  bool drops_ = false;
   std::uint64_t lost_ = 0;
 };
 

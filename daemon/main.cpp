@@ -49,7 +49,7 @@ int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
   }
   const bool is_live = command_line.replay.empty();
   if (is_live) {
-    log.set_when_full(cremed::LogSink::WhenFull::drop);
+    log.drop_when_full();
   }
   const std::string path = cremed::configuration_path(command_line.config);
   const auto configuration = cremed::load_configuration(path);

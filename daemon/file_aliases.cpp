@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <tuple>
@@ -66,9 +67,9 @@ KnownFile stream(int descriptor, const char* name) {
 
 std::vector<KnownFile> known(const std::vector<NamedFile>& files) {
   std::vector<KnownFile> result;
-  for (const NamedFile& file : files) {
-    result.push_back({file, identity(file.path)});
-  }
+  std::transform(files.begin(), files.end(), std::back_inserter(result), [](const NamedFile& file) {
+    return KnownFile{file, identity(file.path)};
+  });
   return result;
 }
 

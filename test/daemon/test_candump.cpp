@@ -223,6 +223,7 @@ TEST_CASE("what candump prints on a terminal is read where it has stamps") {
       GoodLine{"RX - -  123   [1]  AB", make_frame(Kind::standard, 0x123, {0xAB})},
       GoodLine{"TX B E  12345678   [1]  AB", make_frame(Kind::extended, 0x12345678, {0xAB})},
       GoodLine{"123   [0]  remote request", make_frame(Kind::remote, 0x123)},
+      GoodLine{"     7FF   [1]  0A", make_frame(Kind::standard, 0x7FF, {0x0A})},
       GoodLine{"20000004   [2]  00 20   ERRORFRAME", make_frame(Kind::error, 4, {0, 0x20})},
       GoodLine{"123  [02]  11 22", make_frame(Kind::fd, 0x123, {0x11, 0x22})});
   const CandumpLine line = parse_candump_line(" (1436509052.249713)  can0  " + good.text + "\n");

@@ -67,8 +67,11 @@ CALIBRATE = Program("eval calibrate", "cremed-eval calibrate {in} --config {conf
 TABLE = Program("eval table", "cremed-eval table --runs 1 --sets 1 --threads 1", prints=True,
                 is_timed=True)
 
+BENCH = Program("bench", "cremed-bench --benchmark_min_time=0.001 --benchmark_filter=components/16",
+                prints=True, is_timed=True)  # Built where libbenchmark-dev is.
+
 ALL = (REPLAY, ODOMETRY, DOCTOR, SIMULATE, SIMULATE_OUT, LCM_TO_CSV, PAIRS_OF, DRIVE, CALIBRATE,
-       TABLE)
+       TABLE, BENCH)
 WITH_INPUT = tuple(program for program in ALL if program.source)
 WITH_OUTPUT = tuple(program for program in ALL if program.outputs())
 

@@ -37,6 +37,11 @@ constexpr Error kRemoteShape = "remote request must be id#R, or id#R and a lengt
 constexpr Error kRawDlc = "raw length code must be _9 to _F after a length of 8";
 constexpr Error kErrorKind = "error frame must be classic data";
 constexpr Error kTail = "only R or T may follow the frame";
+constexpr Error kConsoleShape =
+    "console line must have as many bytes after the [length] as it says, in hex";
+constexpr Error kNoStamp =
+    "console output without time: must be recorded by `candump -l`, or at least `candump -ta`";
+constexpr Error kNoFrame = "a frame's line must begin with (seconds.fraction)";
 
 /// Hands a line out piece by piece, from left to right.
 class Cursor {
@@ -56,6 +61,7 @@ class Cursor {
   std::string_view take_until(std::string_view set) {
     return take_size(std::min(rest_.find_first_of(set), rest_.size()));
   }
+  std::string_view take_rest() { return take_size(rest_.size()); }
   bool take_blanks() { return !take_all_of(kBlanks).empty(); }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
@@ -198,10 +204,47 @@ Error parse_classic(std::string_view text, CanFrame& frame) {
   return parse_raw_dlc(text.substr(underscore + 1), frame);
 }
 
+Error parse_console_bytes(Cursor& cursor, std::uint64_t length, CanFrame& frame) {
+  const std::size_t capacity = frame.fd ? frame.data.size() : kClassicCapacity;
+  for (std::uint64_t i = 0; i < length; ++i) {
+    const std::string_view byte = cursor.take_blanks() ? cursor.take_until(kBlanks) : "";
+    if (byte.size() != 2 || !parse_bytes(byte, capacity, frame).empty()) {
+      return kConsoleShape;
+    }
+  }
+  return frame.fd && !is_fd_length(frame.length) ? kFdLength : Error{};
+}
+
+/// What candump prints on a terminal: `123   [8]  11 22 33 44 55 66 77 88`, of FD `[08]`; -x puts
+/// `RX - -` or the like before it. What follows says nothing more (text by -a, ERRORFRAME).
+Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
+  if (word == "RX" || word == "TX") {
+    for (int i = 0; i < 3; ++i) {
+      cursor.take_blanks();
+      word = cursor.take_until(kBlanks);
+    }
+  }
+  const bool has_bracket = cursor.take_blanks() && cursor.take('[');
+  const std::string_view length = cursor.take_all_of(kDigits);
+  std::uint64_t bytes = 0;
+  if (!has_bracket || !cursor.take(']') || !parse_number(length, 10, bytes)) {
+    return kFrameShape;
+  }
+  if (const Error error = parse_identifier(word, line.frame); !error.empty()) {
+    return error;
+  }
+  line.frame.fd = length.size() == 2;
+  Cursor text = cursor;
+  line.frame.remote = text.take_blanks() && text.take_until(kBlanks) == "remote";
+  const Error error = line.frame.remote ? Error{} : parse_console_bytes(cursor, bytes, line.frame);
+  cursor.take_rest();
+  return error;
+}
+
 Error parse_content(Cursor& cursor, CandumpLine& line) {
   const std::string_view digits = cursor.take_until("# \t");
   if (!cursor.take('#')) {
-    return kFrameShape;
+    return parse_console(cursor, digits, line);
   }
   const bool fd = cursor.take('#');
   const std::string_view content = cursor.take_until(kBlanks);
@@ -254,23 +297,43 @@ CandumpLine parse_drop_count(std::string_view text) {
   return {};
 }
 
+/// Neither comment nor empty: whoever made the log should hear of it.
+CandumpLine parse_other(std::string_view text) {
+  CandumpLine line;
+  if (text.empty() || text.starts_with('#') || text.starts_with("DROPCOUNT")) {
+    return line;
+  }
+  Cursor cursor(text);
+  CandumpLine console;
+  const bool is_console =
+      parse_interface(cursor, console).empty() && parse_content(cursor, console).empty();
+  line.status = CandumpStatus::malformed;
+  line.error = is_console ? kNoStamp : kNoFrame;
+  return line;
+}
+
 std::string_view without_line_end(std::string_view text) {
   if (text.ends_with('\n')) text.remove_suffix(1);
   if (text.ends_with('\r')) text.remove_suffix(1);
   return text;
 }
 
+/// On a terminal candump begins with some.
+std::string_view without_blanks_before(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+}
+
 }  // namespace
 
 CandumpLine parse_candump_line(std::string_view line) {
-  const std::string_view text = without_line_end(line);
+  const std::string_view text = without_blanks_before(without_line_end(line));
   if (text.starts_with('(')) {
     return parse_frame(text);
   }
   if (text.starts_with(kDropPrefix)) {
     return parse_drop_count(text);
   }
-  return {};
+  return parse_other(text);
 }
 
 }  // namespace cremed

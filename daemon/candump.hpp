@@ -17,9 +17,9 @@ inline constexpr std::size_t kMaxInterfaceName = 15;
 /// What one line of a candump log is.
 enum class CandumpStatus : std::uint8_t {
   frame,      ///< `frame` and `interface_name` are set.
-  skipped,    ///< Comment, empty line, or a line candump writes that is no frame.
+  skipped,    ///< Comment (#), empty line, or a line candump writes that is no frame.
   dropped,    ///< DROPCOUNT line: `dropped_frames` were lost on `interface_name`.
-  malformed,  ///< Starts like a frame but is none; `error` says what would be right.
+  malformed,  ///< Anything else; `error` says what would be right.
 };
 
 struct CandumpLine {
@@ -38,6 +38,7 @@ struct CandumpLine {
 ///     (1436509052.249713) can0 20000004#0020000000000000   error report: bit 29 of the identifier
 ///     (1436509052.249713) can0 123#1122334455667788_C raw length code 12, which also means 8 bytes
 ///     (1436509052.249713) can0 123##1112233           CAN FD with flags 1
+///      (1436509052.249713)  can0  123   [4]  11 22 33 44    on a terminal, by -ta
 ///     DROPCOUNT: dropped 4722 CAN frames on 'can0' socket (total drops 4722)
 ///
 /// 9 decimals are rounded down to microseconds. Never allocates or throws.

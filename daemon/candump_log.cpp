@@ -4,13 +4,28 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <stdexcept>
 #include <utility>
 
+#include "daemon/log_format.hpp"
+
 namespace cremed {
+namespace {
+
+/// For a message; a log of noise has many.
+constexpr std::size_t kMostOtherInterfaces = 8;
+
+}  // namespace
 
 CandumpLog::CandumpLog(const std::string& path, std::vector<std::string> interfaces,
                        const volatile std::sig_atomic_t* stop)
-    : path_(path), reader_(path), interfaces_(std::move(interfaces)), stop_(stop) {}
+    : path_(path),
+      reader_(path),
+      interfaces_(std::move(interfaces)),
+      has_frames_(interfaces_.size()),
+      stop_(stop) {
+  refuse_foreign(reader_.begin());
+}
 
 SourceEvent CandumpLog::next(CanFrame& frame) {
   while (*stop_ == 0) {
@@ -29,6 +44,9 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
       case LineReader::Status::end:
         return SourceEvent::end;
     }
+    if (reader_.line_number() == 1) {
+      refuse_foreign(text);
+    }
     const CandumpLine line = parse_candump_line(text);
     const std::size_t interface = index_of(line.interface_name);
     const bool is_ours = interface != interfaces_.size();
@@ -42,14 +60,30 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
       }
     } else if (line.status == CandumpStatus::frame && is_ours) {
       ++counters_.frames;
+      has_frames_[interface] = true;
       frame = line.frame;
       frame.interface = static_cast<std::uint8_t>(interface);
       return SourceEvent::frame;
     } else if (line.status == CandumpStatus::frame) {
-      ++counters_.other_interface_frames;
+      count_other(line.interface_name);
     }
   }
   return SourceEvent::end;
+}
+
+void CandumpLog::refuse_foreign(std::string_view begin) const {
+  if (const std::string problem = foreign_format(begin, path_); !problem.empty()) {
+    throw std::runtime_error(problem);
+  }
+}
+
+void CandumpLog::count_other(std::string_view interface) {
+  ++counters_.other_interface_frames;
+  const bool is_known = std::find(other_interfaces_.begin(), other_interfaces_.end(), interface) !=
+                        other_interfaces_.end();
+  if (!is_known && other_interfaces_.size() < kMostOtherInterfaces) {
+    other_interfaces_.emplace_back(interface);
+  }
 }
 
 void CandumpLog::complain(std::string_view reason) {

@@ -47,8 +47,13 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
       "cremed"};
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
   app.add_option("--config", c.config, "Configuration (default: /etc/cremed/cremed.toml)");
-  app.add_option("--check-config", c.check_config,
-                 "Check a configuration, show what was understood, and exit");
+  std::string checked;
+  const auto* check_config =
+      app.add_option("--check-config", checked,
+                     "Check a configuration (without FILE the default one), show what was "
+                     "understood, and exit")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -57,7 +62,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.add_option("--state-file", c.state_file,
                  "Begin with what was learned of the radars before, and keep it; live it overrides "
                  "odometry.state_file, which a replay leaves alone");
-  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV");
+  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output");
   app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
   app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");
@@ -66,6 +71,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     c.speed = parse_speed(speed);
+    c.check_config = check_config->count() != 0 ? std::optional(checked) : std::nullopt;
     check(c);
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? 0 : kBadUsage};

@@ -11,12 +11,12 @@ namespace cremed {
 
 /// What the user asked for.
 struct CommandLine {
-  std::string config;                     ///< Path; empty: the default places.
-  std::string check_config;               ///< Path to check only; empty: no.
-  std::vector<std::string> replay;        ///< Logs; "-" is standard input.
-  double speed = 0.0;                     ///< Log seconds per second; 0: as fast as possible.
-  bool timing = false;                    ///< Measure solve_us.
-  std::optional<std::string> state_file;  ///< Of what was learned.
+  std::string config;                       ///< Path; empty: the default places.
+  std::optional<std::string> check_config;  ///< Path to check only; empty: the default places.
+  std::vector<std::string> replay;          ///< Logs; "-" is standard input.
+  double speed = 0.0;                       ///< Log seconds per second; 0: as fast as possible.
+  bool timing = false;                      ///< Measure solve_us.
+  std::optional<std::string> state_file;    ///< Of what was learned.
   std::optional<std::string> output_csv;
   std::optional<std::string> output_odometry;
   std::optional<std::string> output_tum;

@@ -29,6 +29,7 @@ class CsvWriter final : public OdometrySink {
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
+  [[nodiscard]] std::string problem() const override { return file_.problem(); }
 
  private:
   OutputFile file_;

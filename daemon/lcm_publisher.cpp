@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include "daemon/file_aliases.hpp"
 #include "daemon/message_text.hpp"
 #include "daemon/multicast_route.hpp"
 
@@ -163,15 +164,24 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
   }
 }
 
-std::string LcmPublisher::connect() {
-  const std::string problem = multicast_problem(url_);
-  if (!problem.empty()) {
-    return concat({"LCM at ", url_, ": ", problem});
+/// Returns what is wrong; empty if there is something to publish with.
+std::string LcmPublisher::open() {
+  const std::string path = lcm_file(url_);
+  if (!path.empty() && url_.ends_with("mode=w")) {
+    file_.emplace(path);
+    return file_->is_open() ? std::string() : concat({"cannot write ", path});
+  }
+  if (std::string problem = multicast_problem(url_); !problem.empty()) {
+    return problem;
   }
   lcm_.reset(create_lcm(url_));
-  if (lcm_ == nullptr) {
-    return concat(
-        {"LCM at ", url_, ": cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0"});
+  return lcm_ != nullptr ? std::string()
+                         : "cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0";
+}
+
+std::string LcmPublisher::connect() {
+  if (const std::string problem = open(); !problem.empty()) {
+    return concat({"LCM at ", url_, ": ", problem});
   }
   const std::uint64_t failures = failures_;
   for (Messages& messages : messages_) {
@@ -179,17 +189,25 @@ std::string LcmPublisher::connect() {
     ++messages.status.seq;
   }
   if (failures_ != failures) {
+    const std::string reason = problem();
     lcm_.reset();
-    return concat({"LCM at ", url_, ": cannot publish"});
+    file_.reset();
+    return concat({"LCM at ", url_, ": cannot publish", reason.empty() ? "" : ": ", reason});
   }
   return {};
+}
+
+bool LcmPublisher::send(const char* channel, int size) {
+  const auto bytes = static_cast<std::size_t>(size);
+  return file_ ? file_->write(channel, {buffer_.data(), bytes})
+               : lcm_ != nullptr && lcm_publish(lcm_.get(), channel, buffer_.data(),
+                                                static_cast<unsigned int>(size)) == 0;
 }
 
 template <typename Message>
 void LcmPublisher::publish(const char* channel, const Message& message) {
   const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
-  if (lcm_ == nullptr || size < 0 ||
-      lcm_publish(lcm_.get(), channel, buffer_.data(), static_cast<unsigned int>(size)) != 0) {
+  if (size < 0 || !send(channel, size)) {
     ++failures_;
   }
 }

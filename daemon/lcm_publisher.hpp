@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <lcm/lcm.h>
 
 #include "daemon/configuration.hpp"
+#include "daemon/lcm_log_file.hpp"
 #include "daemon/odometry_sink.hpp"
 
 namespace cremed {
@@ -31,7 +33,7 @@ class LcmPublisher final : public OdometrySink {
   /// Returns what is wrong and how to mend it; empty if all is well. May be tried again.
   std::string connect();
   [[nodiscard]] const std::string& url() const { return url_; }
-  [[nodiscard]] bool is_connected() const { return lcm_ != nullptr; }
+  [[nodiscard]] bool is_connected() const { return lcm_ != nullptr || file_; }
 
   void on_scan(std::size_t radar, const RadarScan& scan) override;
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
@@ -39,6 +41,9 @@ class LcmPublisher final : public OdometrySink {
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
   [[nodiscard]] std::uint64_t failures() const override { return failures_; }
+  [[nodiscard]] std::string problem() const override {
+    return file_ ? file_->problem() : std::string();
+  }
 
   /// For subscribing in the same process (memq://, tests).
   [[nodiscard]] lcm_t* handle() { return lcm_.get(); }
@@ -55,11 +60,14 @@ class LcmPublisher final : public OdometrySink {
     std::string scan_channel;
   };
   void publish_motion(const EgoMotion& motion, std::int32_t solve_us, ego_motion_t& message);
+  std::string open();
+  bool send(const char* channel, int size);
   template <typename Message>
   void publish(const char* channel, const Message& message);
 
   std::string url_;
   std::unique_ptr<lcm_t, Destroy> lcm_;
+  std::optional<LcmLogFile> file_;  // In place of lcm_ where the address is a file to write.
   bool publish_scans_;
   std::vector<Messages> messages_;
   ego_motion_t fused_;

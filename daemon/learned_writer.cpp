@@ -2,35 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/learned_writer.hpp"
 
-#include <csignal>
 #include <stdexcept>
 #include <utility>
 
 #include "daemon/replaced_file.hpp"
+#include "daemon/signals.hpp"
 
 namespace cremed {
-namespace {
-
-/// Signals are for the loop, whose reads they end: a thread begun in this scope gets none.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
-}  // namespace
-
 LearnedWriter::LearnedWriter(std::string path) : path_(std::move(path)) {
-  const SignalsBlocked blocked;
+  const SignalsBlocked blocked;  // Signals are for the loop, whose reads they end.
   thread_ = std::thread(&LearnedWriter::run, this);
 }
 

@@ -14,12 +14,15 @@
 namespace cremed {
 namespace {
 
-constexpr int kLongestWaitMs = 200;
+constexpr int kLongestWaitMs = 100;
+constexpr std::size_t kBeginBytes = 256;
 
 }  // namespace
 
 LineReader::LineReader(const std::string& path)
-    : descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : descriptor_(path == "-"
+                      ? STDIN_FILENO
+                      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
   if (descriptor_ < 0) {
     throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno));
   }
@@ -29,6 +32,14 @@ LineReader::~LineReader() {
   if (descriptor_ != STDIN_FILENO) {
     ::close(descriptor_);
   }
+}
+
+std::string LineReader::begin() const {
+  std::string text(kBeginBytes, '\0');
+  const off_t now = ::lseek(descriptor_, 0, SEEK_CUR);
+  const ssize_t count = now < 0 ? 0 : ::pread(descriptor_, text.data(), text.size(), now);
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
 }
 
 LineReader::Status LineReader::next(std::string_view& line) {
@@ -63,15 +74,16 @@ LineReader::Status LineReader::fill() {
   if (end_ == buffer_.size()) {
     skipping_ = true;
     end_ = 0;
+    return Status::interrupted;  // It may never end.
   }
   // A signal just before read(2) would be slept through: come up for air now and then.
   pollfd input{descriptor_, POLLIN, 0};
-  if (::poll(&input, 1, kLongestWaitMs) == 0) {
+  if (::poll(&input, 1, kLongestWaitMs) <= 0) {
     return Status::interrupted;
   }
   const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
   if (count < 0) {
-    return errno == EINTR ? Status::interrupted : Status::failed;
+    return errno == EINTR || errno == EAGAIN ? Status::interrupted : Status::failed;
   }
   at_end_ = count == 0;
   end_ += static_cast<std::size_t>(count);

@@ -18,11 +18,12 @@ class LineReader {
     line,         ///< `line` is set, valid until the next call.
     too_long,     ///< A line longer than the buffer was passed over.
     end,          ///< End of input.
-    interrupted,  ///< A signal came, or nothing for a while; call again to go on.
+    interrupted,  ///< A signal came, or nothing for a while, or still the same line; call again.
     failed,       ///< read(2) failed; errno says why.
   };
 
-  /// "-" is standard input. Throws std::runtime_error with path and reason.
+  /// "-" is standard input. A pipe that nobody writes to yet is waited for in next(). Throws
+  /// std::runtime_error with path and reason.
   explicit LineReader(const std::string& path);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -30,6 +31,8 @@ class LineReader {
 
   /// The next line without its line feed.
   Status next(std::string_view& line);
+  /// What a file begins with, before anything is read of it; nothing of a pipe.
+  [[nodiscard]] std::string begin() const;
   /// Number of the line last returned, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
 

@@ -3,20 +3,25 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <variant>
 
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
 #include "daemon/configuration_summary.hpp"
+#include "daemon/log_sink.hpp"
+#include "daemon/process_setup.hpp"
 #include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
+#include "daemon/version.hpp"
 
 namespace {
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
+
+constexpr double kDegreesPerRad = 57.295779513082321;
 
 void warn_of_doubts(const cremed::Configuration& configuration) {
   for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
@@ -24,7 +29,7 @@ void warn_of_doubts(const cremed::Configuration& configuration) {
   }
 }
 
-int check_configuration(const std::string& path) {
+int check(const std::string& path) {
   const auto configuration = cremed::load_configuration(path);
   std::fputs(cremed::configuration_summary(configuration).c_str(), stdout);
   warn_of_doubts(configuration);
@@ -32,30 +37,50 @@ int check_configuration(const std::string& path) {
   return good;
 }
 
-int run(const cremed::CommandLine& command_line) {
-  if (!command_line.check_config.empty()) {
-    return check_configuration(command_line.check_config);
+std::string to_text(const cremed::RadarConfiguration& radar) {
+  const auto* const ars408 = std::get_if<cremed::Ars408Options>(&radar.decoder);
+  const cremed::Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  return fmt::format("{}: {} on {}, mount x {:.3f} m, y {:.3f} m, yaw {:.2f} deg", radar.name,
+                     ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
+                     radar.interface, mount.x_m, mount.y_m, mount.yaw_rad * kDegreesPerRad);
+}
+
+/// The first lines of the log: what runs, and with what.
+void introduce(const std::string& path, const cremed::Configuration& configuration) {
+  spdlog::info("cremed {}, configuration: {}", CREMED_VERSION, path);
+  for (const cremed::RadarConfiguration& radar : configuration.radars) {
+    spdlog::info("{}", to_text(radar));
+  }
+}
+
+int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
+  if (command_line.check_config) {
+    return check(cremed::configuration_path(*command_line.check_config));
+  }
+  const bool is_live = command_line.replay.empty();
+  if (is_live) {
+    log.drop_when_full();
   }
   const std::string path = cremed::configuration_path(command_line.config);
   const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
-  spdlog::info("configuration: {}", path);
+  introduce(path, configuration);
   warn_of_doubts(configuration);
-  return command_line.replay.empty() ? cremed::run_live(command_line, path, configuration)
-                                     : cremed::run_replay(command_line, configuration);
+  return is_live ? cremed::run_live(command_line, path, configuration)
+                 : cremed::run_replay(command_line, path, configuration);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_color_st("cremed"));
-  spdlog::set_pattern("%^%l%$: %v");
+  cremed::set_up_process();
+  const auto log = cremed::log_to_standard_error();
   const cremed::CommandLineResult result = cremed::parse_command_line(argc, argv);
   if (!result.command_line) {
     return result.exit_status;
   }
   try {
-    return run(*result.command_line);
+    return run(*result.command_line, *log);
   } catch (const cremed::ConfigurationError& error) {
     spdlog::error("{}", error.what());
     return bad_usage;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "can_decoders/radar_scan.hpp"
 #include "daemon/radar_status.hpp"
@@ -29,6 +30,8 @@ class OdometrySink {
 
   /// Results that could not be delivered.
   [[nodiscard]] virtual std::uint64_t failures() const = 0;
+  /// Which was the first, and why, for people; empty if there was none, or nothing to say of it.
+  [[nodiscard]] virtual std::string problem() const { return {}; }
 
  protected:
   OdometrySink() = default;

@@ -29,6 +29,7 @@ class OdometryWriter final : public OdometrySink {
   void on_motion(std::size_t /*radar*/, const EgoMotion& /*motion*/, std::int32_t) override {}
   void on_odometry(const Odometry& odometry) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
+  [[nodiscard]] std::string problem() const override { return file_.problem(); }
 
  private:
   OutputFile file_;

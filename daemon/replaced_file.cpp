@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "daemon/message_text.hpp"
+#include "daemon/output_file.hpp"
+#include "daemon/signals.hpp"
 
 namespace cremed {
 namespace {
@@ -22,7 +24,8 @@ constexpr mode_t kUsualPermissions = 0644;
 /// Beside the file that it will replace; removed unless it did.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& target) : path_(target + ".XXXXXX") {
+  explicit TemporaryFile(const std::string& target) : target_(target), path_(target + ".XXXXXX") {
+    check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);  // A rename would not ask.
     file_ = ::mkstemp(path_.data());
     check(file_ >= 0);
   }
@@ -45,16 +48,16 @@ class TemporaryFile {
     }
   }
 
-  void replace(const std::string& target) {
-    keep_permissions(target);
-    check(::fsync(file_) == 0 && std::rename(path_.c_str(), target.c_str()) == 0);
+  void replace() {
+    keep_permissions();
+    check(::fsync(file_) == 0 && std::rename(path_.c_str(), target_.c_str()) == 0);
     path_.clear();
   }
 
  private:
-  void keep_permissions(const std::string& target) const {
+  void keep_permissions() const {
     struct stat status {};
-    if (::stat(target.c_str(), &status) != 0) {
+    if (::stat(target_.c_str(), &status) != 0) {
       check(errno == ENOENT && ::fchmod(file_, kUsualPermissions) == 0);
       return;
     }
@@ -67,21 +70,40 @@ class TemporaryFile {
   void check(bool is_good) const {
     if (!is_good) {
       throw std::runtime_error(
-          concat({"cannot write ", path_, ": ", std::generic_category().message(errno)}));
+          concat({"cannot write ", target_, ": ", std::generic_category().message(errno)}));
     }
   }
 
+  std::string target_;
   std::string path_;
   int file_ = -1;
 };
 
+/// A device or a pipe is written to: nothing can take its place.
+bool is_no_file(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+void write_through(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  if (file.failures() != 0) {
+    throw std::runtime_error(file.problem());
+  }
+}
+
 }  // namespace
 
 void replace_file(const std::string& path, std::string_view text) {
-  const std::string target = std::filesystem::weakly_canonical(path).string();
-  TemporaryFile file(target);
+  if (is_no_file(path)) {
+    write_through(path, text);
+    return;
+  }
+  const SignalsBlocked blocked;  // One that ends the process would leave the temporary file.
+  TemporaryFile file(std::filesystem::weakly_canonical(path).string());
   file.write(text);
-  file.replace(target);
+  file.replace();
 }
 
 }  // namespace cremed

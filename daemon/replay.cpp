@@ -20,7 +20,7 @@ constexpr std::size_t kLaneFrames = 8192;
 /// A longer step of the log's clock is a clock that was set, or a log that was paused.
 constexpr double kClockJumpS = 10.0;
 constexpr double kLongestWaitNs = 1e18;
-constexpr std::int64_t kLongestSleepNs = 200'000'000;
+constexpr std::int64_t kLongestSleepNs = 100'000'000;
 
 std::int64_t monotonic_ns() {
   timespec now{};

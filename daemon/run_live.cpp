@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/run_live.hpp"
 
+#include <csignal>
 #include <memory>
 
 #include <spdlog/spdlog.h>
 
 #include "daemon/clocks.hpp"
+#include "daemon/file_aliases.hpp"
+#include "daemon/instance_lock.hpp"
 #include "daemon/live_session.hpp"
 #include "daemon/real_time.hpp"
 #include "daemon/service_notifier.hpp"
@@ -14,6 +17,11 @@
 
 namespace cremed {
 namespace {
+
+std::string state_file(const CommandLine& command_line, const Configuration& configuration) {
+  return command_line.state_file.value_or(
+      configuration.odometry.enabled ? configuration.odometry.state_file : std::string());
+}
 
 /// A file grows for months and writing it may block; LCM has a recorder for that.
 void refuse_files(const CommandLine& command_line, const Configuration& configuration) {
@@ -31,6 +39,14 @@ void refuse_files(const CommandLine& command_line, const Configuration& configur
         "drive with "
         "`lcm-logger`");
   }
+}
+
+/// What the live daemon writes besides messages.
+void refuse_overwriting(const CommandLine& command_line, const std::string& path,
+                        const Configuration& configuration) {
+  refuse_aliases({{"the configuration", path}},
+                 {{"odometry.state_file", state_file(command_line, configuration)},
+                  {"LCM", lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url))}});
 }
 
 void set_up_real_time(RealTimePolicy policy) {
@@ -51,11 +67,9 @@ void set_up_real_time(RealTimePolicy policy) {
 std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
                                    const Configuration& configuration,
                                    const volatile std::sig_atomic_t* stop) {
-  return std::make_unique<LiveSession>(
-      configuration, command_line.lcm_url.value_or(configuration.output.lcm_url),
-      command_line.state_file.value_or(
-          configuration.odometry.enabled ? configuration.odometry.state_file : std::string()),
-      stop);
+  return std::make_unique<LiveSession>(configuration,
+                                       command_line.lcm_url.value_or(configuration.output.lcm_url),
+                                       state_file(command_line, configuration), stop);
 }
 
 /// The file's new configuration, or nothing if it is bad.
@@ -73,6 +87,9 @@ std::unique_ptr<Configuration> reload(const std::string& path) {
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration) {
   refuse_files(command_line, configuration);
+  refuse_overwriting(command_line, path, configuration);
+  const InstanceLock lock(path);
+  std::signal(SIGPIPE, SIG_IGN);  // Whoever read the log may end before us.
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   handle_reload_signal();
   const ServiceNotifier notifier;

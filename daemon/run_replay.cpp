@@ -7,17 +7,19 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
 
 #include "daemon/clocks.hpp"
 #include "daemon/csv_writer.hpp"
+#include "daemon/file_aliases.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/learned_file.hpp"
+#include "daemon/message_text.hpp"
 #include "daemon/odometry_writer.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/replaced_file.hpp"
@@ -37,32 +39,31 @@ std::vector<std::string> radar_names(const Configuration& configuration) {
   return names;
 }
 
-/// Which file a path leads to, if there is one.
-std::optional<std::pair<dev_t, ino_t>> identity(const std::string& path) {
-  struct stat status {};
-  if (path.empty() || path == "-" || ::stat(path.c_str(), &status) != 0 ||
-      !S_ISREG(status.st_mode)) {
-    return std::nullopt;
+/// Names as the user knows them: of the command line, or else of the configuration.
+void refuse_overwriting(const CommandLine& command_line, const OutputConfiguration& output,
+                        const std::string& configuration_path) {
+  std::vector<NamedFile> inputs = {{"the configuration", configuration_path}};
+  for (const std::string& log : command_line.replay) {
+    inputs.push_back({"the log", log});
   }
-  return std::pair{status.st_dev, status.st_ino};
+  const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
+  refuse_aliases(inputs,
+                 {{"--output-csv", command_line.output_csv.value_or(output.csv)},
+                  {"--output-odometry", command_line.output_odometry.value_or(output.odometry)},
+                  {"--output-tum", command_line.output_tum.value_or(output.tum)},
+                  {"--state-file", command_line.state_file.value_or("")},
+                  {"LCM", lcm_file(lcm_url)}});
 }
 
-/// Opening an output empties it: never one of the inputs, nor another output.
-void refuse_overwriting(const CommandLine& command_line, const std::vector<std::string>& outputs) {
-  const auto is_same = [](const std::string& a, const std::string& b) {
-    return !a.empty() && (a == b || (identity(a) && identity(a) == identity(b)));
-  };
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    for (const std::string& log : command_line.replay) {
-      if (is_same(*output, log)) {
-        throw UsageError(*output + " is to be replayed and written; write to another file");
-      }
-    }
-    const auto is_written_twice = [&](const auto& other) { return is_same(*output, other); };
-    if (*output != "/dev/null" && std::any_of(output + 1, outputs.end(), is_written_twice)) {
-      throw UsageError(*output + " cannot hold two outputs; write one to another file");
-    }
+/// Whatever cannot be, before anything is opened.
+void refuse(const CommandLine& command_line, const std::string& configuration_path,
+            const Configuration& configuration) {
+  const OutputConfiguration& output = configuration.output;
+  if (!command_line.output_odometry.value_or(output.odometry).empty() &&
+      !configuration.odometry.enabled) {
+    throw UsageError("there is no odometry to write: odometry.enabled = false");
   }
+  refuse_overwriting(command_line, output, configuration_path);
 }
 
 struct Sinks {
@@ -84,10 +85,6 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   const std::string csv = command_line.output_csv.value_or(output.csv);
   const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
-  refuse_overwriting(command_line, {csv, odometry, tum, command_line.state_file.value_or("")});
-  if (!odometry.empty() && !configuration.odometry.enabled) {
-    throw UsageError("there is no odometry to write: odometry.enabled = false");
-  }
   Sinks sinks;
   if (lcm_url != "none") {
     auto publisher = std::make_unique<LcmPublisher>(lcm_url, configuration);
@@ -157,7 +154,7 @@ void log_durations(const Configuration& configuration, const Pipeline& pipeline)
 }
 
 /// Logs what was wrong with the logs; false if one could not be read to its end.
-bool report_logs(const Replay& replay, bool was_stopped) {
+bool report_logs(const Replay& replay) {
   bool good = true;
   for (const auto& log : replay.logs()) {
     if (log->complaint().line_number != 0) {
@@ -169,14 +166,49 @@ bool report_logs(const Replay& replay, bool was_stopped) {
       good = false;
     }
   }
-  const SourceCounters& counters = replay.counters();
-  if (counters.lost_frames != 0) {
-    spdlog::warn("{} frames were lost before they were logged", counters.lost_frames);
+  if (replay.counters().lost_frames != 0) {
+    spdlog::warn("{} frames were lost before they were logged", replay.counters().lost_frames);
   }
-  // Stopped before the first frame, the input may have been good.
-  if (counters.frames + counters.other_interface_frames == 0 && !was_stopped) {
+  return good;
+}
+
+std::string other_interfaces(const Replay& replay) {
+  std::set<std::string> names;
+  for (const auto& log : replay.logs()) {
+    for (const std::string& name : log->other_interfaces()) {
+      names.insert(printable(name));
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// One log may have the frames of one interface only: of another, nothing needs to be wrong.
+void report_absent_interfaces(const Configuration& configuration, const Replay& replay) {
+  const std::string others = other_interfaces(replay);
+  const std::vector<std::string> names = interface_names(configuration);
+  for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
+    if (std::none_of(replay.logs().begin(), replay.logs().end(),
+                     [i](const auto& log) { return log->has_frames(i); })) {
+      spdlog::error("the input has no frame of interface {}; set interface to one it has: {}",
+                    names[i], others);
+    }
+  }
+}
+
+/// Whether any radar had a frame: without one, nothing can have come out.
+bool report_frames(const Configuration& configuration, const Replay& replay,
+                   const Pipeline& pipeline) {
+  const SourceCounters& counters = replay.counters();
+  if (counters.frames + counters.other_interface_frames == 0) {
     spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
-    good = false;
+    return false;
+  }
+  report_absent_interfaces(configuration, replay);
+  const bool good =
+      std::any_of(pipeline.radars().begin(), pipeline.radars().end(),
+                  [&](const auto& radar) { return radar->status(0, replay).decoder.frames != 0; });
+  if (!good) {
+    spdlog::error("no frame of a configured radar in the input");
   }
   return good;
 }
@@ -185,6 +217,9 @@ bool report_sinks(const Sinks& sinks) {
   std::uint64_t failures = 0;
   for (const auto& sink : sinks.owned) {
     failures += sink->failures();
+    if (const std::string problem = sink->problem(); !problem.empty()) {
+      spdlog::error("{}", problem);
+    }
   }
   if (failures != 0) {
     spdlog::error("{} results could not be written or published", failures);
@@ -197,8 +232,11 @@ bool report_sinks(const Sinks& sinks) {
 
 }  // namespace
 
-int run_replay(const CommandLine& command_line, const Configuration& configuration) {
+int run_replay(const CommandLine& command_line, const std::string& configuration_path,
+               const Configuration& configuration) {
+  refuse(command_line, configuration_path, configuration);
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
+  stop_at_hangup();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
   const Sinks sinks = open_sinks(command_line, configuration);
   std::optional<LearnedFile> learned;
@@ -227,7 +265,10 @@ int run_replay(const CommandLine& command_line, const Configuration& configurati
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }
-  const bool input_good = report_logs(*replay, *stop != 0);
+  const bool logs_good = report_logs(*replay);
+  // Stopped before the first frame, the input may have been good.
+  const bool input_good =
+      *stop != 0 ? logs_good : report_frames(configuration, *replay, pipeline) && logs_good;
   const bool output_good = report_sinks(sinks);
   return input_good && output_good ? 0 : 1;
 }

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 
 namespace cremed {
 
 /// Replays the logs of the command line through the pipeline. Returns the exit status: 0, or 1 if
-/// input could not be read, held no frame, or output was lost. Throws std::runtime_error if inputs
+/// input could not be read, held no frame of a configured radar, or output was lost. Throws
+/// UsageError if an output would overwrite an input or another output, std::runtime_error if inputs
 /// or outputs cannot be opened.
-int run_replay(const CommandLine& command_line, const Configuration& configuration);
+int run_replay(const CommandLine& command_line, const std::string& configuration_path,
+               const Configuration& configuration);
 
 }  // namespace cremed

@@ -30,6 +30,7 @@ class TumWriter final : public OdometrySink {
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
   void on_odometry(const Odometry& odometry) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
+  [[nodiscard]] std::string problem() const override { return file_.problem(); }
   [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
 
  private:

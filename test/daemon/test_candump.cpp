@@ -155,6 +155,12 @@ const BadLine kBadLines[] = {
     {kHead + "123#11 RT", "only R or T"},
     {kHead + "123#11 R T", "only R or T"},
     {kHead + "123#11\n\n", "pairs of hex digits"},
+    {kHead + "123 [2] 11", "as many bytes after the [length]"},
+    {kHead + "123 [2] 11 2", "as many bytes after the [length]"},
+    {kHead + "123 [9] 11 22 33 44 55 66 77 88 99", "as many bytes after the [length]"},
+    {kHead + "123 [] 11", "followed by a frame"},
+    {kHead + "123 (2) 11", "followed by a frame"},
+    {kHead + "12 [1] 11", "3 hex digits"},
     {kHead + std::string("123#11 \0", 8), "only R or T"},
 };
 
@@ -184,18 +190,47 @@ TEST_CASE("every truncation of a frame is a shorter frame or malformed, never an
   }
 }
 
-TEST_CASE("what does not start with a bracket is no frame and no error") {
-  const std::string text =
-      GENERATE("", "\n", "\r\n", "# comment", " (1.000000) can0 123#", "date Fri Jul 10",
-               "DROPCOUNT", "DROPCOUNT: dropped", "DROPCOUNT: dropped x CAN frames on 'can0'",
-               "DROPCOUNT: dropped 5 CAN frames on can0 socket",
-               "DROPCOUNT: dropped 5 CAN frames on '' socket", "DROPCOUNT: dropped 5 on 'can0",
-               "DROPCOUNT: dropped 99999999999999999999999 CAN frames on 'can0' socket");
+TEST_CASE("comments, empty lines and damaged drop reports are no frames and no errors") {
+  const std::string text = GENERATE(
+      "", "\n", "\r\n", "# comment", "DROPCOUNT", "DROPCOUNT: dropped",
+      "DROPCOUNT: dropped x CAN frames on 'can0'", "DROPCOUNT: dropped 5 CAN frames on can0 socket",
+      "DROPCOUNT: dropped 5 CAN frames on '' socket", "DROPCOUNT: dropped 5 on 'can0",
+      "DROPCOUNT: dropped 99999999999999999999999 CAN frames on 'can0' socket");
   const CandumpLine line = parse_candump_line(text);
   CAPTURE(text);
   CHECK(line.status == CandumpStatus::skipped);
   CHECK(line.dropped_frames == 0);
   CHECK(line.error.empty());
+}
+
+TEST_CASE("any other line is counted and told") {
+  const BadLine bad = GENERATE(BadLine{"date Fri Jul 10", "must begin with (seconds"},
+                               BadLine{"x", "must begin with"},
+                               BadLine{"  can0  123   [2]  11 22", "`candump -ta`"},
+                               BadLine{"  can0  123   [2]  11", "must begin with"});
+  const CandumpLine line = parse_candump_line(bad.text);
+  CAPTURE(bad.text);
+  CHECK(line.status == CandumpStatus::malformed);
+  CHECK_THAT(std::string(line.error), Catch::Contains(bad.right));
+}
+
+TEST_CASE("what candump prints on a terminal is read where it has stamps") {
+  const GoodLine good = GENERATE(
+      GoodLine{"123   [4]  11 22 33 44",
+               make_frame(Kind::standard, 0x123, {0x11, 0x22, 0x33, 0x44})},
+      GoodLine{"123   [0]", make_frame(Kind::standard, 0x123)},
+      GoodLine{"123   [2]  11 22   '.\"'", make_frame(Kind::standard, 0x123, {0x11, 0x22})},
+      GoodLine{"RX - -  123   [1]  AB", make_frame(Kind::standard, 0x123, {0xAB})},
+      GoodLine{"TX B E  12345678   [1]  AB", make_frame(Kind::extended, 0x12345678, {0xAB})},
+      GoodLine{"123   [0]  remote request", make_frame(Kind::remote, 0x123)},
+      GoodLine{"     7FF   [1]  0A", make_frame(Kind::standard, 0x7FF, {0x0A})},
+      GoodLine{"20000004   [2]  00 20   ERRORFRAME", make_frame(Kind::error, 4, {0, 0x20})},
+      GoodLine{"123  [02]  11 22", make_frame(Kind::fd, 0x123, {0x11, 0x22})});
+  const CandumpLine line = parse_candump_line(" (1436509052.249713)  can0  " + good.text + "\n");
+  CAPTURE(good.text, line.error);
+  REQUIRE(line.status == CandumpStatus::frame);
+  CHECK(line.frame == good.frame);
+  CHECK(line.interface_name == "can0");
 }
 
 TEST_CASE("drop reports give the number lost and the interface") {

@@ -18,6 +18,9 @@ std::vector<std::string> read_all(LineReader& reader) {
   std::string_view line;
   for (auto status = reader.next(line); status != LineReader::Status::end;
        status = reader.next(line)) {
+    if (status == LineReader::Status::interrupted) {
+      continue;
+    }
     lines.emplace_back(status == LineReader::Status::line ? std::string(line) : "<too long>");
   }
   return lines;

@@ -20,6 +20,7 @@
 #include "daemon/clocks.hpp"
 #include "daemon/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
+#include "daemon/process_setup.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/soak/estimate_checker.hpp"
 #include "test/soak/fault_injector.hpp"
@@ -238,6 +239,7 @@ bool Soak::report_end() {
 }  // namespace cremed::soak
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   CLI::App app{"Simulated drives with random faults through the pipeline; checks every result"};
   cremed::soak::Arguments arguments;
   app.add_option("--seconds", arguments.seconds, "Driving, in seconds of the vehicle's time")

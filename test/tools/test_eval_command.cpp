@@ -110,7 +110,7 @@ TEST_CASE("cremed-eval says what is wrong") {
                Row{"pairs /dev/null --profile sim --method other", 2, "--method"},
                Row{"pairs /no/such/file --profile sim", 1, "/no/such/file"},
                Row{"pairs PAIRS --profile sim --output /no/such/folder/a.csv", 1, "cannot write"},
-               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "could not draw"});
+               Row{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "cannot write"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   std::string arguments = row.arguments;

@@ -123,10 +123,10 @@ TEST_CASE("cremed-simulate says what is wrong") {
       Row{"--scenario city --output - --duration -1", 2, "--duration"},
       Row{"--scenario city --output - --duration 1 --config /no/such/file.toml", 2,
           "/no/such/file.toml"},
-      Row{"--scenario city --duration 1 --output /no/such/folder/log", 1, "cannot be written"},
-      Row{"--scenario city --duration 1 --output - --truth /no/such/folder/t", 1,
-          "cannot be written"},
-      Row{"--scenario city --duration 1 --output /dev/full", 1, "writing failed"});
+      Row{"--scenario city --duration 1 --output /no/such/folder/log", 1, "cannot write"},
+      Row{"--scenario city --duration 1 --output - --truth /no/such/folder/t", 1, "cannot write"},
+      Row{"--scenario city --duration 1 --output /dev/full", 1,
+          "line 1 could not be written: No space left"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   const ToolRun result = run(folder, row.arguments);

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
+#include "daemon/process_setup.hpp"
 #include "daemon/version.hpp"
 #include "estimator/mixture_kernel.hpp"
 #include "tools/bench/bench_problem.hpp"
@@ -107,8 +108,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-bench: %s\n", error.what());
     return 1;

@@ -17,6 +17,7 @@
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
 #include "daemon/multicast_route.hpp"
+#include "daemon/process_setup.hpp"
 #include "daemon/signals.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -89,7 +90,9 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
 }
 
 int run_diagnosis(const Arguments& arguments, const Configuration& configuration) {
-  const Observation observation = observe(arguments, configuration, handle_stop_signals());
+  // Live, a signal ends the listening; of a log it ends the doctor.
+  const Observation observation =
+      observe(arguments, configuration, arguments.replay.empty() ? handle_stop_signals() : nullptr);
   const std::vector<Finding> findings = diagnose(configuration, observation);
   std::for_each(findings.begin(), findings.end(), print);
   const bool is_well = std::all_of(findings.begin(), findings.end(), [](const Finding& finding) {
@@ -169,8 +172,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
   } catch (const UsageError& error) {
     std::cerr << "cremed-doctor: " << error.what() << '\n';
     return bad_usage;

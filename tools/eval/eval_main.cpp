@@ -10,7 +10,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
+#include "daemon/file_aliases.hpp"
+#include "daemon/process_setup.hpp"
 #include "daemon/version.hpp"
 #include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
@@ -150,6 +153,27 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
   return command;
 }
 
+/// Of the commands that were not given, all names are empty.
+void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs,
+                        const cremed::DriveFiles& drive,
+                        const cremed::CalibrateArguments& calibrate) {
+  std::vector<cremed::NamedFile> inputs = {
+      {"FILE", pairs.file},        {"ODOMETRY", drive.odometry}, {"TRUTH", drive.truth},
+      {"--wheels", drive.wheels},  {"--config", drive.config},   {"--config", calibrate.config},
+      {"--truth", calibrate.truth}};
+  for (const std::string& log : drive.baselines) {
+    inputs.push_back({"--baselines", log});
+  }
+  for (const std::string& log : calibrate.logs) {
+    inputs.push_back({"LOG", log});
+  }
+  cremed::refuse_aliases(inputs, {{"--output", pairs.output},
+                                  {"--plot", pairs.plot},
+                                  {"--plot", table.plot},
+                                  {"--plot", drive.plot},
+                                  {"--truth-tum", drive.truth_tum}});
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
@@ -167,6 +191,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  refuse_overwriting(table, pairs, drive, calibrate);
   if (table_command->parsed()) {
     cremed::run_table(table.options, table.plot);
     return 0;
@@ -185,9 +210,13 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
   } catch (const cremed::ConfigurationError& error) {
+    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
+    return 2;
+  } catch (const cremed::UsageError& error) {
     std::fprintf(stderr, "cremed-eval: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

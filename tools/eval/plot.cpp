@@ -4,11 +4,18 @@
 
 #include <cstring>
 #include <filesystem>
+#include <istream>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "daemon/replaced_file.hpp"
+#include "tools/eval/input_file.hpp"
+#include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {
 namespace {
@@ -21,13 +28,8 @@ std::filesystem::path script_path(const std::string& script) {
                                             : std::filesystem::path(CREMED_PLOT_SCRIPTS) / script;
 }
 
-}  // namespace
-
-void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
-               const std::string& picture) {
-  std::vector<std::string> command{script_path(script)};
-  command.insert(command.end(), inputs.begin(), inputs.end());
-  command.push_back(picture);
+/// Runs a command to its good end; throws.
+void run_command(std::vector<std::string> command, const std::string& picture) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& argument : command) {
@@ -44,6 +46,23 @@ void draw_plot(const std::string& script, const std::vector<std::string>& inputs
   if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(command[0] + " could not draw " + picture);
   }
+}
+
+std::string content(std::istream& input) {
+  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
+               const std::string& picture) {
+  const TemporaryFolder folder;
+  const std::string drawn = folder.file(std::filesystem::path(picture).filename());
+  std::vector<std::string> command{script_path(script)};
+  command.insert(command.end(), inputs.begin(), inputs.end());
+  command.push_back(drawn);
+  run_command(std::move(command), picture);
+  replace_file(picture, with_input(drawn, content));
 }
 
 }  // namespace cremed

@@ -2,24 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/report_file.hpp"
 
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
+
+#include "daemon/replaced_file.hpp"
 
 namespace cremed {
 
 ReportFile::ReportFile(std::string path)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "w")) {
+    : path_(std::move(path)), file_(::open_memstream(&text_, &size_)) {
   if (file_ == nullptr) {
-    throw std::runtime_error("cannot write " + path_);
+    throw std::runtime_error("no memory for " + path_);
   }
 }
 
+ReportFile::~ReportFile() {
+  file_.reset();
+  std::free(text_);
+}
+
 void ReportFile::close() {
-  std::FILE* const file = file_.release();
-  const bool is_lost = std::ferror(file) != 0;
-  if (std::fclose(file) != 0 || is_lost) {
-    throw std::runtime_error("cannot write " + path_);
+  const bool is_lost = std::ferror(file_.get()) != 0;
+  if (std::fclose(file_.release()) != 0 || is_lost) {
+    throw std::runtime_error("no memory for " + path_);
   }
+  replace_file(path_, {text_, size_});
 }
 
 }  // namespace cremed

@@ -2,19 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <string>
 
 namespace cremed {
 
-/// A text file to write; every failure is a std::runtime_error that names it.
+/// A text file to write, there at once when it is closed; every failure is a std::runtime_error
+/// that names it.
 class ReportFile {
  public:
   explicit ReportFile(std::string path);
+  ~ReportFile();
+  ReportFile(const ReportFile&) = delete;
+  ReportFile& operator=(const ReportFile&) = delete;
 
   [[nodiscard]] std::FILE* stream() const { return file_.get(); }
-  /// Closes the file; throws if anything was not written.
+  /// Writes the file; throws if that cannot be.
   void close();
 
  private:
@@ -22,6 +27,8 @@ class ReportFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::string path_;
+  char* text_ = nullptr;  // The stream's, grows with it.
+  std::size_t size_ = 0;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/command_line.hpp"
+#include "daemon/file_aliases.hpp"
+#include "daemon/process_setup.hpp"
 #include "daemon/version.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
+#include "tools/line_stream.hpp"
 
 namespace {
 
@@ -24,36 +27,21 @@ struct Arguments {
   std::string odometry;  // Empty: not asked for.
 };
 
-std::ostream& open(std::ofstream& file, const std::string& path) {
-  if (path == "-") {
-    return std::cout;
-  }
-  file.open(path, std::ios::binary);
-  if (!file) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
-  return file;
-}
-
-void flush(std::ostream& stream, const std::string& path) {
-  if (!stream.flush()) {
-    throw std::runtime_error(path + ": writing failed");
-  }
-}
-
 cremed::LcmLogCounters convert(const Arguments& arguments) {
-  std::ofstream motion_file;
-  std::ofstream odometry_file;
-  std::ostream& motions = open(motion_file, arguments.output);
-  if (arguments.odometry.empty()) {
-    const cremed::LcmLogCounters counters = cremed::lcm_to_csv(arguments.log, motions);
-    flush(motions, arguments.output);
-    return counters;
+  if (!std::ifstream(arguments.log)) {  // Before an output is emptied.
+    throw std::runtime_error("cannot read " + arguments.log);
   }
-  std::ostream& odometries = open(odometry_file, arguments.odometry);
-  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(arguments.log, motions, &odometries);
-  flush(motions, arguments.output);
-  flush(odometries, arguments.odometry);
+  cremed::LineStream motions(arguments.output);
+  std::optional<cremed::LineStream> odometries;
+  if (!arguments.odometry.empty()) {
+    odometries.emplace(arguments.odometry);
+  }
+  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(
+      arguments.log, motions.stream(), odometries ? &odometries->stream() : nullptr);
+  motions.finish();
+  if (odometries) {
+    odometries->finish();
+  }
   return counters;
 }
 
@@ -93,26 +81,20 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUsage;
   }
-  std::error_code not_there;
-  for (const std::string& output : {arguments.output, arguments.odometry}) {
-    if (std::filesystem::equivalent(arguments.log, output, not_there)) {
-      std::cerr << "cremed-lcm-to-csv: " << arguments.log
-                << " is to be read and written; name another file\n";
-      return kBadUsage;
-    }
-  }
-  if (arguments.output == arguments.odometry) {
-    std::cerr << "cremed-lcm-to-csv: " << arguments.output << " cannot hold both outputs\n";
-    return kBadUsage;
-  }
+  cremed::refuse_aliases({{"LOG", arguments.log}},
+                         {{"--output", arguments.output}, {"--odometry", arguments.odometry}});
   return report(arguments, convert(arguments)) ? 0 : kRunTimeFailure;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
+  } catch (const cremed::UsageError& error) {
+    std::cerr << "cremed-lcm-to-csv: " << error.what() << '\n';
+    return kBadUsage;
   } catch (const std::exception& error) {
     std::cerr << "cremed-lcm-to-csv: " << error.what() << '\n';
     return kRunTimeFailure;

@@ -3,17 +3,19 @@
 #include <array>
 #include <cstdint>
 #include <exception>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
 #include "daemon/candump.hpp"
+#include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
+#include "daemon/file_aliases.hpp"
+#include "daemon/process_setup.hpp"
+#include "tools/line_stream.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
 
@@ -22,11 +24,7 @@ namespace {
 constexpr int kRunTimeFailure = 1;
 constexpr int kBadUsage = 2;
 
-/// Wrong arguments; what() says what would be right.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using cremed::UsageError;
 
 struct Arguments {
   std::string scenario;
@@ -92,26 +90,20 @@ const cremed::Scenario& asked_scenario(const std::string& name) {
   throw UsageError("--scenario: there is no '" + name + "'; '--scenario list' names them all");
 }
 
-std::ofstream opened(const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-  return file;
-}
-
-void write_log(cremed::Simulation& simulation, std::ostream& log, const std::string& path) {
+void write_log(cremed::Simulation& simulation, cremed::LineStream& log) {
   std::array<char, cremed::kMaxCandumpLine> line{};
   while (const auto frame = simulation.next()) {
     const std::string& interface = simulation.interfaces()[frame->interface];
     const std::size_t length = cremed::format_candump_line(*frame, interface, line);
-    if (!log.write(line.data(), static_cast<std::streamsize>(length))) break;
+    if (!log.stream().write(line.data(), static_cast<std::streamsize>(length))) break;
   }
-  if (!log.flush()) throw std::runtime_error(path + ": writing failed");
+  log.finish();
 }
 
 void write_truth(const cremed::Simulation& simulation, const std::string& path) {
-  std::ofstream file = opened(path);
-  simulation.write_truth(file);
-  if (!file.flush()) throw std::runtime_error(path + ": writing failed");
+  cremed::LineStream file(path);
+  simulation.write_truth(file.stream());
+  file.finish();
 }
 
 void simulate(Arguments& arguments) {
@@ -120,15 +112,13 @@ void simulate(Arguments& arguments) {
   const auto radars = arguments.config.empty()
                           ? cremed::default_radars()
                           : cremed::load_configuration(arguments.config).radars;
+  cremed::refuse_aliases({{"--config", arguments.config}},
+                         {{"--output", arguments.output}, {"--truth", arguments.truth}});
   arguments.options.start_us = arguments.start_s * 1'000'000;
   cremed::Simulation simulation(scenario, radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
-  if (arguments.output == "-") {
-    write_log(simulation, std::cout, "standard output");
-  } else {
-    std::ofstream log = opened(arguments.output);
-    write_log(simulation, log, arguments.output);
-  }
+  cremed::LineStream log(arguments.output);
+  write_log(simulation, log);
 }
 
 int run(int argc, char** argv) {
@@ -151,8 +141,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
   } catch (const UsageError& error) {
     std::cerr << "cremed-simulate: " << error.what() << '\n';
     return kBadUsage;

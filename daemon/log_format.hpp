@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cremed {
+
+/// What a file is that is taken for a candump log and begins so, with the command that makes a log
+/// of it; empty if it may be one. `path` is for the text, "-" standard input.
+std::string foreign_format(std::string_view begin, const std::string& path);
+
+}  // namespace cremed

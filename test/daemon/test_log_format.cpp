@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+#include <string_view>
+
+#include <catch2/catch.hpp>
+
+#include "daemon/log_format.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace std::string_view_literals;
+
+TEST_CASE("What is no candump log is answered with the command that makes one of it") {
+  struct Row {
+    std::string_view begin;
+    const char* answer;
+  };
+  const Row row = GENERATE(
+      Row{"\x1F\x8B\x08\0\0"sv,
+          "a b.x is compressed by gzip; `zcat \"a b.x\" | cremed --replay -`"},
+      Row{"\xFD"
+          "7zXZ\0\0"sv,
+          "`xzcat "},
+      Row{"\x28\xB5\x2F\xFD\x04"sv, "`zstdcat "}, Row{"BZh91AY"sv, "`bzcat "},
+      Row{"PK\x03\x04\x14"sv, "`unzip -p "},
+      Row{"LOGG\x90\0\0\0"sv, "a BLF log; `python3 -m can.logconvert "},
+      Row{";$FILEVERSION=1.1\r\n"sv, "`python3 -m can.logconvert "},
+      Row{"date Fri Jul 10 2026\nbase hex  timestamps absolute\n"sv, "`asc2log -I "},
+      Row{"\xED\xA1\xDA\x01\0\0"sv, "`cremed-lcm-to-csv "},
+      Row{"utime_start,utime,source,x_m\n"sv, "`cremed-eval drive`"},
+      Row{"timestamp,arbitration_id,extended,remote\n1,"sv, "is CSV; `python3 -m can.logconvert "});
+  const std::string answer = foreign_format(row.begin, "a b.x");
+  CAPTURE(answer);
+  CHECK(answer.find(row.answer) != std::string::npos);
+}
+
+TEST_CASE("Logs, comments, nothing and noise are not taken for another format") {
+  const auto* begin = GENERATE("(1436509052.249713) can0 123#11", "# a, b, c, d", "", "\x01\x02",
+                               "  can0  123   [2]  11 22", "DROPCOUNT: dropped 1");
+  CHECK(foreign_format(std::string_view(begin), "-").empty());
+}
+
+}  // namespace
+}  // namespace cremed

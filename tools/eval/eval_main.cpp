@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/configuration.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/version.hpp"
 #include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
@@ -185,6 +186,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::make_standard_streams_plain();
   try {
     return run(argc, argv);
   } catch (const cremed::ConfigurationError& error) {

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/plain_streams.hpp"
 #include "daemon/version.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 
@@ -111,6 +112,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::make_standard_streams_plain();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

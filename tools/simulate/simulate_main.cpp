@@ -14,6 +14,7 @@
 
 #include "daemon/candump.hpp"
 #include "daemon/configuration.hpp"
+#include "daemon/plain_streams.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
 
@@ -151,6 +152,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::make_standard_streams_plain();
   try {
     return run(argc, argv);
   } catch (const UsageError& error) {

@@ -18,9 +18,25 @@ struct IncompleteScans {
   std::uint16_t most_announced = 0;
 };
 
+/// When scans came, in seconds of traffic.
+struct ScanTimes {
+  double last_s = 0.0;  ///< The latest; 0: none yet.
+  double longest_pause_s = 0.0;
+  double pause_begin_s = 0.0;
+
+  void note(double now_s) {
+    if (now_s - last_s > longest_pause_s) {
+      longest_pause_s = now_s - last_s;
+      pause_begin_s = last_s;
+    }
+    last_s = now_s;
+  }
+};
+
 /// What the pipeline made of one radar's frames.
 struct RadarObservation {
   RadarStatus status;
+  ScanTimes times;
   IncompleteScans incomplete;
 };
 
@@ -31,6 +47,7 @@ struct Observation {
   double seconds = 0.0;  ///< Of traffic.
   std::string lcm_problem;
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
+  std::uint64_t frames_left_out = 0;     ///< Of more interfaces than are looked at.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
 };
 

@@ -80,9 +80,11 @@ TEST_CASE("RadarCfg: a value beyond the frame becomes its limit, or keeps its lo
 TEST_CASE("FilterCfg: the known frames, and what they say") {
   const auto filter = [](bool active, Ars408Criterion criterion, double min, double max,
                          bool for_objects = false) {
-    return encode_ars408_filter(
-        0, {.for_objects = for_objects, .active = active, .criterion = criterion, .min = min,
-            .max = max});
+    return encode_ars408_filter(0, {.for_objects = for_objects,
+                                    .active = active,
+                                    .criterion = criterion,
+                                    .min = min,
+                                    .max = max});
   };
   check_frame(filter(true, Ars408Criterion::range_m, 5.0, 100.0), "202#0E003203E8");
   check_frame(filter(true, Ars408Criterion::x_m, 5.0, 100.0, true), "202#D609DD0BB8");
@@ -93,8 +95,7 @@ TEST_CASE("FilterCfg: the known frames, and what they say") {
 
 TEST_CASE("FilterCfg: a question has no valid bit") {
   check_frame(encode_ars408_filter_query(0, false, Ars408Criterion::rcs_dbm2), "202#2800000000");
-  check_frame(encode_ars408_filter_query(5, true, Ars408Criterion::target_count),
-              "252#8000000000");
+  check_frame(encode_ars408_filter_query(5, true, Ars408Criterion::target_count), "252#8000000000");
 }
 
 TEST_CASE("Speed: direction and magnitude") {

@@ -80,7 +80,7 @@ const std::vector<Case>& cases() {
       {"another sensor id", [](auto&, auto& traffic) { move_ids(traffic, "can0", 0x30); },
        Severity::error, "front: not an ARS408 with sensor id 0 but an ARS408 with sensor id 3",
        "set sensor_id = 3 for radar \"front\", or give the sensor its id: "
-       "`cremed-doctor --configure-ars408 front`"},
+       "`cremed-doctor --configure-ars408 front --sensor-id 3`"},
       {"another base id", [](auto&, auto& traffic) { move_ids(traffic, "can1", 0x60); },
        Severity::error,
        "rear: not a Bosch GPR with base id 0x200 but a Bosch GPR with base id 0x260",
@@ -225,7 +225,7 @@ const std::vector<Case>& cases() {
            return entry.interface == "can0" && entry.frame.id != 0x600;
          });
        },
-       Severity::error, "front: all scans are empty", "0x202"},
+       Severity::error, "front: all scans are empty", "`cremed-doctor --ars408-filters front`"},
       {"too few targets",
        [](auto& configuration, auto&) { configuration.radars[0].ego_motion.min_targets = 250; },
        Severity::error, "front: few scans give an estimate", "min_targets"},
@@ -269,6 +269,13 @@ const std::vector<Case>& cases() {
          });
        },
        Severity::warning, "front: no scan from 0.0 to 1.8 of ", "restarted"},
+      {"silent but for a moment",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [is_early = is_between(traffic, 0.0, 2.85)](const auto& entry) {
+           return entry.interface == "can0" && is_early(entry);
+         });
+       },
+       Severity::warning, "front: no scan from 0.0 to 2.8 of ", "restarted"},
       {"two sensors with one id", [](auto&, auto& traffic) { add_twin(traffic); }, Severity::error,
        " lists a second come from sensor id 0 on can0, of one sensor 13 to 17: two sensors have",
        "`cremed-doctor --configure-ars408 front --sensor-id 0`"},

@@ -23,9 +23,11 @@ struct ScanTimes {
   double last_s = 0.0;  ///< The latest; 0: none yet.
   double longest_pause_s = 0.0;
   double pause_begin_s = 0.0;
+  bool is_paused = false;  ///< At the end of the observation: the longest pause lasts.
 
   void note(double now_s) {
-    if (now_s - last_s > longest_pause_s) {
+    is_paused = now_s - last_s > longest_pause_s;
+    if (is_paused) {
       longest_pause_s = now_s - last_s;
       pause_begin_s = last_s;
     }

@@ -85,11 +85,15 @@ void Observer::note_time(std::int64_t now_us) {
 }
 
 Observation Observer::finish() {
+  std::vector<ScanTimes> times;  // Before scans are closed because all is at an end.
+  for (const RadarObservation& radar : observation_.radars) {
+    times.push_back(radar.times);
+    times.back().note(observation_.seconds);
+  }
   pipeline_.finish();
   for (std::size_t i = 0; i < observation_.radars.size(); ++i) {
-    RadarObservation& radar = observation_.radars[i];
-    radar.status = pipeline_.radars()[i]->status(0, source_);
-    radar.times.note(observation_.seconds);
+    observation_.radars[i].status = pipeline_.radars()[i]->status(0, source_);
+    observation_.radars[i].times = times[i];
   }
   return std::move(observation_);
 }

@@ -63,7 +63,7 @@ Finding other_radar(const RadarConfiguration& radar, const SeenRadar& expected,
             concat({"set ", key_of(seen), " for radar ", quoted_name(radar),
                     seen.kind == SeenRadar::Kind::ars408
                         ? concat({", or give the sensor its id: `cremed-doctor --configure-ars408 ",
-                                  radar.name, "`"})
+                                  radar.name, " --sensor-id ", number(seen.number), "`"})
                         : ""})};
   }
   return {
@@ -147,19 +147,14 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
     findings.push_back(
         {severity, what,
          concat({"up to ", number(incomplete.most_announced),
-                 " do not fit on the bus: filter (0x202), or shorten the range: ",
-                 "`cremed-doctor --configure-ars408 ", radar.name, " --max-distance 200`"})});
+                 " do not fit on the bus: shorten the range, `cremed-doctor --configure-ars408 ",
+                 radar.name, " --max-distance 200`, or let the sensor filter, ",
+                 "`cremed-doctor --ars408-filters ", radar.name, " --filter rcs=-5..50`"})});
   } else {
     findings.push_back({severity, what,
                         "frames are lost on the way: look at the load of bus and computer, and "
                         "for a second node that sends these identifiers"});
   }
-}
-
-/// How often a message of the radar comes while it sends at all.
-double rate_hz(std::uint64_t frames, const RadarObservation& observed, double seconds) {
-  const double sent_s = seconds - observed.times.longest_pause_s;
-  return sent_s > 0.0 ? static_cast<double>(frames) / sent_s : 0.0;
 }
 
 /// Two sensors with one id: each sends 13 to 17 lists a second, and its state once.
@@ -171,12 +166,13 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
   const auto frames = [&](Ars408Message message) {
     return bus.ids[ars408_id(static_cast<std::uint32_t>(message), expected.number)].frames;
   };
-  if (expected.kind != SeenRadar::Kind::ars408 || seconds < kShortestS) {
+  const double sent_s = seconds - observed.times.longest_pause_s;
+  if (expected.kind != SeenRadar::Kind::ars408 || sent_s < kShortestS) {
     return {};
   }
   const std::uint64_t lists =
       std::max(frames(Ars408Message::cluster_status), frames(Ars408Message::object_status));
-  const double lists_hz = rate_hz(lists, observed, seconds);
+  const double lists_hz = static_cast<double>(lists) / sent_s;
   if (lists_hz < kMostListsHz) {
     return {};
   }
@@ -195,21 +191,19 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
 
 /// It was there, and is not any more, or not all the time.
 void add_pause(const RadarObservation& observed, double seconds, Findings& findings) {
-  constexpr double kNowS = 0.2;
   if (!fell_silent(observed, seconds)) {
     return;
   }
   const ScanTimes& times = observed.times;
   const double end_s = times.pause_begin_s + times.longest_pause_s;
-  const bool is_silent_now = end_s > seconds - kNowS;
   findings.push_back(
-      {is_silent_now ? Severity::error : Severity::warning,
+      {times.is_paused ? Severity::error : Severity::warning,
        concat({"no scan ",
-               is_silent_now
+               times.is_paused
                    ? concat({"in the last ", tenths(times.longest_pause_s)})
                    : concat({"from ", tenths(times.pause_begin_s), " to ", tenths(end_s)}),
                " of ", tenths(seconds), " s, though it sent them ",
-               times.pause_begin_s > kNowS ? "before" : "after that"}),
+               times.pause_begin_s > 0.0 ? "before" : "after that"}),
        "check its supply and plug for loose contacts; it may have restarted"});
 }
 

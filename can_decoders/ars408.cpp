@@ -173,17 +173,20 @@ ScanPart Ars408Decoder::decode(const CanFrame& frame) {
   ScanPart part = scan_part(*row, bytes);
   part.stamp_us = frame.stamp_us;
   if (part.kind == ScanPart::Kind::none) {
-    note_state(row->message, bytes);
+    note_state(row->message, frame, bytes);
   }
   return part;
 }
 
-void Ars408Decoder::note_state(Ars408Message message, Ars408Bytes bytes) {
+void Ars408Decoder::note_state(Ars408Message message, const CanFrame& frame, Ars408Bytes bytes) {
   ++counters_.state_frames;
-  if (message == Ars408Message::radar_state) {
-    radar_state_ = decode_ars408_radar_state(bytes);
-  } else if (message == Ars408Message::version) {
+  if (message == Ars408Message::version) {
     version_ = decode_ars408_version(bytes);
+  } else if (message == Ars408Message::radar_state) {
+    const auto state = decode_ars408_radar_state(bytes);
+    const bool is_own = state_watch_.is_own(options_.sensor_id, state, frame.stamp_us);
+    radar_state_ = is_own ? state : std::nullopt;
+    counters_.wrong_slot += is_own ? 0 : 1;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "can_decoders/ars408_messages.hpp"
+#include "can_decoders/ars408_state_watch.hpp"
 #include "can_decoders/radar_decoder.hpp"
 
 namespace cremed {
@@ -36,6 +37,9 @@ struct Ars408Options {
 /// A frame is judged in this order: identifier (extended and error frames, and those of another
 /// sensor on the bus, are not this radar's and are not counted), kind, length, mode.
 ///
+/// A 0x201 that names another sensor, or comes sooner than once a second, is of something else that
+/// uses the identifier (a GPR); then the state is unknown.
+///
 /// A detection is judged in this order, and the first that holds is its validity: no_position,
 /// no_noise, invalid_state, moving, low_existence. An object that the sensor says it has deleted
 /// counts as invalid_state. Four rms codes of 0 are no_noise: recordings hold a 0 only as a group
@@ -57,12 +61,13 @@ class Ars408Decoder final : public RadarDecoder {
  private:
   [[nodiscard]] const Ars408MessageRow* find(const CanFrame& frame) const;
   bool accept(const CanFrame& frame, const Ars408MessageRow& row);
-  void note_state(Ars408Message message, Ars408Bytes bytes);
+  void note_state(Ars408Message message, const CanFrame& frame, Ars408Bytes bytes);
   [[nodiscard]] Detection cluster(const TargetPayload& target) const;
   [[nodiscard]] Detection object(const TargetPayload& target) const;
 
   Ars408Options options_;
   std::optional<Ars408RadarState> radar_state_;
+  Ars408StateWatch state_watch_;
   std::optional<Ars408Version> version_;
 };
 

@@ -15,6 +15,7 @@ namespace {
 namespace layout = ars408_layout;
 
 constexpr std::uint32_t kCommandId = 0x200;
+constexpr std::uint32_t kFilterId = 0x202;
 constexpr std::uint32_t kSpeedId = 0x300;
 constexpr std::uint32_t kYawRateId = 0x301;
 
@@ -43,6 +44,13 @@ void put(PayloadBits& bits, std::uint8_t valid_bit, BitField field,
   }
 }
 
+PayloadBits filter_bits(bool for_objects, Ars408Criterion criterion) {
+  PayloadBits bits = empty_bits();
+  bits.set({layout::filter::kForObjects, 1}, for_objects ? 1 : 0);
+  bits.set(layout::filter::kIndex, static_cast<std::uint32_t>(criterion));
+  return bits;
+}
+
 }  // namespace
 
 CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& command) {
@@ -62,6 +70,24 @@ CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& comm
   put(bits, kRelayControlValid, kRelayControl, command.relay_control);
   put(bits, kRcsThresholdValid, kRcsThreshold, command.rcs_threshold_code);
   return frame(kCommandId, sensor_id, 8, bits);
+}
+
+CanFrame encode_ars408_filter(std::uint8_t sensor_id, const Ars408FilterState& filter) {
+  using namespace layout::filter;
+  const Limits& limits = kLimits[static_cast<std::size_t>(filter.criterion)];
+  const BitField min{kMin, limits.length};
+  const BitField max{kMax, limits.length};
+  PayloadBits bits = filter_bits(filter.for_objects, filter.criterion);
+  bits.set({kActive, 1}, filter.active ? 1 : 0);
+  bits.set({kValid, 1}, 1);
+  bits.set(min, limits.scale.raw(filter.min, min));
+  bits.set(max, limits.scale.raw(filter.max, max));
+  return frame(kFilterId, sensor_id, 5, bits);
+}
+
+CanFrame encode_ars408_filter_query(std::uint8_t sensor_id, bool for_objects,
+                                    Ars408Criterion criterion) {
+  return frame(kFilterId, sensor_id, 5, filter_bits(for_objects, criterion));
 }
 
 CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {

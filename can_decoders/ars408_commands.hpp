@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "can_decoders/ars408_messages.hpp"
 #include "can_decoders/can_frame.hpp"
 
 namespace cremed {
@@ -28,6 +29,13 @@ struct Ars408Command {
 // beyond what a frame can carry becomes the nearest one that it can, NaN becomes 0.
 
 CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& command);
+
+/// 0x202: sets this filter, at once and in flash. The sensor answers with 0x203 and 0x204.
+CanFrame encode_ars408_filter(std::uint8_t sensor_id, const Ars408FilterState& filter);
+
+/// 0x202 that changes nothing: the sensor answers all the same.
+CanFrame encode_ars408_filter_query(std::uint8_t sensor_id, bool for_objects,
+                                    Ars408Criterion criterion);
 
 /// 0x300, wanted at least every 500 ms; negative is backwards. In steps of 0.02 m/s.
 CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps);

@@ -145,6 +145,7 @@ inline constexpr BitField kObjectFilters{11, 5};
 inline constexpr std::uint8_t kForObjects = 7;
 inline constexpr BitField kIndex{3, 4};
 inline constexpr std::uint8_t kActive = 2;
+inline constexpr std::uint8_t kValid = 1;  // 0x202 alone.
 
 /// Both limits of a filter have the width and the scale of its criterion, the index here.
 struct Limits {

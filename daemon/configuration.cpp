@@ -10,6 +10,7 @@
 #include "daemon/configuration_estimator.hpp"
 #include "daemon/configuration_odometry.hpp"
 #include "daemon/configuration_radar.hpp"
+#include "daemon/lcm_url.hpp"
 #include "daemon/message_text.hpp"
 #include "daemon/toml_document.hpp"
 #include "daemon/toml_reader.hpp"
@@ -150,12 +151,6 @@ std::optional<std::size_t> tum_radar(const Configuration& configuration) {
   return source.empty() && !is_fused(configuration) ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
-bool is_lcm_url(std::string_view text) {
-  const std::size_t colon = text.find("://");
-  return text == "none" || (colon != std::string_view::npos && colon > 0 &&
-                            text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == colon);
-}
-
 Configuration parse_configuration(std::string_view toml, const std::string& file_name) {
   ReadContext context{Diagnostics(file_name), nullptr};
   Configuration configuration;
@@ -172,9 +167,11 @@ Configuration load_configuration(const std::string& path) {
   try {
     return parse_configuration(read_toml(path), path);
   } catch (const std::system_error& error) {
+    const std::string why = error.code() == std::errc::not_supported
+                                ? "is a pipe, socket or device"
+                                : std::generic_category().message(error.code().value());
     throw ConfigurationError(
-        concat({path, ": cannot be read: ", std::generic_category().message(error.code().value()),
-                "; must be a readable TOML file"}));
+        concat({path, ": cannot be read: ", why, "; must be a readable TOML file"}));
   }
 }
 

@@ -104,11 +104,6 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
 /// Reads and parses a file; a file that cannot be read is a ConfigurationError too.
 Configuration load_configuration(const std::string& path);
 
-/// "none" or scheme://rest.
-bool is_lcm_url(std::string_view text);
-inline constexpr const char* kLcmUrlWanted =
-    "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\"";
-
 /// Every key of the file as "table.key", for the test that the manual names them all. Those of
 /// [radar.estimator] are listed under "radar.estimator" too.
 std::set<std::string> known_configuration_keys();

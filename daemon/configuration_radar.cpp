@@ -10,6 +10,7 @@
 
 #include "daemon/candump.hpp"
 #include "daemon/configuration_estimator.hpp"
+#include "daemon/plain_text.hpp"
 #include "daemon/radar_identifiers.hpp"
 
 namespace cremed {
@@ -35,7 +36,7 @@ bool is_name(std::string_view text) {
 
 bool is_interface(std::string_view text) {
   return !text.empty() && text.size() <= kMaxInterfaceName && text != "." && text != ".." &&
-         text.find_first_of(" /:") == std::string_view::npos;
+         text.find_first_of(" /:\n\t") == std::string_view::npos && plain_text(text) == text;
 }
 
 constexpr std::string_view kRotationLead = "rotation_lead_s";
@@ -44,7 +45,8 @@ constexpr TextRule kName = {
     is_name,
     "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and neither \"fused\" nor "
     "\"odometry\""};
-constexpr TextRule kInterface = {is_interface, "1 to 15 characters without space, '/' or ':'"};
+constexpr TextRule kInterface = {is_interface,
+                                 "1 to 15 characters that print, without space, '/' or ':'"};
 
 void read_ars408(TomlReader& reader, RadarConfiguration& radar) {
   auto& options = radar.decoder.emplace<Ars408Options>();

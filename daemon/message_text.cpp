@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "daemon/plain_text.hpp"
+
 namespace cremed {
 namespace {
 
@@ -27,9 +29,9 @@ std::string printable(std::string_view text) {
   while (size < text.size() && size > 0 && continues_utf8(text[size])) {
     --size;
   }
-  std::string shown(text.substr(0, size));
+  std::string shown = plain_text(text.substr(0, size));
   std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; }, '?');
+      shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\t'; }, '?');
   return size < text.size() ? shown + "..." : shown;
 }
 

@@ -11,7 +11,6 @@
 namespace cremed {
 namespace {
 
-constexpr std::int64_t kStatusPeriodUs = 1'000'000;
 /// A radar's stamps go back by less if frames are reordered.
 constexpr std::int64_t kClockSetBackUs = 1'000'000;
 
@@ -97,7 +96,7 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
       on_idle(frame.stamp_us);
       break;
     case SourceEvent::other:
-      on_time(clock_.now_us());
+      on_time(StatusTimer::kNoInterface, clock_.now_us());
       break;
     case SourceEvent::end:
       break;
@@ -107,7 +106,7 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
   note_clock(frame);
-  on_time(frame.stamp_us);
+  on_time(frame.interface, frame.stamp_us);
   expire(frame.stamp_us, frame.interface);
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
@@ -303,14 +302,12 @@ void Pipeline::publish_fused(std::size_t targets, std::int64_t solve_us) {
   }
 }
 
-void Pipeline::on_time(std::int64_t now_us) {
-  // A clock that is set back must not silence the status until it has caught up.
-  if (!time_us_ || now_us >= next_status_us_ || now_us < next_status_us_ - 2 * kStatusPeriodUs) {
-    time_us_ = now_us;
-    next_status_us_ = now_us + kStatusPeriodUs;
+void Pipeline::on_time(std::size_t clock, std::int64_t now_us) {
+  time_us_ = now_us;
+  if (status_timer_.is_due(clock, now_us)) {
+    status_timer_.restart();
     publish_status();
   }
-  time_us_ = now_us;
 }
 
 void Pipeline::publish_status() {
@@ -346,7 +343,7 @@ void Pipeline::on_clock_step() {
 }
 
 void Pipeline::on_idle(std::int64_t now_us) {
-  on_time(now_us);
+  on_time(StatusTimer::kNoInterface, now_us);
   expire(now_us);
 }
 

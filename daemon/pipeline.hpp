@@ -13,6 +13,7 @@
 #include "daemon/frame_source.hpp"
 #include "daemon/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
+#include "daemon/status_timer.hpp"
 #include "estimator/fusion/odometry_filter.hpp"
 
 namespace cremed {
@@ -74,7 +75,8 @@ class Pipeline {
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 
  private:
-  void on_time(std::int64_t now_us);
+  /// `clock`: the interface whose frame tells the time, or StatusTimer::kNoInterface.
+  void on_time(std::size_t clock, std::int64_t now_us);
   void note_clock(const CanFrame& frame);
   void expire(std::int64_t now_us, std::optional<std::uint8_t> told_by = std::nullopt);
   template <typename Condition>
@@ -104,7 +106,7 @@ class Pipeline {
   std::optional<std::int64_t> time_us_;  // Of the last frame; none yet.
   std::uint8_t last_interface_ = 0;      // Of the last frame.
   std::int64_t event_us_ = 0;            // What happens now happens at that time.
-  std::int64_t next_status_us_ = 0;
+  StatusTimer status_timer_;
 };
 
 }  // namespace cremed

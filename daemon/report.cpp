@@ -132,12 +132,18 @@ std::string_view remedy_of_most(std::initializer_list<Cause> causes) {
       ->remedy;
 }
 
-void add_no_detection(const RadarStatus& status, Findings& findings) {
+void add_no_detection(const RadarConfiguration& radar, const RadarStatus& status,
+                      Findings& findings) {
   const AssemblerCounters& scans = status.assembler;
   const SelectionCounters& c = status.selection;
   if (scans.scans > 0 && scans.empty_scans == scans.scans) {
-    findings.push_back({Severity::error, "all scans are empty",
-                        "the sensor sees nothing, or its own filters (0x202) let nothing pass"});
+    findings.push_back(
+        {Severity::error, "all scans are empty",
+         ars408_options(radar) == nullptr
+             ? "the sensor sees nothing: is it covered?"
+             : concat({"the sensor sees nothing, or its own filters (0x202) let nothing pass: "
+                       "`cremed-doctor --ars408-filters ",
+                       radar.name, "`"})});
   } else if (estimates(status) == 0 && c.used == 0 && scans.scans > scans.incomplete_scans) {
     const std::string_view remedy = remedy_of_most(
         {{c.no_noise, "the sensor rates no target: is it covered, or in a test mode?"},
@@ -343,7 +349,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
     add_wrong_mode(radar, status, *options, findings);
     add_unknown_quality(radar, status, findings);
   }
-  add_no_detection(status, findings);
+  add_no_detection(radar, status, findings);
   const Findings health = health_findings(radar, status);
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);

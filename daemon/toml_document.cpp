@@ -7,6 +7,9 @@
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include "daemon/message_text.hpp"
 #include "daemon/toml.hpp"
 
@@ -105,9 +108,16 @@ struct CloseFile {
 }  // namespace
 
 std::string read_toml(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) {
+  // Without O_NONBLOCK a FIFO would wait for its writer.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const std::unique_ptr<std::FILE, CloseFile> file(descriptor < 0 ? nullptr
+                                                                  : ::fdopen(descriptor, "rb"));
+  struct stat status {};
+  if (!file || ::fstat(descriptor, &status) != 0) {
     throw std::system_error(errno, std::generic_category());
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw std::system_error(S_ISDIR(status.st_mode) ? EISDIR : ENOTSUP, std::generic_category());
   }
   std::string text(kMaxTomlBytes + 1, '\0');  // One byte more than allowed shows that it is more.
   errno = 0;

@@ -22,7 +22,7 @@ namespace cremed {
 inline constexpr std::size_t kMaxTomlBytes = std::size_t{256} * 1024;
 
 /// What a file holds, of a file that is too large only so much that it shows. Throws
-/// std::system_error.
+/// std::system_error, with ENOTSUP for what is no file: it might never end, or never begin.
 std::string read_toml(const std::string& path);
 
 /// Syntax errors are added to `diagnostics`; the result is then null. Throws nothing.

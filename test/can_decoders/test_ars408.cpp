@@ -175,6 +175,24 @@ TEST_CASE("The latest state and version are kept") {
   }
 }
 
+TEST_CASE("What only has the identifier of a state makes it unknown") {
+  constexpr std::int64_t kSecondUs = 1'000'000;
+  Ars408Decoder decoder({});
+  decoder.decode(hex_frame("201#4019000010F40000", 0));
+  CHECK(decoder.health().is_known);
+
+  SECTION("it names another sensor") {
+    decoder.decode(hex_frame("201#4019000013F40000", kSecondUs));
+  }
+  SECTION("it comes far more often, as of a GPR") {
+    decoder.decode(hex_frame("201#4019000010F40000", kSecondUs / 10));
+  }
+  CHECK_FALSE(decoder.health().is_known);
+  CHECK(decoder.counters().wrong_slot == 1);
+  decoder.decode(hex_frame("201#4019000010F40000", 3 * kSecondUs));
+  CHECK(decoder.health().is_known);
+}
+
 TEST_CASE("A frame that claims more bytes than it can hold is read within bounds") {
   Ars408Decoder decoder({});
   CanFrame frame = hex_frame("701#004E81FC80200147");

@@ -77,6 +77,27 @@ TEST_CASE("RadarCfg: a value beyond the frame becomes its limit, or keeps its lo
   check_frame(encode_ars408_command(9, {}), "210#0000000000000000");
 }
 
+TEST_CASE("FilterCfg: the known frames, and what they say") {
+  const auto filter = [](bool active, Ars408Criterion criterion, double min, double max,
+                         bool for_objects = false) {
+    return encode_ars408_filter(0, {.for_objects = for_objects,
+                                    .active = active,
+                                    .criterion = criterion,
+                                    .min = min,
+                                    .max = max});
+  };
+  check_frame(filter(true, Ars408Criterion::range_m, 5.0, 100.0), "202#0E003203E8");
+  check_frame(filter(true, Ars408Criterion::x_m, 5.0, 100.0, true), "202#D609DD0BB8");
+  check_frame(filter(true, Ars408Criterion::y_m, -20.1, 19.9, true), "202#CE079B0863");
+  check_frame(filter(false, Ars408Criterion::rcs_dbm2, -10.0, 30.0), "202#2A06400C80");
+  check_frame(filter(true, Ars408Criterion::range_m, -1.0, 1e9), "202#0E00000FFF");
+}
+
+TEST_CASE("FilterCfg: a question has no valid bit") {
+  check_frame(encode_ars408_filter_query(0, false, Ars408Criterion::rcs_dbm2), "202#2800000000");
+  check_frame(encode_ars408_filter_query(5, true, Ars408Criterion::target_count), "252#8000000000");
+}
+
 TEST_CASE("Speed: direction and magnitude") {
   check_frame(encode_ars408_speed(0, 16.0), "300#4320");
   check_frame(encode_ars408_speed(0, -1.0), "300#8032");

@@ -175,6 +175,8 @@ TEST_CASE("strings that cannot work are refused") {
       {name + "interface = \"abcdefghijklmnop\"\n", 5, "radar.interface", "is", "1 to 15"},
       {name + "interface = \"can 0\"\n", 5, "radar.interface", "is", "without space"},
       {name + "interface = \"can/0\"\n", 5, "radar.interface", "is", "without space, '/'"},
+      {name + "interface = \"can\\u001b[0m\"\n", 5, "radar.interface", "is \"can?[0m\"", "print"},
+      {name + "interface = \"can\\u009b\"\n", 5, "radar.interface", "is \"can?\"", "print"},
       {name + "interface = \"can\\u00000\"\n", 5, "radar.interface", "is \"can?0\"", "1 to 15"},
       {kArs408 + "[logging]\nlevel = \"verbose\"\n", 7, "logging.level", "is \"verbose\"",
        "\"trace\", \"debug\", \"info\", \"warn\", \"error\" or \"off\""},

@@ -3,6 +3,7 @@
 //
 // The files of config/: the manual says everything and nothing but the truth, the examples load.
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include "daemon/configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
@@ -314,7 +316,16 @@ TEST_CASE("a file that cannot be read is a configuration error with its path") {
   CHECK_THROWS_WITH(load_configuration(CREMED_BINARY_DIR),
                     Catch::Contains(": cannot be read: Is a directory; must be a readable"));
   CHECK_THROWS_WITH(load_configuration("/dev/zero"),
-                    Catch::StartsWith("/dev/zero:1: file: is too large; "));
+                    Catch::StartsWith("/dev/zero: cannot be read: is a pipe, socket or device; "));
+}
+
+TEST_CASE("a FIFO is refused, and nobody waits for its writer") {
+  const std::string path = std::string(CREMED_BINARY_DIR) + "/test_configuration_files.fifo";
+  std::remove(path.c_str());
+  REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(load_configuration(path),
+                    Catch::StartsWith(path + ": cannot be read: is a pipe, socket or device; "));
+  std::remove(path.c_str());
 }
 
 TEST_CASE("a file gives what its text gives, with its path in errors") {

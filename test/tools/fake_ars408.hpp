@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <thread>
@@ -42,18 +41,19 @@ class FakeArs408s {
               std::vector<CanFrame> traffic)
       : states_(std::move(states)), manners_(manners), traffic_(std::move(traffic)) {
     std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    // Holds more than the ten messages of SOCK_DGRAM.
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
       throw std::runtime_error("socketpair failed");
     }
     bus_ = ends[0];
     if (socket_.adopt(ends[1], {}).status != CanOpenStatus::open) {
       throw std::runtime_error("adopt failed");
     }
+    report();  // However busy the computer is, there is something to hear.
     thread_ = std::thread([this] { live(); });
   }
   ~FakeArs408s() {
-    stop_ = true;
-    thread_.join();
+    stop();
     ::close(bus_);
   }
   FakeArs408s(const FakeArs408s&) = delete;
@@ -61,9 +61,11 @@ class FakeArs408s {
 
   CanSocket& socket() { return socket_; }
 
-  /// Frames that were sent to the bus.
-  std::vector<CanFrame> received() {
-    const std::lock_guard lock(mutex_);
+  /// All frames that were sent to the bus; the sensors are switched off.
+  const std::vector<CanFrame>& all_received() {
+    stop();
+    while (hear(0)) {
+    }
     return received_;
   }
 
@@ -72,12 +74,27 @@ class FakeArs408s {
     constexpr int kPeriodMs = 4;
     while (!stop_) {
       report();
-      pollfd polled{bus_, POLLIN, 0};
-      can_frame raw{};
-      if (::poll(&polled, 1, kPeriodMs) > 0 && ::read(bus_, &raw, sizeof(raw)) == sizeof(raw)) {
-        take(raw);
-      }
+      hear(kPeriodMs);
     }
+  }
+
+  void stop() {
+    stop_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  /// Takes a frame if one comes in time.
+  bool hear(int wait_ms) {
+    pollfd polled{bus_, POLLIN, 0};
+    can_frame raw{};
+    const bool is_heard =
+        ::poll(&polled, 1, wait_ms) > 0 && ::read(bus_, &raw, sizeof(raw)) == sizeof(raw);
+    if (is_heard) {
+      take(raw);
+    }
+    return is_heard;
   }
 
   void report() {
@@ -96,7 +113,7 @@ class FakeArs408s {
     raw.can_id = frame.id;
     raw.can_dlc = frame.length;
     std::memcpy(raw.data, frame.data.data(), sizeof(raw.data));
-    ::send(bus_, &raw, sizeof(raw), MSG_DONTWAIT);
+    ::send(bus_, &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
   void take(const can_frame& raw) {
@@ -104,17 +121,31 @@ class FakeArs408s {
     frame.id = raw.can_id;
     frame.length = raw.can_dlc;
     std::memcpy(frame.data.data(), raw.data, sizeof(raw.data));
-    {
-      const std::lock_guard lock(mutex_);
-      received_.push_back(frame);
-    }
+    received_.push_back(frame);
+    silent_ = silent_ || manners_.falls_silent;
     for (Ars408RadarState& state : states_) {
-      if (manners_.obeys && frame.id == 0x200U + 0x10U * state.sensor_id) {
+      const std::uint32_t own = 0x10U * state.sensor_id;
+      if (frame.id == 0x200U + own && manners_.obeys) {
         obey(PayloadBits::big_endian(std::span(frame.data).first(8)), state);
-        break;
+      } else if (frame.id == 0x202U + own && !silent_) {
+        answer(frame);
       }
     }
-    silent_ = manners_.falls_silent;
+  }
+
+  /// A filter is set if its valid bit is; what it is then is told, whatever.
+  void answer(const CanFrame& asked) {
+    const auto filter = decode_ars408_filter_state(std::span(asked.data).first(asked.length));
+    const auto index = static_cast<std::size_t>(filter->criterion);
+    const bool is_valid = (asked.data[0] & 2U) != 0;
+    if (is_valid && manners_.obeys) {
+      filters_[index] = asked;
+    }
+    CanFrame told = filters_[index];
+    told.id = asked.id + 2U;
+    told.length = 5;
+    told.data[0] = static_cast<std::uint8_t>((told.data[0] & ~0x7AU) | index << 3U);
+    send(told);
   }
 
   void obey(const PayloadBits& bits, Ars408RadarState& state) const {
@@ -136,7 +167,7 @@ class FakeArs408s {
   int bus_ = -1;
   std::atomic<bool> stop_ = false;
   bool silent_ = false;
-  std::mutex mutex_;
+  std::array<CanFrame, 16> filters_{};
   std::vector<CanFrame> received_;
   std::thread thread_;
 };

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/plain_text.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 
@@ -34,8 +35,8 @@ TEST_CASE("cremed-doctor: a healthy log has no finding") {
   const TemporaryFolder folder;
   const ToolRun result = doctor(folder, kBends + kData + "bends.log");
   CHECK(result.status == 0);
-  CHECK_THAT(result.output, Catch::StartsWith("no finding: front: 13."));
-  CHECK_THAT(result.output, Catch::Contains("\nno finding: rear: 10."));
+  CHECK_THAT(result.output, Catch::StartsWith("good: front: 13."));
+  CHECK_THAT(result.output, Catch::Contains("\ngood: rear: 10."));
   CHECK_THAT(result.output, Catch::Contains(" estimates\n"));
 }
 
@@ -73,6 +74,58 @@ TEST_CASE("cremed-doctor: LCM is checked with a log only if asked for") {
   CHECK(doctor_of_filtered(folder, "cat", " --lcm-url none").status == 0);
 }
 
+TEST_CASE("cremed-doctor: the diagnosis as JSON") {
+  const TemporaryFolder folder;
+  const ToolRun well = doctor_of_filtered(folder, "cat", " --json");
+  CHECK(well.status == 0);
+  CHECK_THAT(well.output, Catch::StartsWith("{\n  \"good\": true,\n  \"seconds\": "));
+  CHECK_THAT(well.output, Catch::Contains("\"findings\": [],"));
+  CHECK_THAT(well.output, Catch::Contains("\"radar\": \"front\""));
+  const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '", " --json");
+  CHECK(silent.status == 1);
+  CHECK_THAT(silent.output, Catch::StartsWith("{\n  \"good\": false,"));
+  CHECK_THAT(silent.output,
+             Catch::Contains("\"severity\": \"error\",\n      \"what\": \"the log has no frame of "
+                             "interface can0\",\n      \"remedy\": \"set interface to one it has: "
+                             "can1\""));
+}
+
+TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is filled in") {
+  const TemporaryFolder folder;
+  const ToolRun suggested = doctor(folder, "--suggest-config " + kData + "bends.log");
+  CAPTURE(suggested.error);
+  REQUIRE(suggested.status == 0);
+  std::ofstream(folder.file("first.toml")) << suggested.output;
+  const std::string use = " --config " + folder.file("first.toml") + " --replay " + kData;
+  const ToolRun empty = doctor(folder, use + "bends.log");
+  CHECK(empty.status == 2);
+  CHECK_THAT(empty.error, Catch::Contains("radar.mount.x_m: is \"FILL IN\"; must be a number"));
+  REQUIRE(std::system(("sed -i 's/\"FILL IN\"/0.1/' " + folder.file("first.toml")).c_str()) == 0);
+  CHECK_THAT(doctor(folder, use + "bends.log").output, Catch::Contains("radar2: 10."));
+  const ToolRun nothing = doctor(folder, "--suggest-config /dev/null");
+  CHECK(nothing.status == 1);
+  CHECK(nothing.output.empty());
+}
+
+TEST_CASE("cremed-doctor: nothing of a log or a name is a command to the terminal") {
+  const TemporaryFolder folder;
+  const std::string evil = "e\x1B]0;x\x07\x9B\xC2\x9B\x7F";
+  std::ofstream(folder.file("log")) << "(1.000000) " << evil << " 123#00\n(2.000000) can7 123#00\n";
+  const std::string config = "--config " + kData + "bends.toml ";
+  for (const std::string& arguments :
+       {config + "--replay " + folder.file("log"), "--suggest-config " + folder.file("log"),
+        config + "--json --replay " + folder.file("log"), config + "--replay '" + evil + "'",
+        "--config '" + evil + "'", config + "--configure-ars408 '" + evil + "'",
+        config + "'--" + evil + "'", config + "--lcm-url '" + evil + "'"}) {
+    CAPTURE(arguments);
+    const ToolRun result = doctor(folder, arguments);
+    CHECK(result.status != 0);
+    const std::string all = result.output + result.error;
+    CHECK(plain_text(all) == all);
+    CHECK_THAT(all, Catch::Contains("e?]0;x") || Catch::Contains("can7"));
+  }
+}
+
 TEST_CASE("cremed-doctor says what is wrong with its arguments") {
   struct Row {
     std::string arguments;
@@ -84,6 +137,17 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
       Row{"--nonsense", 2, "--nonsense"}, Row{"--seconds 0", 2, "--seconds"},
       Row{"--config /no/such/file.toml", 2, "/no/such/file.toml: cannot be read"},
       Row{config + "--lcm-url me", 2, "--lcm-url: 'me' is not"},
+      Row{config + "--lcm-url 'udpm://239.255.76.67:7667?ttl=256'", 2, "ttl of 0 to 255"},
+      Row{config + "--lcm-url tcpq://127.0.0.1:7700", 2, "is not \"none\" or a URL such as"},
+      Row{config + "--yes", 2, "--sensor-id and --yes need --configure-ars408 or"},
+      Row{config + "--sensor-id 3", 2, "--sensor-id and --yes need --configure-ars408 or"},
+      Row{config + "--configure-ars408 front --sensor-id 8", 2, "--sensor-id"},
+      Row{config + "--configure-ars408 front --ars408-filters front", 2, "--ars408-filters"},
+      Row{config + "--ars408-filters front --filter rcs=5", 2, "--filter: 'rcs=5' is not NAME=MIN"},
+      Row{config + "--filter rcs=off", 2, "--ars408-filters"},
+      Row{config + "--suggest-config live", 2, "--suggest-config"},
+      Row{"--suggest-config live --json", 2, "--json"},
+      Row{"--suggest-config /no/such/log", 1, "/no/such/log"},
       Row{config + "--store", 2, "--configure-ars408"},
       Row{config + "--max-distance 250", 2, "--configure-ars408"},
       Row{config + "--configure-ars408 front --max-distance 20", 2, "--max-distance"},

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -43,6 +44,31 @@ void announce(Recording& traffic, std::uint8_t near_count) {
   }
 }
 
+std::function<bool(const BusFrame&)> is_between(const Recording& traffic, double begin_s,
+                                                double end_s) {
+  const std::int64_t first_us = traffic.front().frame.stamp_us;
+  return [=](const BusFrame& entry) {
+    const double time_s = static_cast<double>(entry.frame.stamp_us - first_us) * 1e-6;
+    return time_s >= begin_s && time_s < end_s;
+  };
+}
+
+/// A second sensor with the same id, half a cycle later, with a counter of its own.
+void add_twin(Recording& traffic) {
+  Recording twin;
+  for (BusFrame entry : traffic) {
+    if (entry.interface == "can0") {
+      entry.frame.stamp_us += 36'000;
+      entry.frame.data[2] ^= entry.frame.id == 0x600 ? 0x55U : 0U;
+      twin.push_back(entry);
+    }
+  }
+  traffic.insert(traffic.end(), twin.begin(), twin.end());
+  std::stable_sort(traffic.begin(), traffic.end(), [](const auto& a, const auto& b) {
+    return a.frame.stamp_us < b.frame.stamp_us;
+  });
+}
+
 void say(Recording& traffic, const std::function<void(Ars408RadarState&)>& change) {
   Ars408RadarState state = good_state();
   change(state);
@@ -54,7 +80,7 @@ const std::vector<Case>& cases() {
       {"another sensor id", [](auto&, auto& traffic) { move_ids(traffic, "can0", 0x30); },
        Severity::error, "front: not an ARS408 with sensor id 0 but an ARS408 with sensor id 3",
        "set sensor_id = 3 for radar \"front\", or give the sensor its id: "
-       "`cremed-doctor --configure-ars408 front`"},
+       "`cremed-doctor --configure-ars408 front --sensor-id 3`"},
       {"another base id", [](auto&, auto& traffic) { move_ids(traffic, "can1", 0x60); },
        Severity::error,
        "rear: not a Bosch GPR with base id 0x200 but a Bosch GPR with base id 0x260",
@@ -199,7 +225,7 @@ const std::vector<Case>& cases() {
            return entry.interface == "can0" && entry.frame.id != 0x600;
          });
        },
-       Severity::error, "front: all scans are empty", "0x202"},
+       Severity::error, "front: all scans are empty", "`cremed-doctor --ars408-filters front`"},
       {"too few targets",
        [](auto& configuration, auto&) { configuration.radars[0].ego_motion.min_targets = 250; },
        Severity::error, "front: few scans give an estimate", "min_targets"},
@@ -220,13 +246,78 @@ const std::vector<Case>& cases() {
        },
        Severity::warning, "front: 1 frame of the wrong length", "`candump -e any`"},
       {"too short to tell",
+       [](auto&, auto& traffic) { remove_if(traffic, is_between(traffic, 0.06, 9.0)); },
+       Severity::error, "front: no estimate yet", "--seconds"},
+      {"silent for the last two thirds",
        [](auto&, auto& traffic) {
-         const std::int64_t begin_us = traffic.front().frame.stamp_us;
-         remove_if(traffic, [begin_us](const auto& entry) {
-           return entry.interface == "can0" && entry.frame.stamp_us > begin_us + 60'000;
+         remove_if(traffic, [is_late = is_between(traffic, 1.0, 9.0)](const auto& entry) {
+           return entry.interface == "can0" && is_late(entry);
          });
        },
-       Severity::error, "front: no estimate yet", "--seconds"},
+       Severity::error, "front: no scan in the last 2.", "loose contacts"},
+      {"silent for a while",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [is_then = is_between(traffic, 0.5, 2.0)](const auto& entry) {
+           return entry.interface == "can0" && is_then(entry);
+         });
+       },
+       Severity::warning, "front: no scan from 0.", "loose contacts"},
+      {"silent at first",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [is_early = is_between(traffic, 0.0, 1.8)](const auto& entry) {
+           return entry.interface == "can0" && is_early(entry);
+         });
+       },
+       Severity::warning, "front: no scan from 0.0 to 1.8 of ", "restarted"},
+      {"silent but for a moment",
+       [](auto&, auto& traffic) {
+         remove_if(traffic, [is_early = is_between(traffic, 0.0, 2.85)](const auto& entry) {
+           return entry.interface == "can0" && is_early(entry);
+         });
+       },
+       Severity::warning, "front: no scan from 0.0 to 2.8 of ", "restarted"},
+      {"two sensors with one id", [](auto&, auto& traffic) { add_twin(traffic); }, Severity::error,
+       " lists a second come from sensor id 0 on can0, of one sensor 13 to 17: two sensors have",
+       "`cremed-doctor --configure-ars408 front --sensor-id 0`"},
+      {"each frame twice",
+       [](auto&, auto& traffic) {
+         Recording twice;
+         for (const auto& entry : traffic) {
+           twice.insert(twice.end(), 2, entry);
+         }
+         traffic = twice;
+       },
+       Severity::error, "of one sensor 13 to 17: each frame comes twice", "gateway"},
+      {"a clock that is set back",
+       [](auto&, auto& traffic) {
+         for (auto& entry : traffic) {
+           entry.frame.stamp_us -= is_between(traffic, 1.5, 9.0)(entry) ? 3'600'000'000 : 0;
+         }
+       },
+       Severity::warning, "the stamps of can0 run backwards 1 time, by up to 3", "timedatectl"},
+      {"a clock that is set back often",
+       [](auto&, auto& traffic) {
+         for (std::size_t i = 0; i < traffic.size(); ++i) {
+           traffic[i].frame.stamp_us -= static_cast<std::int64_t>(i / 2000) * 200'000;
+         }
+       },
+       Severity::warning, "the stamps of can0 run backwards ", "timedatectl"},
+      {"a GPR on its identifiers",
+       [](auto& configuration, auto& traffic) {
+         configuration.radars.resize(1);
+         rename(traffic, "can1", "can0");
+       },
+       Severity::warning, "whose content contradicts the identifier", "a Bosch GPR?"},
+      {"a GPR in its place, of which an identifier is missing",
+       [](auto& configuration, auto& traffic) {
+         configuration.radars.resize(1);
+         remove_if(traffic, [](const auto& entry) {
+           return entry.interface == "can0" || entry.frame.id == 0x234;
+         });
+         rename(traffic, "can1", "can0");
+       },
+       Severity::error,
+       "front: frames on can0, but none of an ARS408 with sensor id 0: 0x100, 0x200, ", "type"},
   };
   return kAll;
 }
@@ -264,6 +355,43 @@ TEST_CASE("What is wrong with a radar is found") {
       check_first(findings, spoilt.severity, spoilt.what, spoilt.remedy);
     }
   }
+}
+
+TEST_CASE("A clock that is set back is not blamed on lost frames") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
+    traffic[i].frame.stamp_us -= static_cast<std::int64_t>(i / 1500) * 3'600'000'000;
+  }
+  const std::string text = all_text(diagnose(configuration, observe(configuration, traffic)));
+  CHECK_THAT(text, Catch::Contains("run backwards"));
+  CHECK_THAT(text, !Catch::Contains("lost"));
+}
+
+TEST_CASE("The rate of a radar that fell silent is that of the time before") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  remove_if(traffic, [is_late = is_between(traffic, 1.0, 9.0)](const auto& entry) {
+    return entry.interface == "can0" && is_late(entry);
+  });
+  const Observation observation = observe(configuration, traffic);
+  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
+             Catch::Matches("front: 1[345]\\.[0-9] scans/s in 1\\.[01] of [23]\\.[0-9] s, "
+                            "1[0-9] estimates"));
+}
+
+TEST_CASE("A log of more interfaces than a vehicle has is bounded, and the rest is told") {
+  const Configuration configuration = demo_configuration();
+  Observer observer(configuration);
+  for (int i = 0; i < 100'000; ++i) {
+    observer.add("i" + std::to_string(i), {.id = 0x123, .length = 8});
+    observer.add_lost("l" + std::to_string(i), 1);
+  }
+  const Observation observation = observer.finish();
+  CHECK(observation.buses.size() == kMostBuses);
+  CHECK(observation.frames_left_out > 199'000);
+  CHECK_THAT(all_text(diagnose(configuration, observation)),
+             Catch::Contains(" frames of further interfaces left out: only 64 are looked at"));
 }
 
 TEST_CASE("A radar that is somewhere else explains the silence of its bus") {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -7,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/can_decoders/hex_frame.hpp"
-#include "test/tools/fake_ars408.hpp"
+#include "test/tools/ars408_talks.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 
 using namespace cremed;
@@ -15,47 +17,31 @@ using namespace cremed::test;
 
 namespace {
 
-Configuration two_ars408s(Ars408Output output = Ars408Output::clusters) {
-  Configuration configuration;
-  for (const std::uint8_t sensor : {std::uint8_t{0}, std::uint8_t{3}}) {
-    RadarConfiguration radar;
-    radar.name = sensor == 0 ? "front" : "left";
-    radar.interface = "can0";
-    radar.decoder = Ars408Options{.sensor_id = sensor, .output = output};
-    configuration.radars.push_back(radar);
-  }
-  return configuration;
-}
-
-/// As a sensor comes from the factory: objects, with all that belongs to them.
-Ars408RadarState factory_state(std::uint8_t sensor_id) {
-  Ars408RadarState state;
-  state.sensor_id = sensor_id;
-  state.output_code = 1;
-  state.sends_quality = true;
-  state.sends_extended = true;
-  state.max_distance_m = 200.0;
-  return state;
-}
-
 struct Outcome {
-  SetupResult result;
+  TalkResult result;
   std::string text;
   std::vector<CanFrame> sent;
 };
 
+/// What the user says on the command line, and types.
+struct Said {
+  Ars408Setup setup{};
+  Ars408Address address{};
+  std::string typed = "y\n";
+};
+
 Outcome set_up(const std::vector<Ars408RadarState>& states, const Ars408Manners& manners,
-               Ars408Setup setup, const std::string& answer,
-               const Configuration& configuration = two_ars408s(),
+               const Said& said, const Configuration& configuration = two_ars408s(),
                const std::vector<CanFrame>& traffic = {}) {
   FakeArs408s sensors(states, manners, traffic);
-  setup.listen_us = 60'000;
-  setup.confirm_us = 300'000;
-  std::istringstream answers(answer);
+  const Input input(Input::Kind::terminal, said.typed);
+  Ars408TalkOptions options = quick_talk(manners);
+  options.address.said_id = said.address.said_id;
+  options.consent.terminal = input.descriptor();
   std::ostringstream out;
-  const SetupResult result =
-      set_up_ars408(configuration, configuration.radars[0], setup, sensors.socket(), answers, out);
-  return {result, out.str(), sensors.received()};
+  const TalkResult result = set_up_ars408(
+      {configuration, configuration.radars[0], options, sensors.socket(), out}, said.setup);
+  return {result, out.str(), sensors.all_received()};
 }
 
 void check_sent(const Outcome& outcome, const std::string& expected) {
@@ -70,8 +56,8 @@ void check_sent(const Outcome& outcome, const std::string& expected) {
 }  // namespace
 
 TEST_CASE("A sensor is set to clusters with quality, and confirms it") {
-  const Outcome outcome = set_up({factory_state(0)}, {}, {}, "y\n");
-  CHECK(outcome.result == SetupResult::took);
+  const Outcome outcome = set_up({factory_state(0)}, {}, {});
+  CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#3A00000010040000");
   CHECK_THAT(outcome.text, Catch::Contains("output: objects -> clusters"));
   CHECK_THAT(outcome.text, Catch::Contains("extended: on -> off"));
@@ -83,24 +69,17 @@ TEST_CASE("A sensor is set to clusters with quality, and confirms it") {
 TEST_CASE("Nothing is sent unless the user says yes") {
   const auto answer = GENERATE(as<std::string>{}, "", "\n", "n\n", "no\n", "maybe\n", "Yup\n");
   CAPTURE(answer);
-  const Outcome outcome = set_up({factory_state(0)}, {}, {}, answer);
-  CHECK(outcome.result == SetupResult::not_sent);
+  const Outcome outcome = set_up({factory_state(0)}, {}, {.typed = answer});
+  CHECK(outcome.result == TalkResult::not_sent);
   CHECK(outcome.sent.empty());
   CHECK_THAT(outcome.text, Catch::Contains("[y/N]"));
   CHECK_THAT(outcome.text, Catch::EndsWith("nothing was sent\n"));
 }
 
-TEST_CASE("A script that has agreed is not asked") {
-  const Outcome outcome = set_up({factory_state(0)}, {}, {.is_agreed = true}, "");
-  CHECK(outcome.result == SetupResult::took);
-  CHECK(outcome.sent.size() == 1);
-  CHECK_THAT(outcome.text, !Catch::Contains("[y/N]"));
-}
-
 TEST_CASE("Range and storing are set only if asked for") {
   const Outcome outcome =
-      set_up({factory_state(0)}, {}, {.max_distance_m = 249.0, .store = true}, "y\n");
-  CHECK(outcome.result == SetupResult::took);
+      set_up({factory_state(0)}, {}, {.setup = {.max_distance_m = 249.0, .store = true}});
+  CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#BB1F400010840000");
   CHECK_THAT(outcome.text, Catch::Contains("flash, which wears"));
   CHECK_THAT(outcome.text, Catch::Contains("range: 250 m, took"));
@@ -108,8 +87,9 @@ TEST_CASE("Range and storing are set only if asked for") {
 }
 
 TEST_CASE("A sensor with another id is addressed by that, and confirms under the new one") {
-  const Outcome outcome = set_up({factory_state(5), factory_state(3)}, {}, {}, "y\n");
-  CHECK(outcome.result == SetupResult::took);
+  const Outcome outcome =
+      set_up({factory_state(5), factory_state(3)}, {}, {.address = {.said_id = std::uint8_t{5}}});
+  CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "250#3A00000010040000");
   CHECK_THAT(outcome.text, Catch::Contains("front: ARS408 with sensor id 5 on can0"));
   CHECK_THAT(outcome.text, Catch::Contains("sensor id: 5 -> 0"));
@@ -119,8 +99,8 @@ TEST_CASE("A sensor with another id is addressed by that, and confirms under the
 TEST_CASE("A radar that is to send objects is set to objects") {
   Ars408RadarState state = factory_state(0);
   state.output_code = 2;
-  const Outcome outcome = set_up({state}, {}, {}, "y\n", two_ars408s(Ars408Output::objects));
-  CHECK(outcome.result == SetupResult::took);
+  const Outcome outcome = set_up({state}, {}, {}, two_ars408s(Ars408Output::objects));
+  CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#3A00000008040000");
 }
 
@@ -137,8 +117,9 @@ TEST_CASE("What did not take is named") {
                Case{{.falls_silent = true}, 0, "no 0x201 came after it"});
   CAPTURE(row.text);
   const Outcome outcome =
-      set_up({factory_state(row.sensor_id)}, row.manners, {.max_distance_m = 260.0}, "y\n");
-  CHECK(outcome.result == SetupResult::not_taken);
+      set_up({factory_state(row.sensor_id)}, row.manners,
+             {.setup = {.max_distance_m = 260.0}, .address = {.said_id = row.sensor_id}});
+  CHECK(outcome.result == TalkResult::not_taken);
   CHECK(outcome.sent.size() == 1);
   CHECK_THAT(outcome.text, Catch::Contains(row.text));
 }
@@ -147,37 +128,73 @@ TEST_CASE("A sensor that is set as wanted is left alone, unless it is to store i
   Ars408RadarState state = factory_state(0);
   state.output_code = 2;
   state.sends_extended = false;
-  const Outcome outcome = set_up({state}, {}, {.is_agreed = true}, "");
-  CHECK(outcome.result == SetupResult::took);
+  const Outcome outcome = set_up({state}, {}, {});
+  CHECK(outcome.result == TalkResult::took);
   CHECK(outcome.sent.empty());
   CHECK_THAT(outcome.text, Catch::Contains("It is set so already"));
-  CHECK(set_up({state}, {}, {.store = true, .is_agreed = true}, "").sent.size() == 1);
+  CHECK(set_up({state}, {}, {.setup = {.store = true}}).sent.size() == 1);
 }
 
 TEST_CASE("Nothing is sent where it is not certain which sensor is meant") {
   struct Case {
     std::string name;
     std::vector<Ars408RadarState> states;
-    std::vector<CanFrame> traffic;
+    std::optional<std::uint8_t> said_id;
     std::string text;
   };
+  Ars408RadarState other = factory_state(0);
+  other.max_distance_m = 260.0;
+  const std::uint8_t three = 3;
+  const std::uint8_t five = 5;
+  const auto row = GENERATE_COPY(
+      Case{"no sensor", {}, {}, "no 0x201 of an ARS408 with sensor id 0 on can0"},
+      Case{"another id",
+           {factory_state(5)},
+           {},
+           "but with 5; if that is \"front\", say so: "
+           "--sensor-id 5; nothing was sent"},
+      Case{"only that of another radar", {factory_state(3)}, {}, "no 0x201 of an ARS408 with"},
+      Case{"that of another radar, said", {factory_state(3)}, three, "is radar \"left\""},
+      Case{"two unknown", {factory_state(1), factory_state(6)}, {}, "but with 1, 6"},
+      Case{"said, but not there", {factory_state(0)}, five, "with sensor id 5 on can0, but with 0"},
+      Case{"it would get an id twice",
+           {factory_state(0), factory_state(5)},
+           five,
+           "sensor id 0, which it would get, is on can0 too"},
+      Case{"two with one id", {factory_state(0), other}, {}, "two sensors with id 0"});
+  CAPTURE(row.name);
+  const Outcome outcome = set_up(row.states, {}, {.address = {.said_id = row.said_id}});
+  CAPTURE(outcome.text);
+  CHECK(outcome.result == TalkResult::not_sent);
+  CHECK(outcome.sent.empty());
+  CHECK_THAT(outcome.text, Catch::Contains(row.text));
+  CHECK_THAT(outcome.text, Catch::Contains("nothing was sent"));
+}
+
+TEST_CASE("Nothing is sent to what is no ARS408") {
   std::vector<CanFrame> gpr;
   for (std::uint32_t i = 0; i < 96; ++i) {
     gpr.push_back({.id = 0x200 + i, .length = 8});
   }
+  const Outcome among = set_up({factory_state(0)}, {}, {}, two_ars408s(), gpr);
+  CHECK(among.sent.empty());
+  CHECK_THAT(among.text, Catch::Contains("a Bosch GPR is on can0"));
   // A report whose sensor id is not that of its identifier is from something else.
-  const CanFrame stranger = hex_frame("221#4019000010F40000");
-  const auto row = GENERATE_COPY(
-      Case{"no sensor", {}, {}, "no 0x201 of an ARS408 on can0"},
-      Case{"only that of another radar", {factory_state(3)}, {}, "no 0x201 of an ARS408 on can0"},
-      Case{"two unknown", {factory_state(1), factory_state(6)}, {}, "sensor ids 1, 6 are on can0"},
-      Case{"a GPR", {factory_state(0)}, gpr, "a Bosch GPR is on can0"},
-      Case{"something else", {}, {stranger}, "no 0x201 of an ARS408 on can0"});
-  CAPTURE(row.name);
-  const Outcome outcome =
-      set_up(row.states, {}, {.is_agreed = true}, "", two_ars408s(), row.traffic);
-  CHECK(outcome.result == SetupResult::not_sent);
-  CHECK(outcome.sent.empty());
-  CHECK_THAT(outcome.text, Catch::Contains(row.text));
-  CHECK_THAT(outcome.text, Catch::Contains("nothing was sent"));
+  const Outcome stranger = set_up({}, {}, {}, two_ars408s(), {hex_frame("201#4019000013F40000")});
+  CHECK(stranger.sent.empty());
+  CHECK_THAT(stranger.text, Catch::Contains("no 0x201 of an ARS408 with sensor id 0 on can0"));
+}
+
+TEST_CASE("Two sensors that are set alike are told by how often their id reports") {
+  FakeArs408s sensors({factory_state(0)}, {}, {});
+  const Configuration configuration = two_ars408s();
+  Ars408TalkOptions options = quick_talk({});
+  options.consent.is_given = true;
+  options.address.shortest_gap_us = 100'000'000;
+  options.listen_us = 500'000;
+  std::ostringstream out;
+  CHECK(set_up_ars408({configuration, configuration.radars[0], options, sensors.socket(), out},
+                      {}) == TalkResult::not_sent);
+  CHECK(sensors.all_received().empty());
+  CHECK_THAT(out.str(), Catch::Contains("two sensors with id 0 seem to be on can0"));
 }

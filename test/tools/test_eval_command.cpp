@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "test/tools/tool_run.hpp"
 
@@ -69,6 +70,24 @@ TEST_CASE("cremed-eval table prints a row for every problem and method") {
   }
   REQUIRE(rows[0][1] == "MSM");
   CHECK(rows[0][14] == "0.121");
+}
+
+TEST_CASE("cremed-eval prints JSON: the same figures, and no others") {
+  const TemporaryFolder folder;
+  const bool is_table = GENERATE(true, false);
+  const std::string command = is_table ? "table --runs 1 --sets 2 --threads 1"
+                                       : "pairs " + write_pairs(folder) + " --profile sim";
+  const auto rows = cells(run(folder, command).output);
+  const ToolRun result = run(folder, command + " --json");
+  CAPTURE(command, result.error);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.output);
+  const auto& first = is_table ? json["rows"][0] : json;
+  const std::size_t cell = is_table ? 2 : 1;
+  CHECK(first["method"] == rows[0][cell - 1]);
+  CHECK(first["n"] == std::stoul(rows[0][cell]));
+  CHECK((is_table ? first["ours"] : first)["rmse_m"].get<double>() ==
+        Approx(std::stod(rows[0][cell + 1])).margin(1e-3));
 }
 
 TEST_CASE("cremed-eval draws what it measured") {

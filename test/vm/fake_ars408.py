@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The part of an ARS408 that can be configured, on a virtual bus."""
+import contextlib
 import socket
 import struct
 import threading
+import time
 
 from can_bus import pack
 
@@ -11,7 +13,7 @@ OBJECTS, CLUSTERS = 1, 2
 
 
 class FakeArs408(threading.Thread):
-    """Reports its state (0x201) ten times a second and obeys RadarCfg (0x200)."""
+    """Tells its state (0x201) once a second, obeys RadarCfg (0x200), answers FilterCfg (0x202)."""
 
     def __init__(self, bus, sensor_id=0, output=OBJECTS, quality=True, extended=True,
                  range_m=200, obeys=True):
@@ -19,10 +21,10 @@ class FakeArs408(threading.Thread):
         self.sensor_id, self.output, self.range_m = sensor_id, output, range_m
         self.quality, self.extended, self.stored = quality, extended, False
         self.obeys = obeys
-        self.commands = []  # Identifier and bytes of each RadarCfg, whoever it is for.
+        self.commands = []  # Identifier and bytes of each 0x200 and 0x202, whoever they are for.
         self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
         self.socket.bind((bus.name,))
-        self.socket.settimeout(0.1)
+        self.filters = {}  # By index: activity, limits.
         self.ended = threading.Event()
         self.start()
 
@@ -33,16 +35,32 @@ class FakeArs408(threading.Thread):
                       self.extended << 5 | self.quality << 4 | self.output << 2, 0, 0])
 
     def run(self):
+        due_s = time.monotonic()
         while not self.ended.is_set():
-            try:
-                self.socket.send(pack(0x201 + 0x10 * self.sensor_id, self.state()))
+            with contextlib.suppress(OSError):  # Nothing came, or the interface is down.
+                if time.monotonic() >= due_s:
+                    due_s += 1
+                    self.socket.send(pack(0x201 + 0x10 * self.sensor_id, self.state()))
+                self.socket.settimeout(max(0.01, due_s - time.monotonic()))
                 identifier, length, data = struct.unpack("=IB3x8s", self.socket.recv(16))
-            except OSError:  # Nothing came, or the interface is down.
-                continue
-            if identifier & ~0x70 == 0x200:
-                self.commands.append((identifier, data[:length]))
-                if self.obeys and identifier == 0x200 + 0x10 * self.sensor_id:
-                    self.obey(data)
+                self.hear(identifier, data[:length])
+
+    def hear(self, identifier, data):
+        if identifier & ~0x70 in (0x200, 0x202):
+            self.commands.append((identifier, data))
+        if self.obeys and identifier == 0x200 + 0x10 * self.sensor_id:
+            self.obey(data)
+        if identifier == 0x202 + 0x10 * self.sensor_id:
+            self.answer(data)
+
+    def answer(self, data):
+        index = data[0] >> 3 & 15
+        if self.obeys and data[0] & 0x02:
+            self.filters[index] = bytes([data[0] & 0x04]) + data[1:]
+        own = self.filters.get(index, bytes(5))
+        self.socket.send(pack(0x203 + 0x10 * self.sensor_id, bytes([6 << 3, 0])))
+        self.socket.send(pack(0x204 + 0x10 * self.sensor_id,
+                              bytes([own[0] | index << 3]) + own[1:]))
 
     def obey(self, data):
         valid = data[0]

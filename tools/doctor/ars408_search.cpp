@@ -14,14 +14,23 @@
 namespace cremed {
 namespace {
 
-bool is_of_other_radar(std::uint8_t sensor_id, const Configuration& configuration,
-                       const RadarConfiguration& radar) {
-  return std::any_of(configuration.radars.begin(), configuration.radars.end(),
-                     [&](const RadarConfiguration& other) {
-                       const auto* options = std::get_if<Ars408Options>(&other.decoder);
-                       return options != nullptr && other.name != radar.name &&
-                              other.interface == radar.interface && options->sensor_id == sensor_id;
-                     });
+std::string text(std::uint8_t sensor_id) { return std::to_string(sensor_id); }
+
+std::uint8_t configured_id(const RadarConfiguration& radar) {
+  return std::get<Ars408Options>(radar.decoder).sensor_id;
+}
+
+/// The radar of the configuration that has this id on the same bus; null if it is this one or none.
+const RadarConfiguration* other_radar(std::uint8_t sensor_id, const Configuration& configuration,
+                                      const RadarConfiguration& radar) {
+  for (const RadarConfiguration& other : configuration.radars) {
+    const auto* options = std::get_if<Ars408Options>(&other.decoder);
+    if (options != nullptr && other.name != radar.name && other.interface == radar.interface &&
+        options->sensor_id == sensor_id) {
+      return &other;
+    }
+  }
+  return nullptr;
 }
 
 bool has_gpr(const BusObservation& bus) {
@@ -30,21 +39,64 @@ bool has_gpr(const BusObservation& bus) {
                      [](const SeenRadar& seen) { return seen.kind == SeenRadar::Kind::bosch_gpr; });
 }
 
-Ars408Search choose(const std::vector<std::uint8_t>& candidates, const std::string& interface) {
-  if (candidates.size() == 1) {
-    return {candidates.front(), ""};
-  }
-  if (candidates.empty()) {
-    return {std::nullopt, concat({"no 0x201 of an ARS408 on ", interface,
-                                  "; check its power and cable, and run cremed-doctor without "
-                                  "--configure-ars408"})};
-  }
+bool is_set_alike(const Ars408RadarState& a, const Ars408RadarState& b) {
+  return a.output_code == b.output_code && a.sends_quality == b.sends_quality &&
+         a.sends_extended == b.sends_extended && a.max_distance_m == b.max_distance_m &&
+         a.power_code == b.power_code && a.sort_code == b.sort_code &&
+         a.rcs_threshold_code == b.rcs_threshold_code;
+}
+
+/// Ids on the bus that are no other radar of the configuration, as "3, 5".
+std::string free_ids(const Configuration& configuration, const RadarConfiguration& radar,
+                     const Ars408States& states) {
   std::string ids;
-  for (const std::uint8_t id : candidates) {
-    ids += concat({ids.empty() ? "" : ", ", std::to_string(id)});
+  for (std::uint8_t id = 0; id < states.size(); ++id) {
+    if (states[id].state && other_radar(id, configuration, radar) == nullptr) {
+      ids += concat({ids.empty() ? "" : ", ", text(id)});
+    }
   }
-  return {std::nullopt, concat({"ARS408s with sensor ids ", ids, " are on ", interface,
-                                ", none with the configured one; unplug all but the one meant"})};
+  return ids;
+}
+
+std::string absence(std::uint8_t wanted, const Configuration& configuration,
+                    const RadarConfiguration& radar, const Ars408States& states) {
+  const std::string ids = free_ids(configuration, radar, states);
+  if (ids.empty()) {
+    return concat({"no 0x201 of an ARS408 with sensor id ", text(wanted), " on ", radar.interface,
+                   "; check its power and cable, and run cremed-doctor without other options"});
+  }
+  return concat({"no ARS408 with sensor id ", text(wanted), " on ", radar.interface, ", but with ",
+                 ids, "; if that is ", quoted(radar.name), ", say so: --sensor-id ",
+                 ids.substr(0, 1),
+                 ids.size() > 1 ? " (unplug the others if you do not know which)" : ""});
+}
+
+bool is_twin(const Ars408Reports& reports, const Ars408Address& address) {
+  return reports.is_changing ||
+         (reports.shortest_gap_us && *reports.shortest_gap_us < address.shortest_gap_us);
+}
+
+/// Why a sensor of this id must be left alone; empty if it need not.
+std::string problem(std::uint8_t id, const Configuration& configuration,
+                    const RadarConfiguration& radar, const Ars408Address& address,
+                    const Ars408States& states) {
+  const std::uint8_t configured = configured_id(radar);
+  if (const auto* other = other_radar(id, configuration, radar)) {
+    return concat({"sensor id ", text(id), " on ", radar.interface, " is radar ",
+                   quoted(other->name), "; name that, or take another --sensor-id"});
+  }
+  if (!states[id].state) {
+    return absence(id, configuration, radar, states);
+  }
+  if (id != configured && states[configured].state) {
+    return concat({"sensor id ", text(configured), ", which it would get, is on ", radar.interface,
+                   " too; unplug that sensor, or leave out --sensor-id"});
+  }
+  if (is_twin(states[id], address)) {
+    return concat({"two sensors with id ", text(id), " seem to be on ", radar.interface,
+                   " (0x201 comes too often, or contradicts itself); unplug all but one"});
+  }
+  return {};
 }
 
 }  // namespace
@@ -56,30 +108,30 @@ void note_state(const CanFrame& frame, Ars408States& states) {
   }
   const std::size_t sensor = ars408_sensor_id(frame.id);
   const auto state = decode_ars408_radar_state(std::span(frame.data).first(frame.length));
-  if (state && state->sensor_id == sensor) {
-    states[sensor] = state;
+  if (!state || state->sensor_id != sensor) {
+    return;
   }
+  Ars408Reports& reports = states[sensor];
+  if (reports.state) {
+    const std::int64_t gap_us = frame.stamp_us - reports.stamp_us;
+    reports.shortest_gap_us = std::min(reports.shortest_gap_us.value_or(gap_us), gap_us);
+    reports.is_changing = reports.is_changing || !is_set_alike(*reports.state, *state);
+  }
+  reports.state = state;
+  reports.stamp_us = frame.stamp_us;
 }
 
 Ars408Search find_ars408(const Configuration& configuration, const RadarConfiguration& radar,
-                         const BusObservation& bus, const Ars408States& states) {
+                         const Ars408Address& address, const BusObservation& bus,
+                         const Ars408States& states) {
   if (has_gpr(bus)) {
     return {std::nullopt,
             concat({"a Bosch GPR is on ", radar.interface,
                     ", whose identifiers are those an ARS408 obeys; separate the two"})};
   }
-  const std::uint8_t configured = std::get<Ars408Options>(radar.decoder).sensor_id;
-  if (states[configured]) {
-    return {configured, ""};
-  }
-  std::vector<std::uint8_t> candidates;
-  for (std::size_t sensor = 0; sensor < states.size(); ++sensor) {
-    const auto id = static_cast<std::uint8_t>(sensor);
-    if (states[sensor] && !is_of_other_radar(id, configuration, radar)) {
-      candidates.push_back(id);
-    }
-  }
-  return choose(candidates, radar.interface);
+  const std::uint8_t id = address.said_id.value_or(configured_id(radar));
+  const std::string why_not = problem(id, configuration, radar, address, states);
+  return {why_not.empty() ? std::optional(id) : std::nullopt, why_not};
 }
 
 }  // namespace cremed

@@ -4,21 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <istream>
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include <poll.h>
-
 #include "can_decoders/ars408_commands.hpp"
-#include "daemon/candump.hpp"
-#include "daemon/clocks.hpp"
 #include "daemon/message_text.hpp"
-#include "tools/doctor/ars408_search.hpp"
 
 namespace cremed {
 namespace {
@@ -100,44 +94,6 @@ bool is_as_wanted(const std::vector<Setting>& settings, const Ars408RadarState& 
   return true;
 }
 
-/// As candump shows it: "can0 200#3800000010040000".
-std::string frame_text(const std::string& interface, const CanFrame& frame) {
-  std::array<char, kMaxCandumpLine> line{};
-  const std::string_view text(line.data(), format_candump_line(frame, interface, line));
-  const std::size_t begin = text.find(' ') + 1;
-  return std::string(text.substr(begin, text.find('\n') - begin));
-}
-
-/// Calls `use(frame)` for each frame that comes in time, until it returns true.
-template <typename Use>
-void listen(CanSocket& socket, std::int64_t duration_us, Use use) {
-  constexpr int kPollMs = 50;
-  const std::int64_t end_us = monotonic_us() + duration_us;
-  while (monotonic_us() < end_us) {
-    pollfd polled{socket.descriptor(), POLLIN, 0};
-    ::poll(&polled, 1, kPollMs);
-    const CanReceiveResult result = socket.receive();
-    for (const ReceivedFrame& received : result.frames) {
-      if (use(received.frame)) {
-        return;
-      }
-    }
-    if (result.status != CanReceiveStatus::frames && result.status != CanReceiveStatus::empty) {
-      return;
-    }
-  }
-}
-
-bool asks_yes(const Ars408Setup& setup, std::istream& answers, std::ostream& out) {
-  if (setup.is_agreed) {
-    return true;
-  }
-  out << "Send it? [y/N] " << std::flush;
-  std::string answer;
-  std::getline(answers, answer);
-  return answer == "y" || answer == "Y" || answer == "yes";
-}
-
 void show_plan(const std::vector<Setting>& settings, const Ars408RadarState& now,
                const Ars408RadarState& wanted, const Ars408Setup& setup, std::ostream& out) {
   for (const Setting& setting : settings) {
@@ -150,24 +106,24 @@ void show_plan(const std::vector<Setting>& settings, const Ars408RadarState& now
 }
 
 /// What the sensor says after the command, under its new id or, if it kept it, its old one.
-std::optional<Ars408RadarState> confirmed_state(CanSocket& socket, std::uint8_t old_id,
+std::optional<Ars408RadarState> confirmed_state(const Ars408Talk& talk, std::uint8_t old_id,
                                                 const std::vector<Setting>& settings,
-                                                const Ars408RadarState& wanted,
-                                                std::int64_t duration_us) {
+                                                const Ars408RadarState& wanted) {
   Ars408States states;
-  listen(socket, duration_us, [&](const CanFrame& frame) {
+  listen(talk.socket, talk.options.confirm_us, [&](const CanFrame& frame) {
     note_state(frame, states);
-    const auto& state = states[wanted.sensor_id];
+    const auto& state = states[wanted.sensor_id].state;
     return state && is_as_wanted(settings, wanted, *state);
   });
-  return states[wanted.sensor_id] ? states[wanted.sensor_id] : states[old_id];
+  const auto& state = states[wanted.sensor_id].state;
+  return state ? state : states[old_id].state;
 }
 
-SetupResult show_result(const std::vector<Setting>& settings, const Ars408RadarState& wanted,
-                        const std::optional<Ars408RadarState>& state, std::ostream& out) {
+TalkResult show_result(const std::vector<Setting>& settings, const Ars408RadarState& wanted,
+                       const std::optional<Ars408RadarState>& state, std::ostream& out) {
   if (!state) {
     out << "no 0x201 came after it: the sensor does not confirm anything\n";
-    return SetupResult::not_taken;
+    return TalkResult::not_taken;
   }
   for (const Setting& setting : settings) {
     const std::string now = setting.text(*state);
@@ -175,49 +131,30 @@ SetupResult show_result(const std::vector<Setting>& settings, const Ars408RadarS
     out << "  " << setting.name << ": " << now
         << (took ? ", took\n" : ", did not take: wanted " + setting.text(wanted) + '\n');
   }
-  return is_as_wanted(settings, wanted, *state) ? SetupResult::took : SetupResult::not_taken;
+  return is_as_wanted(settings, wanted, *state) ? TalkResult::took : TalkResult::not_taken;
 }
 
 }  // namespace
 
-SetupResult set_up_ars408(const Configuration& configuration, const RadarConfiguration& radar,
-                          const Ars408Setup& setup, CanSocket& socket, std::istream& answers,
-                          std::ostream& out) {
-  BusObservation bus;
-  Ars408States states;
-  listen(socket, setup.listen_us, [&](const CanFrame& frame) {
-    bus.add(frame);
-    note_state(frame, states);
-    return false;
-  });
-  const Ars408Search found = find_ars408(configuration, radar, bus, states);
-  if (!found.sensor_id) {
-    out << found.problem << "; nothing was sent\n";
-    return SetupResult::not_sent;
+TalkResult set_up_ars408(const Ars408Talk& talk, const Ars408Setup& setup) {
+  const auto met = meet(talk);
+  if (!met) {
+    return TalkResult::not_sent;
   }
-  const Ars408RadarState now = *states[*found.sensor_id];
-  const Ars408RadarState wanted = wanted_state(std::get<Ars408Options>(radar.decoder), setup, now);
+  const Ars408RadarState wanted =
+      wanted_state(std::get<Ars408Options>(talk.radar.decoder), setup, met->state);
   const std::vector<Setting> settings = settings_of(setup);
-  const CanFrame frame = encode_ars408_command(*found.sensor_id, command_for(wanted, setup));
-  out << radar.name << ": ARS408 with sensor id " << unsigned{*found.sensor_id} << " on "
-      << radar.interface << '\n';
-  if (!setup.store && is_as_wanted(settings, wanted, now)) {
-    out << "It is set so already; nothing was sent.\n";
-    return SetupResult::took;
+  if (!setup.store && is_as_wanted(settings, wanted, met->state)) {
+    talk.out << "It is set so already; nothing was sent.\n";
+    return TalkResult::took;
   }
-  show_plan(settings, now, wanted, setup, out);
-  out << frame_text(radar.interface, frame) << '\n';
-  if (!asks_yes(setup, answers, out)) {
-    out << "nothing was sent\n";
-    return SetupResult::not_sent;
+  show_plan(settings, met->state, wanted, setup, talk.out);
+  const CanFrame frame = encode_ars408_command(met->sensor_id, command_for(wanted, setup));
+  if (!is_agreed(talk, std::span(&frame, 1)) || !send(talk, frame)) {
+    return TalkResult::not_sent;
   }
-  if (const int error = socket.send(frame); error != 0) {
-    out << radar.interface << ": " << std::strerror(error) << "; it was not sent\n";
-    return SetupResult::not_sent;
-  }
-  return show_result(settings, wanted,
-                     confirmed_state(socket, *found.sensor_id, settings, wanted, setup.confirm_us),
-                     out);
+  return show_result(settings, wanted, confirmed_state(talk, met->sensor_id, settings, wanted),
+                     talk.out);
 }
 
 }  // namespace cremed

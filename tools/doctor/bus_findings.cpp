@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/doctor/bus_findings.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -150,6 +151,22 @@ void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
   }
 }
 
+void add_clock(const BusObservation& bus, const Observation& observation,
+               std::vector<Finding>& findings) {
+  if (bus.stamps_back == 0) {
+    return;
+  }
+  const double back_s = static_cast<double>(bus.longest_back_us) * 1e-6;
+  findings.push_back(
+      {Severity::warning,
+       concat({"the stamps of ", bus.interface, " run backwards ", counted(bus.stamps_back, "time"),
+               ", by up to ", tenths(std::max(back_s, 0.1)), " s"}),
+       observation.is_live
+           ? "the clock was set meanwhile: listen again, and see what sets it, `timedatectl`"
+           : "the clock was set during the recording, or lines are out of order: "
+             "`sort -s -k1,1 LOG` mends the latter"});
+}
+
 }  // namespace
 
 bool is_silent(const BusObservation& bus) {
@@ -168,6 +185,7 @@ std::vector<Finding> bus_findings(const BusObservation& bus, const Observation& 
   if (bus.status.frames != 0 || bus.status.bus_offs != 0) {
     add_errors(bus, findings);
   }
+  add_clock(bus, observation, findings);
   add_losses(bus, findings);
   return findings;
 }

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "can_decoders/ars408_state_watch.hpp"
 #include "can_decoders/can_frame.hpp"
 #include "daemon/bus_status.hpp"
 
@@ -37,9 +39,20 @@ struct BusObservation {
   std::uint64_t no_acknowledge = 0;   ///< Error frames that report that nobody listens.
   std::uint64_t overruns = 0;         ///< Error frames that report frames the controller lost.
   std::uint64_t foreign_frames = 0;   ///< Extended, remote or FD: no radar here sends them.
+  std::uint64_t stamps_back = 0;      ///< Frames that are stamped before the one they follow.
+  std::int64_t longest_back_us = 0;   ///< The longest of these steps.
+  std::optional<std::int64_t> last_stamp_us;
   std::array<IdObservation, 0x800> ids{};
+  /// Frames with the identifier of a 0x201 that are one, by sensor id.
+  std::array<std::uint64_t, 8> ars408_states{};
 
   void add(const CanFrame& frame);
+
+ private:
+  void note_stamp(std::int64_t stamp_us);
+  void note_state(const CanFrame& frame);
+
+  std::array<Ars408StateWatch, 8> state_watches_{};
 };
 
 }  // namespace cremed

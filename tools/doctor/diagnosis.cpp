@@ -8,6 +8,7 @@
 #include "daemon/message_text.hpp"
 #include "daemon/report.hpp"
 #include "tools/doctor/bus_findings.hpp"
+#include "tools/doctor/observer.hpp"
 #include "tools/doctor/radar_diagnosis.hpp"
 
 namespace cremed {
@@ -75,6 +76,13 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     }
     add_buses(configuration, observation, findings);
   }
+  if (observation.frames_left_out != 0) {
+    findings.push_back({Severity::warning,
+                        concat({counted(observation.frames_left_out, "frame"),
+                                " of further interfaces left out: only ",
+                                std::to_string(kMostBuses), " are looked at"}),
+                        "is this a log of candump? Its second column names the interface"});
+  }
   if (!observation.lcm_problem.empty()) {
     findings.push_back({Severity::error, "LCM cannot send", observation.lcm_problem});
   }
@@ -83,11 +91,23 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   return findings;
 }
 
+const char* severity_name(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
+bool is_well(const Findings& findings) {
+  return std::all_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::note; });
+}
+
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
                         double seconds) {
   const auto scans = static_cast<double>(observation.status.assembler.scans);
-  return concat({radar.name, ": ", tenths(seconds > 0.0 ? scans / seconds : 0.0), " scans/s, ",
-                 std::to_string(estimates(observation.status)), " estimates"});
+  const bool has_pause = fell_silent(observation, seconds);
+  const double sent_s = seconds - (has_pause ? observation.times.longest_pause_s : 0.0);
+  return concat({radar.name, ": ", tenths(sent_s > 0.0 ? scans / sent_s : 0.0), " scans/s",
+                 has_pause ? concat({" in ", tenths(sent_s), " of ", tenths(seconds), " s"}) : "",
+                 ", ", std::to_string(estimates(observation.status)), " estimates"});
 }
 
 }  // namespace cremed

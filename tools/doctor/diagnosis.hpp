@@ -15,6 +15,12 @@ namespace cremed {
 /// cause first.
 std::vector<Finding> diagnose(const Configuration& configuration, const Observation& observation);
 
+/// "error", "warning" or "note".
+const char* severity_name(Severity severity);
+
+/// No finding, or only notes.
+bool is_well(const std::vector<Finding>& findings);
+
 /// One line: "front: 13.6 scans/s, 40 estimates".
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
                         double seconds);

@@ -16,15 +16,20 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/configuration_path.hpp"
+#include "daemon/lcm_url.hpp"
 #include "daemon/multicast_route.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/process_setup.hpp"
 #include "daemon/signals.hpp"
+#include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/diagnosis.hpp"
+#include "tools/doctor/diagnosis_json.hpp"
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
+#include "tools/doctor/suggestion.hpp"
 
 namespace {
 
@@ -32,12 +37,19 @@ using namespace cremed;
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
+constexpr const char* kLive = "live";
+
 struct Arguments {
   std::string config;
+  std::string suggested_from;
+  bool is_json = false;
   double seconds = 3.0;
   std::string replay;
   std::optional<std::string> lcm_url;
   std::string ars408;
+  std::string filtered;
+  std::vector<std::string> filters;
+  Ars408TalkOptions talk;
   Ars408Setup setup;
 };
 
@@ -54,11 +66,23 @@ void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
                  "without LCM unless it is given");
 }
 
-void add_setup_options(CLI::App& app, Arguments& arguments) {
+void add_other_outputs(CLI::App& app, Arguments& arguments) {
+  auto* json = app.add_flag("--json", arguments.is_json, "Print the diagnosis as JSON");
+  app.add_option("--suggest-config", arguments.suggested_from,
+                 "Write a first configuration from what is on the buses (live), or in this candump "
+                 "log, to standard output; where the radars are mounted is to be filled in")
+      ->expected(0, 1)
+      ->default_str(kLive)
+      ->excludes("--config")
+      ->excludes("--replay")
+      ->excludes("--lcm-url")
+      ->excludes(json);
+}
+
+void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* configure = app.add_option("--configure-ars408", arguments.ars408,
                                    "Set the sensor of this radar to what the configuration "
                                    "expects; asks before it sends");
-  configure->excludes("--replay");
   app.add_option("--max-distance", arguments.setup.max_distance_m,
                  "Set its range in m too (by model 196 to 260, or up to 1200)")
       ->check(CLI::Range(196.0, 1200.0))
@@ -66,14 +90,32 @@ void add_setup_options(CLI::App& app, Arguments& arguments) {
   app.add_flag("--store", arguments.setup.store,
                "Write its settings to its flash, so that they outlast power-off")
       ->needs(configure);
-  app.add_flag("--yes", arguments.setup.is_agreed, "Do not ask")->needs(configure);
+  auto* filtered = app.add_option("--ars408-filters", arguments.filtered,
+                                  "Show which clusters the sensor of this radar lets pass; asks "
+                                  "before it sends what the sensor answers to");
+  app.add_option("--filter", arguments.filters,
+                 std::string("Set a filter, and keep it in the sensor's flash; may repeat: ") +
+                     kArs408FilterWanted)
+      ->needs(filtered)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--sensor-id", arguments.talk.address.said_id,
+                 "The sensor id it has now, where that is not the configured one")
+      ->check(CLI::Range(0, 7));
+  app.add_flag("--yes", arguments.talk.consent.is_given, "Send without asking");
+  for (const char* other : {"--replay", "--json", "--suggest-config"}) {
+    configure->excludes(other);
+    filtered->excludes(other);
+  }
+  configure->excludes(filtered);
+}
+
+bool is_talk(const Arguments& arguments) {
+  return !arguments.ars408.empty() || !arguments.filtered.empty();
 }
 
 void print(const Finding& finding) {
-  const char* severity = finding.severity == Severity::error     ? "error: "
-                         : finding.severity == Severity::warning ? "warning: "
-                                                                 : "note: ";
-  std::cout << severity << to_text(finding) << '\n';
+  std::cout << severity_name(finding.severity) << ": " << to_text(finding) << '\n';
 }
 
 Observation observe(const Arguments& arguments, const Configuration& configuration,
@@ -94,16 +136,34 @@ int run_diagnosis(const Arguments& arguments, const Configuration& configuration
   const Observation observation =
       observe(arguments, configuration, arguments.replay.empty() ? handle_stop_signals() : nullptr);
   const std::vector<Finding> findings = diagnose(configuration, observation);
+  const bool all_well = is_well(findings);
+  if (arguments.is_json) {
+    std::cout << diagnosis_json(configuration, observation, findings) << '\n';
+    return all_well ? good : failure;
+  }
   std::for_each(findings.begin(), findings.end(), print);
-  const bool is_well = std::all_of(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::note;
-  });
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    std::cout << (is_well ? "no finding: " : "")
+    std::cout << (all_well ? "good: " : "")
               << vital_signs(configuration.radars[i], observation.radars[i], observation.seconds)
               << '\n';
   }
-  return is_well ? good : failure;
+  return all_well ? good : failure;
+}
+
+int run_suggestion(const Arguments& arguments) {
+  Configuration nothing;
+  nothing.odometry.enabled = false;
+  const Observation observation =
+      arguments.suggested_from == kLive
+          ? observe_live(nothing, arguments.seconds, handle_stop_signals())
+          : observe_log(nothing, arguments.suggested_from);
+  const std::string suggestion = suggested_configuration(observation);
+  if (suggestion.empty()) {
+    std::cerr << "cremed-doctor: " << no_suggestion(observation) << '\n';
+    return failure;
+  }
+  std::cout << suggestion;
+  return good;
 }
 
 const RadarConfiguration& ars408_named(const std::string& name,
@@ -117,8 +177,21 @@ const RadarConfiguration& ars408_named(const std::string& name,
       names += (names.empty() ? "" : ", ") + radar.name;
     }
   }
-  throw UsageError("--configure-ars408: '" + name + "' is no ARS408 of the configuration; it has " +
+  throw UsageError("'" + name + "' is no ARS408 of the configuration; it has " +
                    (names.empty() ? "none" : names));
+}
+
+std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {
+  std::vector<Ars408FilterState> filters;
+  for (const std::string& text : arguments.filters) {
+    const auto filter = parse_ars408_filter(text);
+    if (!filter) {
+      throw UsageError("--filter: '" + text + "' is not " + kArs408FilterWanted +
+                       ", within what a frame can carry");
+    }
+    filters.push_back(*filter);
+  }
+  return filters;
 }
 
 /// Opens the interface, or says why that cannot be.
@@ -140,22 +213,26 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   return false;
 }
 
-int run_setup(const Arguments& arguments, const Configuration& configuration) {
-  const RadarConfiguration& radar = ars408_named(arguments.ars408, configuration);
+int run_talk(const Arguments& arguments, const Configuration& configuration) {
+  const std::vector<Ars408FilterState> filters = filters_of(arguments);
+  const RadarConfiguration& radar =
+      ars408_named(arguments.ars408 + arguments.filtered, configuration);
   CanSocket socket;
   if (!open_bus(radar.interface, socket)) {
     return failure;
   }
-  const SetupResult result =
-      set_up_ars408(configuration, radar, arguments.setup, socket, std::cin, std::cout);
-  return result == SetupResult::took ? good : failure;
+  const Ars408Talk talk{configuration, radar, arguments.talk, socket, std::cout};
+  const TalkResult result = arguments.ars408.empty() ? talk_about_filters(talk, filters)
+                                                     : set_up_ars408(talk, arguments.setup);
+  return result == TalkResult::took ? good : failure;
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Explains why there is no odometry: one finding a line, with what mends it"};
   Arguments arguments;
   add_diagnosis_options(app, arguments);
-  add_setup_options(app, arguments);
+  add_other_outputs(app, arguments);
+  add_talk_options(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -164,15 +241,22 @@ int run(int argc, char** argv) {
   if (arguments.lcm_url && !is_lcm_url(*arguments.lcm_url)) {
     throw UsageError("--lcm-url: '" + *arguments.lcm_url + "' is not " + kLcmUrlWanted);
   }
+  if (!is_talk(arguments) && (arguments.talk.address.said_id || arguments.talk.consent.is_given)) {
+    throw UsageError("--sensor-id and --yes need --configure-ars408 or --ars408-filters");
+  }
+  if (!arguments.suggested_from.empty()) {
+    return run_suggestion(arguments);
+  }
   const Configuration configuration = load_configuration(configuration_path(arguments.config));
-  return arguments.ars408.empty() ? run_diagnosis(arguments, configuration)
-                                  : run_setup(arguments, configuration);
+  return is_talk(arguments) ? run_talk(arguments, configuration)
+                            : run_diagnosis(arguments, configuration);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   try {
     return cremed::finish_process(run(argc, argv));
   } catch (const UsageError& error) {

@@ -87,6 +87,7 @@ void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
       return pollfd{ear.socket->descriptor(), POLLIN, 0};
     });
     ::poll(polled.data(), polled.size(), kPollMs);
+    observer.note_time(realtime_us());
     for (std::size_t i = 0; i < polled.size(); ++i) {
       if (polled[i].revents != 0 && !receive(ears[i], observer)) {
         ears[i].socket->close();  // poll() passes over a negative descriptor.
@@ -104,6 +105,7 @@ Observation observe_live(const Configuration& configuration, double seconds,
   const std::int64_t begin_us = monotonic_us();
   if (has_can) {
     std::vector<Ear> ears = open_all(configuration, observer);
+    observer.note_time(realtime_us());
     listen(ears, begin_us + std::llround(seconds * 1e6), stop, observer);
     for (const Ear& ear : ears) {
       observer.bus(ear.interface).state = state_of(ear.interface);  // As it is by now.

@@ -18,9 +18,27 @@ struct IncompleteScans {
   std::uint16_t most_announced = 0;
 };
 
+/// When scans came, in seconds of traffic.
+struct ScanTimes {
+  double last_s = 0.0;  ///< The latest; 0: none yet.
+  double longest_pause_s = 0.0;
+  double pause_begin_s = 0.0;
+  bool is_paused = false;  ///< At the end of the observation: the longest pause lasts.
+
+  void note(double now_s) {
+    is_paused = now_s - last_s > longest_pause_s;
+    if (is_paused) {
+      longest_pause_s = now_s - last_s;
+      pause_begin_s = last_s;
+    }
+    last_s = now_s;
+  }
+};
+
 /// What the pipeline made of one radar's frames.
 struct RadarObservation {
   RadarStatus status;
+  ScanTimes times;
   IncompleteScans incomplete;
 };
 
@@ -31,6 +49,7 @@ struct Observation {
   double seconds = 0.0;  ///< Of traffic.
   std::string lcm_problem;
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
+  std::uint64_t frames_left_out = 0;     ///< Of more interfaces than are looked at.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
 };
 

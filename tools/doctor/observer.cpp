@@ -11,6 +11,8 @@ namespace {
 
 /// A longer step is a clock that was set, or a log that was paused.
 constexpr std::int64_t kClockJumpUs = 10'000'000;
+/// Frames of two buses may be so much out of order.
+constexpr std::int64_t kOutOfOrderUs = 1'000'000;
 
 std::int64_t no_clock() { return 0; }
 
@@ -18,7 +20,7 @@ std::int64_t no_clock() { return 0; }
 
 Observer::Observer(const Configuration& configuration)
     : configured_buses_(interface_names(configuration).size()),
-      sink_(observation_.radars),
+      sink_(observation_),
       pipeline_(configuration, source_, {&sink_}, PipelineClock{&no_clock}) {
   observation_.radars.resize(configuration.radars.size());
   for (const std::string& name : interface_names(configuration)) {
@@ -26,25 +28,31 @@ Observer::Observer(const Configuration& configuration)
   }
 }
 
-std::size_t Observer::index_of(std::string_view interface) {
-  auto& buses = observation_.buses;
+std::size_t Observer::index_of(std::string_view interface) const {
+  const auto& buses = observation_.buses;
   const auto found = std::find_if(buses.begin(), buses.end(), [interface](const auto& bus) {
     return bus.interface == interface;
   });
-  const auto index = static_cast<std::size_t>(found - buses.begin());
-  if (found == buses.end()) {
-    buses.emplace_back().interface = interface;
-  }
-  return index;
+  return static_cast<std::size_t>(found - buses.begin());
 }
 
+bool Observer::is_full() const { return observation_.buses.size() >= kMostBuses; }
+
 BusObservation& Observer::bus(std::string_view interface) {
-  return observation_.buses[index_of(interface)];
+  const std::size_t index = index_of(interface);
+  if (index == observation_.buses.size()) {
+    observation_.buses.emplace_back().interface = interface;
+  }
+  return observation_.buses[index];
 }
 
 void Observer::add(std::string_view interface, CanFrame frame) {
   const std::size_t index = index_of(interface);
-  observation_.buses[index].add(frame);
+  if (index == observation_.buses.size() && is_full()) {
+    ++observation_.frames_left_out;
+    return;
+  }
+  bus(interface).add(frame);
   note_time(frame.stamp_us);
   if (index < configured_buses_) {
     frame.interface = static_cast<std::uint8_t>(index);
@@ -55,31 +63,46 @@ void Observer::add(std::string_view interface, CanFrame frame) {
 
 void Observer::add_lost(std::string_view interface, std::uint64_t frames) {
   const std::size_t index = index_of(interface);
-  observation_.buses[index].status.frames_lost += frames;
+  if (index == observation_.buses.size() && is_full()) {
+    observation_.frames_left_out += frames;
+    return;
+  }
+  bus(interface).status.frames_lost += frames;
   source_.count_lost(frames);
   if (index < configured_buses_) {
     pipeline_.on_dropped(static_cast<std::uint8_t>(index));
   }
 }
 
-void Observer::note_time(std::int64_t stamp_us) {
-  const std::int64_t step_us = stamp_us - last_stamp_us_.value_or(stamp_us);
-  last_stamp_us_ = stamp_us;
+void Observer::note_time(std::int64_t now_us) {
+  const std::int64_t step_us = now_us - last_time_us_.value_or(now_us);
+  if (step_us < 0 && step_us > -kOutOfOrderUs) {
+    return;
+  }
+  last_time_us_ = now_us;
   observation_.seconds +=
       step_us > 0 && step_us < kClockJumpUs ? static_cast<double>(step_us) * 1e-6 : 0.0;
 }
 
 Observation Observer::finish() {
+  std::vector<ScanTimes> times;  // Before scans are closed because all is at an end.
+  for (const RadarObservation& radar : observation_.radars) {
+    times.push_back(radar.times);
+    times.back().note(observation_.seconds);
+  }
   pipeline_.finish();
   for (std::size_t i = 0; i < observation_.radars.size(); ++i) {
     observation_.radars[i].status = pipeline_.radars()[i]->status(0, source_);
+    observation_.radars[i].times = times[i];
   }
   return std::move(observation_);
 }
 
 void Observer::Sink::on_scan(std::size_t radar, const RadarScan& scan) {
+  RadarObservation& observed = observation_.radars[radar];
+  observed.times.note(observation_.seconds);
   if (scan.status != ScanStatus::complete) {
-    IncompleteScans& incomplete = radars_[radar].incomplete;
+    IncompleteScans& incomplete = observed.incomplete;
     incomplete.announced_targets += scan.announced;
     incomplete.whole_targets += scan.count;
     incomplete.most_announced = std::max(incomplete.most_announced, scan.announced);

@@ -14,6 +14,9 @@
 
 namespace cremed {
 
+/// A vehicle has fewer; a log may name any number.
+inline constexpr std::size_t kMostBuses = 64;
+
 /// Turns frames, live or from a log, into an observation: counts what is on each bus and runs the
 /// daemon's own pipeline.
 class Observer {
@@ -28,6 +31,9 @@ class Observer {
   void add(std::string_view interface, CanFrame frame);
   void add_lost(std::string_view interface, std::uint64_t frames);
 
+  /// Time passes, by the clock of the stamps: frames tell it, and whoever listens in silence.
+  void note_time(std::int64_t now_us);
+
   /// No more frames.
   Observation finish();
 
@@ -41,24 +47,23 @@ class Observer {
   };
   class Sink final : public OdometrySink {
    public:
-    explicit Sink(std::vector<RadarObservation>& radars) : radars_(radars) {}
+    explicit Sink(Observation& observation) : observation_(observation) {}
     void on_scan(std::size_t radar, const RadarScan& scan) override;
     void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
     [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
    private:
-    std::vector<RadarObservation>& radars_;
+    Observation& observation_;
   };
 
-  std::size_t index_of(std::string_view interface);
-  void note_time(std::int64_t stamp_us);
-
+  [[nodiscard]] std::size_t index_of(std::string_view interface) const;
+  [[nodiscard]] bool is_full() const;
   std::size_t configured_buses_;  // The first of observation_.buses, in the pipeline's order.
   Observation observation_;
   Source source_;
   Sink sink_;
   Pipeline pipeline_;
-  std::optional<std::int64_t> last_stamp_us_;
+  std::optional<std::int64_t> last_time_us_;
 };
 
 }  // namespace cremed

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "can_decoders/ars408_messages.hpp"
 #include "daemon/message_text.hpp"
 #include "daemon/radar_identifiers.hpp"
 #include "daemon/report.hpp"
@@ -40,23 +41,6 @@ bool contains(const std::vector<SeenRadar>& radars, const SeenRadar& wanted) {
   return std::find(radars.begin(), radars.end(), wanted) != radars.end();
 }
 
-std::string seen_ids(const BusObservation& bus) {
-  constexpr std::size_t kMaxNamed = 8;
-  std::string text;
-  std::size_t count = 0;
-  for (std::size_t id = 0; id < bus.ids.size(); ++id) {
-    if (bus.ids[id].frames != 0 && ++count <= kMaxNamed) {
-      text += concat({count == 1 ? "" : ", ", hexadecimal(id)});
-    }
-  }
-  text += count > kMaxNamed ? concat({" and ", number(count - kMaxNamed), " more"}) : "";
-  if (bus.foreign_frames != 0) {
-    text += concat(
-        {text.empty() ? "" : ", ", number(bus.foreign_frames), " extended, remote or FD frames"});
-  }
-  return text;
-}
-
 std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.name); }
 
 /// Another radar of the same kind is more likely than one of the other kind.
@@ -79,7 +63,7 @@ Finding other_radar(const RadarConfiguration& radar, const SeenRadar& expected,
             concat({"set ", key_of(seen), " for radar ", quoted_name(radar),
                     seen.kind == SeenRadar::Kind::ars408
                         ? concat({", or give the sensor its id: `cremed-doctor --configure-ars408 ",
-                                  radar.name, "`"})
+                                  radar.name, " --sensor-id ", number(seen.number), "`"})
                         : ""})};
   }
   return {
@@ -137,13 +121,18 @@ bool are_many(const AssemblerCounters& scans) {
   return scans.incomplete_scans > kCut && scans.incomplete_scans * 50 > scans.scans;
 }
 
+/// A step of the clock may spoil the scans on either side of it.
+bool is_of_clock(const AssemblerCounters& scans) {
+  return scans.stamps_backwards != 0 && scans.incomplete_scans <= 2 * scans.stamps_backwards + 2;
+}
+
 void add_incomplete(const RadarConfiguration& radar, const RadarObservation& observation,
                     Findings& findings) {
   // More clusters with quality than this do not fit in a cycle at 500 kbit/s, whatever their bits.
   constexpr std::uint16_t kMostThatFit = 150;
   const AssemblerCounters& scans = observation.status.assembler;
   const IncompleteScans& incomplete = observation.incomplete;
-  if (!are_many(scans)) {
+  if (!are_many(scans) || is_of_clock(scans)) {
     return;
   }
   const Severity severity =
@@ -158,8 +147,9 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
     findings.push_back(
         {severity, what,
          concat({"up to ", number(incomplete.most_announced),
-                 " do not fit on the bus: filter (0x202), or shorten the range: ",
-                 "`cremed-doctor --configure-ars408 ", radar.name, " --max-distance 200`"})});
+                 " do not fit on the bus: shorten the range, `cremed-doctor --configure-ars408 ",
+                 radar.name, " --max-distance 200`, or let the sensor filter, ",
+                 "`cremed-doctor --ars408-filters ", radar.name, " --filter rcs=-5..50`"})});
   } else {
     findings.push_back({severity, what,
                         "frames are lost on the way: look at the load of bus and computer, and "
@@ -167,7 +157,58 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   }
 }
 
-void add_bad_frames(const RadarStatus& status, Findings& findings) {
+/// Two sensors with one id: each sends 13 to 17 lists a second, and its state once.
+Findings find_twin(const RadarConfiguration& radar, const RadarObservation& observed,
+                   const BusObservation& bus, double seconds) {
+  constexpr double kShortestS = 0.5;
+  constexpr double kMostListsHz = 22.0;
+  const SeenRadar expected = expected_radar(radar);
+  const auto frames = [&](Ars408Message message) {
+    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), expected.number)].frames;
+  };
+  const double sent_s = seconds - observed.times.longest_pause_s;
+  if (expected.kind != SeenRadar::Kind::ars408 || sent_s < kShortestS) {
+    return {};
+  }
+  const std::uint64_t lists =
+      std::max(frames(Ars408Message::cluster_status), frames(Ars408Message::object_status));
+  const double lists_hz = static_cast<double>(lists) / sent_s;
+  if (lists_hz < kMostListsHz) {
+    return {};
+  }
+  const AssemblerCounters& scans = observed.status.assembler;
+  const bool is_echo = scans.repeated_scans + scans.duplicate_parts > lists / 4;
+  return {{Severity::error,
+           concat({tenths(lists_hz), " lists a second come from sensor id ",
+                   std::to_string(expected.number), " on ", radar.interface,
+                   ", of one sensor 13 to 17: ",
+                   is_echo ? "each frame comes twice" : "two sensors have this id"}),
+           is_echo ? "look for a gateway that repeats frames; do not merge two logs of one bus"
+                   : concat({"unplug one, give the other an id of its own (sensor_id, then "
+                             "`cremed-doctor --configure-ars408 ",
+                             radar.name, " --sensor-id ", std::to_string(expected.number), "`)"})}};
+}
+
+/// It was there, and is not any more, or not all the time.
+void add_pause(const RadarObservation& observed, double seconds, Findings& findings) {
+  if (!fell_silent(observed, seconds)) {
+    return;
+  }
+  const ScanTimes& times = observed.times;
+  const double end_s = times.pause_begin_s + times.longest_pause_s;
+  findings.push_back(
+      {times.is_paused ? Severity::error : Severity::warning,
+       concat({"no scan ",
+               times.is_paused
+                   ? concat({"in the last ", tenths(times.longest_pause_s)})
+                   : concat({"from ", tenths(times.pause_begin_s), " to ", tenths(end_s)}),
+               " of ", tenths(seconds), " s, though it sent them ",
+               times.pause_begin_s > 0.0 ? "before" : "after that"}),
+       "check its supply and plug for loose contacts; it may have restarted"});
+}
+
+void add_bad_frames(const RadarConfiguration& radar, const RadarStatus& status,
+                    Findings& findings) {
   const DecoderCounters& c = status.decoder;
   if (c.crc_errors != 0) {
     findings.push_back({Severity::warning,
@@ -184,7 +225,11 @@ void add_bad_frames(const RadarStatus& status, Findings& findings) {
     findings.push_back(
         {Severity::warning,
          counted(c.wrong_slot, "frame") + " whose content contradicts the identifier",
-         "check base_id, and that it is a General Purpose Radar"});
+         expected_radar(radar).kind == SeenRadar::Kind::ars408
+             ? concat({"another device (a Bosch GPR?) uses identifiers of sensor id ",
+                       std::to_string(expected_radar(radar).number),
+                       ": give them buses of their own, or check type and sensor_id"})
+             : "check base_id, and that it is a General Purpose Radar"});
   }
 }
 
@@ -218,6 +263,13 @@ bool has_error(const Findings& findings) {
 }
 
 }  // namespace
+
+bool fell_silent(const RadarObservation& observed, double seconds) {
+  constexpr double kShortestS = 0.3;
+  constexpr double kLongestS = 1.0;
+  return observed.status.assembler.scans != 0 &&
+         observed.times.longest_pause_s > std::clamp(seconds / 3.0, kShortestS, kLongestS);
+}
 
 Findings find_elsewhere(const Configuration& configuration, const Observation& observation,
                         std::size_t radar) {
@@ -253,14 +305,18 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
     return {{Severity::error, quality_off(wanted),
              concat({"`cremed-doctor --configure-ars408 ", wanted.name, "`"})}};
   }
+  if (Findings twin = find_twin(wanted, observed, bus, observation.seconds); !twin.empty()) {
+    return twin;
+  }
   Findings findings = radar_findings(wanted, observed.status);
+  add_pause(observed, observation.seconds, findings);
   if (!has_error(findings)) {
     add_incomplete(wanted, observed, findings);
   }
   if (!has_error(findings)) {
     add_no_estimate(wanted, observed.status, findings);
   }
-  add_bad_frames(observed.status, findings);
+  add_bad_frames(wanted, observed.status, findings);
   return findings;
 }
 

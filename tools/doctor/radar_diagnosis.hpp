@@ -19,4 +19,7 @@ std::vector<Finding> diagnose_radar(const Configuration& configuration,
 std::vector<Finding> find_elsewhere(const Configuration& configuration,
                                     const Observation& observation, std::size_t radar);
 
+/// It sent scans, but for much of the time none came.
+bool fell_silent(const RadarObservation& observed, double seconds);
+
 }  // namespace cremed

@@ -39,10 +39,16 @@ bool has(const BusObservation& bus, const IdSet& ids, Ars408Message message, std
   return ids[id] && bus.ids[id].length == length;
 }
 
+/// A GPR of which a frame is lost may have the identifier too.
+bool has_state(const BusObservation& bus, const IdSet& ids, std::uint32_t sensor) {
+  const auto message = static_cast<std::uint32_t>(Ars408Message::radar_state);
+  return has(bus, ids, Ars408Message::radar_state, sensor, 8) &&
+         bus.ars408_states[sensor] == bus.ids[ars408_id(message, sensor)].frames;
+}
+
 /// Any message that comes once a cycle or second shows an ARS408; its length tells it from others.
 bool has_ars408(const BusObservation& bus, const IdSet& ids, std::uint32_t sensor) {
-  return has(bus, ids, Ars408Message::radar_state, sensor, 8) ||
-         has(bus, ids, Ars408Message::cluster_status, sensor, 5) ||
+  return has_state(bus, ids, sensor) || has(bus, ids, Ars408Message::cluster_status, sensor, 5) ||
          has(bus, ids, Ars408Message::object_status, sensor, 4);
 }
 
@@ -79,6 +85,23 @@ std::string key_of(const SeenRadar& radar) {
   return radar.kind == SeenRadar::Kind::ars408
              ? concat({"sensor_id = ", std::to_string(radar.number)})
              : concat({"base_id = ", hexadecimal(radar.number)});
+}
+
+std::string seen_ids(const BusObservation& bus) {
+  constexpr std::size_t kMaxNamed = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t id = 0; id < bus.ids.size(); ++id) {
+    if (bus.ids[id].frames != 0 && ++count <= kMaxNamed) {
+      text += concat({count == 1 ? "" : ", ", hexadecimal(id)});
+    }
+  }
+  text += count > kMaxNamed ? concat({" and ", std::to_string(count - kMaxNamed), " more"}) : "";
+  if (bus.foreign_frames != 0) {
+    text += concat({text.empty() ? "" : ", ", std::to_string(bus.foreign_frames),
+                    " extended, remote or FD frames"});
+  }
+  return text;
 }
 
 }  // namespace cremed

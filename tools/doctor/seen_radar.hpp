@@ -32,4 +32,7 @@ std::string to_text(const SeenRadar& radar);
 /// The key to set where this radar is to be used: "sensor_id = 3".
 std::string key_of(const SeenRadar& radar);
 
+/// The first identifiers on a bus, and what else is on it: "0x123, 0x124".
+std::string seen_ids(const BusObservation& bus);
+
 }  // namespace cremed

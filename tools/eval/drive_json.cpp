@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/eval/figures_json.hpp"
+
 namespace cremed {
 namespace {
 
@@ -13,12 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
-
-/// Of 1, 2 and 3 sigma.
-Json coverage_json(const Credibility& credibility, int axis) {
-  return Json::array({credibility.coverage(axis, 1), credibility.coverage(axis, 2),
-                      credibility.coverage(axis, 3)});
-}
 
 Json to_json(const PathDrift& drift) {
   return {{"length_m", drift.length_m},
@@ -82,22 +78,14 @@ Json rows_json(const std::vector<Row>& rows) {
 }
 
 Json to_json(const SourceEvaluation& source) {
-  const Credibility& c = source.credibility;
-  Json json{{"source", source.source},
-            {"degrees_of_freedom", source.degrees_of_freedom},
-            {"n", c.count()},
-            {"rmse_m", c.rmse_m()},
-            {"rmse_deg", c.rmse_deg()},
-            {"anees", c.anees()},
-            {"coverage_x", coverage_json(c, 0)},
-            {"coverage_y", coverage_json(c, 1)},
-            {"coverage_yaw", coverage_json(c, 2)},
-            {"without_estimate", source.without_estimate},
-            {"outside_truth", source.outside_truth},
-            {"gaps", source.path.empty() ? 0 : source.path.back().gaps},
-            {"drift", rows_json(source.drift)},
-            {"mean_drift", to_json(mean_drift(source.drift))},
-            {"segments", rows_json(source.segments)}};
+  Json json{{"source", source.source}, {"degrees_of_freedom", source.degrees_of_freedom}};
+  json.update(credibility_json(source.credibility));
+  json.update({{"without_estimate", source.without_estimate},
+               {"outside_truth", source.outside_truth},
+               {"gaps", source.path.empty() ? 0 : source.path.back().gaps},
+               {"drift", rows_json(source.drift)},
+               {"mean_drift", to_json(mean_drift(source.drift))},
+               {"segments", rows_json(source.segments)}});
   if (source.wheels) {
     json["wheels"] = {{"x", to_json(source.wheels->x)}, {"yaw", to_json(source.wheels->yaw)}};
   }

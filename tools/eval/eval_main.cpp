@@ -13,12 +13,14 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/file_aliases.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/process_setup.hpp"
 #include "daemon/version.hpp"
 #include "tools/eval/calibrate_command.hpp"
 #include "tools/eval/correspondence_counts.hpp"
 #include "tools/eval/drive_command.hpp"
 #include "tools/eval/drive_options.hpp"
+#include "tools/eval/figures_json.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/pairs_evaluation.hpp"
 #include "tools/eval/plot.hpp"
@@ -33,6 +35,7 @@ namespace {
 struct TableArguments {
   cremed::PaperTableOptions options{.threads = std::max(std::thread::hardware_concurrency(), 1U)};
   std::string plot;
+  bool as_json = false;
 };
 
 struct PairsArguments {
@@ -43,6 +46,7 @@ struct PairsArguments {
   std::string output;
   std::string plot;
   bool doppler = false;
+  bool as_json = false;
 };
 
 void write_pairs(const std::string& path, const std::vector<cremed::PairResult>& results) {
@@ -65,6 +69,32 @@ void plot_pairs(const std::vector<cremed::RegistrationPair>& pairs, const std::s
   cremed::draw_plot("plot_pairs", {counts}, picture);
 }
 
+cremed::PairsFigures figures_of(const std::vector<cremed::PairResult>& results,
+                                const cremed::Credibility& credibility, const std::string& method,
+                                std::size_t left_out) {
+  cremed::PairsFigures figures{method, credibility, 0.0, 0.0, 0, left_out};
+  const auto count = static_cast<double>(results.size());
+  for (const cremed::PairResult& result : results) {
+    figures.iterations += result.registration.iterations / count;
+    figures.solve_us += static_cast<double>(result.solve_us) / count;
+    figures.no_convergence +=
+        result.registration.status == cremed::RegistrationStatus::no_convergence ? 1U : 0U;
+  }
+  return figures;
+}
+
+void print_pairs(const PairsArguments& arguments, const cremed::PairsFigures& figures) {
+  if (arguments.as_json) {
+    std::printf("%s\n", cremed::pairs_json(figures).c_str());
+    return;
+  }
+  std::printf("# method %s iterations solve_us no_convergence left_out\n",
+              cremed::kCredibilityColumns);
+  std::printf("%-8s %s %10.2f %8.0f %14zu %8zu\n", figures.method.c_str(),
+              cremed::to_line(figures.credibility).c_str(), figures.iterations, figures.solve_us,
+              figures.no_convergence, figures.left_out);
+}
+
 int run_pairs(const PairsArguments& arguments) {
   const cremed::RegistrationMethod method = cremed::registration_method(arguments.method);
   const auto options =
@@ -79,21 +109,7 @@ int run_pairs(const PairsArguments& arguments) {
   std::size_t left_out = 0;
   const auto credibility = cremed::evaluate_pairs(
       pairs, results, method.is_always_3dof ? 3 : options->degrees_of_freedom, left_out);
-  double iterations = 0.0;
-  double solve_us = 0.0;
-  std::size_t unfinished = 0;
-  for (const cremed::PairResult& result : results) {
-    iterations += result.registration.iterations;
-    solve_us += static_cast<double>(result.solve_us);
-    unfinished +=
-        result.registration.status == cremed::RegistrationStatus::no_convergence ? 1U : 0U;
-  }
-  const auto count = static_cast<double>(results.size());
-  std::printf("# method %s iterations solve_us no_convergence left_out\n",
-              cremed::kCredibilityColumns);
-  std::printf("%-8s %s %10.2f %8.0f %14zu %8zu\n", arguments.method.c_str(),
-              cremed::to_line(credibility).c_str(), iterations / count, solve_us / count,
-              unfinished, left_out);
+  print_pairs(arguments, figures_of(results, credibility, arguments.method, left_out));
   if (!arguments.output.empty()) {
     write_pairs(arguments.output, results);
   }
@@ -116,6 +132,7 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)");
+  command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }
 
@@ -138,6 +155,7 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
   command->add_option("--output", arguments.output, "Write each pair's result as CSV");
   command->add_option("--plot", arguments.plot,
                       "Draw how many targets have a partner, by the true motion (PNG, SVG)");
+  command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }
 
@@ -193,7 +211,7 @@ int run(int argc, char** argv) {
   }
   refuse_overwriting(table, pairs, drive, calibrate);
   if (table_command->parsed()) {
-    cremed::run_table(table.options, table.plot);
+    cremed::run_table(table.options, table.plot, table.as_json);
     return 0;
   }
   if (calibrate_command->parsed()) {
@@ -211,6 +229,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   try {
     return cremed::finish_process(run(argc, argv));
   } catch (const cremed::ConfigurationError& error) {

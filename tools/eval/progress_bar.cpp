@@ -20,7 +20,7 @@ ProgressBar::ProgressBar(std::string label, std::size_t total)
 
 ProgressBar::~ProgressBar() {
   if (is_shown_) {
-    std::fputs("\r\033[K", stderr);
+    ::dprintf(STDERR_FILENO, "\r\033[K");
   }
 }
 
@@ -31,8 +31,8 @@ void ProgressBar::advance() {
     return;
   }
   const std::string bar(kWidth * done / total_, '#');
-  std::fprintf(stderr, "\r%-20s [%-*s] %3zu %%", label_.c_str(), static_cast<int>(kWidth),
-               bar.c_str(), 100 * done / total_);
+  ::dprintf(STDERR_FILENO, "\r%-20s [%-*s] %3zu %%", label_.c_str(), static_cast<int>(kWidth),
+            bar.c_str(), 100 * done / total_);
 }
 
 }  // namespace cremed

@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/table_command.hpp"
 
+#include <cstdio>
+
 #include "tools/eval/cost_curves.hpp"
+#include "tools/eval/figures_json.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/table_report.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {
 
-void run_table(const PaperTableOptions& options, const std::string& picture) {
+void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json) {
   const std::vector<TableRow> rows = paper_table(options);
-  print_table(stdout, rows);
+  if (as_json) {
+    std::printf("%s\n", table_json(rows).c_str());
+  } else {
+    print_table(stdout, rows);
+  }
   if (picture.empty()) {
     return;
   }

@@ -11,6 +11,7 @@
 
 #include "daemon/command_line.hpp"
 #include "daemon/file_aliases.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/process_setup.hpp"
 #include "daemon/version.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
@@ -90,6 +91,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   try {
     return cremed::finish_process(run(argc, argv));
   } catch (const cremed::UsageError& error) {

@@ -14,6 +14,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration.hpp"
 #include "daemon/file_aliases.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/process_setup.hpp"
 #include "tools/line_stream.hpp"
 #include "tools/simulate/scenario.hpp"
@@ -142,6 +143,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   try {
     return cremed::finish_process(run(argc, argv));
   } catch (const UsageError& error) {

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "can_decoders/ars408_messages.hpp"
+
+namespace cremed {
+
+/// Tells the 0x201 of a sensor from frames of something else with its identifier (a GPR): it names
+/// the sensor, and comes once a second.
+class Ars408StateWatch {
+ public:
+  /// Notes a frame with the identifier. Of frames with one stamp nothing is known of how often.
+  bool is_own(std::uint8_t sensor_id, const std::optional<Ars408RadarState>& state,
+              std::int64_t stamp_us) {
+    constexpr std::int64_t kShortestGapUs = 400'000;
+    const std::int64_t gap_us = stamp_us - last_us_.value_or(stamp_us);
+    last_us_ = stamp_us;
+    return state && state->sensor_id == sensor_id && (gap_us <= 0 || gap_us >= kShortestGapUs);
+  }
+
+ private:
+  std::optional<std::int64_t> last_us_;
+};
+
+}  // namespace cremed

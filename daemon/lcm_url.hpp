@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+namespace cremed {
+
+/// "none", or a URL that LCM never waits for: udpm:// with a ttl that IP has, file:// or memq://.
+/// tcpq:// would wait for its server, and hold up the odometry.
+bool is_lcm_url(std::string_view text);
+inline constexpr const char* kLcmUrlWanted =
+    "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\", with a port of 1 to 65535 and "
+    "a "
+    "ttl of 0 to 255";
+
+}  // namespace cremed

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Talks with ARS408s on a bus in memory.
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include <pty.h>
+#include <unistd.h>
+
+#include "test/tools/fake_ars408.hpp"
+#include "tools/doctor/ars408_talk.hpp"
+
+namespace cremed::test {
+
+/// "front" with sensor id 0 and "left" with 3, on one bus.
+inline Configuration two_ars408s(Ars408Output output = Ars408Output::clusters) {
+  Configuration configuration;
+  for (const std::uint8_t sensor : {std::uint8_t{0}, std::uint8_t{3}}) {
+    RadarConfiguration radar;
+    radar.name = sensor == 0 ? "front" : "left";
+    radar.interface = "can0";
+    radar.decoder = Ars408Options{.sensor_id = sensor, .output = output};
+    configuration.radars.push_back(radar);
+  }
+  return configuration;
+}
+
+/// As a sensor comes from the factory: objects, with all that belongs to them.
+inline Ars408RadarState factory_state(std::uint8_t sensor_id) {
+  Ars408RadarState state;
+  state.sensor_id = sensor_id;
+  state.output_code = 1;
+  state.sends_quality = true;
+  state.sends_extended = true;
+  state.max_distance_m = 200.0;
+  return state;
+}
+
+/// What a program may find as its standard input.
+class Input {
+ public:
+  enum class Kind : std::uint8_t { terminal, pipe, closed };
+
+  /// Holds `typed` from the beginning, and then ends.
+  Input(Kind kind, std::string_view typed) {
+    if (kind == Kind::terminal && ::openpty(&other_, &own_, nullptr, nullptr, nullptr) == 0) {
+      write(std::string(typed) + '\x04');  // End of file, as a person types it.
+    } else if (std::array<int, 2> ends{}; kind == Kind::pipe && ::pipe(ends.data()) == 0) {
+      std::tie(own_, other_) = std::pair(ends[0], ends[1]);
+      write(typed);
+      ::close(std::exchange(other_, -1));
+    }
+  }
+  ~Input() {
+    ::close(own_);
+    ::close(other_);
+  }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  [[nodiscard]] int descriptor() const { return own_; }
+
+ private:
+  void write(std::string_view text) const {
+    if (::write(other_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+      throw std::runtime_error("cannot type");
+    }
+  }
+
+  int own_ = -1;
+  int other_ = -1;
+};
+
+/// Waits that suit sensors which report some hundred times as often as real ones: as to how often,
+/// nothing is suspicious. One that does not answer is waited for in vain, all others until they do.
+inline Ars408TalkOptions quick_talk(const Ars408Manners& manners) {
+  const bool answers = manners.obeys && !manners.keeps_range && !manners.falls_silent;
+  Ars408TalkOptions options;
+  options.address.shortest_gap_us = 0;
+  options.listen_us = 60'000;
+  options.confirm_us = answers ? 20'000'000 : 400'000;
+  return options;
+}
+
+}  // namespace cremed::test

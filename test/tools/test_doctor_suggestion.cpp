@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/doctor_bench.hpp"
+#include "tools/doctor/seen_radar.hpp"
+#include "tools/doctor/suggestion.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+/// What the doctor knows who has no configuration.
+Observation observed(const Recording& traffic) {
+  Configuration nothing;
+  nothing.odometry.enabled = false;
+  return observe(nothing, traffic);
+}
+
+std::string suggested(const Recording& traffic) {
+  return suggested_configuration(observed(traffic));
+}
+
+RadarConfiguration ars408(const std::string& name, const std::string& interface,
+                          std::uint8_t sensor_id) {
+  RadarConfiguration radar = default_radars()[0];
+  radar.name = name;
+  radar.interface = interface;
+  radar.decoder = Ars408Options{.sensor_id = sensor_id};
+  return radar;
+}
+
+/// As its reader is to do it.
+std::string filled_in(std::string text) {
+  const std::string gap = "\"FILL IN\"";
+  for (std::size_t at = text.find(gap); at != std::string::npos; at = text.find(gap)) {
+    text.replace(at, gap.size(), "0.5");
+  }
+  return text;
+}
+
+/// Interface and radar of each table, once the gaps are filled in.
+std::vector<std::pair<std::string, SeenRadar>> radars_in(const std::string& suggestion) {
+  std::vector<std::pair<std::string, SeenRadar>> radars;
+  for (const RadarConfiguration& radar :
+       parse_configuration(filled_in(suggestion), "suggested.toml").radars) {
+    radars.emplace_back(radar.interface, expected_radar(radar));
+    CHECK(radar.ego_motion.vehicle_from_radar.yaw_rad == 0.5);
+  }
+  return radars;
+}
+
+constexpr auto kArs408 = SeenRadar::Kind::ars408;
+constexpr auto kGpr = SeenRadar::Kind::bosch_gpr;
+
+}  // namespace
+
+TEST_CASE("One ARS408 is suggested, and its mount has to be filled in") {
+  const std::string text = suggested(recording_of({ars408("a", "can0", 0)}));
+  CAPTURE(text);
+  CHECK(radars_in(text) == std::vector{std::pair{std::string("can0"), SeenRadar{kArs408, 0}}});
+  try {
+    parse_configuration(text, "suggested.toml");
+    FAIL("a mount that nobody filled in was accepted");
+  } catch (const ConfigurationError& error) {
+    const std::string message = error.what();
+    CHECK_THAT(message, Catch::Contains("suggested.toml:"));
+    for (const char* key : {"x_m", "y_m", "yaw_rad"}) {
+      CHECK_THAT(message, Catch::Contains(std::string("radar.mount.") + key +
+                                          ": is \"FILL IN\"; must be a number from "));
+    }
+  }
+}
+
+TEST_CASE("Five ARS408 on two buses are suggested with their ids") {
+  const std::string text = suggested(
+      recording_of({ars408("a", "can1", 0), ars408("b", "can0", 0), ars408("c", "can0", 3),
+                    ars408("d", "can1", 1), ars408("e", "can1", 7)}));
+  CAPTURE(text);
+  CHECK(radars_in(text) == std::vector<std::pair<std::string, SeenRadar>>{{"can0", {kArs408, 0}},
+                                                                          {"can0", {kArs408, 3}},
+                                                                          {"can1", {kArs408, 0}},
+                                                                          {"can1", {kArs408, 1}},
+                                                                          {"can1", {kArs408, 7}}});
+}
+
+TEST_CASE("A GPR is suggested with its base id") {
+  RadarConfiguration gpr = default_radars()[1];
+  gpr.decoder = BoschGprOptions{.base_id = 0x480};
+  const std::string text = suggested(recording_of({gpr}));
+  CAPTURE(text);
+  CHECK(radars_in(text) == std::vector{std::pair{std::string("can1"), SeenRadar{kGpr, 0x480}}});
+}
+
+TEST_CASE("An ARS408 that sends objects, or nothing, is suggested with what sets it right") {
+  RadarConfiguration objects = default_radars()[0];
+  objects.decoder = Ars408Options{.output = Ars408Output::objects};
+  CHECK_THAT(suggested(recording_of({objects})), Catch::Contains("# It sends objects now; "));
+  Recording silent = recording_of({ars408("a", "can0", 0)});
+  report_state(silent, "can0", good_state());
+  remove_if(silent, [](const BusFrame& entry) { return entry.frame.id != 0x201; });
+  CHECK_THAT(suggested(silent), Catch::Contains("# It sends no targets now: "));
+}
+
+TEST_CASE("Where nothing is known there is nothing to suggest, and what was seen is told") {
+  const Recording others = {{"can0", {.id = 0x123, .length = 8}},
+                            {"can1", {.id = 0x7, .length = 2}}};
+  CHECK(suggested(others).empty());
+  const std::string text = no_suggestion(observed(others));
+  CHECK_THAT(text, Catch::Contains("can0: frames, but none of a radar (0x123); "));
+  CHECK_THAT(text, Catch::Contains("can1: frames, but none of a radar (0x7); "));
+}
+
+TEST_CASE("The name of an interface that TOML would not take as it is is left out") {
+  Recording traffic = recording_of({ars408("a", "can0", 0)});
+  rename(traffic, "can0", "a\"b\\c\x1B");
+  CHECK(suggested(traffic).empty());
+}
+
+TEST_CASE("No more radars are suggested than a configuration may have") {
+  Recording traffic;
+  for (int bus = 0; bus < 9; ++bus) {
+    for (const std::uint32_t id : {0x600U, 0x610U}) {
+      traffic.push_back({"can" + std::to_string(bus), {.id = id, .length = 5}});
+    }
+  }
+  CHECK(radars_in(suggested(traffic)).size() == kMaxRadars);
+}

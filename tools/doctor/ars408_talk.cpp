@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/ars408_talk.hpp"
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include <poll.h>
+
+#include "daemon/candump.hpp"
+#include "daemon/clocks.hpp"
+
+namespace cremed {
+namespace {
+
+/// As candump shows it: "can0 200#3800000010040000".
+std::string frame_text(const std::string& interface, const CanFrame& frame) {
+  std::array<char, kMaxCandumpLine> line{};
+  const std::string_view text(line.data(), format_candump_line(frame, interface, line));
+  const std::size_t begin = text.find(' ') + 1;
+  return std::string(text.substr(begin, text.find('\n') - begin));
+}
+
+}  // namespace
+
+void listen(CanSocket& socket, std::int64_t duration_us,
+            const std::function<bool(const CanFrame&)>& use) {
+  constexpr int kPollMs = 50;
+  const std::int64_t end_us = monotonic_us() + duration_us;
+  while (monotonic_us() < end_us) {
+    pollfd polled{socket.descriptor(), POLLIN, 0};
+    ::poll(&polled, 1, kPollMs);
+    const CanReceiveResult result = socket.receive();
+    for (const ReceivedFrame& received : result.frames) {
+      if (use(received.frame)) {
+        return;
+      }
+    }
+    if (result.status != CanReceiveStatus::frames && result.status != CanReceiveStatus::empty) {
+      return;
+    }
+  }
+}
+
+std::optional<MetArs408> meet(const Ars408Talk& talk) {
+  const auto bus = std::make_unique<BusObservation>();
+  Ars408States states;
+  listen(talk.socket, talk.options.listen_us, [&](const CanFrame& frame) {
+    bus->add(frame);
+    note_state(frame, states);
+    return false;
+  });
+  const Ars408Search found =
+      find_ars408(talk.configuration, talk.radar, talk.options.address, *bus, states);
+  if (!found.sensor_id) {
+    talk.out << found.problem << "; nothing was sent\n";
+    return std::nullopt;
+  }
+  talk.out << talk.radar.name << ": ARS408 with sensor id " << unsigned{*found.sensor_id} << " on "
+           << talk.radar.interface << '\n';
+  return MetArs408{*found.sensor_id, *states[*found.sensor_id].state};
+}
+
+bool is_agreed(const Ars408Talk& talk, std::span<const CanFrame> frames) {
+  for (const CanFrame& frame : frames) {
+    talk.out << frame_text(talk.radar.interface, frame) << '\n';
+  }
+  const bool is_agreed = asks_consent(talk.options.consent, talk.out);
+  talk.out << (is_agreed ? "" : "nothing was sent\n");
+  return is_agreed;
+}
+
+bool send(const Ars408Talk& talk, const CanFrame& frame) {
+  const int error = talk.socket.send(frame);
+  if (error != 0) {
+    talk.out << frame_text(talk.radar.interface, frame) << " was not sent: " << std::strerror(error)
+             << '\n';
+  }
+  return error == 0;
+}
+
+}  // namespace cremed

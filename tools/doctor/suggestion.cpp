@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/doctor/suggestion.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "can_decoders/ars408_messages.hpp"
+#include "daemon/configuration.hpp"
+#include "daemon/message_text.hpp"
+#include "tools/doctor/bus_findings.hpp"
+#include "tools/doctor/seen_radar.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::string_view kHeading =
+    "# What cremed-doctor saw on the buses. Fill in where each radar is mounted, give it a name "
+    "that\n"
+    "# tells you so, and check the file: `cremed --check-config FILE`. config/cremed.toml of "
+    "cremed\n"
+    "# explains these keys and all others.\n";
+
+constexpr std::string_view kMount =
+    "[radar.mount]  # From the middle of the rear axle.\n"
+    "x_m = \"FILL IN\"      # m, forward\n"
+    "y_m = \"FILL IN\"      # m, to the left\n"
+    "yaw_rad = \"FILL IN\"  # rad, where it looks to: 0 ahead, 1.5708 to the left, 3.1416 back\n";
+
+/// One that can be written as a TOML string as it is.
+bool is_suggestible(const std::string& interface) {
+  return std::all_of(interface.begin(), interface.end(),
+                     [](char c) { return c > ' ' && c < '\x7F' && c != '"' && c != '\\'; });
+}
+
+std::vector<const BusObservation*> by_name(const Observation& observation) {
+  std::vector<const BusObservation*> buses;
+  for (const BusObservation& bus : observation.buses) {
+    if (is_suggestible(bus.interface)) {
+      buses.push_back(&bus);
+    }
+  }
+  std::sort(buses.begin(), buses.end(),
+            [](const auto* a, const auto* b) { return a->interface < b->interface; });
+  return buses;
+}
+
+bool has(const BusObservation& bus, const SeenRadar& radar, Ars408Message message) {
+  return bus.ids[ars408_id(static_cast<std::uint32_t>(message), radar.number)].frames != 0;
+}
+
+std::string output_line(const BusObservation& bus, const SeenRadar& radar) {
+  if (has(bus, radar, Ars408Message::cluster_status)) {
+    return "";
+  }
+  return has(bus, radar, Ars408Message::object_status)
+             ? "# It sends objects now; clusters are far better: `cremed-doctor "
+               "--configure-ars408`.\n"
+             : "# It sends no targets now: `cremed-doctor --configure-ars408`.\n";
+}
+
+std::string table(const BusObservation& bus, const SeenRadar& radar, std::size_t number) {
+  const bool is_ars408 = radar.kind == SeenRadar::Kind::ars408;
+  return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
+                 is_ars408 ? "ars408" : "bosch_gpr", "\"\ninterface = \"", bus.interface, "\"\n",
+                 key_of(radar), "\n", is_ars408 ? output_line(bus, radar) : "", kMount});
+}
+
+}  // namespace
+
+std::string suggested_configuration(const Observation& observation) {
+  std::string tables;
+  std::size_t count = 0;
+  for (const BusObservation* bus : by_name(observation)) {
+    for (const SeenRadar& radar : seen_radars(*bus)) {
+      tables += count < kMaxRadars ? table(*bus, radar, ++count) : "";
+    }
+  }
+  return tables.empty() ? "" : concat({kHeading, tables});
+}
+
+std::string no_suggestion(const Observation& observation) {
+  if (!observation.kernel_has_can) {
+    return "the kernel has no CAN sockets; `modprobe can_raw`";
+  }
+  if (observation.buses.empty()) {
+    return "there is no CAN interface; plug in an adapter and load its driver";
+  }
+  std::string text = "no radar was recognised, so there is nothing to suggest";
+  for (const BusObservation& bus : observation.buses) {
+    const std::vector<Finding> findings = bus_findings(bus, observation);
+    text += findings.empty() ? concat({"\n", bus.interface, ": frames, but none of a radar (",
+                                       seen_ids(bus), "); is it switched on?"})
+                             : concat({"\n", to_text(findings.front())});
+  }
+  return text;
+}
+
+}  // namespace cremed

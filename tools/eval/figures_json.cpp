@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/figures_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace cremed {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of 1, 2 and 3 sigma.
+Json coverage_json(const Credibility& credibility, int axis) {
+  return Json::array({credibility.coverage(axis, 1), credibility.coverage(axis, 2),
+                      credibility.coverage(axis, 3)});
+}
+
+Json to_json(const Figures& figures) {
+  return {{"rmse_m", figures.rmse_m}, {"rmse_deg", figures.rmse_deg}, {"anees", figures.anees}};
+}
+
+Json to_json(const TableRow& row) {
+  return {{"problem", row.problem},
+          {"method", row.method},
+          {"degrees_of_freedom", row.degrees_of_freedom},
+          {"n", row.count},
+          {"ours", to_json(row.ours)},
+          {"consistent_anees", Json::array({row.consistent.low, row.consistent.high})},
+          {"iterations", row.iterations},
+          {"ms_pair", row.milliseconds},
+          {"left_out", row.left_out},
+          {"ambiguous", row.ambiguous},
+          {"no_convergence", row.no_convergence},
+          {"nees_above_25", row.gross},
+          {"paper", to_json(row.paper)},
+          {"bound", to_json(row.bound)}};
+}
+
+}  // namespace
+
+Json credibility_json(const Credibility& c) {
+  return {{"n", c.count()},
+          {"rmse_m", c.rmse_m()},
+          {"rmse_deg", c.rmse_deg()},
+          {"anees", c.anees()},
+          {"coverage_x", coverage_json(c, 0)},
+          {"coverage_y", coverage_json(c, 1)},
+          {"coverage_yaw", coverage_json(c, 2)}};
+}
+
+std::string pairs_json(const PairsFigures& figures) {
+  Json json{{"method", figures.method}};
+  json.update(credibility_json(figures.credibility));
+  json.update({{"iterations", figures.iterations},
+               {"solve_us", figures.solve_us},
+               {"no_convergence", figures.no_convergence},
+               {"left_out", figures.left_out}});
+  return json.dump(2);
+}
+
+std::string table_json(const std::vector<TableRow>& rows) {
+  Json json{{"rows", Json::array()}};
+  for (const TableRow& row : rows) {
+    json["rows"].push_back(to_json(row));
+  }
+  return json.dump(2);
+}
+
+}  // namespace cremed

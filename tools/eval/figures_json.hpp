@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/eval/credibility.hpp"
+#include "tools/eval/paper_table.hpp"
+
+namespace cremed {
+
+/// What cremed-eval pairs prints.
+struct PairsFigures {
+  std::string method;
+  Credibility credibility;
+  double iterations = 0.0;  ///< A pair,
+  double solve_us = 0.0;    ///< and its time.
+  std::size_t no_convergence = 0;
+  std::size_t left_out = 0;
+};
+
+/// For scripts; NaN becomes null. Members keep the order in which they are written.
+nlohmann::ordered_json credibility_json(const Credibility& credibility);
+std::string pairs_json(const PairsFigures& figures);
+std::string table_json(const std::vector<TableRow>& rows);
+
+}  // namespace cremed

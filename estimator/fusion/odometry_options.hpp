@@ -69,9 +69,7 @@ struct OdometryOptions {
   double max_doppler_nis = 16.0;        ///< Gate, two degrees of freedom: 0.03 % by chance.
 
   // Positions.
-  /// Every so many scans of a radar is a keyframe. Of two kept this gives pairs of 4 to 11 scans,
-  /// 4 in 3 scans; a third keyframe costs as much again and lowers no error beyond chance.
-  int keyframe_period = 6;
+  int keyframe_period = 5;          ///< Every so many scans of a radar is a keyframe.
   int min_lag = 4;                  ///< Scans from keyframe to current: nearer ones are biased.
   int min_targets = 20;             ///< Fewer in a scan: chance neighbours pass for pairs.
   double min_matched_share = 0.35;  ///< Of targets found again.

@@ -41,7 +41,7 @@ inline constexpr int kLeverY = 9;           ///< m
 inline constexpr int kErrorStates = 10;
 inline constexpr int kScan = 10;      ///< Clone of the pose at the current scan.
 inline constexpr int kKeyframe = 13;  ///< Clones of the poses at the keyframes.
-inline constexpr int kKeyframes = 2;
+inline constexpr int kKeyframes = 3;
 inline constexpr int kPose = 3;  ///< States of a clone.
 inline constexpr int kRadarStates = kKeyframe + kKeyframes * kPose;
 

@@ -226,8 +226,9 @@ TEST_CASE("what candump prints on a terminal is read where it has stamps") {
       GoodLine{"     7FF   [1]  0A", make_frame(Kind::standard, 0x7FF, {0x0A})},
       GoodLine{"20000004   [2]  00 20   ERRORFRAME", make_frame(Kind::error, 4, {0, 0x20})},
       GoodLine{"123  [02]  11 22", make_frame(Kind::fd, 0x123, {0x11, 0x22})});
-  const CandumpLine line = parse_candump_line(" (1436509052.249713)  can0  " + good.text + "\n");
-  CAPTURE(good.text, line.error);
+  const std::string text = " (1436509052.249713)  can0  " + good.text + "\n";
+  const CandumpLine line = parse_candump_line(text);
+  CAPTURE(text, line.error);
   REQUIRE(line.status == CandumpStatus::frame);
   CHECK(line.frame == good.frame);
   CHECK(line.interface_name == "can0");

@@ -53,12 +53,12 @@ std::function<bool(const BusFrame&)> is_between(const Recording& traffic, double
   };
 }
 
-/// A second sensor with the same id, half a cycle later, with a counter of its own.
-void add_twin(Recording& traffic) {
+/// A second sensor with the same id, some time later, with a counter of its own.
+void add_twin(Recording& traffic, const std::string& interface, std::int64_t later_us) {
   Recording twin;
   for (BusFrame entry : traffic) {
-    if (entry.interface == "can0") {
-      entry.frame.stamp_us += 36'000;
+    if (entry.interface == interface) {
+      entry.frame.stamp_us += later_us;
       entry.frame.data[2] ^= entry.frame.id == 0x600 ? 0x55U : 0U;
       twin.push_back(entry);
     }
@@ -276,9 +276,15 @@ const std::vector<Case>& cases() {
          });
        },
        Severity::warning, "front: no scan from 0.0 to 2.8 of ", "restarted"},
-      {"two sensors with one id", [](auto&, auto& traffic) { add_twin(traffic); }, Severity::error,
-       " lists a second come from sensor id 0 on can0, of one sensor 13 to 17: two sensors have",
+      {"two sensors with one id", [](auto&, auto& traffic) { add_twin(traffic, "can0", 36'000); },
+       Severity::error,
+       " lists a second from an ARS408 with sensor id 0 on can0, of one sensor 13 to 17: two "
+       "sensors",
        "`cremed-doctor --configure-ars408 front --sensor-id 0`"},
+      {"two GPRs with one base id", [](auto&, auto& traffic) { add_twin(traffic, "can1", 10'000); },
+       Severity::error,
+       " lists a second from a Bosch GPR with base id 0x200 on can1, of one sensor 10: two sensors",
+       "a bus of its own"},
       {"each frame twice",
        [](auto&, auto& traffic) {
          Recording twice;

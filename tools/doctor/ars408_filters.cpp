@@ -79,6 +79,7 @@ std::string shown(double value, const Row& row) {
 std::vector<CanFrame> frames_to_send(std::uint8_t sensor_id,
                                      const std::vector<Ars408FilterState>& wanted) {
   std::vector<CanFrame> frames;
+  frames.reserve(std::max(wanted.size(), kRows.size()));
   for (const Ars408FilterState& filter : wanted) {
     frames.push_back(frame_of(sensor_id, filter));
   }

@@ -50,9 +50,10 @@ bool is_set_alike(const Ars408RadarState& a, const Ars408RadarState& b) {
 std::string free_ids(const Configuration& configuration, const RadarConfiguration& radar,
                      const Ars408States& states) {
   std::string ids;
-  for (std::uint8_t id = 0; id < states.size(); ++id) {
-    if (states[id].state && other_radar(id, configuration, radar) == nullptr) {
-      ids += concat({ids.empty() ? "" : ", ", text(id)});
+  for (std::size_t id = 0; id < states.size(); ++id) {
+    const auto sensor_id = static_cast<std::uint8_t>(id);
+    if (states[id].state && other_radar(sensor_id, configuration, radar) == nullptr) {
+      ids += concat({ids.empty() ? "" : ", ", text(sensor_id)});
     }
   }
   return ids;

@@ -183,6 +183,7 @@ const RadarConfiguration& ars408_named(const std::string& name,
 
 std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {
   std::vector<Ars408FilterState> filters;
+  filters.reserve(arguments.filters.size());
   for (const std::string& text : arguments.filters) {
     const auto filter = parse_ars408_filter(text);
     if (!filter) {

@@ -86,6 +86,7 @@ void Observer::note_time(std::int64_t now_us) {
 
 Observation Observer::finish() {
   std::vector<ScanTimes> times;  // Before scans are closed because all is at an end.
+  times.reserve(observation_.radars.size());
   for (const RadarObservation& radar : observation_.radars) {
     times.push_back(radar.times);
     times.back().note(observation_.seconds);

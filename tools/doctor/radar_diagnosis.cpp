@@ -157,36 +157,50 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   }
 }
 
-/// Two sensors with one id: each sends 13 to 17 lists a second, and its state once.
+/// Lists of targets that came with the radar's identifiers.
+std::uint64_t lists_of(const SeenRadar& radar, const BusObservation& bus) {
+  const auto frames = [&](Ars408Message message) {
+    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), radar.number)].frames;
+  };
+  return radar.kind == SeenRadar::Kind::bosch_gpr ? bus.ids[radar.number].frames
+                                                  : std::max(frames(Ars408Message::cluster_status),
+                                                             frames(Ars408Message::object_status));
+}
+
+std::string twin_remedy(const RadarConfiguration& radar, const SeenRadar& twin, bool is_echo) {
+  if (is_echo) {
+    return "look for a gateway that repeats frames; do not merge two logs of one bus";
+  }
+  if (twin.kind == SeenRadar::Kind::bosch_gpr) {
+    return "give one of them a bus of its own, or another base id";
+  }
+  return concat(
+      {"unplug one, give the other an id of its own (sensor_id, then `cremed-doctor "
+       "--configure-ars408 ",
+       radar.name, " --sensor-id ", number(twin.number), "`)"});
+}
+
+/// Two sensors with one id, by how often their lists come. An ARS408 sends 13 to 17 a second; of a
+/// GPR the rate is less certain, so its scans have to be spoilt as well.
 Findings find_twin(const RadarConfiguration& radar, const RadarObservation& observed,
                    const BusObservation& bus, double seconds) {
   constexpr double kShortestS = 0.5;
-  constexpr double kMostListsHz = 22.0;
   const SeenRadar expected = expected_radar(radar);
-  const auto frames = [&](Ars408Message message) {
-    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), expected.number)].frames;
-  };
-  const double sent_s = seconds - observed.times.longest_pause_s;
-  if (expected.kind != SeenRadar::Kind::ars408 || sent_s < kShortestS) {
-    return {};
-  }
-  const std::uint64_t lists =
-      std::max(frames(Ars408Message::cluster_status), frames(Ars408Message::object_status));
-  const double lists_hz = static_cast<double>(lists) / sent_s;
-  if (lists_hz < kMostListsHz) {
-    return {};
-  }
   const AssemblerCounters& scans = observed.status.assembler;
+  const bool is_gpr = expected.kind == SeenRadar::Kind::bosch_gpr;
+  const double sent_s = seconds - observed.times.longest_pause_s;
+  const std::uint64_t lists = lists_of(expected, bus);
+  const double lists_hz = static_cast<double>(lists) / std::max(sent_s, kShortestS);
+  const bool is_twin = lists_hz > (is_gpr ? 15.0 : 22.0);
+  if (!is_twin || (is_gpr && 2 * scans.incomplete_scans < scans.scans)) {
+    return {};
+  }
   const bool is_echo = scans.repeated_scans + scans.duplicate_parts > lists / 4;
   return {{Severity::error,
-           concat({tenths(lists_hz), " lists a second come from sensor id ",
-                   std::to_string(expected.number), " on ", radar.interface,
-                   ", of one sensor 13 to 17: ",
+           concat({tenths(lists_hz), " lists a second from ", to_text(expected), " on ",
+                   radar.interface, ", of one sensor ", is_gpr ? "10: " : "13 to 17: ",
                    is_echo ? "each frame comes twice" : "two sensors have this id"}),
-           is_echo ? "look for a gateway that repeats frames; do not merge two logs of one bus"
-                   : concat({"unplug one, give the other an id of its own (sensor_id, then "
-                             "`cremed-doctor --configure-ars408 ",
-                             radar.name, " --sensor-id ", std::to_string(expected.number), "`)"})}};
+           twin_remedy(radar, expected, is_echo)}};
 }
 
 /// It was there, and is not any more, or not all the time.

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/plain_text.hpp"
 #include "daemon/signals.hpp"
 
 namespace cremed {
@@ -89,7 +90,7 @@ void LogSink::log_text(spdlog::level::level_enum level, std::string_view text) {
   while (true) {
     const std::size_t size = std::min(text.find('\n'), text.size());
     if (!put(fmt::format("{}{}{}\n", is_journal_ ? words.priority : "", begin,
-                         text.substr(0, size)))) {
+                         plain_text(text.substr(0, size))))) {
       ++lost_;
     }
     if (size == text.size()) {

@@ -12,6 +12,7 @@
 #include "daemon/configuration_path.hpp"
 #include "daemon/configuration_summary.hpp"
 #include "daemon/log_sink.hpp"
+#include "daemon/plain_streams.hpp"
 #include "daemon/process_setup.hpp"
 #include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
@@ -74,6 +75,7 @@ int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   const auto log = cremed::log_to_standard_error();
   const cremed::CommandLineResult result = cremed::parse_command_line(argc, argv);
   if (!result.command_line) {

@@ -281,8 +281,8 @@ const std::vector<Case>& cases() {
        " lists a second from an ARS408 with sensor id 0 on can0, of one sensor 13 to 17: two "
        "sensors",
        "`cremed-doctor --configure-ars408 front --sensor-id 0`"},
-      {"two GPRs with one base id", [](auto&, auto& traffic) { add_twin(traffic, "can1", 10'000); },
-       Severity::error,
+      {"two GPRs with one base id",
+       [](auto&, auto& traffic) { add_twin(traffic, "can1", 340'000); }, Severity::error,
        " lists a second from a Bosch GPR with base id 0x200 on can1, of one sensor 10: two sensors",
        "a bus of its own"},
       {"each frame twice",

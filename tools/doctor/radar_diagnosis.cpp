@@ -174,10 +174,9 @@ std::string twin_remedy(const RadarConfiguration& radar, const SeenRadar& twin, 
   if (twin.kind == SeenRadar::Kind::bosch_gpr) {
     return "give one of them a bus of its own, or another base id";
   }
-  return concat(
-      {"unplug one, give the other an id of its own (sensor_id, then `cremed-doctor "
-       "--configure-ars408 ",
-       radar.name, " --sensor-id ", number(twin.number), "`)"});
+  return concat({"unplug one, give the other an id of its own (sensor_id, then ",
+                 "`cremed-doctor --configure-ars408 ", radar.name, " --sensor-id ",
+                 number(twin.number), "`)"});
 }
 
 /// Two sensors with one id, by how often their lists come. An ARS408 sends 13 to 17 a second; of a
@@ -188,11 +187,13 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
   const SeenRadar expected = expected_radar(radar);
   const AssemblerCounters& scans = observed.status.assembler;
   const bool is_gpr = expected.kind == SeenRadar::Kind::bosch_gpr;
-  const double sent_s = seconds - observed.times.longest_pause_s;
+  const double pause_s = fell_silent(observed, seconds) ? observed.times.longest_pause_s : 0.0;
   const std::uint64_t lists = lists_of(expected, bus);
-  const double lists_hz = static_cast<double>(lists) / std::max(sent_s, kShortestS);
+  const double lists_hz = static_cast<double>(lists) / std::max(seconds - pause_s, kShortestS);
   const bool is_twin = lists_hz > (is_gpr ? 15.0 : 22.0);
-  if (!is_twin || (is_gpr && 2 * scans.incomplete_scans < scans.scans)) {
+  // Counters of two that come in turn skip to and fro.
+  const bool is_spoilt = 2 * (scans.incomplete_scans + scans.missed_scans) >= scans.scans;
+  if (!is_twin || (is_gpr && !is_spoilt)) {
     return {};
   }
   const bool is_echo = scans.repeated_scans + scans.duplicate_parts > lists / 4;

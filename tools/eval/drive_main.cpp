@@ -8,19 +8,29 @@
 #include "tools/eval/drive_command.hpp"
 #include "tools/eval/drive_options.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{"cremed-eval without its other commands", "cremed-eval-drive"};
   app.require_subcommand(1);
   cremed::DriveFiles files;
   cremed::add_drive(app, files);
   try {
     app.parse(argc, argv);
-    cremed::run_drive(files);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  cremed::run_drive(files);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-eval-drive: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

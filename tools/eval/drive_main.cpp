@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "daemon/plain_streams.hpp"
+#include "daemon/process_setup.hpp"
 #include "tools/eval/drive_command.hpp"
 #include "tools/eval/drive_options.hpp"
 
@@ -27,8 +29,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cremed::set_up_process();
+  cremed::make_standard_streams_plain();
   try {
-    return run(argc, argv);
+    return cremed::finish_process(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cremed-eval-drive: %s\n", error.what());
     return 1;

@@ -54,8 +54,7 @@ struct Arguments {
 };
 
 void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
-  app.add_option("--config", arguments.config,
-                 "Configuration (default: /etc/cremed/cremed.toml, then the installed one)");
+  app.add_option("--config", arguments.config, "Configuration (default: /etc/cremed/cremed.toml)");
   app.add_option("--seconds", arguments.seconds, "How long to listen")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();

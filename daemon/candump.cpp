@@ -235,16 +235,23 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   }
   line.frame.fd = length.size() == 2;
   Cursor text = cursor;
-  line.frame.remote = text.take_blanks() && text.take_until(kBlanks) == "remote";
-  const Error error = line.frame.remote ? Error{} : parse_console_bytes(cursor, bytes, line.frame);
+  const bool is_remote =
+      !line.frame.fd && text.take_blanks() && text.take_until(kBlanks) == "remote";
+  const Error error =
+      is_remote ? parse_remote(length, line.frame) : parse_console_bytes(cursor, bytes, line.frame);
   cursor.take_rest();
   return error;
+}
+
+Error check_kind(const CanFrame& frame) {
+  return frame.error && (frame.fd || frame.remote) ? kErrorKind : Error{};
 }
 
 Error parse_content(Cursor& cursor, CandumpLine& line) {
   const std::string_view digits = cursor.take_until("# \t");
   if (!cursor.take('#')) {
-    return parse_console(cursor, digits, line);
+    const Error error = parse_console(cursor, digits, line);
+    return error.empty() ? check_kind(line.frame) : error;
   }
   const bool fd = cursor.take('#');
   const std::string_view content = cursor.take_until(kBlanks);
@@ -255,8 +262,7 @@ Error parse_content(Cursor& cursor, CandumpLine& line) {
     return error;
   }
   const Error error = fd ? parse_fd(content, line.frame) : parse_classic(content, line.frame);
-  const bool is_data = !line.frame.fd && !line.frame.remote;
-  return error.empty() && line.frame.error && !is_data ? kErrorKind : error;
+  return error.empty() ? check_kind(line.frame) : error;
 }
 
 /// candump -x marks frames as received or transmitted.

@@ -223,6 +223,7 @@ TEST_CASE("what candump prints on a terminal is read where it has stamps") {
       GoodLine{"RX - -  123   [1]  AB", make_frame(Kind::standard, 0x123, {0xAB})},
       GoodLine{"TX B E  12345678   [1]  AB", make_frame(Kind::extended, 0x12345678, {0xAB})},
       GoodLine{"123   [0]  remote request", make_frame(Kind::remote, 0x123)},
+      GoodLine{"123   [4]  remote request", with_length(make_frame(Kind::remote, 0x123), 4)},
       GoodLine{"     7FF   [1]  0A", make_frame(Kind::standard, 0x7FF, {0x0A})},
       GoodLine{"20000004   [2]  00 20   ERRORFRAME", make_frame(Kind::error, 4, {0, 0x20})},
       GoodLine{"123  [02]  11 22", make_frame(Kind::fd, 0x123, {0x11, 0x22})});
@@ -232,6 +233,18 @@ TEST_CASE("what candump prints on a terminal is read where it has stamps") {
   REQUIRE(line.status == CandumpStatus::frame);
   CHECK(line.frame == good.frame);
   CHECK(line.interface_name == "can0");
+}
+
+TEST_CASE("on a terminal too there are no remote requests of FD and no errors but classic data") {
+  const BadLine bad = GENERATE(BadLine{"2CC  [16]  remote request", "as many bytes"},
+                               BadLine{"2CC  [9]  remote request", "length of 0 to 8"},
+                               BadLine{"20000004  [2]  remote request", "must be classic data"},
+                               BadLine{"20000004  [02]  00 20", "must be classic data"});
+  const CandumpLine line =
+      parse_candump_line(std::string("(1436509052.249713)  can0  ") + bad.text);
+  CAPTURE(bad.text);
+  CHECK(line.status == CandumpStatus::malformed);
+  CHECK_THAT(std::string(line.error), Catch::Contains(bad.right));
 }
 
 TEST_CASE("drop reports give the number lost and the interface") {

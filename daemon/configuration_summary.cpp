@@ -83,6 +83,14 @@ std::string sent_text(const Configuration& configuration) {
 
 }  // namespace
 
+std::string radar_summary(const RadarConfiguration& radar) {
+  const auto* const ars408 = std::get_if<Ars408Options>(&radar.decoder);
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  return fmt::format("{}: {} on {}, mount x {:.3f} m, y {:.3f} m, yaw {:.2f} deg", radar.name,
+                     ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
+                     radar.interface, mount.x_m, mount.y_m, kDegPerRad * mount.yaw_rad);
+}
+
 std::string configuration_summary(const Configuration& configuration) {
   std::string text =
       fmt::format(kRow, "radar", "type", "interface", "x m", "y m", "yaw deg", "identifiers");

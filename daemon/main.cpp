@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <variant>
 
 #include <spdlog/spdlog.h>
 
@@ -22,8 +21,6 @@ namespace {
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
-constexpr double kDegreesPerRad = 57.295779513082321;
-
 void warn_of_doubts(const cremed::Configuration& configuration) {
   for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
     spdlog::warn("{}", doubt);
@@ -38,19 +35,11 @@ int check(const std::string& path) {
   return good;
 }
 
-std::string to_text(const cremed::RadarConfiguration& radar) {
-  const auto* const ars408 = std::get_if<cremed::Ars408Options>(&radar.decoder);
-  const cremed::Pose2& mount = radar.ego_motion.vehicle_from_radar;
-  return fmt::format("{}: {} on {}, mount x {:.3f} m, y {:.3f} m, yaw {:.2f} deg", radar.name,
-                     ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
-                     radar.interface, mount.x_m, mount.y_m, mount.yaw_rad * kDegreesPerRad);
-}
-
 /// The first lines of the log: what runs, and with what.
 void introduce(const std::string& path, const cremed::Configuration& configuration) {
   spdlog::info("cremed {}, configuration: {}", CREMED_VERSION, path);
   for (const cremed::RadarConfiguration& radar : configuration.radars) {
-    spdlog::info("{}", to_text(radar));
+    spdlog::info("{}", cremed::radar_summary(radar));
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <optional>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "can_decoders/ars408_state_watch.hpp"
-#include "can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_state_watch.hpp"
+#include "cremed/can_decoders/radar_decoder.hpp"
 
 namespace cremed {
 
 /// What an ARS408 is set to send (RadarState OutputTypeCfg: 1 objects, 2 clusters).
 enum class Ars408Output : std::uint8_t { clusters, objects };
 
-/// How far ahead an ARS408 turns the positions of its clusters (estimator/rotation_lead.hpp). On
-/// four turning nuScenes drives the Doppler of static targets gives 0.0413 +- 0.0002 s (front),
+/// How far ahead an ARS408 turns the positions of its clusters (estimator/scan/rotation_lead.hpp).
+/// On four turning nuScenes drives the Doppler of static targets gives 0.0413 +- 0.0002 s (front),
 /// 0.0380 and 0.0388 +- 0.0003 s (rear). Nothing is known of objects: it is not used for them.
 inline constexpr double kArs408RotationLeadS = 0.040;
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/bit_field.hpp"
 
 /// Where each signal of an ARS408 lies (Motorola order) and how its raw number scales.
 namespace cremed::ars408_layout {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
 
-#include "can_decoders/ars408_layout.hpp"
-#include "can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/ars408_layout.hpp"
+#include "cremed/can_decoders/bit_field.hpp"
 
 namespace cremed {
 namespace {

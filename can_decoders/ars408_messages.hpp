@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "can_decoders/ars408_tables.hpp"
+#include "cremed/can_decoders/ars408_tables.hpp"
 
 namespace cremed {
 

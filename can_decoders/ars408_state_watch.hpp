@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
 
 namespace cremed {
 

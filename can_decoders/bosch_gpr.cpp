@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 
 #include <algorithm>
 
-#include "can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/bit_field.hpp"
 
 namespace cremed {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_decoder.hpp"
 
 namespace cremed {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
-#include "can_decoders/can_frame.hpp"
-#include "can_decoders/detection.hpp"
-#include "can_decoders/radar_health.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/detection.hpp"
+#include "cremed/can_decoders/radar_health.hpp"
 
 namespace cremed {
 

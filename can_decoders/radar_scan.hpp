@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "can_decoders/detection.hpp"
+#include "cremed/can_decoders/detection.hpp"
 
 namespace cremed {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "can_decoders/scan_assembler.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
 
 #include <algorithm>
 

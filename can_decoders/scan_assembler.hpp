@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "can_decoders/radar_decoder.hpp"
-#include "can_decoders/radar_scan.hpp"
+#include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_scan.hpp"
 
 namespace cremed {
 

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/lcm_url.hpp"
+#include "daemon/configuration/lcm_url.hpp"
 #include "daemon/version.hpp"
 
 namespace cremed {

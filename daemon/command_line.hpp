@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,11 +30,5 @@ struct CommandLineResult {
 };
 
 CommandLineResult parse_command_line(int argc, const char* const* argv);
-
-/// A command line that cannot be carried out as it is; what() says what would be right.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 }  // namespace cremed

@@ -6,9 +6,9 @@
 
 #include <spdlog/spdlog.h>
 
-#include "daemon/message_text.hpp"
-#include "daemon/multicast_route.hpp"
-#include "daemon/report.hpp"
+#include "daemon/output/multicast_route.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/report/report.hpp"
 
 namespace cremed {
 namespace {
@@ -104,7 +104,7 @@ void report_clock(const BusStatus& now, const BusStatus& before) {
 }  // namespace
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-                           const SocketCan& source, const LcmPublisher* publisher)
+                           const LiveSource& source, const LcmPublisher* publisher)
     : configuration_(configuration),
       pipeline_(pipeline),
       source_(source),
@@ -139,7 +139,7 @@ std::string LiveReporter::report() {
   return line;
 }
 
-void LiveReporter::report_bus(const CanInterface& interface, const BusStatus& now,
+void LiveReporter::report_bus(const BusConnection& interface, const BusStatus& now,
                               BusStatus& before) {
   const std::string& name = interface.name();
   const int condition = condition_of(now, before);

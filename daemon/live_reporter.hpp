@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "daemon/bus_status.hpp"
-#include "daemon/condition_log.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/lcm_publisher.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/output/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
-#include "daemon/socket_can.hpp"
+#include "daemon/report/condition_log.hpp"
+#include "daemon/source/bus_status.hpp"
+#include "daemon/source/live_source.hpp"
 
 namespace cremed {
 
@@ -22,7 +22,7 @@ class LiveReporter {
  public:
   /// All but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-               const SocketCan& source, const LcmPublisher* publisher);
+               const LiveSource& source, const LcmPublisher* publisher);
 
   /// Looks at everything. Called once a second; returns the line.
   std::string report();
@@ -35,7 +35,7 @@ class LiveReporter {
     int seconds_without_scan = 0;
     int seconds_without_estimate = 0;
   };
-  void report_bus(const CanInterface& interface, const BusStatus& now, BusStatus& before);
+  void report_bus(const BusConnection& interface, const BusStatus& now, BusStatus& before);
   void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);
   std::string report_radar(std::size_t radar);
   std::string report_odometry();
@@ -44,7 +44,7 @@ class LiveReporter {
 
   Configuration configuration_;
   const Pipeline& pipeline_;
-  const SocketCan& source_;
+  const LiveSource& source_;
   const LcmPublisher* publisher_;
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // As last looked at.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "daemon/clocks.hpp"
-#include "daemon/message_text.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

@@ -7,15 +7,15 @@
 #include <optional>
 #include <string>
 
-#include "daemon/configuration.hpp"
-#include "daemon/lcm_publisher.hpp"
-#include "daemon/learned_file.hpp"
-#include "daemon/learned_writer.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/learned_file.hpp"
 #include "daemon/live_reporter.hpp"
 #include "daemon/motion_feedback.hpp"
+#include "daemon/output/lcm_publisher.hpp"
+#include "daemon/output/learned_writer.hpp"
 #include "daemon/pipeline.hpp"
-#include "daemon/service_notifier.hpp"
-#include "daemon/socket_can.hpp"
+#include "daemon/report/service_notifier.hpp"
+#include "daemon/source/live_source.hpp"
 
 namespace cremed {
 
@@ -42,7 +42,7 @@ class LiveSession {
 
   LearnedFile learned_file_;
   std::optional<LearnedWriter> learned_writer_;
-  SocketCan source_;
+  LiveSource source_;
   std::optional<LcmPublisher> publisher_;
   MotionFeedback feedback_;
   Pipeline pipeline_;

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <variant>
 
-#include "can_decoders/ars408_commands.hpp"
-#include "daemon/radar_channel.hpp"
+#include "cremed/can_decoders/ars408_commands.hpp"
+#include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
 
-MotionFeedback::MotionFeedback(const Configuration& configuration, SocketCan& bus) : bus_(bus) {
+MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& bus) : bus_(bus) {
   for (const RadarConfiguration& radar : configuration.radars) {
     Sensor sensor;
     if (const auto* options = std::get_if<Ars408Options>(&radar.decoder)) {

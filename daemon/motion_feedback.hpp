@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "daemon/configuration.hpp"
-#include "daemon/odometry_sink.hpp"
-#include "daemon/socket_can.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/output/odometry_sink.hpp"
+#include "daemon/source/live_source.hpp"
 
 namespace cremed {
 
@@ -18,7 +18,7 @@ namespace cremed {
 class MotionFeedback final : public OdometrySink {
  public:
   /// `bus` must outlive it.
-  MotionFeedback(const Configuration& configuration, SocketCan& bus);
+  MotionFeedback(const Configuration& configuration, LiveSource& bus);
 
   [[nodiscard]] bool is_needed() const;
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
@@ -32,7 +32,7 @@ class MotionFeedback final : public OdometrySink {
   };
   void send(std::uint8_t interface, const CanFrame& frame);
 
-  SocketCan& bus_;
+  LiveSource& bus_;
   std::vector<Sensor> sensors_;  // By radar.
   std::uint64_t failures_ = 0;
 };

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "estimator/fusion/fused_motion.hpp"
-#include "estimator/fusion/motion_witness.hpp"
+#include "cremed/estimator/fusion/fused_motion.hpp"
+#include "cremed/estimator/fusion/motion_witness.hpp"
+#include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
 namespace {

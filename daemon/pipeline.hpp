@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "can_decoders/can_frame.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/frame_source.hpp"
-#include "daemon/odometry_sink.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/output/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
-#include "daemon/status_timer.hpp"
-#include "estimator/fusion/odometry_filter.hpp"
+#include "daemon/report/status_timer.hpp"
+#include "daemon/source/frame_source.hpp"
 
 namespace cremed {
 

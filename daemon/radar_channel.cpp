@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/radar_channel.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -72,22 +71,6 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
       self_check.doubts() |
       (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);
   return status_;
-}
-
-std::vector<std::string> interface_names(const Configuration& configuration) {
-  std::vector<std::string> names;
-  for (const RadarConfiguration& radar : configuration.radars) {
-    if (std::find(names.begin(), names.end(), radar.interface) == names.end()) {
-      names.push_back(radar.interface);
-    }
-  }
-  return names;
-}
-
-std::uint8_t interface_index(const Configuration& configuration, const RadarConfiguration& radar) {
-  const std::vector<std::string> names = interface_names(configuration);
-  const auto name = std::find(names.begin(), names.end(), radar.interface);
-  return static_cast<std::uint8_t>(name - names.begin());
 }
 
 }  // namespace cremed

@@ -6,18 +6,16 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "can_decoders/radar_decoder.hpp"
-#include "can_decoders/scan_assembler.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/frame_source.hpp"
-#include "daemon/latency_histogram.hpp"
-#include "daemon/radar_status.hpp"
-#include "estimator/ego_motion_estimator.hpp"
-#include "estimator/fusion/odometry.hpp"
-#include "estimator/self_check.hpp"
+#include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
+#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/output/radar_status.hpp"
+#include "daemon/report/latency_histogram.hpp"
+#include "daemon/source/frame_source.hpp"
 
 namespace cremed {
 
@@ -59,11 +57,5 @@ struct RadarChannel {
   LatencyHistogram latency_;  // Since begin_period().
   RadarStatus status_;
 };
-
-/// Distinct names of the radars' interfaces, in order of first mention.
-std::vector<std::string> interface_names(const Configuration& configuration);
-
-/// CanFrame::interface of a radar of the configuration: where its interface is in that list.
-std::uint8_t interface_index(const Configuration& configuration, const RadarConfiguration& radar);
 
 }  // namespace cremed

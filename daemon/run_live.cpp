@@ -7,13 +7,14 @@
 
 #include <spdlog/spdlog.h>
 
-#include "daemon/clocks.hpp"
-#include "daemon/file_aliases.hpp"
-#include "daemon/instance_lock.hpp"
 #include "daemon/live_session.hpp"
-#include "daemon/real_time.hpp"
-#include "daemon/service_notifier.hpp"
-#include "daemon/signals.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/process/file_aliases.hpp"
+#include "daemon/process/instance_lock.hpp"
+#include "daemon/process/real_time.hpp"
+#include "daemon/process/signals.hpp"
+#include "daemon/process/usage_error.hpp"
+#include "daemon/report/service_notifier.hpp"
 
 namespace cremed {
 namespace {

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "daemon/command_line.hpp"
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/process/usage_error.hpp"
 
 namespace cremed {
 

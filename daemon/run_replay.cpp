@@ -14,19 +14,21 @@
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "daemon/clocks.hpp"
-#include "daemon/csv_writer.hpp"
-#include "daemon/file_aliases.hpp"
-#include "daemon/lcm_publisher.hpp"
-#include "daemon/learned_file.hpp"
-#include "daemon/message_text.hpp"
-#include "daemon/odometry_writer.hpp"
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/configuration/learned_file.hpp"
+#include "daemon/output/csv_writer.hpp"
+#include "daemon/output/lcm_publisher.hpp"
+#include "daemon/output/odometry_writer.hpp"
+#include "daemon/output/tum_writer.hpp"
 #include "daemon/pipeline.hpp"
-#include "daemon/replaced_file.hpp"
-#include "daemon/replay.hpp"
-#include "daemon/report.hpp"
-#include "daemon/signals.hpp"
-#include "daemon/tum_writer.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/process/file_aliases.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/process/replaced_file.hpp"
+#include "daemon/process/signals.hpp"
+#include "daemon/process/usage_error.hpp"
+#include "daemon/report/report.hpp"
+#include "daemon/source/replay.hpp"
 
 namespace cremed {
 namespace {

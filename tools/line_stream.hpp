@@ -6,7 +6,7 @@
 #include <streambuf>
 #include <string>
 
-#include "daemon/output_file.hpp"
+#include "daemon/process/output_file.hpp"
 
 namespace cremed {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/fused_motion.hpp"
+#include "cremed/estimator/fusion/fused_motion.hpp"
 
 #include <array>
 
-#include "estimator/stamps.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/doppler_velocity.hpp"
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/motion_witness.hpp"
+#include "cremed/estimator/fusion/motion_witness.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/stamps.hpp"
-#include "estimator/vehicle_limits.hpp"
+#include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/ego_motion_estimator.hpp"
-#include "estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 
 namespace cremed {
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/odometry_filter.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "estimator/fusion/joint_velocity.hpp"
-#include "estimator/fusion/pose_chain.hpp"
-#include "estimator/stamps.hpp"
-#include "estimator/vehicle_limits.hpp"
+#include "cremed/estimator/fusion/joint_velocity.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {

@@ -11,13 +11,13 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/odometry.hpp"
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/fusion/odometry_state.hpp"
-#include "estimator/fusion/radar_track.hpp"
-#include "estimator/pose2.hpp"
-#include "estimator/registration_options.hpp"
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/fusion/odometry_state.hpp"
+#include "cremed/estimator/fusion/radar_track.hpp"
+#include "cremed/estimator/registration/registration_options.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/odometry_state.hpp"
+#include "cremed/estimator/fusion/odometry_state.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
 
 namespace cremed {
 namespace {

@@ -7,13 +7,13 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/gaussian_state.hpp"
-#include "estimator/fusion/learned_errors.hpp"
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/fusion/radar_measurement.hpp"
-#include "estimator/fusion/state_layout.hpp"
-#include "estimator/fusion/vehicle_motion.hpp"
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/fusion/gaussian_state.hpp"
+#include "cremed/estimator/fusion/learned_errors.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/fusion/radar_measurement.hpp"
+#include "cremed/estimator/fusion/state_layout.hpp"
+#include "cremed/estimator/fusion/vehicle_motion.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
 
 #include <cmath>
 
-#include "estimator/rotation.hpp"
+#include "cremed/estimator/scan/rotation.hpp"
 
 namespace cremed {
 namespace {

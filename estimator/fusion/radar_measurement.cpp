@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/radar_measurement.hpp"
+#include "cremed/estimator/fusion/radar_measurement.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/fusion/pose_chain.hpp"
-#include "estimator/fusion/state_layout.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/state_layout.hpp"
 
 namespace cremed {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/fusion/doppler_velocity.hpp"
-#include "estimator/fusion/gaussian_state.hpp"
-#include "estimator/fusion/linear_measurement.hpp"
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/fusion/gaussian_state.hpp"
+#include "cremed/estimator/fusion/linear_measurement.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/fusion/radar_track.hpp"
+#include "cremed/estimator/fusion/radar_track.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "estimator/stamps.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {

@@ -8,14 +8,14 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/doppler_velocity.hpp"
-#include "estimator/fusion/odometry_options.hpp"
-#include "estimator/fusion/radar_trust.hpp"
-#include "estimator/fusion/state_layout.hpp"
-#include "estimator/pose2.hpp"
-#include "estimator/registration.hpp"
-#include "estimator/target_set.hpp"
-#include "estimator/two_worlds.hpp"
+#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/fusion/radar_trust.hpp"
+#include "cremed/estimator/fusion/state_layout.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/motion/two_worlds.hpp"
+#include "cremed/estimator/registration/registration.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {
 

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "estimator/fusion/doppler_velocity.hpp"
-#include "estimator/innovation_mean.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/motion/innovation_mean.hpp"
 
 namespace cremed {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 
 namespace cremed::test {
 

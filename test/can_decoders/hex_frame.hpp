@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed::test {
 

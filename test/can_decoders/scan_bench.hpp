@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/scan_assembler.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
 
 namespace cremed::test {
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 
 namespace cremed::test {

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408_commands.hpp"
+#include "cremed/can_decoders/ars408_commands.hpp"
 #include "test/can_decoders/ars408_rows.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 

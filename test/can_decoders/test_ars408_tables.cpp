@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408_tables.hpp"
+#include "cremed/can_decoders/ars408_tables.hpp"
 
 namespace cremed {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "test/can_decoders/gpr_frames.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 

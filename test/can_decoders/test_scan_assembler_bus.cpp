@@ -6,9 +6,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/bosch_gpr.hpp"
-#include "can_decoders/scan_assembler.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
 #include "test/can_decoders/gpr_frames.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed {
 

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 
 namespace cremed {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed::test {
 

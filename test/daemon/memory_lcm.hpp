@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/lcm_publisher.hpp"
+#include "daemon/output/lcm_publisher.hpp"
 
 namespace cremed {
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <linux/can/error.h>
 
-#include "daemon/can_error.hpp"
+#include "daemon/source/can_error.hpp"
 #include "test/daemon/error_frame.hpp"
 
 using namespace cremed;

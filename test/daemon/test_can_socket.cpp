@@ -11,8 +11,8 @@
 #include <catch2/catch.hpp>
 #include <linux/can.h>
 
-#include "daemon/can_socket.hpp"
-#include "daemon/clocks.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/source/can_socket.hpp"
 #include "test/daemon/datagram_pair.hpp"
 
 using namespace cremed;

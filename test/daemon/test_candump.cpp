@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/candump.hpp"
+#include "daemon/source/candump.hpp"
 #include "test/daemon/candump_frames.hpp"
 
 namespace cremed {

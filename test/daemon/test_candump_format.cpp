@@ -8,7 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/candump.hpp"
+#include "daemon/configuration/bus_options.hpp"
+#include "daemon/source/candump.hpp"
 #include "test/daemon/candump_frames.hpp"
 
 namespace cremed {

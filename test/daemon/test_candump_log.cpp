@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/candump_log.hpp"
+#include "daemon/source/candump_log.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 using namespace cremed;

@@ -6,7 +6,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
-#include "daemon/condition_log.hpp"
+#include "daemon/report/condition_log.hpp"
 
 using namespace cremed;
 

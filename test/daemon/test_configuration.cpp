@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
 namespace cremed {

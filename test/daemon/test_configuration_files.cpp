@@ -16,7 +16,7 @@
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
 namespace cremed {

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/configuration.hpp"
-#include "daemon/configuration_path.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/configuration_path.hpp"
 
 namespace cremed {
 namespace {

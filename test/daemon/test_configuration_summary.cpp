@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/configuration_summary.hpp"
+#include "daemon/configuration/configuration_summary.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
 namespace cremed {

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/latency_histogram.hpp"
+#include "daemon/report/latency_histogram.hpp"
 
 using namespace cremed;
 

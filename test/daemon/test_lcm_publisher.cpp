@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/lcm_publisher.hpp"
-#include "estimator/self_check.hpp"
+#include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/output/lcm_publisher.hpp"
 #include "test/daemon/memory_lcm.hpp"
 
 using namespace cremed;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/lcm_url.hpp"
+#include "daemon/configuration/lcm_url.hpp"
 
 using namespace cremed;
 

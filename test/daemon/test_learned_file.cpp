@@ -14,8 +14,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/learned_file.hpp"
-#include "daemon/learned_writer.hpp"
+#include "daemon/configuration/learned_file.hpp"
+#include "daemon/output/learned_writer.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 using namespace cremed;

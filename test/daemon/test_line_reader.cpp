@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/line_reader.hpp"
+#include "daemon/source/line_reader.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 using cremed::LineReader;

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/log_format.hpp"
+#include "daemon/source/log_format.hpp"
 
 namespace cremed {
 namespace {

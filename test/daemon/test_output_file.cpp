@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 
-#include "daemon/output_file.hpp"
+#include "daemon/process/output_file.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 namespace cremed {

@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_decoder.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/radar_channel.hpp"
-#include "daemon/radar_identifiers.hpp"
 
 using namespace cremed;
 

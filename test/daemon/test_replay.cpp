@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/clocks.hpp"
-#include "daemon/replay.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/source/replay.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 using namespace cremed;

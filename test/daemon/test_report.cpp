@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/report.hpp"
-#include "estimator/self_check.hpp"
+#include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/report/report.hpp"
 
 using namespace cremed;
 

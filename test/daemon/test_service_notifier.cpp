@@ -10,7 +10,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "daemon/service_notifier.hpp"
+#include "daemon/report/service_notifier.hpp"
 
 using namespace cremed;
 

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/stamp_merge.hpp"
+#include "daemon/source/stamp_merge.hpp"
 
 using namespace cremed;
 
@@ -57,7 +57,7 @@ std::vector<ReceivedFrame> sorted(const std::vector<Bus>& buses) {
   return all;
 }
 
-/// Reads up to a batch, as SocketCan does.
+/// Reads up to a batch, as LiveSource does.
 void read(Bus& bus, std::size_t lane, std::int64_t now_us, std::int64_t margin_us,
           StampMerge& merge) {
   std::size_t count = 0;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/status_timer.hpp"
+#include "daemon/report/status_timer.hpp"
 
 using namespace cremed;
 

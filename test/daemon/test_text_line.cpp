@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/text_line.hpp"
+#include "daemon/output/text_line.hpp"
 
 using cremed::TextLine;
 

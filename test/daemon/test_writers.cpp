@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/csv_writer.hpp"
-#include "daemon/odometry_writer.hpp"
-#include "daemon/tum_writer.hpp"
+#include "daemon/output/csv_writer.hpp"
+#include "daemon/output/odometry_writer.hpp"
+#include "daemon/output/tum_writer.hpp"
 #include "test/daemon/temporary_file.hpp"
 
 using namespace cremed;

@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/candump.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/radar_channel.hpp"
+#include "daemon/source/candump.hpp"
 #include "test/data_tests/shared_data.hpp"
 
 namespace cremed::test {

@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/data_tests/shared_data.hpp"
-#include "tools/eval/calibration.hpp"
+#include "tools/eval/calibrate/calibration.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 using namespace cremed;

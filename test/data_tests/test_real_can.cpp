@@ -11,9 +11,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/scan_assembler.hpp"
-#include "daemon/candump.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
+#include "daemon/source/candump.hpp"
 
 namespace cremed::test {
 namespace {

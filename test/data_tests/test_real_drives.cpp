@@ -8,8 +8,8 @@
 
 #include "test/data_tests/real_drive.hpp"
 #include "test/tools/pipeline_bench.hpp"
-#include "tools/eval/against_wheels.hpp"
-#include "tools/eval/truth_noise.hpp"
+#include "tools/eval/drive/against_wheels.hpp"
+#include "tools/eval/drive/truth_noise.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

@@ -9,8 +9,8 @@
 
 #include "test/data_tests/shared_data.hpp"
 #include "tools/eval/csv_table.hpp"
-#include "tools/eval/pairs_evaluation.hpp"
-#include "tools/eval/profile.hpp"
+#include "tools/eval/pairs/pairs_evaluation.hpp"
+#include "tools/eval/pairs/profile.hpp"
 
 using namespace cremed;
 

@@ -17,8 +17,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "estimator/ego_motion_estimator.hpp"
-#include "estimator/shared_doppler.hpp"
+#include "cremed/estimator/cost/shared_doppler.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 
 namespace cremed::simulation {
 

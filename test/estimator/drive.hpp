@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "estimator/ego_motion_options.hpp"
+#include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -10,7 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed::numeric {
 

@@ -12,8 +12,8 @@
 
 #include <Eigen/Core>
 
-#include "estimator/fusion/odometry_filter.hpp"
-#include "estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

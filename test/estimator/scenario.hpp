@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <random>
 
-#include "estimator/registration.hpp"
+#include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

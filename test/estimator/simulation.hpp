@@ -10,9 +10,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "can_decoders/radar_scan.hpp"
-#include "estimator/registration_options.hpp"
-#include "estimator/target_set.hpp"
+#include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/registration/registration_options.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed::simulation {
 

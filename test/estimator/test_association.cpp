@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "estimator/association.hpp"
+#include "cremed/estimator/cost/association.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "estimator/registration.hpp"
+#include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "estimator/exclusive_likelihood.hpp"
-#include "estimator/registration.hpp"
+#include "cremed/estimator/cost/exclusive_likelihood.hpp"
+#include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

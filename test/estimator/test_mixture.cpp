@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "estimator/mixture.hpp"
+#include "cremed/estimator/cost/mixture.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/mixture.hpp"
+#include "cremed/estimator/cost/mixture.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

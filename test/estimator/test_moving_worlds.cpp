@@ -13,9 +13,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/ego_motion_estimator.hpp"
-#include "estimator/fusion/motion_witness.hpp"
-#include "estimator/fusion/odometry_filter.hpp"
+#include "cremed/estimator/fusion/motion_witness.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

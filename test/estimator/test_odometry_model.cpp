@@ -8,9 +8,9 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "estimator/fusion/odometry_state.hpp"
-#include "estimator/fusion/pose_chain.hpp"
-#include "estimator/fusion/vehicle_motion.hpp"
+#include "cremed/estimator/fusion/odometry_state.hpp"
+#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/vehicle_motion.hpp"
 #include "test/estimator/numeric.hpp"
 
 namespace cremed {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/outlier_ray.hpp"
+#include "cremed/estimator/cost/outlier_ray.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "estimator/registration.hpp"
+#include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

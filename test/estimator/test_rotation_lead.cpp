@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "estimator/rotation_lead.hpp"
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/scan/rotation_lead.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "estimator/shared_doppler.hpp"
+#include "cremed/estimator/cost/shared_doppler.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 
@@ -33,11 +33,7 @@ SharedErrorOptions no_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 SharedDoppler shared_doppler(const DopplerOptions& doppler, const SharedErrorOptions& errors,
                              const Pose2& mount, int degrees_of_freedom = 2) {
-  RegistrationOptions options;
-  options.degrees_of_freedom = degrees_of_freedom;
-  options.doppler = doppler;
-  options.shared_errors = errors;
-  return {options, mount};
+  return {degrees_of_freedom, doppler, errors, mount};
 }
 
 /// What the radar sees of static targets while the vehicle moves with `velocity`; each Doppler is

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "estimator/speed_check.hpp"
+#include "cremed/estimator/motion/speed_check.hpp"
 
 using namespace cremed;
 

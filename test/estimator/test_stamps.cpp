@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/stamps.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 using namespace cremed;
 

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/ego_motion_estimator.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/drive.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"

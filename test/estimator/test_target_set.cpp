@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/ego_motion_estimator.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/drive.hpp"
 
 namespace cremed {

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "estimator/vector_math.hpp"
+#include "cremed/estimator/cost/vector_math.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

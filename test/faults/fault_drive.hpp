@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "test/tools/pipeline_bench.hpp"
-#include "tools/eval/truth_noise.hpp"
+#include "tools/eval/drive/truth_noise.hpp"
 
 namespace cremed::test {
 

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/ars408_messages.hpp"
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 #include "tools/simulate/random.hpp"
 

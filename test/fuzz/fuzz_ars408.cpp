@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 namespace {

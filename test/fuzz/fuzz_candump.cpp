@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "daemon/candump.hpp"
+#include "daemon/source/candump.hpp"
 
 namespace {
 

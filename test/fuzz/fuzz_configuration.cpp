@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "can_decoders/can_frame.hpp"
-#include "can_decoders/detection.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/detection.hpp"
 
 namespace cremed::fuzz {
 

@@ -8,9 +8,9 @@
 #include <bitset>
 #include <optional>
 
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/bosch_gpr.hpp"
-#include "can_decoders/scan_assembler.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 namespace {

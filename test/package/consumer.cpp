@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/scan_assembler.hpp"
-#include "estimator/ego_motion_estimator.hpp"
+#include <cremed/can_decoders/ars408.hpp>
+#include <cremed/can_decoders/scan_assembler.hpp>
+#include <cremed/estimator/motion/ego_motion_estimator.hpp>
 
 // Succeeds if a whole, empty scan goes through all stages.
 int main() {

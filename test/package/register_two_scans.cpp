@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "estimator/registration.hpp"
+#include <cremed/estimator/registration/registration.hpp>
 
 /// What a radar in the vehicle's origin sees of a post.
 cremed::Detection see(double x_m, double y_m, double yaw_rad, double speed_mps) {

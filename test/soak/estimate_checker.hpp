@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/odometry_sink.hpp"
+#include "daemon/output/odometry_sink.hpp"
 #include "test/soak/fault_injector.hpp"
 #include "test/soak/fault_kind.hpp"
 #include "test/soak/soak_drive.hpp"

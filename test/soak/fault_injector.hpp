@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "daemon/frame_source.hpp"
+#include "daemon/source/frame_source.hpp"
 #include "test/soak/fault_kind.hpp"
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/simulation.hpp"

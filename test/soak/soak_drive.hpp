@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "tools/eval/true_trajectory.hpp"
+#include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace cremed::soak {

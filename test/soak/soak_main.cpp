@@ -17,10 +17,10 @@
 #include <CLI/CLI.hpp>
 #include <time.h>
 
-#include "daemon/clocks.hpp"
-#include "daemon/lcm_publisher.hpp"
+#include "daemon/output/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
-#include "daemon/process_setup.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/process/process_setup.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/soak/estimate_checker.hpp"
 #include "test/soak/fault_injector.hpp"

@@ -14,9 +14,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "tools/eval/recorded_odometry.hpp"
-#include "tools/eval/true_trajectory.hpp"
-#include "tools/eval/wheel_reference.hpp"
+#include "tools/eval/drive/recorded_odometry.hpp"
+#include "tools/eval/drive/true_trajectory.hpp"
+#include "tools/eval/drive/wheel_reference.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed::test {

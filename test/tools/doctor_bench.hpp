@@ -12,7 +12,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/report.hpp"
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/report/report.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/observer.hpp"

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+#include "tools/eval/drive/radar_sweep.hpp"
 #include "tools/eval/plane_motion.hpp"
-#include "tools/eval/radar_sweep.hpp"
 
 namespace cremed::test {
 

@@ -18,9 +18,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "can_decoders/ars408_layout.hpp"
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/can_socket.hpp"
+#include "cremed/can_decoders/ars408_layout.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/source/can_socket.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 
 namespace cremed::test {

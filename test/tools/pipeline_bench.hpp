@@ -14,7 +14,7 @@
 #include "daemon/pipeline.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/eval/credibility.hpp"
-#include "tools/eval/true_trajectory.hpp"
+#include "tools/eval/drive/true_trajectory.hpp"
 
 namespace cremed::test {
 

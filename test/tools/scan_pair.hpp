@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "estimator/target_set.hpp"
-#include "tools/eval/registration_method.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+#include "tools/eval/pairs/registration_method.hpp"
 
 namespace cremed::test {
 

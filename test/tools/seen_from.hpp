@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed::test {
 

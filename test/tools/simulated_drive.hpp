@@ -15,10 +15,10 @@
 #include <variant>
 #include <vector>
 
-#include "can_decoders/ars408.hpp"
-#include "can_decoders/bosch_gpr.hpp"
-#include "can_decoders/scan_assembler.hpp"
-#include "daemon/candump.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
+#include "daemon/source/candump.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace cremed::test {

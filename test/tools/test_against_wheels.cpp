@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/circle.hpp"
-#include "tools/eval/against_wheels.hpp"
 #include "tools/eval/chi_square.hpp"
+#include "tools/eval/drive/against_wheels.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

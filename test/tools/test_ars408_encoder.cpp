@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "test/tools/tool_run.hpp"
 
 using namespace cremed;

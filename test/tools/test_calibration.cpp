@@ -15,7 +15,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/pipeline_bench.hpp"
-#include "tools/eval/calibration.hpp"
+#include "tools/eval/calibrate/calibration.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 using namespace cremed;

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/calibration_fit.hpp"
+#include "tools/eval/calibrate/calibration_fit.hpp"
 
 namespace cremed {
 namespace {

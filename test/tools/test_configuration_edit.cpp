@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
-#include "daemon/replaced_file.hpp"
-#include "tools/eval/configuration_edit.hpp"
+#include "daemon/process/replaced_file.hpp"
+#include "tools/eval/calibrate/configuration_edit.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {

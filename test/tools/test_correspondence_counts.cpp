@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/correspondence_counts.hpp"
+#include "tools/eval/pairs/correspondence_counts.hpp"
 
 using namespace cremed;
 

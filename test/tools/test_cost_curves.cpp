@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/cost_curves.hpp"
+#include "tools/eval/table/cost_curves.hpp"
 
 using namespace cremed;
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/plain_text.hpp"
+#include "daemon/process/plain_text.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/drive_evaluation.hpp"
+#include "tools/eval/drive/drive_evaluation.hpp"
 
 using namespace cremed;
 

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/can_socket.hpp"
-#include "daemon/candump.hpp"
-#include "daemon/csv_writer.hpp"
-#include "daemon/lcm_publisher.hpp"
-#include "daemon/odometry_writer.hpp"
-#include "daemon/tum_writer.hpp"
+#include "daemon/output/csv_writer.hpp"
+#include "daemon/output/lcm_publisher.hpp"
+#include "daemon/output/odometry_writer.hpp"
+#include "daemon/output/tum_writer.hpp"
+#include "daemon/source/can_socket.hpp"
+#include "daemon/source/candump.hpp"
 #include "test/daemon/datagram_pair.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/tools/own_network.hpp"

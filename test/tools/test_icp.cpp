@@ -8,8 +8,8 @@
 #include "test/tools/scan_pair.hpp"
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/credibility.hpp"
-#include "tools/eval/icp.hpp"
-#include "tools/eval/icp_covariance.hpp"
+#include "tools/eval/pairs/icp.hpp"
+#include "tools/eval/pairs/icp_covariance.hpp"
 
 using namespace cremed;
 

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/drawn_sweep.hpp"
-#include "tools/eval/kellner_velocity.hpp"
+#include "tools/eval/drive/kellner_velocity.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

@@ -4,9 +4,9 @@
 
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/credibility.hpp"
-#include "tools/eval/known_correspondences.hpp"
-#include "tools/eval/profile.hpp"
-#include "tools/eval/simulated_pairs.hpp"
+#include "tools/eval/pairs/known_correspondences.hpp"
+#include "tools/eval/pairs/profile.hpp"
+#include "tools/eval/table/simulated_pairs.hpp"
 
 using namespace cremed;
 

@@ -11,9 +11,9 @@
 #include <catch2/catch.hpp>
 #include <lcm/lcm-cpp.hpp>
 
-#include "daemon/csv_writer.hpp"
-#include "daemon/lcm_publisher.hpp"
-#include "daemon/odometry_writer.hpp"
+#include "daemon/output/csv_writer.hpp"
+#include "daemon/output/lcm_publisher.hpp"
+#include "daemon/output/odometry_writer.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/eval/temporary_folder.hpp"

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/circle.hpp"
-#include "tools/eval/motion_chain.hpp"
+#include "tools/eval/drive/motion_chain.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

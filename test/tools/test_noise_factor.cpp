@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/matched_targets.hpp"
-#include "tools/eval/noise_factor.hpp"
+#include "tools/eval/calibrate/matched_targets.hpp"
+#include "tools/eval/calibrate/noise_factor.hpp"
 
 namespace cremed {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/paper_table.hpp"
+#include "tools/eval/table/paper_table.hpp"
 
 using namespace cremed;
 

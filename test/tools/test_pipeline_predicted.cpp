@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/odometry_writer.hpp"
+#include "daemon/output/odometry_writer.hpp"
 #include "test/tools/pipeline_bench.hpp"
 
 using namespace cremed;

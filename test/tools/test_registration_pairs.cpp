@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/pairs_evaluation.hpp"
-#include "tools/eval/profile.hpp"
-#include "tools/eval/registration_pairs.hpp"
+#include "tools/eval/pairs/pairs_evaluation.hpp"
+#include "tools/eval/pairs/profile.hpp"
+#include "tools/eval/pairs/registration_pairs.hpp"
 
 using namespace cremed;
 

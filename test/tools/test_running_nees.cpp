@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/running_nees.hpp"
+#include "tools/eval/drive/running_nees.hpp"
 
 using namespace cremed;
 

@@ -17,9 +17,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/report.hpp"
-#include "estimator/self_check.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/report/report.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "tools/eval/sensor_velocity.hpp"
+#include "tools/eval/calibrate/sensor_velocity.hpp"
 
 namespace cremed {
 namespace {

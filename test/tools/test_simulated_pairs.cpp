@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/simulated_pairs.hpp"
+#include "tools/eval/table/simulated_pairs.hpp"
 
 using namespace cremed;
 

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/drawn_sweep.hpp"
-#include "tools/eval/submap_odometry.hpp"
+#include "tools/eval/drive/submap_odometry.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

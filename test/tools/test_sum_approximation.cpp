@@ -8,7 +8,7 @@
 
 #include "test/estimator/numeric.hpp"
 #include "test/tools/scan_pair.hpp"
-#include "tools/eval/sum_approximation.hpp"
+#include "tools/eval/pairs/sum_approximation.hpp"
 
 using namespace cremed;
 

@@ -6,8 +6,8 @@
 
 #include "test/tools/circle.hpp"
 #include "tools/eval/chi_square.hpp"
-#include "tools/eval/motion_chain.hpp"
-#include "tools/eval/trajectory_segments.hpp"
+#include "tools/eval/drive/motion_chain.hpp"
+#include "tools/eval/drive/trajectory_segments.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
-#include "tools/eval/truth_noise.hpp"
+#include "tools/eval/drive/truth_noise.hpp"
 
 using namespace cremed;
 

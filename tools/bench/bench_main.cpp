@@ -10,15 +10,15 @@
 #include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
-#include "daemon/process_setup.hpp"
+#include "cremed/estimator/cost/mixture_kernel.hpp"
+#include "daemon/process/process_setup.hpp"
 #include "daemon/version.hpp"
-#include "estimator/mixture_kernel.hpp"
 #include "tools/bench/bench_problem.hpp"
 #include "tools/bench/bench_report.hpp"
 #include "tools/bench/component_bench.hpp"
 #include "tools/bench/pair_bench.hpp"
-#include "tools/eval/profile.hpp"
-#include "tools/eval/registration_pairs.hpp"
+#include "tools/eval/pairs/profile.hpp"
+#include "tools/eval/pairs/registration_pairs.hpp"
 
 namespace {
 

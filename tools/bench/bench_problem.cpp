@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "tools/eval/profile.hpp"
-#include "tools/eval/simulated_pairs.hpp"
+#include "tools/eval/pairs/profile.hpp"
+#include "tools/eval/table/simulated_pairs.hpp"
 
 namespace cremed {
 namespace {

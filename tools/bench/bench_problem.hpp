@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "estimator/registration.hpp"
-#include "tools/eval/registration_pairs.hpp"
+#include "cremed/estimator/registration/registration.hpp"
+#include "tools/eval/pairs/registration_pairs.hpp"
 
 namespace cremed {
 

@@ -10,10 +10,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/mixture.hpp"
+#include "cremed/estimator/cost/mixture.hpp"
 #include "tools/bench/bench_problem.hpp"
 #include "tools/bench/floor.hpp"
-#include "tools/eval/pairs_evaluation.hpp"
+#include "tools/eval/pairs/pairs_evaluation.hpp"
 
 namespace cremed {
 namespace {

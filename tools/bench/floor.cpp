@@ -8,7 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimator/vector_math.hpp"
+#include "cremed/estimator/cost/vector_math.hpp"
 
 namespace cremed {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/mixture_kernel.hpp"
+#include "cremed/estimator/cost/mixture_kernel.hpp"
 
 namespace cremed {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tools/bench/floor.hpp"
-#include "tools/eval/pairs_evaluation.hpp"
+#include "tools/eval/pairs/pairs_evaluation.hpp"
 
 namespace cremed {
 namespace {

@@ -10,9 +10,9 @@
 #include <ostream>
 #include <span>
 
-#include "can_decoders/ars408_commands.hpp"
-#include "can_decoders/ars408_layout.hpp"
-#include "daemon/message_text.hpp"
+#include "cremed/can_decoders/ars408_commands.hpp"
+#include "cremed/can_decoders/ars408_layout.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

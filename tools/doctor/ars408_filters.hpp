@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
 #include "tools/doctor/ars408_talk.hpp"
 
 namespace cremed {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/message_text.hpp"
+#include "daemon/process/message_text.hpp"
 #include "tools/doctor/seen_radar.hpp"
 
 namespace cremed {

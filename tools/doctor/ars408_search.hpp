@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/configuration.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/bus_observation.hpp"
 
 namespace cremed {

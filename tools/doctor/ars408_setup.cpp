@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "can_decoders/ars408_commands.hpp"
-#include "daemon/message_text.hpp"
+#include "cremed/can_decoders/ars408_commands.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <poll.h>
 
-#include "daemon/candump.hpp"
-#include "daemon/clocks.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/source/candump.hpp"
 
 namespace cremed {
 namespace {

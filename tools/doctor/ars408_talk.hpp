@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/can_socket.hpp"
-#include "daemon/configuration.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/source/can_socket.hpp"
 #include "tools/doctor/ars408_search.hpp"
 #include "tools/doctor/consent.hpp"
 

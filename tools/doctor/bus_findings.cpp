@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "daemon/message_text.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

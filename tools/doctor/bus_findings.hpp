@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "daemon/finding.hpp"
+#include "daemon/report/finding.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {

@@ -7,8 +7,8 @@
 
 #include <linux/can/error.h>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/can_error.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/source/can_error.hpp"
 
 namespace cremed {
 

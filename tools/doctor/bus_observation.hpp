@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "can_decoders/ars408_state_watch.hpp"
-#include "can_decoders/can_frame.hpp"
-#include "daemon/bus_status.hpp"
+#include "cremed/can_decoders/ars408_state_watch.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
+#include "daemon/source/bus_status.hpp"
 
 namespace cremed {
 

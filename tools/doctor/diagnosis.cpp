@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "daemon/message_text.hpp"
-#include "daemon/report.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/report/report.hpp"
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/observer.hpp"
 #include "tools/doctor/radar_diagnosis.hpp"

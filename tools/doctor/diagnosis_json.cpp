@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/plain_text.hpp"
-#include "daemon/report.hpp"
+#include "daemon/process/plain_text.hpp"
+#include "daemon/report/report.hpp"
 #include "tools/doctor/diagnosis.hpp"
 
 namespace cremed {

@@ -14,9 +14,10 @@
 #include <net/if.h>
 #include <poll.h>
 
-#include "daemon/can_socket.hpp"
-#include "daemon/clocks.hpp"
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/process/clocks.hpp"
 #include "daemon/radar_channel.hpp"
+#include "daemon/source/can_socket.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/observer.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "daemon/candump.hpp"
-#include "daemon/line_reader.hpp"
-#include "daemon/message_text.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/source/candump.hpp"
+#include "daemon/source/line_reader.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {

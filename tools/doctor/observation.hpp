@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/radar_status.hpp"
+#include "daemon/output/radar_status.hpp"
 #include "tools/doctor/bus_observation.hpp"
 
 namespace cremed {

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "daemon/configuration/interfaces.hpp"
+
 namespace cremed {
 namespace {
 

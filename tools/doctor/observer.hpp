@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/frame_source.hpp"
-#include "daemon/odometry_sink.hpp"
+#include "daemon/output/odometry_sink.hpp"
 #include "daemon/pipeline.hpp"
+#include "daemon/source/frame_source.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/message_text.hpp"
-#include "daemon/radar_identifiers.hpp"
-#include "daemon/report.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/report/report.hpp"
 #include "tools/doctor/seen_radar.hpp"
 
 namespace cremed {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "daemon/configuration.hpp"
-#include "daemon/finding.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/report/finding.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <variant>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/message_text.hpp"
-#include "daemon/radar_identifiers.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/configuration.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/bus_observation.hpp"
 
 namespace cremed {

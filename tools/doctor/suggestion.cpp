@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "can_decoders/ars408_messages.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/message_text.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/seen_radar.hpp"
 

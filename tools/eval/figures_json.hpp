@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "tools/eval/credibility.hpp"
-#include "tools/eval/paper_table.hpp"
+#include "tools/eval/table/paper_table.hpp"
 
 namespace cremed {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {
 

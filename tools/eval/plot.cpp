@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "daemon/replaced_file.hpp"
+#include "daemon/process/replaced_file.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/temporary_folder.hpp"
 

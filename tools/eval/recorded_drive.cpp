@@ -10,11 +10,12 @@
 #include <utility>
 #include <variant>
 
-#include "daemon/candump_log.hpp"
-#include "daemon/message_text.hpp"
+#include "cremed/estimator/scan/rotation_lead.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/pipeline.hpp"
-#include "daemon/replay.hpp"
-#include "estimator/rotation_lead.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/source/candump_log.hpp"
+#include "daemon/source/replay.hpp"
 
 namespace cremed {
 namespace {

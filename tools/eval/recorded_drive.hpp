@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "daemon/configuration.hpp"
-#include "estimator/ego_motion_estimator.hpp"
-#include "estimator/target_set.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+#include "daemon/configuration/configuration.hpp"
 
 namespace cremed {
 
@@ -17,8 +17,8 @@ namespace cremed {
 struct RecordedScan {
   std::int64_t stamp_us = 0;
   std::vector<Target> targets;
-  /// What the sensor itself takes for the vehicle's yaw rate (estimator/rotation_lead.hpp); 0: it
-  /// is not told.
+  /// What the sensor itself takes for the vehicle's yaw rate (estimator/scan/rotation_lead.hpp); 0:
+  /// it is not told.
   double told_yaw_rate_radps = 0.0;
 };
 

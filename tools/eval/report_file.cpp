@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "daemon/replaced_file.hpp"
+#include "daemon/process/replaced_file.hpp"
 
 namespace cremed {
 

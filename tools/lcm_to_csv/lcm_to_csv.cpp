@@ -14,9 +14,9 @@
 #include <cremed/odometry_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
-#include "daemon/csv_writer.hpp"
-#include "daemon/message_text.hpp"
-#include "daemon/odometry_writer.hpp"
+#include "daemon/output/csv_writer.hpp"
+#include "daemon/output/odometry_writer.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {

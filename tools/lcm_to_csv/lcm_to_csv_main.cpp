@@ -10,9 +10,10 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/command_line.hpp"
-#include "daemon/file_aliases.hpp"
-#include "daemon/plain_streams.hpp"
-#include "daemon/process_setup.hpp"
+#include "daemon/process/file_aliases.hpp"
+#include "daemon/process/plain_streams.hpp"
+#include "daemon/process/process_setup.hpp"
+#include "daemon/process/usage_error.hpp"
 #include "daemon/version.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 #include "tools/line_stream.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408.hpp"
 #include "tools/simulate/radar_sender.hpp"
 
 namespace cremed {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "can_decoders/bosch_gpr.hpp"
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "tools/simulate/radar_sender.hpp"
 
 namespace cremed {

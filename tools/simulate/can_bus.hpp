@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 
 namespace cremed {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 #include "tools/simulate/radar_view.hpp"
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/scene.hpp"

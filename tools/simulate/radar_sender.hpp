@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
 #include "tools/simulate/can_bus.hpp"
 #include "tools/simulate/radar_model.hpp"
 #include "tools/simulate/random.hpp"

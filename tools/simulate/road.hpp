@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 #include "tools/simulate/vehicle_course.hpp"
 
 namespace cremed {

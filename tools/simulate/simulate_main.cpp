@@ -10,12 +10,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/candump.hpp"
 #include "daemon/command_line.hpp"
-#include "daemon/configuration.hpp"
-#include "daemon/file_aliases.hpp"
-#include "daemon/plain_streams.hpp"
-#include "daemon/process_setup.hpp"
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/process/file_aliases.hpp"
+#include "daemon/process/plain_streams.hpp"
+#include "daemon/process/process_setup.hpp"
+#include "daemon/process/usage_error.hpp"
+#include "daemon/source/candump.hpp"
 #include "tools/line_stream.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "can_decoders/can_frame.hpp"
-#include "daemon/configuration.hpp"
+#include "cremed/can_decoders/can_frame.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "tools/simulate/can_bus.hpp"
 #include "tools/simulate/radar_sender.hpp"
 #include "tools/simulate/random.hpp"

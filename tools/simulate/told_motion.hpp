@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/slow_error.hpp"
 #include "tools/simulate/vehicle_course.hpp"

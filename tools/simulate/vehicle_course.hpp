@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimator/pose2.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/configuration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "daemon/configuration/configuration_estimator.hpp"
+#include "daemon/configuration/configuration_odometry.hpp"
+#include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/lcm_url.hpp"
+#include "daemon/configuration/toml_document.hpp"
+#include "daemon/configuration/toml_reader.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::array<std::string_view, 6> kLevels = {"trace", "debug", "info",
+                                                     "warn",  "error", "off"};
+
+constexpr std::array<std::string_view, 3> kRealTimePolicies = {"prefer", "require", "off"};
+constexpr std::int64_t kMinReceiveBuffer = 1 << 16;
+constexpr std::int64_t kMaxReceiveBuffer = 1 << 26;
+
+bool is_any(std::string_view /*text*/) { return true; }
+
+constexpr TextRule kLcmUrl = {is_lcm_url, kLcmUrlWanted};
+constexpr TextRule kPath = {is_any, "a path, or \"\" for none"};
+constexpr TextRule kSource = {
+    is_any,
+    "the name of a radar, \"odometry\" unless that is off, \"fused\" for the same of two radars or "
+    "more, or \"\""};
+
+bool is_source(std::string_view source, const Configuration& configuration) {
+  if (source == kOdometrySource) {
+    return configuration.odometry.enabled;
+  }
+  if (source == kFusedSource) {
+    return is_fused(configuration);
+  }
+  return source.empty() ||
+         std::any_of(configuration.radars.begin(), configuration.radars.end(),
+                     [&](const RadarConfiguration& radar) { return radar.name == source; });
+}
+
+void check_output(TomlReader& reader, const Configuration& configuration) {
+  const OutputConfiguration& output = configuration.output;
+  if (!is_source(output.tum_source, configuration)) {
+    reader.report("tum_source",
+                  concat({"is \"", printable(output.tum_source), "\"; must be ", kSource.wanted}));
+  }
+  const auto check_path = [&](std::string_view key, const std::string& path,
+                              std::string_view other_key, const std::string& other) {
+    if (!path.empty() && path == other) {
+      reader.report(key, concat({"is the file of ", other_key, " as well; must be another path"}));
+    }
+  };
+  check_path("odometry", output.odometry, "csv", output.csv);
+  check_path("tum", output.tum, "csv", output.csv);
+  check_path("tum", output.tum, "odometry", output.odometry);
+  if (!output.odometry.empty() && !configuration.odometry.enabled) {
+    reader.report("odometry", "is to be written, but odometry.enabled = false; must be \"\"");
+  }
+}
+
+void read_output(TomlReader& reader, OutputConfiguration& output) {
+  reader.text("lcm_url", output.lcm_url, kLcmUrl);
+  reader.text("csv", output.csv, kPath);
+  reader.text("odometry", output.odometry, kPath);
+  reader.text("tum", output.tum, kPath);
+  reader.text("tum_source", output.tum_source, kSource);
+  reader.boolean("publish_scans", output.publish_scans);
+  reader.finish();
+}
+
+void read_live(TomlReader reader, LiveConfiguration& live) {
+  if (const auto policy = reader.choice("realtime", kRealTimePolicies)) {
+    live.real_time = static_cast<RealTimePolicy>(*policy);
+  }
+  reader.integer("receive_buffer_bytes", live.socket.receive_buffer_bytes, kMinReceiveBuffer,
+                 kMaxReceiveBuffer);
+  reader.boolean("hardware_stamps", live.socket.hardware_stamps);
+  reader.number("max_latency_s", live.max_latency_s, {0.05, 10.0});
+  reader.finish();
+}
+
+void read_logging(TomlReader reader, LoggingConfiguration& logging) {
+  if (const auto level = reader.choice("level", kLevels)) {
+    logging.level = kLevels[*level];
+  }
+  reader.finish();
+}
+
+std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions& defaults) {
+  std::vector<TomlReader> tables = reader.tables("radar");
+  if (tables.size() > kMaxRadars) {
+    reader.report("radar", concat({"has ", std::to_string(tables.size()),
+                                   " tables; must be at most ", std::to_string(kMaxRadars)}));
+    tables.clear();
+  }
+  std::vector<PlacedRadar> radars;
+  radars.reserve(tables.size());
+  for (TomlReader& table : tables) {
+    radars.push_back(read_radar(std::move(table), defaults));
+  }
+  return radars;
+}
+
+Configuration read_configuration(const toml::table& table, ReadContext& context) {
+  TomlReader reader(&table, "", 1, context);
+  Configuration configuration;
+  EgoMotionOptions defaults;
+  read_estimator(reader.table("estimator"), defaults);
+  std::vector<PlacedRadar> radars = read_radars(reader, defaults);
+  read_calibrated(reader.table("calibrated"), radars);
+  for (const PlacedRadar& placed : radars) {
+    configuration.radars.push_back(placed.radar);
+  }
+  read_odometry(reader.table("odometry"), configuration.odometry);
+  reader.refuse(std::array<std::string_view, 1>{"fused"},
+                "was replaced by [odometry]; must be left out");
+  TomlReader output = reader.table("output");
+  read_output(output, configuration.output);
+  read_live(reader.table("live"), configuration.live);
+  read_logging(reader.table("logging"), configuration.logging);
+  reader.finish();
+  if (context.diagnostics.empty()) {  // A wrong value kept its default, which clashes easily.
+    check_radars(radars, context.diagnostics);
+    check_output(output, configuration);
+  }
+  return configuration;
+}
+
+}  // namespace
+
+bool is_fused(const Configuration& configuration) {
+  return configuration.odometry.enabled && configuration.radars.size() > 1;
+}
+
+std::optional<std::size_t> tum_radar(const Configuration& configuration) {
+  const std::string& source = configuration.output.tum_source;
+  const auto& radars = configuration.radars;
+  const auto found = std::find_if(radars.begin(), radars.end(),
+                                  [&](const auto& radar) { return radar.name == source; });
+  if (found != radars.end()) {
+    return found - radars.begin();
+  }
+  return source.empty() && !is_fused(configuration) ? std::optional<std::size_t>(0) : std::nullopt;
+}
+
+Configuration parse_configuration(std::string_view toml, const std::string& file_name) {
+  ReadContext context{Diagnostics(file_name), nullptr};
+  Configuration configuration;
+  if (const auto table = parse_toml(toml, context.diagnostics)) {
+    configuration = read_configuration(*table, context);
+  }
+  if (!context.diagnostics.empty()) {
+    throw ConfigurationError(context.diagnostics.text());
+  }
+  return configuration;
+}
+
+Configuration load_configuration(const std::string& path) {
+  try {
+    return parse_configuration(read_toml(path), path);
+  } catch (const std::system_error& error) {
+    const std::string why = error.code() == std::errc::not_supported
+                                ? "is a pipe, socket or device"
+                                : std::generic_category().message(error.code().value());
+    throw ConfigurationError(
+        concat({path, ": cannot be read: ", why, "; must be a readable TOML file"}));
+  }
+}
+
+std::set<std::string> known_configuration_keys() {
+  std::set<std::string> keys;
+  ReadContext context{Diagnostics(""), &keys};
+  if (const auto table = parse_toml("[[radar]]\nname = \"front\"\ntype = \"ars408\"\n"
+                                    "[[radar]]\ntype = \"bosch_gpr\"",
+                                    context.diagnostics)) {
+    read_configuration(*table, context);  // What it reports as missing does not matter here.
+  }
+  return keys;
+}
+
+}  // namespace cremed

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/toml_reader.hpp"
+
+namespace cremed {
+
+/// Reads [odometry] over what `odometry` holds.
+void read_odometry(TomlReader reader, OdometryConfiguration& odometry);
+
+}  // namespace cremed

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/toml_reader.hpp"
+
+namespace cremed {
+
+/// A radar and where the file says so.
+struct PlacedRadar {
+  RadarConfiguration radar;
+  std::size_t name_line = 0;
+  std::size_t interface_line = 0;
+};
+
+/// Reads one [[radar]] table; `defaults` are those of [estimator].
+PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults);
+
+/// Reads [calibrated], whose tables have the names of radars: what is in them takes the place of
+/// what is in [radar.mount] and [radar.calibration].
+void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars);
+
+/// Reports radars of one name, and radars on one interface that would hear each other's frames.
+void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics);
+
+}  // namespace cremed

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstddef>
+#include <string>
+
+#include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+std::string upper_case(std::string text) {
+  for (char& c : text) {
+    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  return text;
+}
+
+std::string of_radar(const PlacedRadar& placed) {
+  return concat(
+      {" of radar \"", placed.radar.name, "\" (line ", std::to_string(placed.name_line), ")"});
+}
+
+/// Channel names are in capitals, so names that differ in case only would share one.
+void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
+  if (upper_case(earlier.radar.name) == upper_case(later.radar.name)) {
+    diagnostics.add(later.name_line, "radar.name",
+                    concat({"is the name", of_radar(earlier), "; must differ in more than case"}));
+  }
+}
+
+void check_ids(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
+  const IdSet shared = used_ids(earlier.radar) & used_ids(later.radar);
+  if (earlier.radar.interface == later.radar.interface && shared.any()) {
+    diagnostics.add(later.interface_line, "radar.interface",
+                    concat({"is the interface", of_radar(earlier), ", and both use CAN identifier ",
+                            hexadecimal(shared._Find_first()),
+                            "; must be another interface, or have other identifiers"}));
+  }
+}
+
+}  // namespace
+
+void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics) {
+  for (std::size_t later = 0; later < radars.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      check_name(radars[earlier], radars[later], diagnostics);
+      check_ids(radars[earlier], radars[later], diagnostics);
+    }
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/configuration_summary.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "daemon/configuration/radar_identifiers.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+/// A little more than pi, as rounded as people write it.
+constexpr double kHalfCircleRad = 3.15;
+
+constexpr const char* kRow = "{:<15} {:<9} {:<15} {:>8} {:>8} {:>8}  {}\n";
+
+std::string joined(std::string list, const std::string& item) {
+  return list.empty() ? item : list.append(", ").append(item);
+}
+
+/// "0x600, 0x701-0x702"
+std::string text_of(const IdSet& ids) {
+  std::string text;
+  for (std::size_t first = ids._Find_first(); first < ids.size();) {
+    std::size_t end = first;
+    while (end < ids.size() && ids[end]) {
+      ++end;
+    }
+    text = joined(text, end == first + 1 ? fmt::format("0x{:X}", first)
+                                         : fmt::format("0x{:X}-0x{:X}", first, end - 1));
+    first = ids._Find_next(end - 1);
+  }
+  return text;
+}
+
+std::string row_of(const RadarConfiguration& radar) {
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  const bool is_ars408 = std::holds_alternative<Ars408Options>(radar.decoder);
+  return fmt::format(kRow, radar.name, is_ars408 ? "ars408" : "bosch_gpr", radar.interface,
+                     fmt::format("{:.3f}", mount.x_m), fmt::format("{:.3f}", mount.y_m),
+                     fmt::format("{:.2f}", kDegPerRad * mount.yaw_rad), text_of(sent_ids(radar)));
+}
+
+std::string names_of(const std::vector<RadarConfiguration>& radars,
+                     bool (*is_asked)(const RadarConfiguration&)) {
+  std::string names;
+  for (const RadarConfiguration& radar : radars) {
+    names = is_asked(radar) ? joined(names, radar.name) : names;
+  }
+  return names;
+}
+
+std::string odometry_text(const Configuration& configuration) {
+  const OdometryConfiguration& odometry = configuration.odometry;
+  if (!odometry.enabled) {
+    return "off";
+  }
+  const std::string when = odometry.filter.rate_hz > 0.0
+                               ? fmt::format("{} times a second", odometry.filter.rate_hz)
+                               : "at every scan";
+  return "from " + names_of(configuration.radars, [](const auto&) { return true; }) + "; told " +
+         when + (is_fused(configuration) ? "; its motion between scans is \"fused\"" : "");
+}
+
+std::string output_text(const OutputConfiguration& output) {
+  std::string text = output.lcm_url == "none" ? "" : "LCM " + output.lcm_url;
+  for (const std::string& file : {output.csv, output.odometry, output.tum}) {
+    text = file.empty() ? text : joined(text, file);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string sent_text(const Configuration& configuration) {
+  const std::string names =
+      names_of(configuration.radars, [](const auto& radar) { return radar.motion_feedback; });
+  return names.empty() ? "nothing" : "speed and yaw rate to " + names + " (motion_feedback)";
+}
+
+}  // namespace
+
+std::string radar_summary(const RadarConfiguration& radar) {
+  const auto* const ars408 = std::get_if<Ars408Options>(&radar.decoder);
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  return fmt::format("{}: {} on {}, mount x {:.3f} m, y {:.3f} m, yaw {:.2f} deg", radar.name,
+                     ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
+                     radar.interface, mount.x_m, mount.y_m, kDegPerRad * mount.yaw_rad);
+}
+
+std::string configuration_summary(const Configuration& configuration) {
+  std::string text =
+      fmt::format(kRow, "radar", "type", "interface", "x m", "y m", "yaw deg", "identifiers");
+  for (const RadarConfiguration& radar : configuration.radars) {
+    text += row_of(radar);
+  }
+  return text + "odometry: " + odometry_text(configuration) +
+         "\noutput: " + output_text(configuration.output) +
+         "\nsends on the buses: " + sent_text(configuration) + "\n";
+}
+
+std::vector<std::string> configuration_doubts(const Configuration& configuration) {
+  std::vector<std::string> doubts;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    // Radians are usually counted from -pi to pi; small degrees are the likelier meaning beyond.
+    const double yaw = radar.ego_motion.vehicle_from_radar.yaw_rad;
+    if (std::abs(yaw) > kHalfCircleRad) {
+      doubts.push_back(fmt::format(
+          "{}: yaw_rad = {:g} is {:.1f} degrees; write {:.4f} if that is meant, and {:.4f} if "
+          "{:g} degrees are",
+          radar.name, yaw, kDegPerRad * yaw, std::remainder(yaw, 2.0 * std::numbers::pi),
+          yaw / kDegPerRad, yaw));
+    }
+  }
+  return doubts;
+}
+
+}  // namespace cremed

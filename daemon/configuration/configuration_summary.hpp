@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/configuration/configuration.hpp"
+
+namespace cremed {
+
+/// What was understood, for people: a table of the radars with their mounts in m and degrees, then
+/// what the odometry uses, where it goes, and what is sent on the buses. Lines end with '\n'.
+std::string configuration_summary(const Configuration& configuration);
+
+/// The same of one radar in one line, for a log.
+std::string radar_summary(const RadarConfiguration& radar);
+
+/// What is allowed but is rarely meant, a line each.
+std::vector<std::string> configuration_doubts(const Configuration& configuration);
+
+}  // namespace cremed

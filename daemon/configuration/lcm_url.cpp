@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/lcm_url.hpp"
+
+#include <charconv>
+#include <string>
+
+namespace cremed {
+namespace {
+
+bool is_integer(std::string_view text, int min, int max) {
+  int value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && result.ptr == text.data() + text.size() && value >= min &&
+         value <= max;
+}
+
+/// What stands before the separator; the text is then what stands behind it.
+std::string_view take_until(char separator, std::string_view& text) {
+  const std::size_t end = text.find(separator);
+  const std::string_view taken = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return taken;
+}
+
+/// "239.255.76.67:7667?ttl=0", of which each part may be missing. The group has its own check
+/// (multicast_problem), which may ask the kernel.
+bool is_multicast(std::string_view text) {
+  std::string_view address = take_until('?', text);
+  const bool has_port = address.find(':') != std::string_view::npos;
+  take_until(':', address);
+  bool is_good = !has_port || is_integer(address, 1, 65535);
+  while (!text.empty()) {
+    std::string_view value = take_until('&', text);
+    const bool is_ttl = take_until('=', value) == "ttl";
+    is_good = is_good && (!is_ttl || is_integer(value, 0, 255));
+  }
+  return is_good;
+}
+
+}  // namespace
+
+bool is_lcm_url(std::string_view text) {
+  constexpr std::string_view kMulticast = "udpm://";
+  if (text.starts_with(kMulticast)) {
+    return is_multicast(text.substr(kMulticast.size()));
+  }
+  return text == "none" || text.starts_with("file://") || text.starts_with("memq://");
+}
+
+}  // namespace cremed

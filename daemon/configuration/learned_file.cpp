@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/learned_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <system_error>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "daemon/configuration/toml_document.hpp"
+#include "daemon/configuration/toml_reader.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kVersion = 1;
+/// An error beyond so many standard deviations of the unlearned is none of an inexact mount.
+constexpr double kMostStds = 5.0;
+/// Of the unlearned: none is known better.
+constexpr double kLeastShare = 1e-3;
+constexpr Range kAnyM{-100.0, 100.0};
+constexpr Range kAnyRad{-10.0, 10.0};
+/// Numbers are written with all their digits: a mount that differs was changed.
+constexpr double kSame = 1e-9;
+
+constexpr const char* kHeader =
+    "# Written by cremed: what it learned of the radars while driving, and begins with the next "
+    "time.\n# Delete it after work on the radars' mounts.\n";
+
+struct Entry {
+  std::string name;
+  Pose2 mount;
+  LearnedErrors errors;
+};
+
+void read_error(TomlReader& reader, std::string_view key, std::string_view std_key,
+                double least_std, double most_std, LearnedError& error) {
+  const double most = kMostStds * most_std;
+  reader.number(key, error.value, {-most, most}, Presence::required);
+  reader.number(std_key, error.std, {least_std, most_std}, Presence::required);
+}
+
+bool is_same(const Pose2& a, const Pose2& b) {
+  return std::abs(a.x_m - b.x_m) <= kSame && std::abs(a.y_m - b.y_m) <= kSame &&
+         std::abs(a.yaw_rad - b.yaw_rad) <= kSame;
+}
+
+bool is_plausible(const LearnedError& error, const LearnedError& unlearned) {
+  return std::abs(error.value) <= kMostStds * unlearned.std && std::isfinite(error.std);
+}
+
+LearnedError clipped(const LearnedError& error, const LearnedError& unlearned) {
+  return {error.value, std::clamp(error.std, kLeastShare * unlearned.std, unlearned.std)};
+}
+
+std::string line(std::string_view key, double value) {
+  return concat({key, " = ", fmt::format("{:.17e}", value), "\n"});
+}
+
+}  // namespace
+
+LearnedFile::LearnedFile(std::string path, const Configuration& configuration)
+    : path_(std::move(path)) {
+  for (const RadarConfiguration& radar : configuration.radars) {
+    const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+    radars_.push_back({radar.name, mount, unlearned_errors(configuration.odometry.filter, mount)});
+  }
+}
+
+LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
+  ReadContext context{Diagnostics(path_), nullptr};
+  Content content;
+  content.radars.resize(radars_.size());
+  const auto table = parse_toml(toml, context.diagnostics);
+  if (table) {
+    TomlReader reader(table.get(), "", 1, context);
+    std::int64_t version = 0;
+    reader.integer("version", version, kVersion, kVersion);
+    if (version == 0 && context.diagnostics.empty()) {
+      reader.report("version", "is missing; must be 1");
+    }
+    for (TomlReader& radar : reader.tables("radar")) {
+      read_radar(radar, content);
+    }
+    reader.finish();
+  }
+  if (!context.diagnostics.empty()) {
+    content.radars.assign(radars_.size(), std::nullopt);
+    content.problem = context.diagnostics.text();
+  }
+  return content;
+}
+
+/// A radar that is not configured (any longer) says nothing, but must be well-formed.
+void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
+  Entry entry;
+  reader.text("name", entry.name, {[](std::string_view) { return true; }, "a radar's name"},
+              Presence::required);
+  reader.number("mount_x_m", entry.mount.x_m, kAnyM, Presence::required);
+  reader.number("mount_y_m", entry.mount.y_m, kAnyM, Presence::required);
+  reader.number("mount_yaw_rad", entry.mount.yaw_rad, kAnyRad, Presence::required);
+  const auto found = std::find_if(radars_.begin(), radars_.end(),
+                                  [&](const Radar& radar) { return radar.name == entry.name; });
+  const bool is_here = found != radars_.end() && is_same(found->mount, entry.mount);
+  const LearnedErrors any{{0.0, kAnyRad.max}, {0.0, kAnyRad.max}};
+  const LearnedErrors& most = is_here ? found->unlearned : any;
+  const double least_share = is_here ? kLeastShare : 0.0;
+  const auto read = [&](std::string_view key, std::string_view std_key,
+                        LearnedError LearnedErrors::*which) {
+    read_error(reader, key, std_key, least_share * (most.*which).std, (most.*which).std,
+               entry.errors.*which);
+  };
+  read("mount_yaw_error_rad", "mount_yaw_error_std_rad", &LearnedErrors::mount_yaw_rad);
+  read("doppler_scale_error", "doppler_scale_error_std", &LearnedErrors::doppler_scale);
+  reader.finish();
+  if (found != radars_.end() && !is_here && reader.clean()) {
+    content.passed_over.push_back(entry.name);
+  } else if (is_here) {
+    auto& errors = content.radars[static_cast<std::size_t>(found - radars_.begin())];
+    if (errors) {
+      reader.report("name", concat({"is ", quoted(entry.name), " twice; must be there once"}));
+    }
+    errors = entry.errors;
+  }
+}
+
+LearnedFile::Content LearnedFile::read() const {
+  try {
+    return parse(read_toml(path_));
+  } catch (const std::system_error& error) {
+    Content content{std::vector<std::optional<LearnedErrors>>(radars_.size()), {}, {}};
+    if (error.code() != std::errc::no_such_file_or_directory) {
+      content.problem = concat(
+          {path_, ": cannot be read: ", std::generic_category().message(error.code().value()),
+           "; must be a readable file"});
+    }
+    return content;
+  }
+}
+
+std::vector<std::optional<LearnedErrors>> LearnedFile::read_and_log() const {
+  const Content content = read();
+  if (!content.problem.empty()) {
+    spdlog::warn(
+        "{}\nwhat was learned of the radars is not used, and will be written anew; "
+        "delete the file if this comes again",
+        content.problem);
+  }
+  for (const std::string& name : content.passed_over) {
+    spdlog::info("{}: its mount was changed: what was learned of it before is not used", name);
+  }
+  return content.radars;
+}
+
+std::optional<std::string> LearnedFile::text(
+    std::span<const std::optional<LearnedErrors>> learned) const {
+  std::string text = concat({kHeader, "version = 1\n"});
+  bool is_empty = true;
+  for (std::size_t i = 0; i < std::min(radars_.size(), learned.size()); ++i) {
+    const Radar& radar = radars_[i];
+    if (!learned[i] || !is_plausible(learned[i]->mount_yaw_rad, radar.unlearned.mount_yaw_rad) ||
+        !is_plausible(learned[i]->doppler_scale, radar.unlearned.doppler_scale)) {
+      continue;
+    }
+    const LearnedError yaw = clipped(learned[i]->mount_yaw_rad, radar.unlearned.mount_yaw_rad);
+    const LearnedError scale = clipped(learned[i]->doppler_scale, radar.unlearned.doppler_scale);
+    text += concat({"\n[[radar]]\nname = ", quoted(radar.name), "\n"});
+    text += line("mount_x_m", radar.mount.x_m) + line("mount_y_m", radar.mount.y_m) +
+            line("mount_yaw_rad", radar.mount.yaw_rad) + line("mount_yaw_error_rad", yaw.value) +
+            line("mount_yaw_error_std_rad", yaw.std) + line("doppler_scale_error", scale.value) +
+            line("doppler_scale_error_std", scale.std);
+    is_empty = false;
+  }
+  return is_empty ? std::nullopt : std::optional(text);
+}
+
+}  // namespace cremed

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "daemon/configuration/spelling.hpp"
+#include "daemon/configuration/toml.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+std::string float_text(double value) {
+  const std::string text = digits(value);
+  return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+
+std::string describe(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string:
+      return quoted(node.as_string()->get());
+    case toml::node_type::integer:
+      return digits(node.as_integer()->get());
+    case toml::node_type::floating_point:
+      return float_text(node.as_floating_point()->get());
+    case toml::node_type::boolean:
+      return node.as_boolean()->get() ? "true" : "false";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+/// A float is never taken for an integer, but an integer may stand where a number is wanted.
+std::optional<double> number_in(const toml::node& node) {
+  if (node.is_integer()) {
+    return static_cast<double>(node.as_integer()->get());
+  }
+  return node.is_floating_point() ? std::optional(node.as_floating_point()->get()) : std::nullopt;
+}
+
+std::optional<std::int64_t> integer_in(const toml::node& node, std::int64_t min, std::int64_t max) {
+  const auto* integer = node.as_integer();
+  const bool within = integer != nullptr && integer->get() >= min && integer->get() <= max;
+  return within ? std::optional(integer->get()) : std::nullopt;
+}
+
+/// For an angle that would be right were it in degrees.
+std::string degrees_hint(std::string_view key, std::optional<double> value, Range range) {
+  const double angle_rad = value.value_or(0.0) * std::numbers::pi / 180.0;
+  const bool is_likely = key.ends_with("_rad") && value && std::abs(*value) >= 1.0 &&
+                         angle_rad >= range.min && angle_rad <= range.max;
+  return is_likely ? concat({" (", digits(*value), " degrees are ",
+                             digits(std::round(angle_rad * 1e4) / 1e4), ")"})
+                   : "";
+}
+
+bool has_control_character(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; });
+}
+
+bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+}  // namespace
+
+TomlReader::TomlReader(const toml::table* table, std::string path, std::size_t line,
+                       ReadContext& context)
+    : table_(table), path_(std::move(path)), line_(line), context_(&context) {}
+
+void TomlReader::number(std::string_view key, double& value, Range range, Presence presence) {
+  const std::string wanted = range_text("a number", digits(range.min), digits(range.max));
+  if (const toml::node* node = take_leaf(key, presence, wanted)) {
+    const std::optional<double> read = number_in(*node);
+    if (read && *read >= range.min && *read <= range.max) {  // false for NaN
+      value = *read;
+    } else {
+      report_wrong(key, *node, wanted + degrees_hint(key, read, range));
+    }
+  }
+}
+
+std::optional<std::int64_t> TomlReader::integer_within(std::string_view key, std::int64_t min,
+                                                       std::int64_t max) {
+  const std::string wanted = range_text("an integer", digits(min), digits(max));
+  const toml::node* node = take_leaf(key, Presence::optional, wanted);
+  const auto read = node == nullptr ? std::nullopt : integer_in(*node, min, max);
+  if (node != nullptr && !read) {
+    report_wrong(key, *node, wanted);
+  }
+  return read;
+}
+
+void TomlReader::identifier(std::string_view key, std::uint32_t& value, std::uint32_t max) {
+  const std::string wanted = range_text("a CAN identifier", hexadecimal(0), hexadecimal(max));
+  if (const toml::node* node = take_leaf(key, Presence::optional, wanted)) {
+    if (const auto read = integer_in(*node, 0, max)) {
+      value = static_cast<std::uint32_t>(*read);
+    } else if (const auto number = integer_in(*node, 0, std::numeric_limits<std::int64_t>::max())) {
+      report(key, concat({"is ", hexadecimal(static_cast<std::uint64_t>(*number)), "; must be ",
+                          wanted}));
+    } else {
+      report_wrong(key, *node, wanted);
+    }
+  }
+}
+
+void TomlReader::boolean(std::string_view key, bool& value) {
+  constexpr std::string_view kWanted = "true or false";
+  if (const toml::node* node = take_leaf(key, Presence::optional, kWanted)) {
+    if (node->is_boolean()) {
+      value = node->as_boolean()->get();
+    } else {
+      report_wrong(key, *node, kWanted);
+    }
+  }
+}
+
+void TomlReader::text(std::string_view key, std::string& value, const TextRule& rule,
+                      Presence presence) {
+  if (const toml::node* node = take_leaf(key, presence, rule.wanted)) {
+    const auto* read = node->as_string();
+    if (read != nullptr && !has_control_character(read->get()) && rule.accepts(read->get())) {
+      value = read->get();
+    } else {
+      report_wrong(key, *node, rule.wanted);
+    }
+  }
+}
+
+std::optional<std::size_t> TomlReader::choice(std::string_view key,
+                                              std::span<const std::string_view> names,
+                                              Presence presence) {
+  const std::string wanted = list_text(names);
+  if (const toml::node* node = take_leaf(key, presence, wanted)) {
+    const auto* read = node->as_string();
+    for (std::size_t i = 0; read != nullptr && i < names.size(); ++i) {
+      if (read->get() == names[i]) {
+        return i;
+      }
+    }
+    report_wrong(key, *node, wanted);
+  }
+  return std::nullopt;
+}
+
+void TomlReader::bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) {
+  const std::string wanted =
+      range_text("a list of one or more integers", digits(std::int64_t{0}), digits(max_code));
+  const toml::node* node = take_leaf(key, Presence::optional, wanted);
+  if (node == nullptr) {
+    return;
+  }
+  const toml::array* list = node->as_array();
+  std::uint32_t read = 0;
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    if (const auto code = integer_in((*list)[i], 0, max_code)) {
+      read |= 1U << static_cast<unsigned>(*code);
+    } else {
+      report(key, concat({"holds ", describe((*list)[i]), "; must be ", wanted}));
+      return;
+    }
+  }
+  if (list == nullptr) {
+    report_wrong(key, *node, wanted);
+  } else if (list->empty()) {
+    report(key, concat({"is empty; must be ", wanted}));
+  } else {
+    mask = read;
+  }
+}
+
+TomlReader TomlReader::table(std::string_view key) {
+  const toml::node* node = take(key, Presence::optional, "a table");
+  if (node != nullptr && !node->is_table()) {
+    report_wrong(key, *node, "a table");
+  }
+  const toml::table* table = node == nullptr ? nullptr : node->as_table();
+  const std::size_t line = table == nullptr ? line_ : std::size_t{table->source().begin.line};
+  return {table, path_of(key), line, *context_};
+}
+
+std::vector<TomlReader> TomlReader::tables(std::string_view key) {
+  const std::string wanted = concat({"one or more [[", key, "]] tables"});
+  const toml::node* node = take(key, Presence::required, wanted);
+  std::vector<TomlReader> readers;
+  if (node == nullptr) {
+    return readers;
+  }
+  if (!node->is_array_of_tables()) {
+    report_wrong(key, *node, wanted);
+    return readers;
+  }
+  for (const toml::node& element : *node->as_array()) {
+    readers.emplace_back(element.as_table(), path_of(key), element.source().begin.line, *context_);
+  }
+  return readers;
+}
+
+void TomlReader::require_less(std::string_view low_key, double low, std::string_view high_key,
+                              double high) {
+  if (!clean_ || low < high) {
+    return;
+  }
+  if (has(high_key)) {
+    report(high_key,
+           concat({"is ", digits(high), "; must be greater than ", low_key, " = ", digits(low)}));
+  } else if (has(low_key)) {
+    report(low_key,
+           concat({"is ", digits(low), "; must be less than ", high_key, " = ", digits(high)}));
+  }
+}
+
+void TomlReader::refuse(std::span<const std::string_view> keys, std::string_view problem) {
+  for (const std::string_view key : keys) {
+    if (!contains(known_, key) && has(key)) {
+      report(key, problem);
+      refused_.push_back(key);
+    }
+  }
+}
+
+void TomlReader::finish() {
+  if (table_ == nullptr) {
+    return;
+  }
+  for (const auto& [key, node] : *table_) {
+    if (!contains(known_, key.str()) && !contains(refused_, key.str())) {
+      const std::string_view nearest = nearest_word(key.str(), known_);
+      report(key.str(), nearest.empty()
+                            ? concat({"unknown key; must be one of ", list_text(known_)})
+                            : concat({"unknown key; did you mean ", quoted(nearest), "?"}));
+    }
+  }
+}
+
+void TomlReader::report(std::string_view key, std::string_view problem) {
+  clean_ = false;
+  context_->diagnostics.add(line_of(key), path_of(key), problem);
+}
+
+void TomlReader::report_wrong(std::string_view key, const toml::node& node,
+                              std::string_view wanted) {
+  report(key, concat({"is ", describe(node), "; must be ", wanted}));
+}
+
+bool TomlReader::has(std::string_view key) const {
+  return table_ != nullptr && table_->contains(key);
+}
+
+std::size_t TomlReader::line_of(std::string_view key) const {
+  return has(key) ? std::size_t{table_->find(key)->first.source().begin.line} : line_;
+}
+
+std::string TomlReader::path_of(std::string_view key) const {
+  return path_.empty() ? printable(key) : concat({path_, ".", printable(key)});
+}
+
+const toml::node* TomlReader::take(std::string_view key, Presence presence,
+                                   std::string_view wanted) {
+  known_.push_back(key);
+  if (has(key)) {
+    return table_->get(key);
+  }
+  if (presence == Presence::required) {
+    report(key, concat({"is missing; must be ", wanted}));
+  }
+  return nullptr;
+}
+
+const toml::node* TomlReader::take_leaf(std::string_view key, Presence presence,
+                                        std::string_view wanted) {
+  if (context_->known_keys != nullptr) {
+    context_->known_keys->insert(path_of(key));
+  }
+  return take(key, presence, wanted);
+}
+
+}  // namespace cremed

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/configuration/diagnostics.hpp"
+
+namespace toml {
+inline namespace v3 {
+class node;
+class table;
+}  // namespace v3
+}  // namespace toml
+
+namespace cremed {
+
+enum class Presence : std::uint8_t { optional, required };
+
+/// Closed.
+struct Range {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+/// Which strings a key takes, and the words for it: "must be ...".
+struct TextRule {
+  bool (*accepts)(std::string_view);
+  std::string_view wanted;
+};
+
+/// What the readers of one file share.
+struct ReadContext {
+  Diagnostics diagnostics;
+  std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys asked for.
+};
+
+/// Reads one table key by key: checks type and range, reports what is wrong, and remembers which
+/// keys are known. A key that is absent or wrong leaves the value as it is, so defaults are what
+/// the values were. Usage:
+///
+///     reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
+///     reader.finish();  // All that was not asked for is an unknown key.
+///
+/// Keys must be string literals.
+class TomlReader {
+ public:
+  /// `table` may be null: a table that the file does not have; then `line` is where it would be.
+  TomlReader(const toml::table* table, std::string path, std::size_t line, ReadContext& context);
+
+  void number(std::string_view key, double& value, Range range,
+              Presence presence = Presence::optional);
+  template <std::integral Integer>
+  void integer(std::string_view key, Integer& value, std::int64_t min, std::int64_t max) {
+    if (const auto read = integer_within(key, min, max)) {
+      value = static_cast<Integer>(*read);
+    }
+  }
+  /// An integer from 0, shown as hexadecimal in messages.
+  void identifier(std::string_view key, std::uint32_t& value, std::uint32_t max);
+  void boolean(std::string_view key, bool& value);
+  void text(std::string_view key, std::string& value, const TextRule& rule,
+            Presence presence = Presence::optional);
+  /// Index of the name that the key has; nothing if it is absent or wrong.
+  std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> names,
+                                    Presence presence = Presence::optional);
+  /// A list of codes from 0 to `max_code`, not empty, as bits.
+  void bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code);
+
+  TomlReader table(std::string_view key);
+  /// A list of tables, not empty and required.
+  std::vector<TomlReader> tables(std::string_view key);
+
+  /// Reports `high` unless it is greater than `low`; only if one of them is in this table.
+  void require_less(std::string_view low_key, double low, std::string_view high_key, double high);
+  /// Reports each of `keys` that is in this table, with `problem`.
+  void refuse(std::span<const std::string_view> keys, std::string_view problem);
+  /// Reports every key that nothing asked for.
+  void finish();
+
+  void report(std::string_view key, std::string_view problem);
+  [[nodiscard]] bool has(std::string_view key) const;
+  /// Of the key, or of the table if it has no such key.
+  [[nodiscard]] std::size_t line_of(std::string_view key) const;
+  [[nodiscard]] bool clean() const { return clean_; }
+  [[nodiscard]] const std::vector<std::string_view>& known() const { return known_; }
+
+ private:
+  const toml::node* take(std::string_view key, Presence presence, std::string_view wanted);
+  const toml::node* take_leaf(std::string_view key, Presence presence, std::string_view wanted);
+  std::optional<std::int64_t> integer_within(std::string_view key, std::int64_t min,
+                                             std::int64_t max);
+  void report_wrong(std::string_view key, const toml::node& node, std::string_view wanted);
+  [[nodiscard]] std::string path_of(std::string_view key) const;
+
+  const toml::table* table_;
+  std::string path_;
+  std::size_t line_;
+  ReadContext* context_;
+  std::vector<std::string_view> known_;
+  std::vector<std::string_view> refused_;
+  bool clean_ = true;
+};
+
+}  // namespace cremed

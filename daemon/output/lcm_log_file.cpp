@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/output/lcm_log_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include <unistd.h>
+
+#include "daemon/process/clocks.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+
+LcmLogFile::LcmLogFile(std::string path)
+    : path_(std::move(path)), log_(lcm_eventlog_create(path_.c_str(), "w")) {}
+
+bool LcmLogFile::write(const char* channel, std::span<std::uint8_t> data) {
+  if (log_ == nullptr || error_ != 0) {
+    return false;
+  }
+  std::string name(channel);
+  lcm_eventlog_event_t event{};
+  event.timestamp = realtime_us();
+  event.channel = name.data();
+  event.channellen = static_cast<std::int32_t>(name.size());
+  event.data = data.data();
+  event.datalen = static_cast<std::int32_t>(data.size());
+  errno = 0;
+  if (lcm_eventlog_write_event(log_.get(), &event) == 0 && std::fflush(log_->f) == 0 &&
+      std::ferror(log_->f) == 0) {
+    size_bytes_ = std::ftell(log_->f);
+    return true;
+  }
+  error_ = errno != 0 ? errno : EIO;
+  [[maybe_unused]] const int of_a_device = ::ftruncate(::fileno(log_->f), size_bytes_);
+  return false;
+}
+
+std::string LcmLogFile::problem() const {
+  return error_ == 0 ? std::string()
+                     : concat({path_, ": message ", std::to_string(log_->eventcount),
+                               " could not be written: ", std::strerror(error_),
+                               "; the file ends with the one before"});
+}
+
+}  // namespace cremed

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <cremed/ego_motion_t.hpp>
+#include <cremed/odometry_t.hpp>
+#include <cremed/radar_scan_t.hpp>
+#include <cremed/status_t.hpp>
+#include <lcm/lcm.h>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/output/lcm_log_file.hpp"
+#include "daemon/output/odometry_sink.hpp"
+
+namespace cremed {
+
+/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t.
+/// Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
+class LcmPublisher final : public OdometrySink {
+ public:
+  /// Does not connect yet: until connect() succeeds, every message is a failure.
+  LcmPublisher(std::string url, const Configuration& configuration);
+
+  /// Sets LCM up and publishes a first status_t of each radar: watchers see the radars before the
+  /// first frame, LCM allocates what it makes at first use, and what cannot work is found now.
+  /// Returns what is wrong and how to mend it; empty if all is well. May be tried again.
+  std::string connect();
+  [[nodiscard]] const std::string& url() const { return url_; }
+  [[nodiscard]] bool is_connected() const { return lcm_ != nullptr || file_; }
+
+  void on_scan(std::size_t radar, const RadarScan& scan) override;
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_odometry(const Odometry& odometry) override;
+  void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
+  void on_status(std::size_t radar, const RadarStatus& status) override;
+  [[nodiscard]] std::uint64_t failures() const override { return failures_; }
+  [[nodiscard]] std::string problem() const override {
+    return file_ ? file_->problem() : std::string();
+  }
+
+  /// For subscribing in the same process (memq://, tests).
+  [[nodiscard]] lcm_t* handle() { return lcm_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
+  };
+  /// One radar's messages; strings and arrays are given their room once.
+  struct Messages {
+    ego_motion_t motion;
+    radar_scan_t scan;
+    status_t status;
+    std::string scan_channel;
+  };
+  void publish_motion(const EgoMotion& motion, std::int32_t solve_us, ego_motion_t& message);
+  std::string open();
+  bool send(const char* channel, int size);
+  template <typename Message>
+  void publish(const char* channel, const Message& message);
+
+  std::string url_;
+  std::unique_ptr<lcm_t, Destroy> lcm_;
+  std::optional<LcmLogFile> file_;  // In place of lcm_ where the address is a file to write.
+  bool publish_scans_;
+  std::vector<Messages> messages_;
+  ego_motion_t fused_;
+  odometry_t odometry_;
+  std::array<std::uint8_t, 16384> buffer_{};
+  std::uint64_t failures_ = 0;
+};
+
+/// "CREMED_SCAN_" and the radar's name in upper case.
+std::string scan_channel(const std::string& radar_name);
+
+}  // namespace cremed

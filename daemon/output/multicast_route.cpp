@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/output/multicast_route.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::string_view kScheme = "udpm://";
+constexpr const char* kDefaultGroup = "239.255.76.67";
+constexpr std::uint16_t kDefaultPort = 7667;
+
+/// Asks the routing table, without sending: errno, or 0.
+int connect_error(const sockaddr_in& address) {
+  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) {
+    return errno;
+  }
+  sockaddr generic{};
+  static_assert(sizeof(generic) == sizeof(address));
+  std::memcpy(&generic, &address, sizeof(generic));
+  const int error = ::connect(descriptor, &generic, sizeof(address)) == 0 ? 0 : errno;
+  ::close(descriptor);
+  return error;
+}
+
+}  // namespace
+
+std::string multicast_problem(const std::string& url) {
+  if (!url.starts_with(kScheme)) {
+    return {};
+  }
+  const std::string group =
+      url.substr(kScheme.size(), url.find_first_of(":?", kScheme.size()) - kScheme.size());
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(kDefaultPort);
+  if (::inet_pton(AF_INET, group.empty() ? kDefaultGroup : group.c_str(), &address.sin_addr) != 1 ||
+      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
+    return concat({"'", group, "' is no IPv4 multicast address, such as ", kDefaultGroup});
+  }
+  const int error = connect_error(address);
+  if (error == 0) {
+    return {};
+  }
+  return concat({std::strerror(error),
+                 ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or use "
+                 "--lcm-url none"});
+}
+
+}  // namespace cremed

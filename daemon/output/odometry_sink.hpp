@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "daemon/output/radar_status.hpp"
+
+namespace cremed {
+
+/// Where results go. `radar` is the index of the radar in the configuration. Called on the hot
+/// path: an implementation must not allocate or log; what it cannot deliver it counts.
+class OdometrySink {
+ public:
+  virtual ~OdometrySink() = default;
+
+  virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
+  virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
+  /// The state of the vehicle after each scan that is later than those before, or predicted at
+  /// odometry.rate_hz.
+  virtual void on_odometry(const Odometry& /*odometry*/) {}
+  /// Its motion since the odometry before, where there are two radars or more.
+  virtual void on_fused(const EgoMotion& /*motion*/, std::int32_t /*solve_us*/) {}
+  virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
+
+  /// Results that could not be delivered.
+  [[nodiscard]] virtual std::uint64_t failures() const = 0;
+  /// Which was the first, and why, for people; empty if there was none, or nothing to say of it.
+  [[nodiscard]] virtual std::string problem() const { return {}; }
+
+ protected:
+  OdometrySink() = default;
+  OdometrySink(const OdometrySink&) = default;
+  OdometrySink& operator=(const OdometrySink&) = default;
+};
+
+}  // namespace cremed

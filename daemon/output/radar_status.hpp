@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_health.hpp"
+#include "cremed/can_decoders/scan_assembler.hpp"
+#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "daemon/source/frame_source.hpp"
+
+namespace cremed {
+
+/// Quantiles since the status before.
+struct LatencySummary {
+  std::uint64_t scans = 0;
+  std::int64_t p50_us = 0;
+  std::int64_t p99_us = 0;
+  std::int64_t max_us = 0;
+};
+
+/// Whether a radar's covariance can be believed, by SelfCheck and the odometry filter. Means of
+/// normalised innovations squared over the last minute: 1 expected, 0 none yet.
+struct BeliefStatus {
+  double doppler_innovation = 0.0;  ///< Positions against Doppler.
+  double next_innovation = 0.0;     ///< Each motion against the one before.
+  std::uint32_t doubts = 0;         ///< Doubt bits; 0: believable, as far as is known.
+  /// Positions told a speed in the last seconds; else Doppler cannot be checked by them.
+  bool is_speed_checked = false;
+};
+
+/// Everything countable about one radar's way through the pipeline.
+struct RadarStatus {
+  std::int64_t utime_us = 0;
+  MotionStatus last_motion_status = MotionStatus::no_reference;
+  std::int64_t utime_last_estimate_us = 0;  ///< 0: none yet.
+  SourceCounters source;
+  BusStatus bus;
+  RadarHealth health;
+  LatencySummary latency;
+  BeliefStatus belief;
+  RadarReport odometry;
+  std::uint64_t scans_in_odometry = 0;
+  DecoderCounters decoder;
+  AssemblerCounters assembler;
+  SelectionCounters selection;
+  std::array<std::uint64_t, kMotionStatusCount> motions_by_status{};
+  std::uint64_t motions_of_incomplete_scans = 0;  ///< Estimates from scans that lack parts.
+};
+
+}  // namespace cremed

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/output/tum_writer.hpp"
+
+#include <cmath>
+
+namespace cremed {
+
+void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
+  if (radar != radar_ || !motion.has_estimate()) {
+    return;
+  }
+  begin(motion.utime_start_us);
+  Pose2& pose = start_from_vehicle_;
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
+  pose.x_m += c * motion.motion.x() - s * motion.motion.y();
+  pose.y_m += s * motion.motion.x() + c * motion.motion.y();
+  pose.yaw_rad += motion.motion.z();
+  write_pose(motion.utime_us);
+}
+
+void TumWriter::on_odometry(const Odometry& odometry) {
+  if (!radar_) {
+    begin(odometry.utime_before_us);
+    const Eigen::Vector3d& pose = odometry.odom_pose;
+    start_from_vehicle_ = {pose.x(), pose.y(), pose.z()};
+    write_pose(odometry.utime_us);
+  }
+}
+
+/// A motion that starts then.
+void TumWriter::begin(std::int64_t utime_us) {
+  if (!has_begun_) {
+    has_begun_ = true;
+    write_pose(utime_us);
+  } else if (utime_us != utime_us_) {
+    ++gaps_;
+  }
+}
+
+void TumWriter::write_pose(std::int64_t utime_us) {
+  utime_us_ = utime_us;
+  file_.write(tum_line(utime_us, start_from_vehicle_).view());
+}
+
+TextLine tum_line(std::int64_t utime_us, const Pose2& pose) {
+  TextLine line;
+  line.fixed(static_cast<double>(utime_us) * 1e-6, 6);
+  line.text(" ").fixed(pose.x_m, 6).text(" ").fixed(pose.y_m, 6).text(" 0 0 0 ");
+  line.fixed(std::sin(pose.yaw_rad / 2.0), 9).text(" ").fixed(std::cos(pose.yaw_rad / 2.0), 9);
+  line.text("\n");
+  return line;
+}
+
+}  // namespace cremed

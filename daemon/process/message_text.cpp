@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/process/message_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "daemon/process/plain_text.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::size_t kMaxPrintable = 60;
+
+bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+template <typename Number>
+std::string shortest_digits(Number value) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::size_t size = std::min(text.size(), kMaxPrintable);
+  while (size < text.size() && size > 0 && continues_utf8(text[size])) {
+    --size;
+  }
+  std::string shown = plain_text(text.substr(0, size));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\t'; }, '?');
+  return size < text.size() ? shown + "..." : shown;
+}
+
+std::string hexadecimal(std::uint64_t value) {
+  std::string text;
+  do {
+    text.insert(text.begin(), "0123456789ABCDEF"[value % 16]);
+    value /= 16;
+  } while (value > 0);
+  return text.insert(0, "0x");
+}
+
+std::string concat(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) {
+    text += part;
+  }
+  return text;
+}
+
+std::string digits(double value) { return shortest_digits(value); }
+
+std::string digits(std::int64_t value) { return shortest_digits(value); }
+
+std::string tenths(double value) {
+  std::array<char, 32> text{};
+  const auto result =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 1);
+  return {text.data(), result.ptr};
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return concat({std::to_string(count), " ", noun, count == 1 ? "" : "s"});
+}
+
+std::string quoted(std::string_view text) { return concat({"\"", printable(text), "\""}); }
+
+std::string range_text(std::string_view what, std::string_view min, std::string_view max) {
+  return concat({what, " from ", min, " to ", max});
+}
+
+std::string list_text(std::span<const std::string_view> names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == names.size() ? " or " : ", ";
+    text += quoted(names[i]);
+  }
+  return text;
+}
+
+}  // namespace cremed

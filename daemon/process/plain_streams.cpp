@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/process/plain_streams.hpp"
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <iostream>
+#include <streambuf>
+#include <string>
+#include <string_view>
+
+#include <unistd.h>
+
+#include "daemon/process/plain_text.hpp"
+
+namespace cremed {
+namespace {
+
+/// Text on its way to a descriptor.
+struct PlainOutput {
+  int descriptor;
+  std::string unfinished;  ///< The beginning of a character, until the rest comes.
+};
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// As fopencookie(3) wants it: 0 is an error.
+ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
+  auto& output = *static_cast<PlainOutput*>(cookie);
+  std::string text = output.unfinished.append(data, size);
+  const std::size_t whole = text.size() - unfinished_bytes(text);
+  output.unfinished = text.substr(whole);
+  text.resize(whole);
+  return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
+}
+
+/// A stream's buffer that hands on to a FILE, as std::cout does to stdout.
+class FileBuffer final : public std::streambuf {
+ public:
+  explicit FileBuffer(std::FILE* file) : file_(file) {}
+
+ protected:
+  int_type overflow(int_type c) override {
+    return c == traits_type::eof() ? 0 : std::fputc(c, file_);
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    return static_cast<std::streamsize>(
+        std::fwrite(text, 1, static_cast<std::size_t>(size), file_));
+  }
+  int sync() override { return std::fflush(file_); }
+
+ private:
+  std::FILE* file_;
+};
+
+/// Lasts until the process ends: standard streams are flushed when everything else is gone.
+std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
+  auto* const output = new PlainOutput{descriptor, {}};
+  std::FILE* const file = ::fopencookie(output, "w", {nullptr, write_plain, nullptr, nullptr});
+  if (file != nullptr) {
+    std::setvbuf(file, nullptr, buffering, BUFSIZ);
+    stream.rdbuf(new FileBuffer(file));
+  }
+  return file;
+}
+
+}  // namespace
+
+void make_standard_streams_plain() {
+  std::cout.flush();
+  std::fflush(stdout);
+  const int buffering = ::isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF;
+  if (std::FILE* const file = open_plain(STDOUT_FILENO, buffering, std::cout)) {
+    stdout = file;
+  }
+  if (std::FILE* const file = open_plain(STDERR_FILENO, _IONBF, std::cerr)) {
+    stderr = file;
+  }
+}
+
+}  // namespace cremed

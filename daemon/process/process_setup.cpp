@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/process/process_setup.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+/// open(2) takes the lowest number that is free, and those below are taken.
+void open_if_closed(int descriptor, int flags) {
+  if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", flags) != descriptor) {
+    std::_Exit(1);  // There is nowhere to say why.
+  }
+}
+
+}  // namespace
+
+void set_up_process() {
+  open_if_closed(STDIN_FILENO, O_RDONLY);
+  open_if_closed(STDOUT_FILENO, O_RDONLY);  // Results are not lost in silence.
+  open_if_closed(STDERR_FILENO, O_WRONLY);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+int finish_process(int status) {
+  errno = 0;
+  const bool is_good =
+      std::cout.flush().good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (is_good) {
+    return status;
+  }
+  // What failed earlier has left no reason.
+  std::fprintf(stderr, "standard output could not be written: %s\n",
+               errno != 0 ? std::strerror(errno) : "a part is missing");
+  return status == 0 ? 1 : status;
+}
+
+}  // namespace cremed

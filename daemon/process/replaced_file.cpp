@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/process/replaced_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "daemon/process/message_text.hpp"
+#include "daemon/process/output_file.hpp"
+#include "daemon/process/signals.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr mode_t kUsualPermissions = 0644;
+
+/// Beside the file that it will replace; removed unless it did.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& target) : target_(target), path_(target + ".XXXXXX") {
+    check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);  // A rename would not ask.
+    file_ = ::mkstemp(path_.data());
+    check(file_ >= 0);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (file_ >= 0) {
+      ::close(file_);
+    }
+    if (!path_.empty()) {
+      ::unlink(path_.c_str());
+    }
+  }
+
+  void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(file_, text.data(), text.size());
+      check(written >= 0 || errno == EINTR);
+      text.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0);
+    }
+  }
+
+  void replace() {
+    keep_permissions();
+    check(::fsync(file_) == 0 && std::rename(path_.c_str(), target_.c_str()) == 0);
+    path_.clear();
+  }
+
+ private:
+  void keep_permissions() const {
+    struct stat status {};
+    if (::stat(target_.c_str(), &status) != 0) {
+      check(errno == ENOENT && ::fchmod(file_, kUsualPermissions) == 0);
+      return;
+    }
+    check(::fchmod(file_, status.st_mode & 07777U) == 0);
+    if (::fchown(file_, status.st_uid, status.st_gid) != 0) {
+      errno = 0;  // Only root can; the file is then that of who edits it.
+    }
+  }
+
+  void check(bool is_good) const {
+    if (!is_good) {
+      throw std::runtime_error(
+          concat({"cannot write ", target_, ": ", std::generic_category().message(errno)}));
+    }
+  }
+
+  std::string target_;
+  std::string path_;
+  int file_ = -1;
+};
+
+/// A device or a pipe is written to: nothing can take its place.
+bool is_no_file(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+void write_through(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  if (file.failures() != 0) {
+    throw std::runtime_error(file.problem());
+  }
+}
+
+}  // namespace
+
+void replace_file(const std::string& path, std::string_view text) {
+  if (is_no_file(path)) {
+    write_through(path, text);
+    return;
+  }
+  const SignalsBlocked blocked;  // One that ends the process would leave the temporary file.
+  TemporaryFile file(std::filesystem::weakly_canonical(path).string());
+  file.write(text);
+  file.replace();
+}
+
+}  // namespace cremed

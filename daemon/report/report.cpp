@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/report/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+using Findings = std::vector<Finding>;
+
+std::string number(std::uint64_t value) { return std::to_string(value); }
+
+std::uint64_t count_of(const RadarStatus& status, MotionStatus motion) {
+  return status.motions_by_status[static_cast<std::size_t>(motion)];
+}
+
+/// "label n" for each counter that is not zero.
+class CounterText {
+ public:
+  CounterText& add(std::string_view label, std::uint64_t value) {
+    if (value != 0) {
+      text_ += concat({text_.empty() ? "" : ", ", label, " ", number(value)});
+    }
+    return *this;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string bad_frames(const DecoderCounters& c) {
+  return CounterText()
+      .add("wrong length", c.wrong_length)
+      .add("remote or FD", c.wrong_kind)
+      .add("wrong mode", c.wrong_mode)
+      .add("wrong slot", c.wrong_slot)
+      .add("CRC errors", c.crc_errors)
+      .add("counter errors", c.counter_errors)
+      .text();
+}
+
+std::string scan_faults(const AssemblerCounters& c) {
+  return CounterText()
+      .add("incomplete", c.incomplete_scans)
+      .add("without header", c.headerless_scans)
+      .add("timed out", c.timeouts)
+      .add("missed", c.missed_scans)
+      .add("repeated", c.repeated_scans)
+      .add("missing parts", c.missing_parts)
+      .add("duplicate parts", c.duplicate_parts)
+      .add("conflicting parts", c.conflicting_parts)
+      .add("reordered parts", c.reordered_parts)
+      .add("excess parts", c.excess_parts)
+      .add("orphan parts", c.orphan_parts)
+      .add("stamps backwards", c.stamps_backwards)
+      .text();
+}
+
+std::string rejected_detections(const SelectionCounters& c) {
+  return CounterText()
+      .add("no noise", c.no_noise)
+      .add("invalid state", c.invalid_state)
+      .add("moving", c.moving)
+      .add("low existence", c.low_existence)
+      .add("no position", c.no_position)
+      .add("outside limits", c.outside_limits)
+      .text();
+}
+
+const Ars408Options* ars408_options(const RadarConfiguration& radar) {
+  return std::get_if<Ars408Options>(&radar.decoder);
+}
+
+/// The command that sets the sensor to what the configuration expects.
+std::string configure_command(const RadarConfiguration& radar) {
+  return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
+}
+
+void add_silence(const RadarConfiguration& radar, const RadarStatus& status, Findings& findings) {
+  if (status.decoder.frames == 0) {
+    findings.push_back(
+        {Severity::error, concat({"no frame with this radar's identifiers on ", radar.interface}),
+         status.source.frames == 0
+             ? "no frame of any radar either: check the interface, its bit rate and the cable"
+             : "check its sensor_id or base_id; `cremed-doctor` names what is on the bus"});
+  }
+}
+
+void add_wrong_mode(const RadarConfiguration& radar, const RadarStatus& status,
+                    const Ars408Options& options, Findings& findings) {
+  if (status.decoder.wrong_mode == 0 || status.assembler.scans != 0) {
+    return;
+  }
+  if (options.output == Ars408Output::clusters) {
+    findings.push_back({Severity::error, "the sensor sends objects, not clusters",
+                        configure_command(radar) + ", or set output = \"objects\""});
+  } else {
+    findings.push_back(
+        {Severity::error, "the sensor sends clusters, not objects", "set output = \"clusters\""});
+  }
+}
+
+/// A scan can be whole only with the quality message of each target.
+void add_unknown_quality(const RadarConfiguration& radar, const RadarStatus& status,
+                         Findings& findings) {
+  const AssemblerCounters& scans = status.assembler;
+  if (!status.health.is_known && scans.scans > 2 && scans.incomplete_scans == scans.scans) {
+    findings.push_back({Severity::error,
+                        "no scan is whole, and no 0x201 says how the sensor is set",
+                        "if it sends no quality: " + configure_command(radar)});
+  }
+}
+
+struct Cause {
+  std::uint64_t count;
+  std::string_view remedy;
+};
+
+std::string_view remedy_of_most(std::initializer_list<Cause> causes) {
+  return std::max_element(causes.begin(), causes.end(),
+                          [](const Cause& a, const Cause& b) { return a.count < b.count; })
+      ->remedy;
+}
+
+void add_no_detection(const RadarConfiguration& radar, const RadarStatus& status,
+                      Findings& findings) {
+  const AssemblerCounters& scans = status.assembler;
+  const SelectionCounters& c = status.selection;
+  if (scans.scans > 0 && scans.empty_scans == scans.scans) {
+    findings.push_back(
+        {Severity::error, "all scans are empty",
+         ars408_options(radar) == nullptr
+             ? "the sensor sees nothing: is it covered?"
+             : concat({"the sensor sees nothing, or its own filters (0x202) let nothing pass: "
+                       "`cremed-doctor --ars408-filters ",
+                       radar.name, "`"})});
+  } else if (estimates(status) == 0 && c.used == 0 && scans.scans > scans.incomplete_scans) {
+    const std::string_view remedy = remedy_of_most(
+        {{c.no_noise, "the sensor rates no target: is it covered, or in a test mode?"},
+         {c.invalid_state, "add the codes the sensor sends to keep_invalid_states"},
+         {c.moving,
+          "give the sensor speed and yaw rate (0x300, 0x301), or set "
+          "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
+         {c.low_existence, "lower min_existence_code or min_existence"},
+         {c.no_position, "all targets are at range 0: is this radar of the configured type?"},
+         {c.outside_limits, "widen [radar.limits]"}});
+    findings.push_back({Severity::error,
+                        "whole scans, but no usable detection: " + rejected_detections(c),
+                        std::string(remedy)});
+  }
+}
+
+std::string_view remedy_of_most_motions(const RadarStatus& status) {
+  return remedy_of_most(
+      {{count_of(status, MotionStatus::incomplete_scan),
+        "find out why parts of scans contradict each other: two sensors with one id?"},
+       {count_of(status, MotionStatus::gap_too_long), "find out why scans come so rarely"},
+       {count_of(status, MotionStatus::too_few_targets),
+        "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},
+       {count_of(status, MotionStatus::degenerate), "the surroundings hold too few fixed targets"},
+       {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
+       {count_of(status, MotionStatus::non_finite), "report it: it is a defect of cremed"},
+       {count_of(status, MotionStatus::implausible),
+        "check type, invert_azimuth, invert_doppler and the limits of speed"},
+       {count_of(status, MotionStatus::ambiguous),
+        "the surroundings hold too few fixed targets, or its noise is set too small: "
+        "`cremed-eval calibrate`"}});
+}
+
+/// Usable detections, but few of the whole scans gave an estimate.
+void add_few_estimates(const RadarStatus& status, Findings& findings) {
+  constexpr std::uint64_t kEnoughScans = 10;
+  const std::uint64_t whole = status.assembler.scans - status.assembler.incomplete_scans;
+  const std::uint64_t good = estimates(status);
+  if (status.selection.used != 0 && whole >= kEnoughScans && 2 * good < whole) {
+    findings.push_back({good == 0 ? Severity::error : Severity::warning,
+                        concat({"few scans give an estimate: ", summary(status)}),
+                        std::string(remedy_of_most_motions(status))});
+  }
+}
+
+void add_setting(const RadarConfiguration& radar, const RadarHealth& health, Findings& findings) {
+  if (health.output == RadarHealth::Output::none) {
+    findings.push_back({Severity::error, "the sensor is set to send no targets (0x201)",
+                        configure_command(radar)});
+  } else if (!health.sends_quality) {
+    findings.push_back({Severity::error, "the sensor sends no quality (0x201), so no scan is whole",
+                        configure_command(radar)});
+  }
+}
+
+void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
+                        Findings& findings) {
+  constexpr std::uint8_t kEveryDynProp = 0xFF;
+  const bool no_speed = (health.faults & RadarHealth::speed_missing) != 0;
+  const bool no_yaw_rate = (health.faults & RadarHealth::yaw_rate_missing) != 0;
+  if ((no_speed || no_yaw_rate) && options.keep_dyn_props != kEveryDynProp) {
+    findings.push_back(
+        {Severity::warning,
+         concat({"the sensor gets no ", no_speed ? "speed (0x300)" : "",
+                 no_speed && no_yaw_rate ? " and no " : "", no_yaw_rate ? "yaw rate (0x301)" : "",
+                 ": its DynProp is wrong while driving"}),
+         "send them from the vehicle's bus, or set motion_feedback = true, or "
+         "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"});
+  }
+}
+
+struct FaultText {
+  RadarHealth::Fault fault;
+  std::string_view name;
+  std::string_view remedy;
+};
+
+constexpr std::array<FaultText, 11> kFaults{{
+    {RadarHealth::persistent_error, "persistent error",
+     "restart the sensor; if it stays, replace it"},
+    {RadarHealth::temporary_error, "temporary error", "wait, then restart the sensor"},
+    {RadarHealth::temperature_error, "temperature error", "cool or warm the sensor"},
+    {RadarHealth::voltage_error, "voltage error", "check the sensor's supply, 8 to 32 V"},
+    {RadarHealth::interference, "interference",
+     "another radar of its band disturbs it: move or switch off one"},
+    {RadarHealth::blind, "blind", "clean the sensor, and what is in front of it"},
+    {RadarHealth::software_failure, "software failure", "restart the sensor"},
+    {RadarHealth::can_failure, "CAN failure", "check its cable and termination"},
+    {RadarHealth::configuration_failure, "configuration failure", "configure the sensor anew"},
+    {RadarHealth::not_safe, "not safe", "see its data sheet"},
+    {RadarHealth::trouble_code, "trouble code", "see its data sheet"},
+}};
+
+void add_faults(const RadarHealth& health, Findings& findings) {
+  for (const FaultText& text : kFaults) {
+    if ((health.faults & text.fault) != 0) {
+      findings.push_back({Severity::warning, concat({"the sensor reports a fault: ", text.name}),
+                          std::string(text.remedy)});
+    }
+  }
+}
+
+/// "12.3".
+std::string decimal(double value) {
+  const std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 2);
+}
+
+struct DoubtText {
+  Doubt doubt;
+  double BeliefStatus::*innovation;
+  std::string_view what;
+  std::string_view remedy;
+};
+
+constexpr std::array<DoubtText, 3> kDoubts{{
+    {registration_contradicts_doppler, &BeliefStatus::doppler_innovation,
+     "the positions of its targets contradict their Doppler",
+     "check the mount's yaw and the sign of Doppler and azimuth: `cremed-eval calibrate`"},
+    {motions_contradict_each_other, &BeliefStatus::next_innovation,
+     "its motions jump more than a vehicle can",
+     "check mount and detections; `cremed-eval calibrate` tells its noise"},
+    {covariance_too_large, &BeliefStatus::doppler_innovation,
+     "its errors are far smaller than its covariance says",
+     "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
+}};
+
+void add_doubts(const BeliefStatus& belief, Findings& findings) {
+  for (const DoubtText& text : kDoubts) {
+    if ((belief.doubts & text.doubt) != 0) {
+      findings.push_back({Severity::warning,
+                          concat({"its covariance is not to be believed: ", text.what,
+                                  " (normalised innovation squared ",
+                                  decimal(belief.*text.innovation), ", 1 expected)"}),
+                          std::string(text.remedy)});
+    }
+  }
+}
+
+void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
+  if ((belief.doubts & positions_contradict_speed) != 0) {
+    findings.push_back(
+        {Severity::warning, "the positions of its targets tell another speed than their Doppler",
+         "Doppler has the wrong sign, is stuck or over ground (it must be relative to the sensor), "
+         "or the stamps run at another pace than time: compare both with the speedometer"});
+  }
+}
+
+void add_left_out(const RadarStatus& status, Findings& findings) {
+  if ((status.belief.doubts & other_radars_contradict) != 0) {
+    findings.push_back(
+        {Severity::warning,
+         concat({"it contradicts the other radars, or what it said before, and is left out of the "
+                 "odometry (normalised innovation squared of its Doppler ",
+                 decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
+         "check its mount: was it knocked? `cremed-eval calibrate`"});
+  }
+}
+
+}  // namespace
+
+std::uint64_t estimates(const RadarStatus& status) {
+  return count_of(status, MotionStatus::ok) + count_of(status, MotionStatus::standing_still);
+}
+
+std::string summary(const RadarStatus& status) {
+  std::string text =
+      concat({number(status.assembler.scans), " scans, ", number(estimates(status)), " estimates"});
+  for (std::size_t i = 1; i < kMotionStatusCount; ++i) {
+    if (status.motions_by_status[i] != 0) {
+      text += concat({", ", to_string(static_cast<MotionStatus>(i)), " ",
+                      number(status.motions_by_status[i])});
+    }
+  }
+  return text;
+}
+
+std::string irregularities(const RadarStatus& status) {
+  const std::string frames = bad_frames(status.decoder);
+  const std::string scans = scan_faults(status.assembler);
+  return concat({frames.empty() ? "" : "frames: ", frames,
+                 frames.empty() || scans.empty() ? "" : "; ",
+                 scans.empty() ? "" : "scans: ", scans});
+}
+
+std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status) {
+  Findings findings;
+  if (!status.health.is_known) {
+    return findings;
+  }
+  if (const Ars408Options* options = ars408_options(radar)) {
+    add_setting(radar, status.health, findings);
+    add_missing_motion(status.health, *options, findings);
+  }
+  add_faults(status.health, findings);
+  return findings;
+}
+
+std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status) {
+  Findings findings;
+  add_silence(radar, status, findings);
+  if (const Ars408Options* options = ars408_options(radar)) {
+    add_wrong_mode(radar, status, *options, findings);
+    add_unknown_quality(radar, status, findings);
+  }
+  add_no_detection(radar, status, findings);
+  const Findings health = health_findings(radar, status);
+  findings.insert(findings.end(), health.begin(), health.end());
+  add_few_estimates(status, findings);
+  add_doubts(status.belief, findings);
+  add_wrong_speed(status.belief, findings);
+  add_left_out(status, findings);
+  return findings;
+}
+
+}  // namespace cremed

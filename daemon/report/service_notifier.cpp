@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/report/service_notifier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+
+#include <spdlog/fmt/fmt.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "daemon/process/clocks.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::size_t kMaxMessage = 512;
+
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view() : value;
+}
+
+std::int64_t number(std::string_view text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+/// A path, or with a leading '@' a name in the abstract namespace.
+int connected_socket(std::string_view name) {
+  sockaddr_un address{};
+  if (name.size() < 2 || name.size() >= sizeof(address.sun_path) ||
+      (name[0] != '/' && name[0] != '@')) {
+    return -1;
+  }
+  address.sun_family = AF_UNIX;
+  std::copy(name.begin(), name.end(), address.sun_path);
+  if (name[0] == '@') {
+    address.sun_path[0] = '\0';
+  }
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
+  const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (descriptor >= 0 &&
+      ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), size) != 0) {
+    ::close(descriptor);
+    return -1;
+  }
+  return descriptor;
+}
+
+}  // namespace
+
+ServiceNotifier::ServiceNotifier() : descriptor_(connected_socket(environment("NOTIFY_SOCKET"))) {
+  const std::string_view watched = environment("WATCHDOG_PID");
+  if (watched.empty() || number(watched) == ::getpid()) {
+    watchdog_period_us_ = number(environment("WATCHDOG_USEC")) / 2;
+  }
+}
+
+ServiceNotifier::~ServiceNotifier() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+void ServiceNotifier::reloading() const {
+  std::array<char, kMaxMessage> message;
+  const auto end = fmt::format_to_n(message.data(), message.size(),
+                                    "RELOADING=1\nMONOTONIC_USEC={}", monotonic_us());
+  send({message.data(), std::min(end.size, message.size())});
+}
+
+void ServiceNotifier::status(std::string_view text) const {
+  std::array<char, kMaxMessage> message;
+  const auto end = fmt::format_to_n(message.data(), message.size(), "STATUS={}", text);
+  send({message.data(), std::min(end.size, message.size())});
+}
+
+void ServiceNotifier::send(std::string_view message) const {
+  if (descriptor_ >= 0) {
+    // What the manager does not take in time it will get next time.
+    [[maybe_unused]] const ssize_t sent =
+        ::send(descriptor_, message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/bus_connection.hpp"
+
+#include <cerrno>
+#include <utility>
+
+namespace cremed {
+
+BusConnection::BusConnection(std::string name, std::vector<std::uint32_t> ids,
+                             const CanSocketOptions& options)
+    : name_(std::move(name)), ids_(std::move(ids)), options_(options) {
+  status_.link = LinkState::absent;
+}
+
+void BusConnection::maintain(const Link& link) {
+  if (socket_.is_open()) {
+    look(link);
+  }
+  if (!socket_.is_open()) {
+    open(link);
+  }
+}
+
+void BusConnection::open(const Link& link) {
+  const CanOpenResult result = link.error != 0
+                                   ? CanOpenResult{CanOpenStatus::failed, link.error, "rtnetlink"}
+                                   : socket_.open(link.index, ids_, options_);
+  status_.error = result.error;
+  switch (result.status) {
+    case CanOpenStatus::open:
+      status_.receive_buffer_bytes = result.receive_buffer_bytes;
+      status_.bus = BusState::error_active;
+      status_.link = link.is_up ? LinkState::up : LinkState::down;
+      return;
+    case CanOpenStatus::no_interface:
+      status_.link = LinkState::absent;
+      return;
+    case CanOpenStatus::no_can:
+    case CanOpenStatus::failed:
+      status_.link = LinkState::failed;
+      return;
+  }
+}
+
+void BusConnection::look(const Link& link) {
+  status_.hardware_stamps_work = socket_.hardware_stamps_work();
+  if (link.error != 0) {
+    return;  // What is open may well live on.
+  }
+  if (link.index != socket_.interface_index()) {
+    lose(LinkState::absent);
+  } else if (link.is_up) {
+    status_.link = LinkState::up;
+  } else if (status_.link == LinkState::up) {
+    lose(LinkState::down);
+  }
+}
+
+/// Down, the same socket receives again once the interface is up; gone, it never does.
+void BusConnection::lose(LinkState link) {
+  status_.interruptions += status_.link == LinkState::up ? 1 : 0;
+  status_.link = link;
+  if (link != LinkState::down) {
+    socket_.close();
+  }
+}
+
+CanReceiveResult BusConnection::receive() {
+  if (!socket_.is_open()) {
+    return {};  // Closed since it was polled.
+  }
+  const CanReceiveResult result = socket_.receive();
+  switch (result.status) {
+    case CanReceiveStatus::network_down:
+      lose(LinkState::down);
+      break;
+    case CanReceiveStatus::device_gone:
+      lose(LinkState::absent);
+      break;
+    case CanReceiveStatus::failed:
+      status_.error = result.error;
+      lose(LinkState::failed);
+      break;
+    case CanReceiveStatus::frames:
+    case CanReceiveStatus::empty:
+      break;
+  }
+  return result;
+}
+
+int BusConnection::send(const CanFrame& frame) {
+  const int error = socket_.is_open() ? socket_.send(frame) : ENODEV;
+  ++(error == 0 ? status_.frames_sent : status_.send_failures);
+  return error;
+}
+
+}  // namespace cremed

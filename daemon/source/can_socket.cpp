@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/can_socket.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <vector>
+
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <linux/errqueue.h>
+#include <linux/net_tstamp.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// Hardware stamps further from the kernel's are of a clock that is not the system's.
+constexpr std::int64_t kMaxClockDifferenceNs = kNsPerS;
+
+std::int64_t ns_of(const timespec& time) { return time.tv_sec * kNsPerS + time.tv_nsec; }
+
+template <typename Value>
+bool set_option(int descriptor, int level, int name, const Value& value) {
+  return ::setsockopt(descriptor, level, name, &value, sizeof(value)) == 0;
+}
+
+/// One exact identifier each. The flags in the mask keep extended and remote frames out.
+std::vector<can_filter> filters_of(std::span<const std::uint32_t> ids) {
+  constexpr canid_t kMask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
+  if (ids.empty()) {
+    return {{0, 0}};
+  }
+  if (ids.size() > CAN_RAW_FILTER_MAX) {
+    return {{0, CAN_EFF_FLAG | CAN_RTR_FLAG}};
+  }
+  std::vector<can_filter> filters;
+  for (const std::uint32_t id : ids) {
+    filters.push_back({id, kMask});
+  }
+  return filters;
+}
+
+bool set_filters(int descriptor, std::span<const std::uint32_t> ids) {
+  const std::vector<can_filter> filters = filters_of(ids);
+  return ::setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
+                      static_cast<socklen_t>(filters.size() * sizeof(can_filter))) == 0;
+}
+
+bool bind_to(int descriptor, unsigned interface_index) {
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(interface_index);
+  return ::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+}
+
+/// What the kernel gives, in the unit it is asked in: it doubles the number for its own needs.
+int granted_buffer_bytes(int descriptor, int wanted) {
+  if (!set_option(descriptor, SOL_SOCKET, SO_RCVBUFFORCE, wanted)) {
+    set_option(descriptor, SOL_SOCKET, SO_RCVBUF, wanted);
+  }
+  int granted = 0;
+  socklen_t size = sizeof(granted);
+  ::getsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &granted, &size);
+  return granted / 2;
+}
+
+/// Bytes past the length stay zero, whatever the sender left there.
+void fill(const canfd_frame& raw, std::size_t size, CanFrame& frame) {
+  frame = {};
+  frame.fd = size == CANFD_MTU;
+  frame.error = (raw.can_id & CAN_ERR_FLAG) != 0;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  frame.id = raw.can_id & (frame.extended || frame.error ? CAN_EFF_MASK : CAN_SFF_MASK);
+  const std::size_t room = frame.fd ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
+  frame.length = static_cast<std::uint8_t>(std::min<std::size_t>(raw.len, room));
+  std::copy_n(raw.data, frame.length, frame.data.begin());
+}
+
+CanReceiveStatus status_of(int error) {
+  switch (error) {
+    case EAGAIN:
+    case EINTR:
+      return CanReceiveStatus::empty;
+    case ENETDOWN:
+      return CanReceiveStatus::network_down;
+    case ENODEV:
+    case ENXIO:
+      return CanReceiveStatus::device_gone;
+    default:
+      return CanReceiveStatus::failed;
+  }
+}
+
+}  // namespace
+
+struct CanSocket::Control {
+  std::int64_t kernel_ns = 0;
+  std::int64_t hardware_ns = 0;
+  std::uint32_t drops = 0;
+  bool has_drops = false;
+
+  explicit Control(msghdr& header) {
+    for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
+      if (c->cmsg_level == SOL_SOCKET) {
+        take(*c);
+      }
+    }
+  }
+
+  void take(cmsghdr& c) {
+    if (c.cmsg_type == SO_TIMESTAMPNS) {
+      timespec time{};
+      std::memcpy(&time, CMSG_DATA(&c), sizeof(time));
+      kernel_ns = ns_of(time);
+    } else if (c.cmsg_type == SO_TIMESTAMPING) {
+      scm_timestamping times{};
+      std::memcpy(&times, CMSG_DATA(&c), sizeof(times));
+      hardware_ns = ns_of(times.ts[2]);
+    } else if (c.cmsg_type == SO_RXQ_OVFL) {
+      std::memcpy(&drops, CMSG_DATA(&c), sizeof(drops));
+      has_drops = true;
+    }
+  }
+};
+
+CanSocket::~CanSocket() { close(); }
+
+void CanSocket::close() {
+  if (is_open()) {
+    ::close(descriptor_);
+  }
+  descriptor_ = -1;
+  interface_index_ = 0;
+}
+
+CanOpenResult CanSocket::fail(const char* step) {
+  const int error = errno;
+  close();
+  const bool gone = error == ENODEV || error == ENXIO;
+  return {gone ? CanOpenStatus::no_interface : CanOpenStatus::failed, error, step, 0};
+}
+
+CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
+                              const CanSocketOptions& options) {
+  close();
+  descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+  if (!is_open()) {
+    const bool no_can = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
+    return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno, "socket", 0};
+  }
+  interface_index_ = interface_index;
+  if (interface_index == 0) {
+    errno = ENODEV;
+    return fail("interface");
+  }
+  constexpr int kOn = 1;
+  constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
+  if (!set_filters(descriptor_, ids)) {
+    return fail("CAN_RAW_FILTER");
+  }
+  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors)) {
+    return fail("CAN_RAW_ERR_FILTER");
+  }
+  // FD frames would otherwise vanish without a trace.
+  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
+    return fail("CAN_RAW_FD_FRAMES");
+  }
+  const CanOpenResult result = configure(options);
+  if (result.status == CanOpenStatus::open && !bind_to(descriptor_, interface_index_)) {
+    return fail("bind");
+  }
+  return result;
+}
+
+CanOpenResult CanSocket::adopt(int descriptor, const CanSocketOptions& options) {
+  close();
+  descriptor_ = descriptor;
+  return configure(options);
+}
+
+CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
+  constexpr int kOn = 1;
+  constexpr int kHardwareStamps = SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE;
+  hardware_stamps_ = options.hardware_stamps;
+  hardware_stamps_work_ = true;
+  last_hardware_ns_ = 0;
+  kernel_drops_ = 0;
+  // Of SO_TIMESTAMPNS every frame gets one; SO_TIMESTAMPING may leave it out.
+  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn)) {
+    return fail("SO_TIMESTAMPNS");
+  }
+  if (hardware_stamps_ && !set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) {
+    return fail("SO_TIMESTAMPING");
+  }
+  if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
+    return fail("SO_RXQ_OVFL");
+  }
+  return {CanOpenStatus::open, 0, "",
+          granted_buffer_bytes(descriptor_, options.receive_buffer_bytes)};
+}
+
+CanReceiveResult CanSocket::receive() {
+  constexpr std::size_t kControlBytes = CMSG_SPACE(sizeof(timespec)) +
+                                        CMSG_SPACE(sizeof(scm_timestamping)) +
+                                        CMSG_SPACE(sizeof(std::uint32_t));
+  struct alignas(cmsghdr) ControlBuffer {
+    std::array<char, kControlBytes> bytes;
+  };
+  std::array<canfd_frame, kBatchFrames> raw;
+  std::array<ControlBuffer, kBatchFrames> control;
+  std::array<iovec, kBatchFrames> vectors{};
+  std::array<mmsghdr, kBatchFrames> headers{};
+  for (std::size_t i = 0; i < kBatchFrames; ++i) {
+    vectors[i] = {&raw[i], sizeof(canfd_frame)};
+    headers[i].msg_hdr.msg_iov = &vectors[i];
+    headers[i].msg_hdr.msg_iovlen = 1;
+    headers[i].msg_hdr.msg_control = &control[i];
+    headers[i].msg_hdr.msg_controllen = kControlBytes;
+  }
+  const int count =
+      ::recvmmsg(descriptor_, headers.data(), kBatchFrames, MSG_DONTWAIT, /*timeout=*/nullptr);
+  if (count < 0) {
+    return {status_of(errno), errno, {}};
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const std::size_t size = headers[i].msg_len;
+    const bool is_cut = (headers[i].msg_hdr.msg_flags & MSG_TRUNC) != 0;
+    if (is_cut || (size != CAN_MTU && size != CANFD_MTU)) {
+      continue;
+    }
+    const Control said(headers[i].msg_hdr);
+    fill(raw[i], size, batch_[kept].frame);
+    batch_[kept].frame.stamp_us = stamp_us(said);
+    batch_[kept].received_us = said.kernel_ns / 1000;
+    batch_[kept].lost_before = lost_before(said);
+    ++kept;
+  }
+  return {kept == 0 ? CanReceiveStatus::empty : CanReceiveStatus::frames, 0,
+          std::span(batch_).first(kept)};
+}
+
+std::int64_t CanSocket::stamp_us(const Control& control) {
+  if (!hardware_stamps_ || !hardware_stamps_work_) {
+    return control.kernel_ns / 1000;
+  }
+  const std::int64_t difference_ns = control.hardware_ns - control.kernel_ns;
+  hardware_stamps_work_ = control.hardware_ns != 0 && control.hardware_ns >= last_hardware_ns_ &&
+                          difference_ns > -kMaxClockDifferenceNs &&
+                          difference_ns < kMaxClockDifferenceNs;
+  last_hardware_ns_ = control.hardware_ns;
+  return (hardware_stamps_work_ ? control.hardware_ns : control.kernel_ns) / 1000;
+}
+
+std::uint32_t CanSocket::lost_before(const Control& control) {
+  if (!control.has_drops) {
+    return 0;
+  }
+  const std::uint32_t lost = control.drops - kernel_drops_;
+  kernel_drops_ = control.drops;
+  return lost;
+}
+
+int CanSocket::send(const CanFrame& frame) {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
+  raw.can_dlc = std::min<std::uint8_t>(frame.length, CAN_MAX_DLEN);
+  std::copy_n(frame.data.begin(), raw.can_dlc, raw.data);
+  const ssize_t sent = ::send(descriptor_, &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
+  return sent == static_cast<ssize_t>(sizeof(raw)) ? 0 : errno;
+}
+
+}  // namespace cremed

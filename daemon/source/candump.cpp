@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/candump.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "daemon/configuration/bus_options.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::size_t kMaxSecondsDigits = 12;  // Microseconds of the largest still fit an int64.
+constexpr std::size_t kClassicCapacity = 8;
+constexpr std::uint32_t kMaxStandardId = 0x7FF;
+constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
+constexpr std::uint32_t kErrorFlag = 0x20000000;
+constexpr std::string_view kDigits = "0123456789";
+constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kDropPrefix = "DROPCOUNT: dropped ";
+
+/// Static text that says what would be right; empty: all is well.
+using Error = std::string_view;
+constexpr Error kStampShape = "time stamp must be (seconds.fraction) in digits";
+constexpr Error kSecondsLength = "seconds must have at most 12 digits";
+constexpr Error kDecimals = "time stamp must have 6 or 9 decimals";
+constexpr Error kInterfaceLength = "interface name must have 1 to 15 characters";
+constexpr Error kFrameShape = "interface must be followed by a frame as id#data";
+constexpr Error kIdDigits = "identifier must be 3 hex digits (standard) or 8 (extended)";
+constexpr Error kStandardRange = "standard identifier must be at most 7FF";
+constexpr Error kExtendedRange = "8-digit identifier must be at most 1FFFFFFF, 3FFFFFFF for errors";
+constexpr Error kXlFrame = "CAN XL frames are not read: must be a classic or an FD frame";
+constexpr Error kDataDigits = "data must be pairs of hex digits";
+constexpr Error kClassicLength = "classic data must be at most 8 bytes";
+constexpr Error kFdShape = "FD frame must be id##, one hex digit of flags, then data";
+constexpr Error kFdLength = "FD data must be 0 to 8, 12, 16, 20, 24, 32, 48 or 64 bytes";
+constexpr Error kRemoteShape = "remote request must be id#R, or id#R and a length of 0 to 8";
+constexpr Error kRawDlc = "raw length code must be _9 to _F after a length of 8";
+constexpr Error kErrorKind = "error frame must be classic data";
+constexpr Error kTail = "only R or T may follow the frame";
+constexpr Error kConsoleShape =
+    "console line must have as many bytes after the [length] as it says, in hex";
+constexpr Error kNoStamp =
+    "console output without time: must be recorded by `candump -l`, or at least `candump -ta`";
+constexpr Error kNoFrame = "a frame's line must begin with (seconds.fraction)";
+
+/// Hands a line out piece by piece, from left to right.
+class Cursor {
+ public:
+  explicit Cursor(std::string_view text) : rest_(text) {}
+
+  bool take(char wanted) {
+    if (!rest_.starts_with(wanted)) {
+      return false;
+    }
+    rest_.remove_prefix(1);
+    return true;
+  }
+  std::string_view take_all_of(std::string_view set) {
+    return take_size(std::min(rest_.find_first_not_of(set), rest_.size()));
+  }
+  std::string_view take_until(std::string_view set) {
+    return take_size(std::min(rest_.find_first_of(set), rest_.size()));
+  }
+  std::string_view take_rest() { return take_size(rest_.size()); }
+  bool take_blanks() { return !take_all_of(kBlanks).empty(); }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::string_view take_size(std::size_t size) {
+    const std::string_view piece = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return piece;
+  }
+
+  std::string_view rest_;
+};
+
+/// The whole text as a number; false for anything else.
+bool parse_number(std::string_view text, int base, std::uint64_t& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, base);
+  return error == std::errc{} && stop == end;
+}
+
+constexpr int hex_nibble(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return -1;
+}
+
+constexpr bool is_fd_length(std::size_t length) {
+  return length <= 8 || length == 12 || length == 16 || length == 20 || length == 24 ||
+         length == 32 || length == 48 || length == 64;
+}
+
+Error parse_stamp(Cursor& cursor, CandumpLine& line) {
+  cursor.take('(');
+  const std::string_view seconds = cursor.take_all_of(kDigits);
+  const bool has_point = cursor.take('.');
+  const std::string_view decimals = cursor.take_all_of(kDigits);
+  if (seconds.empty() || !has_point || !cursor.take(')') || !cursor.take_blanks()) {
+    return kStampShape;
+  }
+  if (seconds.size() > kMaxSecondsDigits) {
+    return kSecondsLength;
+  }
+  if (decimals.size() != 6 && decimals.size() != 9) {
+    return kDecimals;
+  }
+  std::uint64_t whole = 0;
+  std::uint64_t micros = 0;
+  parse_number(seconds, 10, whole);
+  parse_number(decimals.substr(0, 6), 10, micros);  // 9 decimals: rounded down.
+  line.frame.stamp_us = static_cast<std::int64_t>(whole * 1000000 + micros);
+  return {};
+}
+
+Error parse_interface(Cursor& cursor, CandumpLine& line) {
+  line.interface_name = cursor.take_until(kBlanks);
+  if (line.interface_name.empty() || line.interface_name.size() > kMaxInterfaceName) {
+    return kInterfaceLength;
+  }
+  return cursor.take_blanks() ? Error{} : kFrameShape;
+}
+
+Error parse_standard_id(std::uint32_t id, CanFrame& frame) {
+  frame.id = id;
+  return id <= kMaxStandardId ? Error{} : kStandardRange;
+}
+
+/// Error frames are written as if they were extended, with a flag that no identifier can have.
+Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
+  frame.id = id & kMaxExtendedId;
+  frame.error = (id & ~kMaxExtendedId) == kErrorFlag;
+  frame.extended = !frame.error;
+  return frame.error || id <= kMaxExtendedId ? Error{} : kExtendedRange;
+}
+
+Error parse_identifier(std::string_view digits, CanFrame& frame) {
+  std::uint64_t id = 0;
+  if ((digits.size() != 3 && digits.size() != 8) || !parse_number(digits, 16, id)) {
+    return kIdDigits;
+  }
+  return digits.size() == 3 ? parse_standard_id(static_cast<std::uint32_t>(id), frame)
+                            : parse_extended_id(static_cast<std::uint32_t>(id), frame);
+}
+
+/// Pairs of hex digits, each pair with a '.' before it or not.
+Error parse_bytes(std::string_view text, std::size_t capacity, CanFrame& frame) {
+  while (!text.empty()) {
+    text.remove_prefix(text.front() == '.' ? 1 : 0);
+    const int high = text.empty() ? -1 : hex_nibble(text[0]);
+    const int low = text.size() < 2 ? -1 : hex_nibble(text[1]);
+    if (high < 0 || low < 0) {
+      return kDataDigits;
+    }
+    if (frame.length == capacity) {
+      return capacity == kClassicCapacity ? kClassicLength : kFdLength;
+    }
+    frame.data[frame.length++] = static_cast<std::uint8_t>(16 * high + low);
+    text.remove_prefix(2);
+  }
+  return {};
+}
+
+Error parse_fd(std::string_view text, CanFrame& frame) {
+  frame.fd = true;
+  if (text.empty() || hex_nibble(text.front()) < 0) {
+    return kFdShape;
+  }
+  const Error error = parse_bytes(text.substr(1), frame.data.size(), frame);
+  return error.empty() && !is_fd_length(frame.length) ? kFdLength : error;
+}
+
+Error parse_remote(std::string_view text, CanFrame& frame) {
+  frame.remote = true;
+  if (text.empty()) {
+    return {};
+  }
+  const int length = hex_nibble(text.front());
+  if (text.size() > 1 || length < 0 || length > static_cast<int>(kClassicCapacity)) {
+    return kRemoteShape;
+  }
+  frame.length = static_cast<std::uint8_t>(length);
+  return {};
+}
+
+/// A length code of 9 to 15 also means 8 bytes; candump -8 says which it was. It changes nothing.
+Error parse_raw_dlc(std::string_view text, const CanFrame& frame) {
+  const bool is_code = text.size() == 1 && hex_nibble(text.front()) >= 9;
+  return is_code && frame.length == kClassicCapacity ? Error{} : kRawDlc;
+}
+
+Error parse_classic(std::string_view text, CanFrame& frame) {
+  const std::size_t underscore = text.find('_');
+  const std::string_view body = text.substr(0, underscore);
+  const bool remote = body.starts_with('R') || body.starts_with('r');
+  const Error error =
+      remote ? parse_remote(body.substr(1), frame) : parse_bytes(body, kClassicCapacity, frame);
+  if (!error.empty() || underscore == std::string_view::npos) {
+    return error;
+  }
+  return parse_raw_dlc(text.substr(underscore + 1), frame);
+}
+
+Error parse_console_bytes(Cursor& cursor, std::uint64_t length, CanFrame& frame) {
+  const std::size_t capacity = frame.fd ? frame.data.size() : kClassicCapacity;
+  for (std::uint64_t i = 0; i < length; ++i) {
+    const std::string_view byte = cursor.take_blanks() ? cursor.take_until(kBlanks) : "";
+    if (byte.size() != 2 || !parse_bytes(byte, capacity, frame).empty()) {
+      return kConsoleShape;
+    }
+  }
+  return frame.fd && !is_fd_length(frame.length) ? kFdLength : Error{};
+}
+
+/// What candump prints on a terminal: `123   [8]  11 22 33 44 55 66 77 88`, of FD `[08]`; -x puts
+/// `RX - -` or the like before it. What follows says nothing more (text by -a, ERRORFRAME).
+Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
+  if (word == "RX" || word == "TX") {
+    for (int i = 0; i < 3; ++i) {
+      cursor.take_blanks();
+      word = cursor.take_until(kBlanks);
+    }
+  }
+  const bool has_bracket = cursor.take_blanks() && cursor.take('[');
+  const std::string_view length = cursor.take_all_of(kDigits);
+  std::uint64_t bytes = 0;
+  if (!has_bracket || !cursor.take(']') || !parse_number(length, 10, bytes)) {
+    return kFrameShape;
+  }
+  if (const Error error = parse_identifier(word, line.frame); !error.empty()) {
+    return error;
+  }
+  line.frame.fd = length.size() == 2;
+  Cursor text = cursor;
+  const bool is_remote =
+      !line.frame.fd && text.take_blanks() && text.take_until(kBlanks) == "remote";
+  const Error error =
+      is_remote ? parse_remote(length, line.frame) : parse_console_bytes(cursor, bytes, line.frame);
+  cursor.take_rest();
+  return error;
+}
+
+Error check_kind(const CanFrame& frame) {
+  return frame.error && (frame.fd || frame.remote) ? kErrorKind : Error{};
+}
+
+Error parse_content(Cursor& cursor, CandumpLine& line) {
+  const std::string_view digits = cursor.take_until("# \t");
+  if (!cursor.take('#')) {
+    const Error error = parse_console(cursor, digits, line);
+    return error.empty() ? check_kind(line.frame) : error;
+  }
+  const bool fd = cursor.take('#');
+  const std::string_view content = cursor.take_until(kBlanks);
+  if (content.size() > 2 && content[2] == ':') {  // XL: id#flags:type:field#data
+    return kXlFrame;
+  }
+  if (const Error error = parse_identifier(digits, line.frame); !error.empty()) {
+    return error;
+  }
+  const Error error = fd ? parse_fd(content, line.frame) : parse_classic(content, line.frame);
+  return error.empty() ? check_kind(line.frame) : error;
+}
+
+/// candump -x marks frames as received or transmitted.
+Error parse_tail(Cursor& cursor, CandumpLine& /*line*/) {
+  if (cursor.take_blanks() && (cursor.take('R') || cursor.take('T'))) {
+    cursor.take_blanks();
+  }
+  return cursor.at_end() ? Error{} : kTail;
+}
+
+CandumpLine parse_frame(std::string_view text) {
+  Cursor cursor(text);
+  CandumpLine line;
+  for (const auto step : {parse_stamp, parse_interface, parse_content, parse_tail}) {
+    if (const Error error = step(cursor, line); !error.empty()) {
+      CandumpLine malformed;
+      malformed.status = CandumpStatus::malformed;
+      malformed.error = error;
+      return malformed;
+    }
+  }
+  line.status = CandumpStatus::frame;
+  return line;
+}
+
+/// `DROPCOUNT: dropped 4722 CAN frames on 'can0' socket (total drops 4722)`
+CandumpLine parse_drop_count(std::string_view text) {
+  Cursor cursor(text.substr(kDropPrefix.size()));
+  CandumpLine line;
+  const bool counted = parse_number(cursor.take_all_of(kDigits), 10, line.dropped_frames);
+  cursor.take_until("'");
+  const bool opened = cursor.take('\'');
+  line.interface_name = cursor.take_until("'");
+  if (counted && opened && cursor.take('\'') && !line.interface_name.empty()) {
+    line.status = CandumpStatus::dropped;
+    return line;
+  }
+  return {};
+}
+
+/// Neither comment nor empty: whoever made the log should hear of it.
+CandumpLine parse_other(std::string_view text) {
+  CandumpLine line;
+  if (text.empty() || text.starts_with('#') || text.starts_with("DROPCOUNT")) {
+    return line;
+  }
+  Cursor cursor(text);
+  CandumpLine console;
+  const bool is_console =
+      parse_interface(cursor, console).empty() && parse_content(cursor, console).empty();
+  line.status = CandumpStatus::malformed;
+  line.error = is_console ? kNoStamp : kNoFrame;
+  return line;
+}
+
+std::string_view without_line_end(std::string_view text) {
+  if (text.ends_with('\n')) text.remove_suffix(1);
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+/// On a terminal candump begins with some.
+std::string_view without_blanks_before(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+}
+
+}  // namespace
+
+CandumpLine parse_candump_line(std::string_view line) {
+  const std::string_view text = without_blanks_before(without_line_end(line));
+  if (text.starts_with('(')) {
+    return parse_frame(text);
+  }
+  if (text.starts_with(kDropPrefix)) {
+    return parse_drop_count(text);
+  }
+  return parse_other(text);
+}
+
+}  // namespace cremed

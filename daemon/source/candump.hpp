@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "cremed/can_decoders/can_frame.hpp"
+
+namespace cremed {
+
+/// What one line of a candump log is.
+enum class CandumpStatus : std::uint8_t {
+  frame,      ///< `frame` and `interface_name` are set.
+  skipped,    ///< Comment (#), empty line, or a line candump writes that is no frame.
+  dropped,    ///< DROPCOUNT line: `dropped_frames` were lost on `interface_name`.
+  malformed,  ///< Anything else; `error` says what would be right.
+};
+
+struct CandumpLine {
+  CandumpStatus status = CandumpStatus::skipped;
+  CanFrame frame;                   ///< `interface` is left 0: the caller knows the names.
+  std::string_view interface_name;  ///< Points into the parsed line.
+  std::uint64_t dropped_frames = 0;
+  std::string_view error;  ///< Static text.
+};
+
+/// Parses one line (without or with its line end) of `candump -l` / `-L` text:
+///
+///     (1436509052.249713) can0 123#11223344           standard data frame, 6 or 9 decimals
+///     (1436509052.249713) can0 12345678#11.22 R       extended; '.' between bytes; R or T from -x
+///     (1436509052.249713) can0 123#R4                 remote request for 4 bytes
+///     (1436509052.249713) can0 20000004#0020000000000000   error report: bit 29 of the identifier
+///     (1436509052.249713) can0 123#1122334455667788_C raw length code 12, which also means 8 bytes
+///     (1436509052.249713) can0 123##1112233           CAN FD with flags 1
+///      (1436509052.249713)  can0  123   [4]  11 22 33 44    on a terminal, by -ta
+///     DROPCOUNT: dropped 4722 CAN frames on 'can0' socket (total drops 4722)
+///
+/// 9 decimals are rounded down to microseconds. Never allocates or throws.
+CandumpLine parse_candump_line(std::string_view line);
+
+/// Longest line format_candump_line writes: stamp, 15-character interface, FD frame, line end.
+inline constexpr std::size_t kMaxCandumpLine = 192;
+
+/// Writes the frame as one line with 6 decimals and a line end, as candump -L would, and returns
+/// the number of characters. For a frame that can be on a bus, with a stamp of 0 to 10^18 - 1 us,
+/// parse_candump_line gives it back; anything else is cut to what the format can hold.
+std::size_t format_candump_line(const CanFrame& frame, std::string_view interface_name,
+                                std::array<char, kMaxCandumpLine>& line);
+
+}  // namespace cremed

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/source/candump.hpp"
+#include "daemon/source/frame_source.hpp"
+#include "daemon/source/line_reader.hpp"
+
+namespace cremed {
+
+/// One candump log (or standard input) as a source of frames.
+class CandumpLog final : public FrameSource {
+ public:
+  /// The first line that was not understood, for the person who made the log.
+  struct Complaint {
+    std::uint64_t line_number = 0;  ///< 0: none.
+    std::string_view reason;
+  };
+
+  /// `interfaces`: names in the order of CanFrame::interface. Reading ends when `*stop` is set.
+  /// Throws std::runtime_error if the log cannot be opened, or is none but of another format.
+  CandumpLog(const std::string& path, std::vector<std::string> interfaces,
+             const volatile std::sig_atomic_t* stop);
+
+  /// Throws std::runtime_error at the first line of what a pipe brings in another format.
+  SourceEvent next(CanFrame& frame) override;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::size_t interface_count() const { return interfaces_.size(); }
+  /// Whether there was a frame of the interface with that index.
+  [[nodiscard]] bool has_frames(std::size_t interface) const { return has_frames_[interface]; }
+  /// Names of interfaces in the log that no radar is configured for; the first few.
+  [[nodiscard]] const std::vector<std::string>& other_interfaces() const {
+    return other_interfaces_;
+  }
+  [[nodiscard]] const Complaint& complaint() const { return complaint_; }
+  /// errno of a read that failed, 0 if none did.
+  [[nodiscard]] int read_error() const { return read_error_; }
+
+ private:
+  void refuse_foreign(std::string_view begin) const;
+  void count_other(std::string_view interface);
+  void complain(std::string_view reason);
+  /// Index of the interface, or interfaces_.size().
+  [[nodiscard]] std::size_t index_of(std::string_view interface_name) const;
+
+  std::string path_;
+  LineReader reader_;
+  std::vector<std::string> interfaces_;
+  std::vector<bool> has_frames_;
+  std::vector<std::string> other_interfaces_;
+  const volatile std::sig_atomic_t* stop_;
+  Complaint complaint_;
+  int read_error_ = 0;
+};
+
+}  // namespace cremed

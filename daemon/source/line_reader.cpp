@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/line_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+constexpr int kLongestWaitMs = 100;
+constexpr std::size_t kBeginBytes = 256;
+
+}  // namespace
+
+LineReader::LineReader(const std::string& path)
+    : descriptor_(path == "-"
+                      ? STDIN_FILENO
+                      : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+  if (descriptor_ < 0) {
+    throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno));
+  }
+}
+
+LineReader::~LineReader() {
+  if (descriptor_ != STDIN_FILENO) {
+    ::close(descriptor_);
+  }
+}
+
+std::string LineReader::begin() const {
+  std::string text(kBeginBytes, '\0');
+  const off_t now = ::lseek(descriptor_, 0, SEEK_CUR);
+  const ssize_t count = now < 0 ? 0 : ::pread(descriptor_, text.data(), text.size(), now);
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
+}
+
+LineReader::Status LineReader::next(std::string_view& line) {
+  while (true) {
+    const char* const first = buffer_.data() + begin_;
+    const char* const last = buffer_.data() + end_;
+    const char* const feed = std::find(first, last, '\n');
+    const bool unfinished_last = feed == last && at_end_ && first != last;
+    if (feed != last || unfinished_last) {
+      begin_ += static_cast<std::size_t>(feed - first) + (unfinished_last ? 0U : 1U);
+      ++line_number_;
+      line = {first, static_cast<std::size_t>(feed - first)};
+      const bool was_skipping = skipping_;
+      skipping_ = false;
+      return was_skipping ? Status::too_long : Status::line;
+    }
+    if (at_end_) {
+      return Status::end;
+    }
+    const Status status = fill();
+    if (status != Status::line) {
+      return status;
+    }
+  }
+}
+
+/// Makes room and reads once.
+LineReader::Status LineReader::fill() {
+  std::copy(buffer_.data() + begin_, buffer_.data() + end_, buffer_.data());
+  end_ -= begin_;
+  begin_ = 0;
+  if (end_ == buffer_.size()) {
+    skipping_ = true;
+    end_ = 0;
+    return Status::interrupted;  // It may never end.
+  }
+  // A signal just before read(2) would be slept through: come up for air now and then.
+  pollfd input{descriptor_, POLLIN, 0};
+  if (::poll(&input, 1, kLongestWaitMs) <= 0) {
+    return Status::interrupted;
+  }
+  const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  if (count < 0) {
+    return errno == EINTR || errno == EAGAIN ? Status::interrupted : Status::failed;
+  }
+  at_end_ = count == 0;
+  end_ += static_cast<std::size_t>(count);
+  return Status::line;
+}
+
+}  // namespace cremed

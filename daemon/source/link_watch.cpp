@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/link_watch.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include <linux/netlink.h>
+#include <linux/rtnetlink.h>
+#include <net/if.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+/// The kernel fills at most this much at once (netlink(7)).
+constexpr std::size_t kBufferBytes = 32768;
+/// A message a link at most, and far more links than any vehicle has; what is left waits.
+constexpr int kMaxReads = 1000;
+
+const ifinfomsg* info_in(const nlmsghdr& header) {
+  return reinterpret_cast<const ifinfomsg*>(reinterpret_cast<const char*>(&header) + NLMSG_HDRLEN);
+}
+
+std::string_view name_in(const nlmsghdr& header) {
+  const ifinfomsg* const info = info_in(header);
+  auto size = static_cast<int>(IFLA_PAYLOAD(&header));
+  for (const rtattr* attribute = IFLA_RTA(info); RTA_OK(attribute, size);
+       attribute = RTA_NEXT(attribute, size)) {
+    if (attribute->rta_type == IFLA_IFNAME) {
+      const std::string_view text(static_cast<const char*>(RTA_DATA(attribute)),
+                                  RTA_PAYLOAD(attribute));
+      return text.substr(0, text.find('\0'));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+LinkWatch::LinkWatch(std::vector<std::string> names)
+    : names_(std::move(names)), links_(names_.size()), buffer_(kBufferBytes) {
+  update();
+}
+
+LinkWatch::~LinkWatch() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+void LinkWatch::open() {
+  descriptor_ = ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE);
+  sockaddr_nl address{};
+  address.nl_family = AF_NETLINK;
+  address.nl_groups = RTMGRP_LINK;
+  if (descriptor_ < 0 ||
+      ::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    fail();
+    return;
+  }
+  request_all();
+}
+
+/// Of all links as they are now: at the start, and after notifications were lost.
+void LinkWatch::request_all() {
+  std::fill(links_.begin(), links_.end(), Link{});
+  struct {
+    nlmsghdr header;
+    ifinfomsg info;
+  } request{};
+  request.header.nlmsg_len = sizeof(request);
+  request.header.nlmsg_type = RTM_GETLINK;
+  request.header.nlmsg_flags = NLM_F_REQUEST | NLM_F_DUMP;
+  if (::send(descriptor_, &request, sizeof(request), 0) != sizeof(request)) {
+    fail();
+  }
+}
+
+void LinkWatch::fail() {
+  const int error = errno;
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+  descriptor_ = -1;
+  std::fill(links_.begin(), links_.end(), Link{0, false, error});
+}
+
+void LinkWatch::update() {
+  if (descriptor_ < 0) {
+    open();
+  }
+  for (int i = 0; i < kMaxReads && descriptor_ >= 0; ++i) {
+    sockaddr_nl sender{};
+    socklen_t sender_size = sizeof(sender);
+    const ssize_t size = ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0,
+                                    reinterpret_cast<sockaddr*>(&sender), &sender_size);
+    if (size >= 0) {
+      if (sender.nl_pid == 0) {  // The kernel, not another process.
+        take(buffer_.data(), static_cast<std::size_t>(size));
+      }
+    } else if (errno == ENOBUFS) {
+      request_all();
+    } else if (errno != EINTR) {
+      if (errno != EAGAIN) {
+        fail();
+      }
+      return;
+    }
+  }
+}
+
+void LinkWatch::take(const char* messages, std::size_t size) {
+  auto left = static_cast<unsigned>(size);
+  for (const auto* header = reinterpret_cast<const nlmsghdr*>(messages); NLMSG_OK(header, left);
+       header = NLMSG_NEXT(header, left)) {
+    if (header->nlmsg_type == RTM_NEWLINK || header->nlmsg_type == RTM_DELLINK) {
+      const ifinfomsg* const info = info_in(*header);
+      note(static_cast<unsigned>(info->ifi_index), name_in(*header),
+           header->nlmsg_type == RTM_NEWLINK, (info->ifi_flags & IFF_UP) != 0);
+    }
+  }
+}
+
+void LinkWatch::note(unsigned index, std::string_view name, bool is_there, bool is_up) {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (is_there && names_[i] == name) {
+      links_[i] = {index, is_up, 0};
+    } else if (links_[i].index == index) {
+      links_[i] = {};  // Removed, or renamed.
+    }
+  }
+}
+
+}  // namespace cremed

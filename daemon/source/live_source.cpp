@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/live_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <utility>
+
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/clocks.hpp"
+#include "daemon/source/can_error.hpp"
+
+namespace cremed {
+namespace {
+
+/// How often time passes on a silent bus: scans time out, the service tells that it lives.
+constexpr int kIdleMs = 20;
+
+/// How soon an interface that came or went is noticed.
+constexpr std::int64_t kLookPeriodUs = 200'000;
+
+/// More frames than can come in a millisecond: one of 8 bytes takes 111 us at 1 Mbit/s.
+constexpr std::size_t kFramesPerMs = 16;
+/// Long enough to save most wake-ups; too short for a scan of more than a few targets to begin and
+/// end in it, on a bus where none is open.
+constexpr std::size_t kLongestRestMs = 4;
+
+/// From a frame's stamp until it can be read: the driver stamps it and hands it up in one go, some
+/// 10 us, unless it is interrupted. 1 ms is little beside a radar's cycle.
+constexpr std::int64_t kMergeMarginUs = 1000;
+
+/// A full receive buffer is some 40 batches; a bus cannot refill it while it is emptied.
+constexpr int kMaxDiscardedBatches = 1000;
+
+std::int64_t rest_us(std::size_t expected_frames) {
+  return static_cast<std::int64_t>(std::min(expected_frames / kFramesPerMs, kLongestRestMs)) * 1000;
+}
+
+/// Not at all if not positive.
+void sleep_us(std::int64_t duration_us) {
+  if (duration_us > 0) {
+    const timespec duration{0, duration_us * 1000};
+    ::nanosleep(&duration, nullptr);
+  }
+}
+
+}  // namespace
+
+LiveSource::LiveSource(const Configuration& configuration, const volatile std::sig_atomic_t* stop)
+    : max_latency_us_(std::llround(configuration.live.max_latency_s * 1e6)),
+      stop_(stop),
+      links_(interface_names(configuration)),
+      merge_(interface_names(configuration).size(), CanSocket::kBatchFrames) {
+  for (const std::string& name : interface_names(configuration)) {
+    interfaces_.push_back(std::make_unique<BusConnection>(name, ids_on(name, configuration.radars),
+                                                          configuration.live.socket));
+  }
+  maintain();
+  polled_.resize(interfaces_.size() + 1);
+  next_to_read_ = interfaces_.size();
+  batches_.resize(interfaces_.size());
+}
+
+BusStatus LiveSource::bus(std::uint8_t interface) const {
+  BusStatus status = interfaces_[interface]->status();
+  status.clock_steps = clock_steps_;
+  return status;
+}
+
+int LiveSource::send(std::uint8_t interface, const CanFrame& frame) {
+  return interfaces_[interface]->send(frame);
+}
+
+SourceEvent LiveSource::next(CanFrame& frame) {
+  while (*stop_ == 0) {
+    const bool is_reading = next_to_read_ < interfaces_.size();
+    const auto oldest = merge_.oldest();
+    if (!is_reading && oldest && !merge_.awaited()) {
+      // However many error frames come, the caller's loop turns.
+      return take(*oldest, frame).value_or(SourceEvent::other);
+    }
+    const SourceEvent event = is_reading ? read_all(frame) : refill(frame);
+    if (event != SourceEvent::frame) {
+      return event;
+    }
+  }
+  return SourceEvent::end;
+}
+
+std::optional<SourceEvent> LiveSource::take(std::size_t interface, CanFrame& frame) {
+  ReceivedFrame& received = merge_.front(interface);
+  if (const std::uint32_t lost = std::exchange(received.lost_before, 0U); lost != 0) {
+    interfaces_[interface]->status().frames_lost += lost;
+    counters_.lost_frames += lost;
+    frame.interface = static_cast<std::uint8_t>(interface);
+    return SourceEvent::dropped;
+  }
+  const auto event = judge(interface, received, frame);
+  merge_.pop(interface);
+  return event;
+}
+
+/// What a frame off the bus means; nothing for one that is only counted.
+std::optional<SourceEvent> LiveSource::judge(std::size_t interface, const ReceivedFrame& received,
+                                             CanFrame& frame) {
+  BusStatus& status = interfaces_[interface]->status();
+  Batch& batch = batches_[interface];
+  frame.interface = static_cast<std::uint8_t>(interface);
+  if (received.frame.error) {
+    return note_error_frame(received.frame, status) ? std::optional(SourceEvent::dropped)
+                                                    : std::nullopt;
+  }
+  if (status.bus == BusState::bus_off) {
+    status.bus = BusState::error_active;  // Not every driver tells that it restarted.
+  }
+  if (batch.read_us - received.frame.stamp_us > max_latency_us_) {
+    ++status.frames_stale;
+    return std::exchange(batch.stale_is_told, true) ? std::nullopt
+                                                    : std::optional(SourceEvent::dropped);
+  }
+  ++status.frames;
+  ++counters_.frames;
+  frame = received.frame;
+  frame.interface = static_cast<std::uint8_t>(interface);
+  return SourceEvent::frame;
+}
+
+void LiveSource::maintain() {
+  const std::int64_t now_us = monotonic_us();
+  if (now_us < next_look_us_) {
+    return;
+  }
+  next_look_us_ = now_us + kLookPeriodUs;
+  links_.update();
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    interfaces_[i]->maintain(links_.link(i));
+  }
+}
+
+/// Waits until there can be something to hand out. `frame` if there is something to read, else what
+/// happened instead.
+SourceEvent LiveSource::refill(CanFrame& frame) {
+  maintain();
+  if (merge_.size() == 0) {
+    const SourceEvent event = wait(frame);
+    if (event != SourceEvent::frame) {
+      return event;
+    }
+  } else {
+    hold_back();
+  }
+  poll_all(0);
+  next_to_read_ = 0;
+  return SourceEvent::frame;
+}
+
+SourceEvent LiveSource::wait(CanFrame& frame) {
+  sleep_us(rest_us(expected_frames_));
+  const int ready = poll_all(kIdleMs);
+  if (clock_watch_.was_set()) {
+    return step_clock();
+  }
+  // Before the wait: whoever is held up after it must not take time for passed in silence.
+  frame.stamp_us = polled_us_;
+  return ready > 0 ? SourceEvent::frame : SourceEvent::idle;
+}
+
+/// Until nothing can come any more that precedes the oldest frame.
+void LiveSource::hold_back() const {
+  const std::int64_t due_us = merge_.stamp_us(*merge_.oldest()) + kMergeMarginUs - realtime_us();
+  const std::size_t queued = std::min(expected_frames_, merge_.size());
+  sleep_us(std::max(std::min(due_us, kMergeMarginUs), rest_us(expected_frames_ - queued)));
+}
+
+int LiveSource::poll_all(int timeout_ms) {
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    polled_[i] = {interfaces_[i]->descriptor(), POLLIN, 0};
+  }
+  polled_.back() = {clock_watch_.descriptor(), POLLIN, 0};
+  polled_us_ = realtime_us();
+  return ::poll(polled_.data(), polled_.size(), timeout_ms);
+}
+
+/// Reads where nothing is left to hand out. `frame` when that is done, else what happened instead.
+SourceEvent LiveSource::read_all(CanFrame& frame) {
+  while (next_to_read_ < interfaces_.size()) {
+    const std::size_t interface = next_to_read_++;
+    const CanReceiveStatus status =
+        merge_.has_frames(interface) ? CanReceiveStatus::frames : read(interface);
+    if (status != CanReceiveStatus::frames && status != CanReceiveStatus::empty) {
+      frame.interface = static_cast<std::uint8_t>(interface);
+      return SourceEvent::dropped;
+    }
+  }
+  // After the wait, maybe before these frames.
+  return clock_watch_.was_set() ? step_clock() : SourceEvent::frame;
+}
+
+CanReceiveStatus LiveSource::read(std::size_t interface) {
+  const CanReceiveResult result =
+      polled_[interface].revents != 0 ? interfaces_[interface]->receive() : CanReceiveResult{};
+  for (const ReceivedFrame& received : result.frames) {
+    merge_.push(interface, received);
+  }
+  batches_[interface] = {realtime_us(), false};
+  if (result.frames.size() < CanSocket::kBatchFrames) {
+    merge_.set_read_until(interface, read_until_us());
+  }
+  return result.status;
+}
+
+/// All that was stamped before it has been read where nothing was left to read at polled_us_. A
+/// frame of the future is of a clock that was set unnoticed: it is not waited for.
+std::int64_t LiveSource::read_until_us() const {
+  const auto oldest = merge_.oldest();
+  const bool is_of_future = oldest && merge_.stamp_us(*oldest) > polled_us_ + kMergeMarginUs;
+  return is_of_future ? std::numeric_limits<std::int64_t>::max() : polled_us_ - kMergeMarginUs;
+}
+
+SourceEvent LiveSource::step_clock() {
+  ++clock_steps_;
+  next_to_read_ = interfaces_.size();
+  for (std::size_t lane = 0; lane < interfaces_.size(); ++lane) {
+    const auto& interface = interfaces_[lane];
+    interface->status().frames_discarded += merge_.clear(lane);
+    for (int i = 0; i < kMaxDiscardedBatches && interface->descriptor() >= 0; ++i) {
+      const CanReceiveResult result = interface->receive();
+      interface->status().frames_discarded += result.frames.size();
+      if (result.status != CanReceiveStatus::frames) {
+        break;
+      }
+    }
+  }
+  return SourceEvent::clock_step;
+}
+
+}  // namespace cremed

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "cremed/can_decoders/can_frame.hpp"
+
+namespace cremed {
+
+/// A frame and what became of those before it.
+struct ReceivedFrame {
+  CanFrame frame;
+  std::int64_t received_us = 0;   ///< The kernel's stamp, also where the frame has a hardware one.
+  std::uint32_t lost_before = 0;  ///< Frames of this interface lost since the one before.
+};
+
+}  // namespace cremed

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/replay.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <utility>
+
+namespace cremed {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// How long candump may be held up while frames of several interfaces come.
+constexpr std::int64_t kLookAheadUs = 500'000;
+/// More than come on a full bus of 1 Mbit/s in that time, 111 us a frame of 8 bytes.
+constexpr std::size_t kLaneFrames = 8192;
+
+/// A longer step of the log's clock is a clock that was set, or a log that was paused.
+constexpr double kClockJumpS = 10.0;
+constexpr double kLongestWaitNs = 1e18;
+constexpr std::int64_t kLongestSleepNs = 100'000'000;
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kNsPerS + now.tv_nsec;
+}
+
+}  // namespace
+
+Replay::Replay(std::vector<std::unique_ptr<CandumpLog>> logs, double speed,
+               const volatile std::sig_atomic_t* stop)
+    : logs_(std::move(logs)),
+      readings_(logs_.size()),
+      merge_(logs_.size() * logs_.front()->interface_count(), kLaneFrames),
+      speed_(speed),
+      stop_(stop) {
+  for (Reading& reading : readings_) {
+    reading.has_lost.resize(logs_.front()->interface_count());
+  }
+}
+
+SourceEvent Replay::next(CanFrame& frame) {
+  while (*stop_ == 0) {
+    release_held();
+    if (const auto log = log_to_read()) {
+      read(*log);
+    } else if (const auto lane = merge_.oldest()) {
+      return take(*lane, frame);
+    } else {
+      return SourceEvent::end;
+    }
+  }
+  return SourceEvent::end;
+}
+
+/// Interfaces first: they decide the order where stamps are equal.
+std::size_t Replay::lane(std::size_t log, std::size_t interface) const {
+  return interface * logs_.size() + log;
+}
+
+/// A log is read on no sooner than it has to be: a pipe may not have the next line yet.
+std::optional<std::size_t> Replay::log_to_read() const {
+  if (const auto awaited = merge_.awaited()) {
+    const std::size_t log = *awaited % logs_.size();
+    return any_lane(log, &StampMerge::is_full) ? std::nullopt : std::optional(log);
+  }
+  if (merge_.size() == 0) {
+    for (std::size_t log = 0; log < logs_.size(); ++log) {
+      if (!readings_[log].is_at_end) {
+        return log;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool Replay::any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const) const {
+  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+    if ((merge_.*is)(lane(log, interface))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Replay::read(std::size_t log) {
+  Reading& reading = readings_[log];
+  ReceivedFrame received;
+  const SourceEvent event = logs_[log]->next(received.frame);
+  count();
+  if (event == SourceEvent::end) {
+    reading.is_at_end = true;
+    set_read_until(log, std::numeric_limits<std::int64_t>::max());
+  } else if (event == SourceEvent::dropped) {
+    reading.has_lost[received.frame.interface] = true;
+  } else {
+    received.received_us = received.frame.stamp_us;
+    received.lost_before = reading.has_lost[received.frame.interface] ? 1 : 0;
+    reading.has_lost[received.frame.interface] = false;
+    add(log, received);
+  }
+}
+
+void Replay::add(std::size_t log, const ReceivedFrame& frame) {
+  Reading& reading = readings_[log];
+  const std::int64_t stamp_us = frame.received_us;
+  if (reading.has_begun && stamp_us < reading.newest_us - kLookAheadUs) {
+    reading.has_begun = false;
+    reading.held = frame;
+    set_read_until(log, std::numeric_limits<std::int64_t>::max());
+    return;
+  }
+  reading.newest_us = reading.has_begun ? std::max(reading.newest_us, stamp_us) : stamp_us;
+  reading.has_begun = true;
+  merge_.push(lane(log, frame.frame.interface), frame);
+  set_read_until(log, reading.newest_us - kLookAheadUs);
+}
+
+void Replay::release_held() {
+  for (std::size_t log = 0; log < readings_.size(); ++log) {
+    if (readings_[log].held && !any_lane(log, &StampMerge::has_frames)) {
+      add(log, *std::exchange(readings_[log].held, std::nullopt));
+    }
+  }
+}
+
+void Replay::set_read_until(std::size_t log, std::int64_t stamp_us) {
+  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+    merge_.set_read_until(lane(log, interface), stamp_us);
+  }
+}
+
+SourceEvent Replay::take(std::size_t lane, CanFrame& frame) {
+  ReceivedFrame& received = merge_.front(lane);
+  frame = received.frame;
+  if (std::exchange(received.lost_before, 0U) != 0) {
+    return SourceEvent::dropped;
+  }
+  merge_.pop(lane);
+  ++counters_.frames;
+  begin_pace(frame.stamp_us);
+  wait_until_due(frame.stamp_us);
+  return *stop_ == 0 ? SourceEvent::frame : SourceEvent::end;
+}
+
+/// What the logs have read besides frames.
+void Replay::count() {
+  counters_.other_interface_frames = counters_.lost_frames = counters_.malformed_lines = 0;
+  for (const auto& log : logs_) {
+    counters_.other_interface_frames += log->counters().other_interface_frames;
+    counters_.lost_frames += log->counters().lost_frames;
+    counters_.malformed_lines += log->counters().malformed_lines;
+  }
+}
+
+/// The pace begins anew where the log's clock was set: nobody wants to wait for a jump's length.
+void Replay::begin_pace(std::int64_t stamp_us) {
+  const double step_s =
+      (static_cast<double>(stamp_us) - static_cast<double>(last_stamp_us_)) * 1e-6;
+  if (!has_begun_ || step_s < 0.0 || step_s > kClockJumpS) {
+    pace_stamp_us_ = stamp_us;
+    pace_ns_ = monotonic_ns();
+  }
+  traffic_s_ += has_begun_ && step_s >= 0.0 && step_s <= kClockJumpS ? step_s : 0.0;
+  has_begun_ = true;
+  last_stamp_us_ = stamp_us;
+}
+
+void Replay::wait_until_due(std::int64_t stamp_us) const {
+  if (speed_ <= 0.0) {
+    return;
+  }
+  const double after_ns = static_cast<double>(stamp_us - pace_stamp_us_) * 1e3 / speed_;
+  const std::int64_t due_ns =
+      pace_ns_ + static_cast<std::int64_t>(std::min(after_ns, kLongestWaitNs));
+  for (std::int64_t now_ns = monotonic_ns(); *stop_ == 0 && now_ns < due_ns;
+       now_ns = monotonic_ns()) {
+    // In short sleeps: a signal just before one would be slept through.
+    const std::int64_t until_ns = std::min(due_ns, now_ns + kLongestSleepNs);
+    const timespec until{until_ns / kNsPerS, until_ns % kNsPerS};
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/source/candump_log.hpp"
+#include "daemon/source/frame_source.hpp"
+#include "daemon/source/stamp_merge.hpp"
+
+namespace cremed {
+
+/// Several candump logs as one source, in the order in which LiveSource hands out live frames: by
+/// stamp, where stamps are equal by interface. At a finite speed it waits until a frame is due.
+///
+/// candump reads its sockets in turn, so the lines of several interfaces are out of order by as
+/// long as it was held up. Where several are configured, a log is read 0.5 s ahead of what is
+/// handed out. A line that is older still is of a clock that was set, or of a clock of its own: all
+/// lines before it are handed out first.
+class Replay final : public FrameSource {
+ public:
+  /// `speed`: log seconds per second; 0: as fast as possible. `logs` is not empty.
+  Replay(std::vector<std::unique_ptr<CandumpLog>> logs, double speed,
+         const volatile std::sig_atomic_t* stop);
+
+  SourceEvent next(CanFrame& frame) override;
+
+  [[nodiscard]] const std::vector<std::unique_ptr<CandumpLog>>& logs() const { return logs_; }
+  /// Time the frames handed out span, without jumps of the log's clock.
+  [[nodiscard]] double traffic_s() const { return traffic_s_; }
+
+ private:
+  /// How far a log was read.
+  struct Reading {
+    std::int64_t newest_us = 0;
+    bool has_begun = false;
+    bool is_at_end = false;
+    std::optional<ReceivedFrame> held;  // Until the lines before it were handed out.
+    std::vector<bool> has_lost;         // Of each interface, before its next frame.
+  };
+  [[nodiscard]] std::size_t lane(std::size_t log, std::size_t interface) const;
+  [[nodiscard]] std::optional<std::size_t> log_to_read() const;
+  [[nodiscard]] bool any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const) const;
+  void read(std::size_t log);
+  void add(std::size_t log, const ReceivedFrame& frame);
+  void release_held();
+  void set_read_until(std::size_t log, std::int64_t stamp_us);
+  SourceEvent take(std::size_t lane, CanFrame& frame);
+  void count();
+  void begin_pace(std::int64_t stamp_us);
+  void wait_until_due(std::int64_t stamp_us) const;
+
+  std::vector<std::unique_ptr<CandumpLog>> logs_;
+  std::vector<Reading> readings_;
+  StampMerge merge_;  // A lane for each interface of each log.
+  double speed_;
+  const volatile std::sig_atomic_t* stop_;
+  bool has_begun_ = false;
+  std::int64_t last_stamp_us_ = 0;
+  double traffic_s_ = 0.0;
+  std::int64_t pace_stamp_us_ = 0;  // This stamp was due at pace_ns_.
+  std::int64_t pace_ns_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/stamp_merge.hpp"
+
+#include <limits>
+
+namespace cremed {
+
+StampMerge::StampMerge(std::size_t lanes, std::size_t capacity)
+    : capacity_(capacity), lanes_(lanes), frames_(lanes * capacity) {
+  for (Lane& lane : lanes_) {
+    lane.read_until_us = std::numeric_limits<std::int64_t>::min();
+  }
+}
+
+std::size_t StampMerge::place(std::size_t lane, std::size_t offset) const {
+  return lane * capacity_ + (lanes_[lane].begin + offset) % capacity_;
+}
+
+void StampMerge::push(std::size_t lane, const ReceivedFrame& frame) {
+  frames_[place(lane, lanes_[lane].count++)] = frame;
+  ++size_;
+}
+
+void StampMerge::set_read_until(std::size_t lane, std::int64_t stamp_us) {
+  lanes_[lane].read_until_us = stamp_us;
+}
+
+std::optional<std::size_t> StampMerge::oldest() const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    if (has_frames(i) && (!best || stamp_us(i) < stamp_us(*best))) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::optional<std::size_t> StampMerge::awaited() const {
+  const auto best = oldest();
+  if (!best) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    const std::int64_t until_us = lanes_[i].read_until_us;
+    if (!has_frames(i) &&
+        (until_us < stamp_us(*best) || (until_us == stamp_us(*best) && i < *best))) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+std::int64_t StampMerge::stamp_us(std::size_t lane) const {
+  return frames_[place(lane, 0)].received_us;
+}
+
+ReceivedFrame& StampMerge::front(std::size_t lane) { return frames_[place(lane, 0)]; }
+
+void StampMerge::pop(std::size_t lane) {
+  lanes_[lane].begin = (lanes_[lane].begin + 1) % capacity_;
+  --lanes_[lane].count;
+  --size_;
+}
+
+std::size_t StampMerge::clear(std::size_t lane) {
+  const std::size_t dropped = lanes_[lane].count;
+  size_ -= dropped;
+  lanes_[lane].count = 0;
+  return dropped;
+}
+
+}  // namespace cremed

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "daemon/source/received_frame.hpp"
+
+namespace cremed {
+
+/// Brings the frames of several lanes (interfaces, live or of a log) into the order of
+/// ReceivedFrame::received_us, where stamps are equal that of the lanes' numbers. Frames of one
+/// lane are never reordered, whatever their stamps.
+///
+///     while (const auto lane = merge.oldest()) {
+///       if (merge.awaited()) { read on in that lane, or wait; }
+///       else { use(merge.front(*lane)); merge.pop(*lane); }
+///     }
+///
+/// Holds at most `capacity` frames a lane; allocates in the constructor only.
+class StampMerge {
+ public:
+  StampMerge(std::size_t lanes, std::size_t capacity);
+
+  /// The lane must not be full.
+  void push(std::size_t lane, const ReceivedFrame& frame);
+  /// All frames of the lane that were stamped before `stamp_us` have been pushed.
+  void set_read_until(std::size_t lane, std::int64_t stamp_us);
+
+  /// Lane of the frame that comes first of those that were pushed; nothing if there are none.
+  [[nodiscard]] std::optional<std::size_t> oldest() const;
+  /// An empty lane of which a frame may still come that precedes the oldest; nothing if there is
+  /// none.
+  [[nodiscard]] std::optional<std::size_t> awaited() const;
+
+  /// Of the lane's first frame; the lane must not be empty.
+  [[nodiscard]] std::int64_t stamp_us(std::size_t lane) const;
+  [[nodiscard]] ReceivedFrame& front(std::size_t lane);
+  void pop(std::size_t lane);
+  /// Drops the frames of a lane; returns their number.
+  std::size_t clear(std::size_t lane);
+
+  [[nodiscard]] bool has_frames(std::size_t lane) const { return lanes_[lane].count > 0; }
+  [[nodiscard]] bool is_full(std::size_t lane) const { return lanes_[lane].count == capacity_; }
+  /// Frames in all lanes.
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  struct Lane {
+    std::size_t begin = 0;  // In its ring.
+    std::size_t count = 0;
+    std::int64_t read_until_us = 0;
+  };
+  [[nodiscard]] std::size_t place(std::size_t lane, std::size_t offset) const;
+
+  std::size_t capacity_;
+  std::vector<Lane> lanes_;
+  std::vector<ReceivedFrame> frames_;  // A ring of `capacity_` a lane.
+  std::size_t size_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/cost/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cremed {
+namespace {
+
+/// Beyond it a pair is certain anyway, and 1 - p would be lost.
+constexpr double kMaxRatio = 1e12;
+
+/// The root of f^2 + f s = 1 in [0, 1].
+double factor_of(double sum) { return 2.0 / (sum + std::sqrt(sum * sum + 4.0)); }
+
+/// Sum of the logarithms of the first `count`, each between 1e-6 (kMaxRatio) and 1: one logarithm
+/// for many of them.
+double sum_of_logs(const std::array<double, kMaxDetections>& factors, std::size_t count) {
+  double sum = 0.0;
+  double product = 1.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    product *= factors[i];
+    if (product < 1e-200) {
+      sum += std::log(product);
+      product = 1.0;
+    }
+  }
+  return sum + std::log(product);
+}
+
+}  // namespace
+
+void Association::clear(std::size_t columns) {
+  size_ = 0;
+  rows_ = 0;
+  row_begin_[0] = 0;
+  columns_ = columns;
+}
+
+void Association::begin_row() {
+  ++rows_;
+  row_begin_[rows_] = static_cast<std::uint16_t>(size_);
+}
+
+bool Association::add(std::size_t column, double ratio, const Eigen::Vector3d& gradient) {
+  if (size_ == kMaxPairs) {
+    return false;
+  }
+  column_of_[size_] = static_cast<std::uint16_t>(column);
+  ratio_[size_] = std::min(ratio, kMaxRatio);
+  gradient_[size_] = gradient;
+  ++size_;
+  row_begin_[rows_] = static_cast<std::uint16_t>(size_);
+  return true;
+}
+
+/// Exact where pairs have no competitors and in square blocks of equals.
+void Association::start() {
+  std::fill_n(sum_.begin(), columns_, 0.0);
+  for (std::size_t k = 0; k < size_; ++k) {
+    sum_[column_of_[k]] += ratio_[k];
+  }
+  for (std::size_t j = 0; j < columns_; ++j) {
+    column_factor_[j] = 1.0 / std::sqrt(1.0 + sum_[j]);
+  }
+}
+
+/// Scales rows, then columns; returns the largest change of a column's probability.
+double Association::scale(bool over_relaxed) {
+  const auto next_factor = [over_relaxed](double factor, double sum) {
+    const double exact = factor_of(sum);
+    return over_relaxed ? std::min(exact * std::sqrt(exact / factor), 1.0) : exact;
+  };
+  // Step by step for all rows: the compiler then takes several roots at once.
+  for (std::size_t i = 0; i < rows_; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      sum += ratio_[k] * column_factor_[column_of_[k]];
+    }
+    row_sum_[i] = sum;
+  }
+  for (std::size_t i = 0; i < rows_; ++i) {
+    row_factor_[i] = next_factor(row_factor_[i], row_sum_[i]);
+  }
+  std::fill_n(sum_.begin(), columns_, 0.0);
+  for (std::size_t i = 0; i < rows_; ++i) {
+    const double factor = row_factor_[i];
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      sum_[column_of_[k]] += ratio_[k] * factor;
+    }
+  }
+  for (std::size_t j = 0; j < columns_; ++j) {
+    const double next = next_factor(column_factor_[j], sum_[j]);
+    change_[j] = std::abs(next - column_factor_[j]) * sum_[j];
+    column_factor_[j] = next;
+  }
+  return *std::max_element(change_.begin(),
+                           change_.begin() + static_cast<std::ptrdiff_t>(columns_));
+}
+
+int Association::solve(int max_rounds) {
+  int rounds = 1;
+  while (scale(rounds > kPlainRounds) > kTolerance && rounds < max_rounds) {
+    ++rounds;
+  }
+  is_solved_ = rounds < max_rounds || max_rounds >= kMaxRounds;
+  if (rounds > kPlainRounds) {
+    scale(false);  // no column has more than one partner
+  }
+  for (std::size_t i = 0; i < rows_; ++i) {
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      probability_[k] = ratio_[k] * row_factor_[i] * column_factor_[column_of_[k]];
+    }
+  }
+  return rounds;
+}
+
+double Association::cost() const {
+  return sum_of_logs(row_factor_, rows_) + sum_of_logs(column_factor_, columns_);
+}
+
+/// The gradients of the rows' factors from those of the columns'.
+void Association::scale_row_gradients() {
+  for (std::size_t i = 0; i < rows_; ++i) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weight = 2.0 * row_factor_[i] * row_factor_[i];
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      sum += probability_[k] * (gradient_[k] - column_gradient_[column_of_[k]]);
+      weight += probability_[k];
+    }
+    row_gradient_[i] = sum / weight;
+  }
+}
+
+/// The same the other way; returns the largest change.
+double Association::scale_column_gradients(const Eigen::Vector3d& unit) {
+  std::fill_n(column_sum_.begin(), columns_, Eigen::Vector3d::Zero());
+  for (std::size_t j = 0; j < columns_; ++j) {
+    sum_[j] = 2.0 * column_factor_[j] * column_factor_[j];
+  }
+  for (std::size_t i = 0; i < rows_; ++i) {
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      column_sum_[column_of_[k]] += probability_[k] * (gradient_[k] - row_gradient_[i]);
+      sum_[column_of_[k]] += probability_[k];
+    }
+  }
+  double change = 0.0;
+  for (std::size_t j = 0; j < columns_; ++j) {
+    const Eigen::Vector3d next = column_sum_[j] / sum_[j];
+    change = std::max(change, (next - column_gradient_[j]).cwiseProduct(unit).cwiseAbs().sum());
+    column_gradient_[j] = next;
+  }
+  return change;
+}
+
+/// Gauss-Seidel, which ends with the rows: for given columns they make the sum least, but never
+/// negative.
+Eigen::Matrix3d Association::missing_information(const Eigen::Vector3d& unit) {
+  std::fill_n(column_gradient_.begin(), columns_, Eigen::Vector3d::Zero());
+  scale_row_gradients();
+  for (int round = 1; round < kMaxRounds; ++round) {
+    const double change = scale_column_gradients(unit);
+    scale_row_gradients();
+    if (change <= kGradientTolerance) {
+      break;
+    }
+  }
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < rows_; ++i) {
+    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
+      const Eigen::Vector3d rest =
+          gradient_[k] - row_gradient_[i] - column_gradient_[column_of_[k]];
+      sum.noalias() += probability_[k] * gradient_[k] * rest.transpose();
+    }
+  }
+  return 0.5 * (sum + sum.transpose());
+}
+
+}  // namespace cremed

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/cost/mixture_kernel.hpp"
+#include "cremed/estimator/cost/outlier_ray.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// The previous scan as a Gaussian mixture: one component a target, and the outlier ray.
+class Mixture {
+ public:
+  static constexpr std::size_t kMaxComponents = MixtureComponents::kCapacity;
+
+  /// Uses the kernel that is fastest on this machine.
+  Mixture() : Mixture(mixture_kernels().front().kernel) {}
+  explicit Mixture(MixtureKernel kernel) : kernel_(kernel) {}
+
+  /// Weight (1 - w_o) / F for each of the F targets, w_o in all for the ray.
+  void assign(const TargetSet& targets, const OutlierRay& ray);
+
+  /// Residuals of points, one each, in the mixture's frame. The Jacobian holds the covariances
+  /// fixed. The mixture must not be empty. Uses scratch space of the object. Many points at once
+  /// take much less time than one by one, with the same result.
+  void evaluate(std::span<const MixturePoint> points, std::span<MixtureResidual> residuals);
+
+  /// The same for one point.
+  MixtureResidual evaluate(const Eigen::Vector2d& point_m, const Symmetric2& covariance_m2);
+
+  [[nodiscard]] std::size_t size() const { return components_.size; }
+
+ private:
+  void push(double x_m, double y_m, const Symmetric2& covariance_m2, double weight);
+  void copy_rough(std::size_t j);
+  void pad();
+  void bound_rounding();
+
+  MixtureKernel kernel_;
+  MixtureComponents components_;
+  MixtureScratch scratch_;
+};
+
+}  // namespace cremed

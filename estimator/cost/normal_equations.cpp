@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/cost/normal_equations.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace cremed {
+namespace {
+
+/// Least reciprocal condition number that still counts as positive definite.
+constexpr double kMinReciprocalCondition = 1e-14;
+
+template <int States>
+std::optional<Eigen::Matrix<double, States, States>> invert(
+    const Eigen::Matrix<double, States, States>& information) {
+  const Eigen::LLT<Eigen::Matrix<double, States, States>> factor(information);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > kMinReciprocalCondition)) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix<double, States, States> inverse =
+      factor.solve(Eigen::Matrix<double, States, States>::Identity());
+  // Rounding makes it asymmetric in the last digit, which others' checks would refuse.
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+}  // namespace
+
+void NormalEquations::add_point(const Symmetric2& m, const Eigen::Vector2d& v,
+                                const Eigen::Vector2d& lever_m) {
+  const double x_yaw = m.xy * lever_m.x() - m.xx * lever_m.y();
+  const double y_yaw = m.yy * lever_m.x() - m.xy * lever_m.y();
+  const double yaw_yaw = y_yaw * lever_m.x() - x_yaw * lever_m.y();
+  Eigen::Matrix3d sum;
+  sum << m.xx, m.xy, x_yaw, m.xy, m.yy, y_yaw, x_yaw, y_yaw, yaw_yaw;
+  information += sum;
+  gradient += along_states(v, lever_m);
+}
+
+std::optional<Eigen::Matrix3d> invert_information(const Eigen::Matrix3d& information,
+                                                  int degrees_of_freedom) {
+  if (degrees_of_freedom == 3) {
+    return invert<3>(information);
+  }
+  Eigen::Matrix2d free;
+  free << information(0, 0), information(0, 2), information(2, 0), information(2, 2);
+  const auto inverse = invert<2>(free);
+  if (!inverse) {
+    return std::nullopt;
+  }
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  result(0, 0) = (*inverse)(0, 0);
+  result(0, 2) = (*inverse)(0, 1);
+  result(2, 0) = (*inverse)(1, 0);
+  result(2, 2) = (*inverse)(1, 1);
+  return result;
+}
+
+}  // namespace cremed

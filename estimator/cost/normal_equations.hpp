@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// J' v with J = d(R m + t) / d(x, y, yaw) = (1, 0, -lever_y; 0, 1, lever_x) and the lever R m.
+inline Eigen::Vector3d along_states(const Eigen::Vector2d& v, const Eigen::Vector2d& lever_m) {
+  return {v.x(), v.y(), lever_m.x() * v.y() - lever_m.y() * v.x()};
+}
+
+/// Gauss-Newton's normal equations at one motion, all three states (x_m, y_m, yaw_rad).
+struct NormalEquations {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< J'J
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();     ///< J'r
+  double cost = 0.0;                                      ///< Negative log likelihood + constant.
+
+  /// Adds J' M J and J' v of a moved point with the lever R m.
+  void add_point(const Symmetric2& m, const Eigen::Vector2d& v, const Eigen::Vector2d& lever_m);
+};
+
+/// Inverse of the information of the free states, (x, yaw) or (x, y, yaw), zeros elsewhere; nothing
+/// if it is not positive definite.
+std::optional<Eigen::Matrix3d> invert_information(const Eigen::Matrix3d& information,
+                                                  int degrees_of_freedom);
+
+}  // namespace cremed

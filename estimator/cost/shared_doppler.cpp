@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/cost/shared_doppler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace cremed {
+
+namespace {
+
+/// Slower than this the vehicle's body comes to rest.
+constexpr double kRollingMps = 1.0;
+
+/// An error of zero deviation is none: it is held fast.
+constexpr double kLeastStd = 1e-9;
+
+double information_of(double deviation) {
+  const double held = std::max(deviation, kLeastStd);
+  return 1.0 / (held * held);
+}
+
+/// Turns the translation of a motion by half its yaw, back to the frame half way; `by_motion` is
+/// the derivative.
+void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
+  const Eigen::Matrix2d back = Eigen::Rotation2Dd(-0.5 * motion.z()).toRotationMatrix();
+  const Eigen::Vector2d turned = back * motion.head<2>();
+  by_motion.topLeftCorner<2, 2>() = back;
+  by_motion.topRightCorner<2, 1>() << 0.5 * turned.y(), -0.5 * turned.x();
+  motion.head<2>() = turned;
+}
+
+}  // namespace
+
+double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
+  const double distance_m = motion.head<2>().norm() - noise_m;
+  return std::clamp(distance_m / (dt_s * kRollingMps), 0.0, 1.0);
+}
+
+SharedDoppler::SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,
+                             const SharedErrorOptions& errors, const Pose2& vehicle_from_radar)
+    : degrees_of_freedom_(degrees_of_freedom),
+      options_(doppler),
+      errors_(errors),
+      vehicle_from_radar_(vehicle_from_radar) {}
+
+SharedDoppler::SharedVector SharedDoppler::prior_information(double rolling) const {
+  const double sideways_std_mps2 = degrees_of_freedom_ == 3 ? errors_.acceleration_std_mps2 : 0.0;
+  SharedVector information;
+  information << information_of(rolling * errors_.doppler_offset_std_mps),
+      information_of(rolling * errors_.mount_yaw_std_rad),
+      information_of(errors_.acceleration_std_mps2), information_of(sideways_std_mps2),
+      information_of(errors_.yaw_acceleration_std_radps2);
+  return information;
+}
+
+void SharedDoppler::add(const TargetSet& previous, const TargetSet& current,
+                        const Eigen::Vector3d& motion, double dt_s, NormalEquations& equations) {
+  Eigen::Vector3d half_way = motion;
+  Eigen::Matrix3d by_motion = Eigen::Matrix3d::Identity();
+  if (degrees_of_freedom_ == 3) {
+    turn_back(half_way, by_motion);
+  }
+  Sums sums;
+  add_scan(current, half_way, dt_s, 1.0, sums);
+  if (options_.both_scans) {
+    add_scan(previous, half_way, dt_s, -1.0, sums);
+  }
+  const double noise_m = 1.0 / std::sqrt(sums.motion.information(0, 0));
+  const SharedVector prior = prior_information(rolling_part(motion, noise_m, dt_s));
+  const SharedVector pull = prior.cwiseProduct(shared_);
+  sums.shared.diagonal() += prior;
+  sums.gradient += pull;
+  const Eigen::LLT<SharedMatrix> factor(sums.shared);
+  const Eigen::Matrix<double, kShared, 3> gain = factor.solve(sums.cross.transpose());
+  const SharedVector step = factor.solve(sums.gradient);
+  equations.information +=
+      by_motion.transpose() * (sums.motion.information - sums.cross * gain) * by_motion;
+  equations.gradient += by_motion.transpose() * (sums.motion.gradient - sums.cross * step);
+  equations.cost += sums.motion.cost + 0.5 * shared_.dot(pull) - 0.5 * sums.gradient.dot(step);
+  shared_ -= step;
+}
+
+void SharedDoppler::add_scan(const TargetSet& targets, const Eigen::Vector3d& half_way, double dt_s,
+                             double side, Sums& sums) const {
+  const double half_s2 = side * 0.5 * dt_s * dt_s;
+  for (const Target& target : targets) {
+    const DopplerGeometry geometry(target, half_way, vehicle_from_radar_);
+    SharedVector shared;
+    shared << dt_s, geometry.per_bearing_m, half_s2 * geometry.jacobian.transpose();
+    const DopplerResidual doppler =
+        doppler_residual(target, geometry, dt_s, options_, 1.0, shared.dot(shared_));
+    const double weight = doppler.per_m * doppler.per_m;
+    const Eigen::RowVector3d jacobian = weight * geometry.jacobian;
+    sums.motion.information.noalias() += jacobian.transpose() * geometry.jacobian;
+    sums.motion.gradient.noalias() += doppler.error_m * jacobian.transpose();
+    sums.motion.cost += doppler.cost;
+    sums.cross.noalias() += jacobian.transpose() * shared.transpose();
+    sums.shared.noalias() += (weight * shared) * shared.transpose();
+    sums.gradient.noalias() += weight * doppler.error_m * shared;
+  }
+}
+
+}  // namespace cremed

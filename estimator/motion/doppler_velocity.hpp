@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// The sensor's velocity over ground, from the Doppler of one scan, in the axes of the vehicle.
+struct DopplerVelocity {
+  Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  /// What an offset of all Doppler adds to it, for 1 m/s.
+  Eigen::Vector2d per_offset = Eigen::Vector2d::Zero();
+  double residual_std_mps = 0.0;  ///< Of the targets that stand still, by their median.
+  int targets = 0;                ///< That stand still.
+};
+
+/// Robust least squares of a static world's Doppler (Kellner et al., ITSC 2013; here all targets
+/// with Tukey's weights W instead of a random choice of inliers):
+///
+///     doppler_i = -cos(phi_i) V_x - sin(phi_i) V_y + offset,   V = (A'WA)^-1 A'W doppler
+///
+/// The offset is an unknown (prior 0.2 m/s) while weights are found, so that it makes no target an
+/// outlier, and left out of the result: per_offset = (A'WA)^-1 A'W 1 tells what it does there.
+class DopplerVelocityEstimator {
+ public:
+  /// The velocity nearest to `start`, if targets within `start_scale_mps` of it agree on one.
+  /// `std_mps`: standard deviation of a target's Doppler.
+  std::optional<DopplerVelocity> fit(const TargetSet& targets, const Eigen::Vector2d& start,
+                                     double std_mps);
+  /// The velocity that explains most targets, roughly: a start for fit(). Zero without any.
+  static Eigen::Vector2d search(const TargetSet& targets);
+
+ private:
+  double median_residual(const TargetSet& targets, const Eigen::Vector3d& solution, double most);
+
+  std::array<double, kMaxDetections> scratch_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+/// Reorders the range, which must not be empty.
+template <typename Iterator>
+double median(Iterator first, Iterator last) {
+  const Iterator middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last);
+  return *middle;
+}
+
+}  // namespace
+
+std::string_view to_string(MotionStatus status) {
+  static constexpr std::array<std::string_view, kMotionStatusCount> kNames{
+      "ok",           "standing_still",  "no_reference", "incomplete_scan",
+      "gap_too_long", "too_few_targets", "degenerate",   "no_convergence",
+      "non_finite",   "implausible",     "ambiguous"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+EgoMotionEstimator::EgoMotionEstimator(const EgoMotionOptions& options)
+    : options_(options),
+      registration_(options.registration, options.vehicle_from_radar),
+      two_worlds_(options.vehicle_from_radar) {}
+
+EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
+  EgoMotion motion;
+  motion.utime_us = scan.stamp_us;
+  motion.utime_start_us = has_reference_ ? reference_stamp_us_ : scan.stamp_us;
+  motion.incomplete = scan.status != ScanStatus::complete;
+  motion.status = check(scan);
+  motion.targets = static_cast<int>(targets_.size());
+  if (motion.status != MotionStatus::ok) {
+    return motion;
+  }
+  const double dt_s = seconds_between(reference_stamp_us_, scan.stamp_us);
+  if (!has_reference_) {
+    motion.status = MotionStatus::no_reference;
+  } else if (!(dt_s > 0.0 && dt_s <= options_.max_gap_s)) {
+    motion.status = MotionStatus::gap_too_long;
+    last_velocity_.setZero();
+    has_velocity_ = has_started_ = false;
+  } else {
+    motion.status = solve(dt_s, motion);
+  }
+  registration_.set_previous(targets_);
+  reference_stamp_us_ = scan.stamp_us;
+  has_reference_ = true;
+  return motion;
+}
+
+void EgoMotionEstimator::forget_reference() {
+  has_reference_ = has_velocity_ = has_started_ = false;
+}
+
+/// Selects the targets; ok if the scan can be one end of an estimate.
+MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
+  targets_.clear();
+  if (scan.status == ScanStatus::conflicting_parts || scan.status == ScanStatus::over_capacity) {
+    return MotionStatus::incomplete_scan;
+  }
+  targets_.assign(scan, options_.vehicle_from_radar, options_.limits, selection_,
+                  options_.correction);
+  if (!targets_.is_finite()) {
+    return MotionStatus::non_finite;
+  }
+  // A mixture needs at least one component, whatever the options say.
+  const int needed = std::max(options_.min_targets, 1);
+  return static_cast<int>(targets_.size()) < needed ? MotionStatus::too_few_targets
+                                                    : MotionStatus::ok;
+}
+
+MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
+  const std::array<Eigen::Vector3d, 3> starts{
+      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {doppler_speed_mps() * dt_s, 0.0, 0.0}};
+  const RegistrationResult result = registration_.solve(targets_, dt_s, starts);
+  motion.iterations = result.iterations;
+  const MotionStatus status = judge(result, dt_s);
+  has_velocity_ = status == MotionStatus::ok || status == MotionStatus::standing_still;
+  if (has_velocity_) {
+    has_started_ = true;
+    motion.motion = result.motion;
+    motion.covariance = result.covariance;
+    motion.doppler_innovation = result.doppler_innovation;
+    last_velocity_ = result.motion / dt_s;
+  }
+  return status;
+}
+
+MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double dt_s) {
+  switch (result.status) {
+    case RegistrationStatus::converged:
+      break;
+    case RegistrationStatus::degenerate:
+      return MotionStatus::degenerate;
+    case RegistrationStatus::ambiguous:
+      if (!continues(result, dt_s)) {
+        return MotionStatus::ambiguous;
+      }
+      break;
+    case RegistrationStatus::no_convergence:
+      return MotionStatus::no_convergence;
+    case RegistrationStatus::non_finite:
+      return MotionStatus::non_finite;
+  }
+  if (!result.motion.allFinite() || !result.covariance.allFinite()) {
+    return MotionStatus::non_finite;
+  }
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  if (sigma.head<2>().maxCoeff() > options_.max_std_m || sigma.z() > options_.max_std_rad) {
+    return MotionStatus::degenerate;
+  }
+  const double speed_mps = result.motion.head<2>().norm() / dt_s;
+  if (speed_mps > options_.max_speed_mps ||
+      std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
+    return MotionStatus::implausible;
+  }
+  if (sees_two_worlds(result, dt_s)) {
+    return MotionStatus::ambiguous;
+  }
+  return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
+}
+
+/// Chance finds next to never what no vehicle could have departed from since the last estimate.
+bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
+  const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
+  const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
+                                 kMaxYawAccelerationRadps2);
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  return has_velocity_ && sigma.x() > 0.0 &&
+         (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
+}
+
+/// Asks Doppler even where it takes no part in the estimate.
+bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, double dt_s) {
+  const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
+  RegistrationResult other = result;
+  return two_worlds_.look(targets_, result.motion / dt_s,
+                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !has_started_,
+                          [&](double speed_mps) {
+                            other.motion.x() = speed_mps * dt_s;
+                            return continues(other, dt_s);
+                          });
+}
+
+/// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
+/// none while the vehicle moves. A small estimate alone does not either, if it could as well be a
+/// large one.
+bool EgoMotionEstimator::is_standing(const RegistrationResult& result, double dt_s) {
+  const double limit_m = options_.standstill_mps * dt_s;
+  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+  return result.motion.head<2>().norm() <= limit_m && sigma.head<2>().maxCoeff() <= limit_m &&
+         std::abs(result.motion.z()) <= 3.0 * sigma.z() && median_normalised_doppler() <= 1.0;
+}
+
+/// 0.67 if there is nothing but noise.
+double EgoMotionEstimator::median_normalised_doppler() {
+  const auto last =
+      std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
+                     [](const Target& t) { return std::abs(t.doppler_mps) / t.doppler_std_mps; });
+  return median(scratch_.begin(), last);
+}
+
+/// Speed along x that most targets agree on if they stand still and the vehicle turns as before.
+/// Targets abeam say nothing about it.
+double EgoMotionEstimator::doppler_speed_mps() {
+  const Eigen::Vector3d turning(0.0, 0.0, has_velocity_ ? last_velocity_.z() : 0.0);
+  auto last = scratch_.begin();
+  for (const Target& target : targets_) {
+    if (std::abs(target.cos_bearing) > 0.5) {
+      *last++ = speed_along_x_mps(target, turning, options_.vehicle_from_radar);
+    }
+  }
+  return last == scratch_.begin() ? 0.0 : median(scratch_.begin(), last);
+}
+
+}  // namespace cremed

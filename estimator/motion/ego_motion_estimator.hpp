@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/motion/ego_motion_options.hpp"
+#include "cremed/estimator/motion/two_worlds.hpp"
+#include "cremed/estimator/registration/registration.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// What an EgoMotion holds. The numbers are those of ego_motion_t; they never change meaning.
+enum class MotionStatus : std::uint8_t {
+  ok = 0,  ///< An estimate.
+  standing_still =
+      1,  ///< An estimate; speed and median |Doppler| <= standstill_mps, |yaw| <= 3 sigma.
+  no_reference = 2,     ///< The first usable scan: there is no earlier one to compare with.
+  incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status).
+  gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.
+  too_few_targets = 5,  ///< Usable targets < min_targets.
+  degenerate = 6,       ///< J'J not positive definite, or a sigma > max_std_m, max_std_rad.
+  no_convergence = 7,   ///< A limit on iterations or work cut in before the end.
+  non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
+  implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
+  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well or
+                        ///< has the Doppler of many targets, and only one motion can be the
+                        ///< continuation of the scan before: not this one, or both. Or it fits
+                        ///< but contradicts the odometry (fusion/motion_witness.hpp).
+};
+inline constexpr std::size_t kMotionStatusCount = 11;
+
+/// The name of a status as in the CSV, e.g. "ok".
+std::string_view to_string(MotionStatus status);
+
+/// Ego-motion between two scans of one radar: pose of the vehicle at `utime_us` in its frame at
+/// `utime_start_us`, order (x_m, y_m, yaw_rad), covariance in the same order. NaN unless
+/// has_estimate(): nobody can use by mistake what is not there.
+struct EgoMotion {
+  std::int64_t utime_start_us = 0;
+  std::int64_t utime_us = 0;
+  MotionStatus status = MotionStatus::no_reference;
+  Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNothing);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
+  bool incomplete = false;  ///< The current scan lacks parts; it serves with the targets it has.
+  int targets = 0;          ///< Usable targets in the current scan.
+  int iterations = 0;       ///< Gauss-Newton steps.
+  double doppler_innovation = kNothing;  ///< Of RegistrationResult, for SelfCheck.
+
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  [[nodiscard]] bool has_estimate() const {
+    return status == MotionStatus::ok || status == MotionStatus::standing_still;
+  }
+};
+
+/// Estimates the motion from each scan to the next of one radar. A scan that cannot serve
+/// (contradictory, too few targets, not finite) is skipped: the next estimate then starts at the
+/// last scan that could, as long as max_gap_s allows. Never allocates, throws or logs.
+class EgoMotionEstimator {
+ public:
+  explicit EgoMotionEstimator(const EgoMotionOptions& options);
+
+  EgoMotion update(const RadarScan& scan);
+
+  /// The clock of the stamps was set: the next scan has no reference.
+  void forget_reference();
+
+  /// The usable targets of the last scan, whatever came of it; none if it was not whole.
+  [[nodiscard]] const TargetSet& targets() const { return targets_; }
+  [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
+
+ private:
+  MotionStatus check(const RadarScan& scan);
+  MotionStatus solve(double dt_s, EgoMotion& motion);
+  MotionStatus judge(const RegistrationResult& result, double dt_s);
+  [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
+  bool is_standing(const RegistrationResult& result, double dt_s);
+  double median_normalised_doppler();
+  double doppler_speed_mps();
+  bool sees_two_worlds(const RegistrationResult& result, double dt_s);
+
+  EgoMotionOptions options_;
+  Registration registration_;
+  TwoWorlds two_worlds_;
+  TargetSet targets_;
+  SelectionCounters selection_;
+  std::array<double, kMaxDetections> scratch_{};
+  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
+  std::int64_t reference_stamp_us_ = 0;
+  bool has_reference_ = false;
+  bool has_velocity_ = false;  // last_velocity_ is that of the scan before
+  bool has_started_ = false;   // there was an estimate since the last gap
+};
+
+}  // namespace cremed

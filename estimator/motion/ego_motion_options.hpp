@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cremed/estimator/registration/registration_options.hpp"
+#include "cremed/estimator/scan/detection_options.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+
+namespace cremed {
+
+/// Settings of one radar's ego-motion.
+struct EgoMotionOptions {
+  Pose2 vehicle_from_radar;  ///< Mount: pose of the radar in the vehicle frame (rear axle).
+  DetectionLimits limits;
+  DetectionCorrection correction;
+  RegistrationOptions registration;
+  int min_targets = 5;              ///< Fewer usable targets in a scan: too_few_targets.
+  double max_gap_s = 0.5;           ///< Longer time between two scans: gap_too_long.
+  double standstill_mps = 0.1;      ///< Speed up to it, and known as well as that: standing still.
+  double max_speed_mps = 70.0;      ///< Faster estimates are implausible.
+  double max_yaw_rate_radps = 3.0;  ///< Faster turns are implausible.
+  double max_std_m = 1.0;           ///< Larger standard deviation of x or y: degenerate.
+  double max_std_rad = 0.1;         ///< Larger standard deviation of yaw: degenerate.
+};
+
+}  // namespace cremed

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/motion/self_check.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/cost/normal_equations.hpp"
+#include "cremed/estimator/motion/acceleration.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kTooGreat = 3.0;
+/// Both are less than this only where errors are less than half of what is said. The shared errors
+/// that Doppler may have keep the first from getting smaller, what vehicles do not accelerate makes
+/// the second small anyway: 0.4 and 0.2 on healthy drives.
+constexpr double kTooSmallByDoppler = 0.35;
+constexpr double kTooSmallByNext = 0.12;
+
+double duration_s(const EgoMotion& motion) {
+  return seconds_between(motion.utime_start_us, motion.utime_us);
+}
+
+}  // namespace
+
+void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
+  if (targets.is_finite()) {
+    speed_.add(targets, motion.utime_us);
+  }
+  if (motion.status == MotionStatus::ok) {
+    if (std::isfinite(motion.doppler_innovation)) {
+      doppler_.add(motion.utime_us, motion.doppler_innovation);
+    }
+    compare_with_last(motion);
+  }
+  last_ = motion;
+}
+
+void SelfCheck::forget() {
+  last_ = EgoMotion();
+  speed_.forget();
+}
+
+void SelfCheck::compare_with_last(const EgoMotion& motion) {
+  if (last_.status != MotionStatus::ok || last_.utime_us != motion.utime_start_us) {
+    return;
+  }
+  const double dt_s = duration_s(motion);
+  const double last_dt_s = duration_s(last_);
+  Eigen::Matrix3d covariance =
+      motion.covariance / (dt_s * dt_s) + last_.covariance / (last_dt_s * last_dt_s);
+  const SharedErrorOptions& errors = options_.shared_errors;
+  covariance += acceleration_covariance(0.5 * (dt_s + last_dt_s), errors.acceleration_std_mps2,
+                                        errors.yaw_acceleration_std_radps2);
+  const auto weight = invert_information(covariance, options_.degrees_of_freedom);
+  if (weight) {
+    const Eigen::Vector3d change = motion.motion / dt_s - last_.motion / last_dt_s;
+    next_.add(motion.utime_us, change.dot(*weight * change) / options_.degrees_of_freedom);
+  }
+}
+
+std::uint32_t SelfCheck::doubts() const {
+  std::uint32_t result = 0;
+  if (doppler_.exceeds(kTooGreat)) {
+    result |= registration_contradicts_doppler;
+  }
+  if (next_.exceeds(kTooGreat)) {
+    result |= motions_contradict_each_other;
+  }
+  if (speed_.is_contradicted()) {
+    result |= positions_contradict_speed;
+  }
+  if (doppler_.is_enough() && doppler_.mean() < kTooSmallByDoppler && next_.is_enough() &&
+      next_.mean() < kTooSmallByNext) {
+    result |= covariance_too_large;
+  }
+  return result;
+}
+
+}  // namespace cremed

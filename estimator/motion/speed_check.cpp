@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/motion/speed_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+/// Of one target, an ARS408's on real drives (OdometryOptions::doppler_std_mps).
+constexpr double kDopplerStdMps = 0.13;
+/// Radars that look across the way know their forward speed less well.
+constexpr double kMaxSpeedStdMps = 0.3;
+/// Less is within the steps, and what a vehicle may accelerate between the scans.
+constexpr double kMinDifferenceMps = 2.0;
+constexpr double kMinSigmas = 2.0;
+
+}  // namespace
+
+void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
+  const double dt_s = seconds_between(reference_us_, stamp_us);
+  if (has_reference_ && dt_s >= 0.0 && dt_s < PositionSpeed::kMinIntervalS) {
+    return;
+  }
+  has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kCheckedS;
+  const auto speed_mps = doppler_mps(targets);
+  if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
+    const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);
+    if (const auto support = positions_.compare(reference_, targets, dt_s, mean_mps)) {
+      judge(*support, mean_mps);
+      has_verdict_ = true;
+      verdict_us_ = stamp_us;
+    }
+  }
+  if (!speed_mps || !(dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS)) {
+    positions_.clear();
+  }
+  has_reference_ = speed_mps.has_value();
+  if (speed_mps) {
+    reference_ = targets;
+    reference_us_ = stamp_us;
+    reference_mps_ = *speed_mps;
+  }
+}
+
+std::optional<double> SpeedCheck::doppler_mps(const TargetSet& targets) {
+  const auto start = DopplerVelocityEstimator::search(targets);
+  const auto velocity = doppler_.fit(targets, start, kDopplerStdMps);
+  if (!velocity || std::sqrt(velocity->covariance(0, 0)) > kMaxSpeedStdMps) {
+    return std::nullopt;
+  }
+  return velocity->velocity_mps.x();
+}
+
+void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
+  const bool is_other = std::abs(support.best_mps - doppler_mps) > kMinDifferenceMps;
+  const double excess = support.best - support.asked;
+  const bool contradicts =
+      is_other && excess > kMinSigmas * std::sqrt(support.best + support.asked);
+  const bool agrees = !contradicts && (!is_other || support.asked > support.by_chance);
+  contradictions_ =
+      std::clamp(contradictions_ + (contradicts ? 1 : 0) - (agrees ? 1 : 0), 0, kMaxContradictions);
+  if (contradictions_ == 0 || contradictions_ == kMaxContradictions) {
+    is_contradicted_ = contradictions_ != 0;
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "cremed/estimator/cost/cost_options.hpp"
+
+namespace cremed {
+
+/// What estimate and covariance rest on.
+enum class CovarianceModel : std::uint8_t {
+  exclusive,     ///< All one-to-one assignments of targets, curvature: see ExclusiveLikelihood.
+  gauss_newton,  ///< The paper: Max-Sum-Mixture and (J'J)^-1; over-confident where targets cluster.
+};
+
+/// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
+struct RegistrationOptions {
+  int degrees_of_freedom = 2;        ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
+  double start_scale = 5.0;          ///< Factor on standard deviations in the first stage; 1: none.
+  double start_doppler_scale = 2.0;  ///< Further factor on the Doppler ones in the first stage.
+  int max_start_iterations = 5;      ///< Gauss-Newton steps of the first stage.
+  int max_iterations = 100;          ///< Gauss-Newton steps of the second stage.
+  /// The second stage ends at a step shorter than this, squared, in standard deviations (step' J'J
+  /// step).
+  double step_tolerance = 1e-5;
+  /// Where few targets are found again, search from other yaw angles. Of use where the start is a
+  /// guess, not where it is a prediction.
+  bool restarts = true;
+  /// Limit on the work of one registration, in evaluations of a mixture component.
+  std::int64_t max_component_evaluations = 800'000;
+  CovarianceModel covariance = CovarianceModel::exclusive;
+  OutlierRayOptions outlier_ray;
+  DopplerOptions doppler;
+  SharedErrorOptions shared_errors;
+};
+
+}  // namespace cremed

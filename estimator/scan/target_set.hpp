@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/scan/detection_options.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+
+namespace cremed {
+
+/// Symmetric 2x2 matrix.
+struct Symmetric2 {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+};
+
+/// One target as the registration uses it: a point in the vehicle frame with its covariance, and a
+/// Doppler along a line of sight.
+struct Target {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  Symmetric2 covariance_m2;
+  double bearing_rad = 0.0;  ///< Line of sight in the vehicle frame: azimuth + mounting yaw.
+  double cos_bearing = 1.0;
+  double sin_bearing = 0.0;
+  double bearing_std_rad = 0.0;
+  double doppler_mps = 0.0;
+  double doppler_std_mps = 0.0;
+};
+
+/// Why detections were left out of a set.
+struct SelectionCounters {
+  std::uint64_t used = 0;
+  std::uint64_t no_noise = 0;
+  std::uint64_t invalid_state = 0;
+  std::uint64_t moving = 0;
+  std::uint64_t low_existence = 0;
+  std::uint64_t no_position = 0;
+  std::uint64_t outside_limits = 0;
+};
+
+/// The usable targets of one scan, capacity fixed.
+class TargetSet {
+ public:
+  TargetSet() = default;
+  TargetSet(const TargetSet& other) { *this = other; }
+  /// Copies the targets, not the room for more.
+  TargetSet& operator=(const TargetSet& other);
+  ~TargetSet() = default;
+
+  void clear() { size_ = 0; }
+  /// Adds the target a detection stands for, seen by a radar at `vehicle_from_radar`. A full set
+  /// ignores it: a scan never holds more detections than the set has room for.
+  void add(const Detection& detection, const Pose2& vehicle_from_radar);
+  /// Replaces the content by the usable detections of a scan, corrected.
+  void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
+              SelectionCounters& counters, const DetectionCorrection& correction = {});
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Target& operator[](std::size_t i) const { return targets_[i]; }
+  [[nodiscard]] const Target* begin() const { return targets_.data(); }
+  [[nodiscard]] const Target* end() const { return targets_.data() + size_; }
+  /// false if any number of any target is NaN or infinite, or a standard deviation is not > 0.
+  [[nodiscard]] bool is_finite() const;
+
+ private:
+  std::array<Target, kMaxDetections> targets_{};
+  std::size_t size_ = 0;
+};
+
+/// The detection without Doppler's systematic errors, with the standard deviations that its errors
+/// have; the rotation lead is a matter of the whole scan.
+Detection corrected(const Detection& detection, const DetectionCorrection& correction);
+
+/// Covariance of a point given in polar coordinates: J diag(range^2, azimuth^2) J' with J at the
+/// measurement, in the frame in which `bearing_rad` is counted.
+Symmetric2 polar_covariance(double range_m, double bearing_rad, double range_std_m,
+                            double azimuth_std_rad);
+
+}  // namespace cremed

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/calibrate/calibrate_command.hpp"
+
+#include <cstdio>
+#include <istream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/process/replaced_file.hpp"
+#include "tools/eval/calibrate/calibration.hpp"
+#include "tools/eval/calibrate/calibration_keys.hpp"
+#include "tools/eval/calibrate/configuration_edit.hpp"
+#include "tools/eval/input_file.hpp"
+
+namespace cremed {
+namespace {
+
+struct Column {
+  CalibrationState state;
+  const char* label;
+  double unit;
+  int decimals;
+};
+
+constexpr double kDegrees = 57.295779513082321;
+constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegrees, 2},
+                               {kX, "x m", 1.0, 3},
+                               {kY, "y m", 1.0, 3},
+                               {kOffset, "Doppler offset m/s", 1.0, 3},
+                               {kStamp, "stamp offset ms", 1e3, 1},
+                               {kScale, "Doppler scale", 1.0, 4},
+                               {kLead, "rotation lead ms", 1e3, 1},
+                               {kPositionLead, "positions ahead ms", 1e3, 1}};
+
+/// What the configuration says already of a lead, which the fit is on top of.
+double configured_part(const RadarConfiguration& radar, CalibrationState state) {
+  const bool is_lead = state == kLead || state == kPositionLead;
+  return is_lead ? radar.ego_motion.correction.rotation_lead_s : 0.0;
+}
+
+const char* verdict(const RadarCalibration& radar, CalibrationState state) {
+  if (state == kPositionLead) {
+    return "a check, from";
+  }
+  return radar.is_changed[state] ? "was" : "kept";
+}
+
+void print_state(const RadarConfiguration& configured, const RadarCalibration& radar,
+                 const Column& column) {
+  const CalibrationState state = column.state;
+  const FittedRadar& fit = radar.is_changed[state] ? radar.fit : radar.free;
+  const auto number = [&](double value) {
+    return (value + configured_part(configured, state)) * column.unit;
+  };
+  if (fit.prior_std[state] == 0.0 && state == kLead) {
+    return;  // Of no other type.
+  }
+  std::fprintf(stderr, "  %-22s", column.label);
+  if (fit.prior_std[state] == 0.0) {
+    std::fprintf(stderr, "%10.*f  reference for the other radars\n", column.decimals,
+                 number(fit.value[state]));
+    return;
+  }
+  std::fprintf(stderr, "%10.*f +- %.*f  %s %.*f\n", column.decimals, number(fit.value[state]),
+               column.decimals, fit.std[state] * column.unit, verdict(radar, state),
+               column.decimals, number(fit.prior[state]));
+}
+
+void print_factor(const char* label, const StdFactor& factor) {
+  if (factor.std > 0.0) {
+    std::fprintf(stderr, "  %-22s%10.3f +- %.3f\n", label, factor.value, factor.std);
+  } else {
+    std::fprintf(stderr, "  %-22s%10s\n", label, "unknown");
+  }
+}
+
+void print_vehicle(const FittedVehicle& vehicle) {
+  if (vehicle.prior_std[kRoll] == 0.0) {
+    std::fprintf(stderr, "mounts are relative to the direction the vehicle rolls in\n");
+  } else {
+    std::fprintf(stderr,
+                 "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
+                 vehicle.value[kRoll] * kDegrees, vehicle.std[kRoll] * kDegrees);
+  }
+  std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across\n",
+               vehicle.value[kSlip] * kDegrees, vehicle.std[kSlip] * kDegrees);
+}
+
+void print_table(const Configuration& configuration, const Calibration& calibration) {
+  std::fprintf(stderr, "kept: the drive does not tell better\n");
+  print_vehicle(calibration.vehicle);
+  for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
+    const RadarCalibration& radar = calibration.radars[i];
+    const RadarConfiguration& configured = configuration.radars[i];
+    std::fprintf(stderr, "%s, %zu scans\n", configured.name.c_str(), radar.scans);
+    for (const Column& column : kColumns) {
+      print_state(configured, radar, column);
+    }
+    print_factor("range std factor", radar.noise.range);
+    print_factor("azimuth std factor", radar.noise.azimuth);
+    print_factor("Doppler std factor", radar.noise.doppler);
+  }
+}
+
+using Values = std::vector<std::vector<CalibratedValue>>;
+
+Values found_values(const Configuration& configuration, const Calibration& calibration) {
+  const Configuration found = calibrated(configuration, calibration.radars);
+  Values values;
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    values.push_back(changed_values(configuration.radars[i], found.radars[i]));
+  }
+  return values;
+}
+
+/// Tables of their own: a radar's [radar.mount] may be written in ways that take no further key.
+void print_toml(const Configuration& configuration, const Calibration& calibration,
+                const Values& values) {
+  const FittedVehicle& vehicle = calibration.vehicle;
+  std::printf(
+      "# Found by cremed-eval calibrate. Goes above or below any table, in place of older ones.\n");
+  if (vehicle.prior_std[kRoll] == 0.0) {
+    std::printf("# yaw_rad is relative to the direction the vehicle rolls in.\n");
+  } else {
+    std::printf(
+        "# yaw_rad is in the frame of truth, in which the vehicle rolls at %.4f +- %.4f rad.\n",
+        vehicle.value[kRoll], vehicle.std[kRoll]);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::printf("\n[calibrated.%s]\n", configuration.radars[i].name.c_str());
+    for (const CalibratedValue& value : values[i]) {
+      std::printf("%s = %s\n", std::string(value.key->key).c_str(), value.text.c_str());
+    }
+  }
+}
+
+std::string read_text(std::istream& input) {
+  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+}
+
+void write_back(const std::string& path, const Values& values) {
+  replace_file(path, edited_configuration(with_input(path, read_text), values));
+  std::fprintf(stderr, "%s: changed\n", path.c_str());
+}
+
+std::unique_ptr<TrueTrajectory> read_truth(const std::string& path) {
+  if (path.empty()) {
+    return nullptr;
+  }
+  return with_input(path,
+                    [](std::istream& input) { return std::make_unique<TrueTrajectory>(input); });
+}
+
+}  // namespace
+
+void run_calibrate(const CalibrateArguments& arguments) {
+  const Configuration configuration = load_configuration(arguments.config);
+  const auto truth = read_truth(arguments.truth);
+  const Calibration calibration = calibrate(configuration, arguments.logs, truth.get());
+  const Values values = found_values(configuration, calibration);
+  print_table(configuration, calibration);
+  print_toml(configuration, calibration, values);
+  if (arguments.write) {
+    write_back(arguments.config, values);
+  }
+}
+
+}  // namespace cremed

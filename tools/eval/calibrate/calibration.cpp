@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/calibrate/calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <Eigen/Dense>
+
+#include "tools/eval/recorded_drive.hpp"
+
+namespace cremed {
+namespace {
+
+/// How well a radar is known beforehand, in the order of CalibrationState.
+constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.01, 0.05, 0.05, 0.01, 0.03};
+/// Known no better, the configured value is kept: a tape measure does as well.
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.05, 0.007, 0.002, 0.005};
+/// States that are told; the others are nuisances or checks.
+constexpr std::array kTold = {kYaw, kX, kY, kOffset, kStamp, kScale, kLead};
+/// The frame's direction, and the slip of a rear axle: 0.005 rad s^2/m is 800 kg on tyres whose
+/// cornering stiffness is 160 kN/rad.
+constexpr std::array<double, kRollingStates> kVehiclePriorStd = {0.05, 0.005};
+/// Errors of a scan's velocity that no target tells of, of one radar: four nuScenes drives, front
+/// and rear.
+constexpr double kSharedVelocityStdMps = 0.04;
+constexpr double kSignificant = 3.0;  // Standard deviations.
+constexpr int kRounds = 3;
+constexpr int kRegisteredRounds = 2;  // Then mounts are so good that registrations stay the same.
+constexpr double kSlowestMps = 0.5;   // Slower, Doppler has no direction.
+constexpr double kSlackMps = 0.1;
+constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
+
+CalibrationVector configured(const RadarConfiguration& radar) {
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  CalibrationVector state{};
+  state[kYaw] = mount.yaw_rad;
+  state[kX] = mount.x_m;
+  state[kY] = mount.y_m;
+  return state;
+}
+
+bool has_rotation_lead(const RadarConfiguration& radar) {
+  const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
+  return ars408 != nullptr && ars408->output == Ars408Output::clusters;
+}
+
+std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth) {
+  std::vector<FittedRadar> radars;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    radars.push_back({configured(radar), kPriorStd, configured(radar), {}});
+    if (!has_rotation_lead(radar)) {
+      radars.back().prior_std[kLead] = 0.0;
+    }
+  }
+  if (!has_truth) {
+    for (const CalibrationState state : {kY, kStamp, kScale}) {
+      radars.front().prior_std[state] = 0.0;
+    }
+  }
+  return radars;
+}
+
+FittedVehicle vehicle_start(bool has_truth) {
+  FittedVehicle vehicle;
+  vehicle.prior_std = kVehiclePriorStd;
+  vehicle.prior_std[kRoll] = has_truth ? kVehiclePriorStd[kRoll] : 0.0;
+  return vehicle;
+}
+
+MotionPrior motion_prior(const Configuration& configuration) {
+  const auto& errors = configuration.radars.front().ego_motion.registration.shared_errors;
+  return {errors.acceleration_std_mps2, errors.yaw_acceleration_std_radps2,
+          errors.velocity_std_mps};
+}
+
+/// A mount's yaw is what odometry errs by most: it is better as soon as it is known as well as the
+/// configuration says of its own, `yaw_std_rad`.
+bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad) {
+  const double change = std::abs(radar.value[state] - radar.prior[state]);
+  const bool is_good_yaw = state == kYaw && radar.std[kYaw] <= yaw_std_rad;
+  return radar.prior_std[state] > 0.0 && radar.std[state] <= kWorstStd[state] &&
+         (is_good_yaw || change > kSignificant * radar.std[state]);
+}
+
+/// What scatters less than it says is left alone: a few large errors count more than many small
+/// ones, and estimates would promise too much.
+double above_one(const StdFactor& factor) {
+  return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
+}
+
+/// One calibration on its way.
+class Calibrator {
+ public:
+  Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
+             const TrueTrajectory* truth);
+
+  void refine();
+  void finish();
+  [[nodiscard]] Calibration result() const { return {radars_, fit_.vehicle()}; }
+
+ private:
+  [[nodiscard]] std::vector<VelocityMeasurement> velocities() const;
+  [[nodiscard]] std::optional<DopplerState> state_of(std::size_t radar,
+                                                     const RecordedScan& scan) const;
+  [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
+  [[nodiscard]] Configuration trial() const;
+  [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
+  void choose_changes();
+  void solve();
+
+  const Configuration& configuration_;
+  const std::vector<std::string>& logs_;
+  std::vector<RecordedRadar> recorded_;
+  std::vector<RecordedRadar> registered_;
+  CalibrationFit fit_;
+  bool is_started_ = false;
+  int round_ = 0;
+  std::vector<RadarCalibration> radars_;
+};
+
+Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
+                       const TrueTrajectory* truth)
+    : configuration_(configuration),
+      logs_(logs),
+      recorded_(record_drive(configuration, logs)),
+      fit_(start(configuration, truth != nullptr), vehicle_start(truth != nullptr),
+           motion_prior(configuration)),
+      radars_(configuration.radars.size()) {
+  fit_.set_truth(truth);
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    radars_[i].scans = recorded_[i].scans.size();
+  }
+  solve();
+  choose_changes();
+  is_started_ = true;
+}
+
+DopplerNoise Calibrator::noise(std::size_t radar) const {
+  return {radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
+          configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps,
+          kSharedVelocityStdMps};
+}
+
+/// At first a scan's own targets have to agree, later all radars know how the vehicle moves.
+std::optional<DopplerState> Calibrator::state_of(std::size_t radar,
+                                                 const RecordedScan& scan) const {
+  return is_started_ ? fit_.expected(radar, scan.stamp_us) : agreed_velocity(scan.targets);
+}
+
+std::vector<VelocityMeasurement> Calibrator::velocities() const {
+  std::vector<VelocityMeasurement> result;
+  for (std::size_t radar = 0; radar < recorded_.size(); ++radar) {
+    for (const RecordedScan& scan : recorded_[radar].scans) {
+      const auto state = state_of(radar, scan);
+      if (!state || state->head<2>().norm() < kSlowestMps) {
+        continue;
+      }
+      const RecordedScan fixed = static_part(scan, *state, {}, kSlackMps);
+      result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
+    }
+  }
+  return result;
+}
+
+/// Registers positions alone, in the frame of the direction that the vehicle rolls in. A wrong
+/// mount would turn into yaw. So sideways motion is free until the mounts are about right; then it
+/// would only cost yaw its precision.
+Configuration Calibrator::trial() const {
+  Configuration result = calibrated(configuration_, radars_);
+  for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    EgoMotionOptions& options = result.radars[i].ego_motion;
+    options.registration.doppler.enabled = false;
+    if (round_ == 0) {
+      options.registration.degrees_of_freedom = 3;
+    }
+    options.vehicle_from_radar.yaw_rad -= fit_.vehicle().value[kRoll];
+    options.correction.rotation_lead_s =
+        configuration_.radars[i].ego_motion.correction.rotation_lead_s;
+    result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
+  }
+  return result;
+}
+
+std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
+  std::vector<YawRateMeasurement> result;
+  for (std::size_t radar = 0; radar < registered_.size(); ++radar) {
+    std::vector<ScaledError> errors;
+    const std::size_t first = result.size();
+    for (const EgoMotion& motion : registered_[radar].motions) {
+      const double dt_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+      const std::int64_t middle_us = motion.utime_start_us + std::llround(dt_s * 0.5e6);
+      const FittedRadar& fit = fit_.radars()[radar];
+      const auto expected = fit_.motion(radar, middle_us, fit.value[kPositionLead]);
+      if (!expected) {
+        continue;
+      }
+      result.push_back(
+          {radar, middle_us, motion.motion.z() / dt_s,
+           std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
+      errors.push_back({middle_us,
+                        (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
+                        0.0});
+    }
+    // Some radars promise more than they hold.
+    const double factor = std::max(noise_factor(errors).value, 1.0);
+    for (std::size_t i = first; i < result.size(); ++i) {
+      result[i].std_radps *= factor;
+    }
+  }
+  return result;
+}
+
+void Calibrator::solve() {
+  fit_.set_measurements(velocities(),
+                        is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
+  fit_.solve();
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    radars_[i].fit = fit_.radars()[i];
+  }
+}
+
+void Calibrator::refine() {
+  if (round_ < kRegisteredRounds) {
+    registered_ = record_drive(trial(), logs_);
+  }
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);
+  }
+  solve();
+  choose_changes();
+  ++round_;
+}
+
+void Calibrator::choose_changes() {
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    const double yaw_std_rad =
+        configuration_.radars[i].ego_motion.registration.shared_errors.mount_yaw_std_rad;
+    radars_[i].free = radars_[i].fit;
+    for (const CalibrationState state : kTold) {
+      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad);
+    }
+  }
+}
+
+/// What is kept is known as well as by a tape measure.
+void Calibrator::finish() {
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    for (const CalibrationState state : kTold) {
+      if (!radars_[i].is_changed[state]) {
+        fit_.limit(i, state, kWorstStd[state]);
+      }
+    }
+  }
+  solve();
+}
+
+}  // namespace
+
+Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
+                      const TrueTrajectory* truth) {
+  Calibrator calibrator(configuration, logs, truth);
+  for (int round = 0; round < kRounds; ++round) {
+    calibrator.refine();
+  }
+  calibrator.finish();
+  return calibrator.result();
+}
+
+Configuration calibrated(const Configuration& configuration,
+                         const std::vector<RadarCalibration>& calibrations) {
+  Configuration result = configuration;
+  for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    RadarConfiguration& radar = result.radars[i];
+    const RadarCalibration& found = calibrations[i];
+    CalibrationVector value = found.fit.prior;
+    for (std::size_t state = 0; state < kCalibrationStates; ++state) {
+      value[state] = found.is_changed[state] ? found.fit.value[state] : value[state];
+    }
+    radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
+    radar.stamp_offset_s += value[kStamp];
+    DetectionCorrection& correction = radar.ego_motion.correction;
+    correction.doppler_offset_mps += value[kOffset] / correction.doppler_scale;
+    correction.doppler_scale /= 1.0 + value[kScale];
+    correction.rotation_lead_s += value[kLead];
+    correction.range_std_factor *= above_one(found.noise.range);
+    correction.azimuth_std_factor *= above_one(found.noise.azimuth);
+    correction.doppler_std_factor *= above_one(found.noise.doppler);
+  }
+  return result;
+}
+
+}  // namespace cremed

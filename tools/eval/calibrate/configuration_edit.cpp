@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/calibrate/configuration_edit.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "daemon/configuration/toml.hpp"
+#include "daemon/configuration/toml_document.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBlank = " \t";
+
+struct Edit {
+  std::size_t begin = 0;
+  std::size_t length = 0;
+  std::string replacement;
+};
+
+std::string assignment(const CalibratedValue& value) {
+  return std::string(value.key->key) + " = " + value.text;
+}
+
+std::string dotted(const CalibratedValue& value) {
+  return std::string(value.key->table) + "." + assignment(value);
+}
+
+/// Collects the edits of one text without a byte order mark; toml++ tells where its nodes are.
+class ConfigurationEditor {
+ public:
+  ConfigurationEditor(std::string_view text, const toml::table& document);
+
+  void set(std::size_t radar, const CalibratedValue& value);
+  [[nodiscard]] std::string result() const;
+
+ private:
+  void replace_number(const toml::node& node, const CalibratedValue& value);
+  void add_to_table(const toml::table& table, const CalibratedValue& value);
+  void add_to_inline(const toml::table& table, const std::string& assigned);
+  void add_to_section(std::size_t header, const CalibratedValue& value);
+  void add_table(const toml::table& radar, const CalibratedValue& value);
+  void add_line_after(std::size_t line, const std::string& added);
+
+  [[nodiscard]] std::size_t offset_of(const toml::source_position& at) const {
+    return starts_[at.line - 1] + at.column - 1;
+  }
+  [[nodiscard]] std::string_view line(std::size_t index) const {
+    return text_.substr(starts_[index], starts_[index + 1] - starts_[index]);
+  }
+  [[nodiscard]] bool is_header(std::size_t index) const;
+  [[nodiscard]] std::optional<Edit> uncommented(std::size_t index,
+                                                const CalibratedValue& value) const;
+
+  std::string_view text_;
+  const toml::table& document_;
+  std::vector<std::size_t> starts_ = {0};  // Of lines, and the end.
+  std::vector<Edit> edits_;
+};
+
+ConfigurationEditor::ConfigurationEditor(std::string_view text, const toml::table& document)
+    : text_(text), document_(document) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') {
+      starts_.push_back(i + 1);
+    }
+  }
+  starts_.push_back(text.size());
+}
+
+bool ConfigurationEditor::is_header(std::size_t index) const {
+  const std::string_view content = line(index);
+  const std::size_t first = content.find_first_not_of(kBlank);
+  return first != std::string_view::npos && content[first] == '[';
+}
+
+void ConfigurationEditor::set(std::size_t radar, const CalibratedValue& value) {
+  const toml::table& table = *document_["radar"][radar].as_table();
+  const std::string name = table["name"].value_or(std::string());
+  const toml::node* const overriding = document_["calibrated"][name][value.key->key].node();
+  const auto own = table[value.key->table];
+  if (overriding != nullptr) {
+    replace_number(*overriding, value);
+  } else if (const toml::node* node = own[value.key->key].node()) {
+    replace_number(*node, value);
+  } else if (const toml::table* sub = own.as_table()) {
+    add_to_table(*sub, value);
+  } else {
+    add_table(table, value);
+  }
+}
+
+void ConfigurationEditor::replace_number(const toml::node& node, const CalibratedValue& value) {
+  const std::size_t begin = offset_of(node.source().begin);
+  const std::size_t end = std::min(text_.find_first_of(" \t\r\n,}#", begin), text_.size());
+  edits_.push_back({begin, end - begin, value.text});
+}
+
+/// A table of dotted keys is where its first key is.
+void ConfigurationEditor::add_to_table(const toml::table& table, const CalibratedValue& value) {
+  if (table.is_inline()) {
+    add_to_inline(table, assignment(value));
+    return;
+  }
+  const std::size_t header = table.source().begin.line - 1;
+  if (is_header(header)) {
+    add_to_section(header, value);
+  } else {
+    add_line_after(table.begin()->second.source().begin.line - 1, dotted(value));
+  }
+}
+
+/// Later edits at one place come to stand before earlier ones.
+void ConfigurationEditor::add_to_inline(const toml::table& table, const std::string& assigned) {
+  const std::size_t inside = offset_of(table.source().begin) + 1;
+  const bool is_first = table.empty() && std::none_of(edits_.begin(), edits_.end(),
+                                                      [&](auto& e) { return e.begin == inside; });
+  edits_.push_back({inside, 0, " " + assigned + (is_first ? " " : ",")});
+}
+
+void ConfigurationEditor::add_to_section(std::size_t header, const CalibratedValue& value) {
+  for (std::size_t i = header + 1; i + 1 < starts_.size() && !is_header(i); ++i) {
+    if (auto edit = uncommented(i, value)) {
+      edits_.push_back(*edit);
+      return;
+    }
+  }
+  add_line_after(header, assignment(value));
+}
+
+/// "#key = default" made "key = value".
+std::optional<Edit> ConfigurationEditor::uncommented(std::size_t index,
+                                                     const CalibratedValue& value) const {
+  const std::string_view content = line(index);
+  const std::size_t sign = content.find_first_not_of(kBlank);
+  if (sign == std::string_view::npos || content[sign] != '#') {
+    return std::nullopt;
+  }
+  const std::size_t key = content.find_first_not_of(kBlank, sign + 1);
+  if (key == std::string_view::npos || !content.substr(key).starts_with(value.key->key)) {
+    return std::nullopt;
+  }
+  const std::size_t equals = content.find_first_not_of(kBlank, key + value.key->key.size());
+  if (equals == std::string_view::npos || content[equals] != '=') {
+    return std::nullopt;
+  }
+  const std::size_t begin = std::min(content.find_first_not_of(kBlank, equals + 1), content.size());
+  const std::size_t end = std::min(content.find_first_of(" \t\r\n#", begin), content.size());
+  return Edit{starts_[index] + sign, end - sign, assignment(value)};
+}
+
+/// Dotted keys can stand wherever keys of the radar itself can.
+void ConfigurationEditor::add_table(const toml::table& radar, const CalibratedValue& value) {
+  if (radar.is_inline()) {
+    add_to_inline(radar, dotted(value));
+    return;
+  }
+  const toml::table* mount = radar["mount"].as_table();
+  const toml::table& above = mount != nullptr && mount->is_inline() ? *mount : radar;
+  add_line_after(above.source().begin.line - 1, dotted(value));
+}
+
+void ConfigurationEditor::add_line_after(std::size_t index, const std::string& added) {
+  const bool has_end = line(index).ends_with('\n');
+  const std::string end = line(index).ends_with("\r\n") ? "\r\n" : "\n";
+  edits_.push_back({starts_[index + 1], 0, has_end ? added + end : end + added});
+}
+
+std::string ConfigurationEditor::result() const {
+  std::vector<Edit> edits = edits_;
+  std::stable_sort(edits.begin(), edits.end(),
+                   [](const Edit& a, const Edit& b) { return a.begin > b.begin; });
+  std::string text(text_);
+  for (const Edit& edit : edits) {
+    text.replace(edit.begin, edit.length, edit.replacement);
+  }
+  return text;
+}
+
+bool reads_as(std::string_view edited, std::string_view text,
+              const std::vector<std::vector<CalibratedValue>>& radars) {
+  const Configuration before = parse_configuration(text, "before");
+  const Configuration after = parse_configuration(edited, "edited");
+  bool is_right = after.radars.size() == before.radars.size();
+  for (std::size_t i = 0; is_right && i < radars.size(); ++i) {
+    is_right = has_values(after.radars[i], before.radars[i], radars[i]);
+  }
+  return is_right;
+}
+
+}  // namespace
+
+std::string edited_configuration(std::string_view text,
+                                 const std::vector<std::vector<CalibratedValue>>& radars) {
+  const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  Diagnostics diagnostics("configuration");
+  const auto document = parse_toml(text, diagnostics);
+  if (document == nullptr) {
+    throw std::runtime_error(diagnostics.text());
+  }
+  ConfigurationEditor editor(text.substr(mark), *document);
+  for (std::size_t i = 0; i < radars.size(); ++i) {
+    for (const CalibratedValue& value : radars[i]) {
+      editor.set(i, value);
+    }
+  }
+  std::string edited = std::string(text.substr(0, mark)) + editor.result();
+  try {
+    if (reads_as(edited, text, radars)) {
+      return edited;
+    }
+  } catch (const ConfigurationError&) {  // Told below.
+  }
+  throw std::runtime_error(
+      "the configuration is written in a way that cannot be edited; nothing was written: paste the "
+      "tables on standard output");
+}
+
+}  // namespace cremed

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/drive/drive_command.hpp"
+
+#include <array>
+
+#include "tools/eval/drive/baselines.hpp"
+#include "tools/eval/drive/drive_json.hpp"
+#include "tools/eval/drive/drive_report.hpp"
+#include "tools/eval/drive/drive_tables.hpp"
+#include "tools/eval/input_file.hpp"
+#include "tools/eval/plot.hpp"
+#include "tools/eval/temporary_folder.hpp"
+
+namespace cremed {
+namespace {
+
+void plot_drive(const std::vector<SourceEvaluation>& sources, const TrueTrajectory& truth,
+                const std::string& picture) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> inputs{folder.file("sources.csv"), folder.file("truth.csv"),
+                                        folder.file("path.csv"), folder.file("errors.csv"),
+                                        folder.file("drift.csv")};
+  write_sources_csv(inputs[0], sources);
+  write_truth_csv(inputs[1], truth);
+  write_path_csv(inputs[2], sources, truth);
+  write_errors_csv(inputs[3], sources, truth);
+  write_drift_csv(inputs[4], sources);
+  draw_plot("plot_drive", inputs, picture);
+}
+
+void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
+  for (const SourceEvaluation& source : sources) {
+    if (source.without_estimate + source.outside_truth != 0) {
+      std::fprintf(stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time\n",
+                   source.source.c_str(), source.without_estimate, source.outside_truth);
+    }
+  }
+}
+
+/// From a scan pair of a fast radar to where the wheels' own error takes over.
+constexpr std::array<std::int64_t, 6> kTruthIntervalsUs{75'000,    150'000,   300'000,
+                                                        1'000'000, 2'000'000, 5'000'000};
+
+DriveReference read_reference(const DriveFiles& files) {
+  DriveReference reference;
+  reference.truth =
+      with_input(files.truth, [](std::istream& input) { return TrueTrajectory(input); });
+  reference.truth_noise = files.truth_noise;
+  if (!files.wheels.empty()) {
+    reference.wheels = with_input(
+        files.wheels, [&](std::istream& input) { return WheelReference(input, files.wheels_std); });
+  }
+  return reference;
+}
+
+std::vector<TruthAgainstWheels> compare_references(const DriveReference& reference) {
+  std::vector<TruthAgainstWheels> result;
+  if (reference.wheels) {
+    for (const std::int64_t interval_us : kTruthIntervalsUs) {
+      result.push_back(truth_against_wheels(reference.truth, *reference.wheels, interval_us));
+    }
+  }
+  return result;
+}
+
+void add_baselines(const DriveFiles& files, const DriveReference& reference,
+                   std::vector<SourceEvaluation>& sources) {
+  if (!files.baselines.empty()) {
+    for (const auto& odometry : baselines(load_configuration(files.config), files.baselines)) {
+      sources.push_back(evaluate_source(odometry, reference));
+    }
+  }
+}
+
+void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                  const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {
+  print_drive(file, sources, reference.truth_noise);
+  print_segments(file, sources, reference.truth_noise);
+  if (reference.wheels) {
+    print_wheels(file, sources, *reference.wheels, truth);
+  }
+}
+
+}  // namespace
+
+void run_drive(const DriveFiles& files) {
+  const DriveReference reference = read_reference(files);
+  auto sources = with_input(files.odometry,
+                            [&](std::istream& input) { return evaluate_drive(input, reference); });
+  if (sources.empty()) {
+    throw std::runtime_error(files.odometry + ": no odometry");
+  }
+  add_baselines(files, reference, sources);
+  const auto print = files.as_json ? print_json : print_tables;
+  print(stdout, sources, reference, compare_references(reference));
+  say_what_is_missing(sources);
+  if (!files.truth_tum.empty()) {
+    write_truth_tum(files.truth_tum, sources);
+  }
+  if (!files.plot.empty()) {
+    plot_drive(sources, reference.truth, files.plot);
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/drive/drive_evaluation.hpp"
+
+#include <algorithm>
+
+#include "daemon/configuration/configuration.hpp"
+#include "tools/eval/csv_table.hpp"
+#include "tools/eval/drive/motion_chain.hpp"
+#include "tools/eval/drive/recorded_odometry.hpp"
+#include "tools/eval/drive/recorded_states.hpp"
+
+namespace cremed {
+namespace {
+
+MeanRates mean_rates(const Eigen::Vector3d& motion, double seconds) {
+  return {motion.x() / seconds, motion.z() / seconds};
+}
+
+EstimateError compare(const RecordedEstimate& estimate, const Eigen::Vector3d& truth, int dof) {
+  const double seconds = static_cast<double>(estimate.end_us - estimate.start_us) * 1e-6;
+  return {estimate.end_us,
+          estimation_error(estimate.motion, truth),
+          estimate.covariance.diagonal().cwiseSqrt(),
+          normalised_error_squared(estimate.motion, estimate.covariance, truth, dof) / dof,
+          mean_rates(estimate.motion, seconds),
+          mean_rates(truth, seconds)};
+}
+
+void compare_estimates(const std::vector<RecordedEstimate>& estimates,
+                       const DriveReference& reference, SourceEvaluation& result) {
+  for (RecordedEstimate estimate : estimates) {
+    estimate.covariance += reference.truth_noise.covariance(estimate.end_us - estimate.start_us);
+    if (const auto motion = reference.truth.motion(estimate.start_us, estimate.end_us)) {
+      result.credibility.add(estimate.motion, estimate.covariance, *motion);
+      result.errors.push_back(compare(estimate, *motion, result.degrees_of_freedom));
+    } else {
+      ++result.outside_truth;
+    }
+  }
+}
+
+std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int dof) {
+  std::vector<TimedNees> nees;
+  nees.reserve(errors.size());
+  for (const EstimateError& error : errors) {
+    nees.push_back({error.utime_us, error.nees});
+  }
+  return running_nees(nees, dof, kNeesWindowUs);
+}
+
+}  // namespace
+
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
+                                 const DriveReference& reference) {
+  SourceEvaluation result;
+  result.source = odometry.source;
+  result.degrees_of_freedom = degrees_of_freedom(odometry);
+  result.credibility = Credibility(result.degrees_of_freedom);
+  result.without_estimate = odometry.without_estimate;
+  compare_estimates(odometry.estimates, reference, result);
+  result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);
+  result.path = driven_path(from_end_to_end(odometry.estimates), reference.truth);
+  result.drift = path_drift(result.path);
+  result.segments = trajectory_segments(odometry.estimates, reference.truth, reference.truth_noise);
+  if (reference.wheels) {
+    result.wheels = against_wheels(odometry.estimates, reference.truth, *reference.wheels);
+  }
+  return result;
+}
+
+namespace {
+
+SourceEvaluation evaluate_states(const RecordedStates& states, const DriveReference& reference) {
+  SourceEvaluation result = evaluate_source(motions_since_anchors(states), reference);
+  if (reference.wheels) {
+    result.twist = against_wheels(states.states, *reference.wheels);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
+                                             const DriveReference& reference) {
+  const CsvTable table(odometry);
+  if (holds_states(table)) {
+    return {evaluate_states(read_states(table), reference)};
+  }
+  std::vector<SourceEvaluation> result;
+  for (const RecordedOdometry& source : read_odometry(table)) {
+    result.push_back(evaluate_source(source, reference));
+  }
+  std::stable_partition(result.begin(), result.end(), [](const SourceEvaluation& source) {
+    return source.source == kFusedSource;
+  });
+  return result;
+}
+
+}  // namespace cremed

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <vector>
+
+#include "tools/eval/drive/drive_evaluation.hpp"
+
+namespace cremed {
+
+/// All that cremed-eval drive prints, as one JSON object for scripts: "sources" in order of
+/// appearance, with "drift", "segments" and, where there are wheels, "wheels" and "twist"; then
+/// "truth_std" and "truth_against_wheels". Names carry units; what has no value is null.
+void print_json(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth);
+
+}  // namespace cremed

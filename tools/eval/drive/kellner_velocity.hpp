@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tools/eval/drive/radar_sweep.hpp"
+
+namespace cremed {
+
+/// The vehicle's (vx, vy, yaw rate) by the Doppler of all its radars at one time.
+struct KellnerVelocity {
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::vector<std::size_t> standing;  ///< Indices of the targets that fit.
+};
+
+/// Kellner et al., "Instantaneous ego-motion estimation using Doppler radar" (ITSC 2013) and "...
+/// using multiple Doppler radars" (ICRA 2014): random samples of three targets propose a motion,
+/// that which most targets fit is refined by least squares over these. The same targets give the
+/// same answer. Nothing if fewer than ten fit.
+std::optional<KellnerVelocity> kellner_velocity(const std::vector<SweepTarget>& targets);
+
+}  // namespace cremed

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/drive/path_drift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cremed {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+/// Sums while they are being added up, means after.
+void divide_by_segments(PathDrift& drift) {
+  const double count = drift.segments == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                           : static_cast<double>(drift.segments);
+  drift.translation_percent /= count;
+  drift.rotation_deg_per_m /= count;
+}
+
+void add_segment(PathDrift& drift, const PathPose& first, const PathPose& last) {
+  if (first.gaps != last.gaps) {
+    ++drift.across_gaps;
+    return;
+  }
+  const Eigen::Vector3d truth = motion_between(first.truth, last.truth);
+  const Eigen::Vector3d error = motion_between(first.estimate, last.estimate) - truth;
+  const double yaw_rad = std::remainder(error.z(), 2.0 * std::numbers::pi);
+  const double driven_m = last.driven_m - first.driven_m;
+  ++drift.segments;
+  drift.translation_percent += 100.0 * error.head<2>().norm() / driven_m;
+  drift.rotation_deg_per_m += kDegPerRad * std::abs(yaw_rad) / driven_m;
+}
+
+PathDrift drift_over(double length_m, const std::vector<PathPose>& path) {
+  PathDrift drift{.length_m = length_m};
+  auto last = path.begin();
+  for (const PathPose& first : path) {
+    last = std::find_if(last, path.end(), [&](const PathPose& pose) {
+      return pose.driven_m > first.driven_m + length_m;
+    });
+    if (last == path.end()) {
+      break;
+    }
+    add_segment(drift, first, *last);
+  }
+  divide_by_segments(drift);
+  return drift;
+}
+
+}  // namespace
+
+std::vector<PathDrift> path_drift(const std::vector<PathPose>& path) {
+  std::vector<PathDrift> drifts;
+  drifts.reserve(kDriftLengthsM.size());
+  for (const double length_m : kDriftLengthsM) {
+    drifts.push_back(drift_over(length_m, path));
+  }
+  return drifts;
+}
+
+PathDrift mean_drift(const std::vector<PathDrift>& drifts) {
+  PathDrift mean;
+  for (const PathDrift& drift : drifts) {
+    mean.across_gaps += drift.across_gaps;
+    if (drift.segments != 0) {
+      const auto count = static_cast<double>(drift.segments);
+      mean.segments += drift.segments;
+      mean.translation_percent += count * drift.translation_percent;
+      mean.rotation_deg_per_m += count * drift.rotation_deg_per_m;
+    }
+  }
+  divide_by_segments(mean);
+  return mean;
+}
+
+}  // namespace cremed

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "tools/eval/drive/driven_path.hpp"
+
+namespace cremed {
+
+/// How far the path drifts over segments of one length.
+struct PathDrift {
+  double length_m = 0.0;
+  std::size_t segments = 0;
+  std::size_t across_gaps = 0;       ///< Further segments, left out because of a gap in them.
+  double translation_percent = 0.0;  ///< Mean over the segments; NaN if there is none.
+  double rotation_deg_per_m = 0.0;   ///< The same.
+};
+
+inline constexpr std::array kDriftLengthsM{10.0, 20.0, 30.0, 40.0, 50.0,
+                                           60.0, 70.0, 80.0, 90.0, 100.0};
+
+/// Relative errors as KITTI's odometry benchmark defines them, over 10 to 100 m.
+///
+/// A segment of length L begins at any pose a and ends at the first pose b with more than L of true
+/// path between them. With T the true and E the estimated pose of b in the frame of a, its error is
+/// D = inverse(E) T: a translation |D| = |T - E| and a rotation |yaw of T - yaw of E|. Both are
+/// divided by the true path from a to b and averaged over all segments of that length.
+///
+/// Two things differ from KITTI's program, for segments that are a tenth as long: it begins at each
+/// tenth pose, here at each one; and it divides by L, which one scan's motion beyond L would make
+/// wrong by up to a tenth. A constant error of scale s is thus s at every L; a constant error k of
+/// curvature on a straight road is k in rotation, about k L / 2 in translation.
+std::vector<PathDrift> path_drift(const std::vector<PathPose>& path);
+
+/// Over all segments of all lengths, the one figure KITTI ranks by; its length is 0.
+PathDrift mean_drift(const std::vector<PathDrift>& drifts);
+
+}  // namespace cremed

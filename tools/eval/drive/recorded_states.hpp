@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tools/eval/csv_table.hpp"
+#include "tools/eval/drive/recorded_odometry.hpp"
+
+namespace cremed {
+
+/// The vehicle's state as `cremed --output-odometry` writes it.
+struct RecordedState {
+  std::int64_t utime_us = 0;
+  std::int64_t anchor_us = 0;
+  Eigen::Vector3d pose;  ///< (x_m, y_m, yaw_rad) in the frame of the pose at anchor_us.
+  Eigen::Matrix3d covariance;
+  Eigen::Vector3d twist;  ///< (vx_mps, vy_mps, yaw_rate_radps) of the vehicle frame's origin.
+  Eigen::Matrix3d twist_covariance;
+};
+
+struct RecordedStates {
+  std::vector<RecordedState> states;
+  std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
+};
+
+/// Whether the table's header is that of the vehicle's state.
+bool holds_states(const CsvTable& table);
+
+/// Throws std::runtime_error.
+RecordedStates read_states(const CsvTable& table);
+
+/// Each state's pose as a motion since its anchor; a state at its own anchor's time is none. The
+/// state at the time of a new anchor still refers to the old one, so that the anchors make a chain.
+RecordedOdometry motions_since_anchors(const RecordedStates& states);
+
+}  // namespace cremed

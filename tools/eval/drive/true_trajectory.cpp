@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/drive/true_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "tools/eval/csv_table.hpp"
+#include "tools/eval/drive/time_bracket.hpp"
+
+namespace cremed {
+namespace {
+
+double wrap(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+void check_order(const std::vector<std::int64_t>& utime_us) {
+  const auto late = std::adjacent_find(utime_us.begin(), utime_us.end(), std::greater_equal<>());
+  if (late != utime_us.end()) {
+    throw std::runtime_error("row " + std::to_string(late - utime_us.begin() + 2) +
+                             ": utime does not increase");
+  }
+}
+
+}  // namespace
+
+TrueTrajectory::TrueTrajectory(std::istream& input) {
+  const CsvTable table(input);
+  const std::size_t utime = table.column("utime");
+  const std::size_t x = table.column("x_m");
+  const std::size_t y = table.column("y_m");
+  const std::size_t yaw = table.column("yaw_rad");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    utime_us_.push_back(table.integer(row, utime));
+    poses_.push_back({table.number(row, x), table.number(row, y), table.number(row, yaw)});
+  }
+  check_order(utime_us_);
+}
+
+TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)
+    : utime_us_(std::move(utime_us)), poses_(std::move(poses)) {
+  check_order(utime_us_);
+}
+
+std::optional<Pose2> TrueTrajectory::at(std::int64_t utime_us) const {
+  const auto place = bracket(utime_us_, utime_us);
+  if (!place) {
+    return std::nullopt;
+  }
+  const double share = place->share;
+  const Pose2& a = poses_[place->left];
+  const Pose2& b = poses_[place->right];
+  return Pose2{a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
+               a.yaw_rad + share * wrap(b.yaw_rad - a.yaw_rad)};
+}
+
+std::optional<Eigen::Vector3d> TrueTrajectory::motion(std::int64_t start_us,
+                                                      std::int64_t end_us) const {
+  const auto start = at(start_us);
+  const auto end = at(end_us);
+  if (!start || !end) {
+    return std::nullopt;
+  }
+  return motion_between(*start, *end);
+}
+
+Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end) {
+  const double c = std::cos(start.yaw_rad);
+  const double s = std::sin(start.yaw_rad);
+  const double dx = end.x_m - start.x_m;
+  const double dy = end.y_m - start.y_m;
+  return {c * dx + s * dy, -s * dx + c * dy, wrap(end.yaw_rad - start.yaw_rad)};
+}
+
+Pose2 moved(const Pose2& start, const Eigen::Vector3d& motion) {
+  const double c = std::cos(start.yaw_rad);
+  const double s = std::sin(start.yaw_rad);
+  return {start.x_m + c * motion.x() - s * motion.y(), start.y_m + s * motion.x() + c * motion.y(),
+          start.yaw_rad + motion.z()};
+}
+
+}  // namespace cremed

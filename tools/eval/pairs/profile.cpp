@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/pairs/profile.hpp"
+
+namespace cremed {
+
+std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
+                                           CovarianceModel covariance) {
+  RegistrationOptions options;
+  options.doppler.enabled = doppler;
+  options.covariance = covariance;
+  if (name == "nuscenes") {
+    options.doppler.stamp_std_s = 0.005;  // The paper's; all else is the default.
+    return options;
+  }
+  // The simulated problems have no errors that targets share, and Doppler in the current scan only.
+  options.shared_errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  options.doppler.both_scans = false;
+  if (name == "psr") {
+    options.degrees_of_freedom = 3;
+    options.outlier_ray.weight = 0.0;
+    options.start_scale = 1.0;
+    return options;
+  }
+  if (name == "sim") {
+    options.outlier_ray.weight = 0.2;
+    options.start_scale = 6.0;
+    options.start_doppler_scale = 1.0;
+    return options;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cremed

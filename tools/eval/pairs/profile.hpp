@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "cremed/estimator/registration/registration_options.hpp"
+
+namespace cremed {
+
+/// The paper's settings for a family of problems: "psr", "sim" or "nuscenes"; nothing for another
+/// name.
+std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
+                                           CovarianceModel covariance = CovarianceModel::exclusive);
+
+}  // namespace cremed

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/eval/table/table_command.hpp"
+
+#include <cstdio>
+
+#include "tools/eval/figures_json.hpp"
+#include "tools/eval/plot.hpp"
+#include "tools/eval/table/cost_curves.hpp"
+#include "tools/eval/table/table_report.hpp"
+#include "tools/eval/temporary_folder.hpp"
+
+namespace cremed {
+
+void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json) {
+  const std::vector<TableRow> rows = paper_table(options);
+  if (as_json) {
+    std::printf("%s\n", table_json(rows).c_str());
+  } else {
+    print_table(stdout, rows);
+  }
+  if (picture.empty()) {
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string table = folder.file("table.csv");
+  const std::string nees = folder.file("nees.csv");
+  const std::string costs = folder.file("costs.csv");
+  write_table_csv(table, rows);
+  write_nees_csv(nees, rows);
+  write_cost_csv(costs);
+  draw_plot("plot_table", {table, nees, costs}, picture);
+}
+
+}  // namespace cremed

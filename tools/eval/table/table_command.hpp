@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "tools/eval/table/paper_table.hpp"
+
+namespace cremed {
+
+/// cremed-eval table: prints the paper's table, for people or as JSON, and draws it into `picture`,
+/// unless that is empty. Throws std::runtime_error.
+void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json);
+
+}  // namespace cremed

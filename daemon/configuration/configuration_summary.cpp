@@ -8,12 +8,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 /// A little more than pi, as rounded as people write it.
 constexpr double kHalfCircleRad = 3.15;
 

@@ -10,6 +10,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/toml_document.hpp"
 #include "daemon/configuration/toml_reader.hpp"
 #include "daemon/process/message_text.hpp"
@@ -152,6 +153,14 @@ std::vector<std::optional<LearnedErrors>> LearnedFile::read_and_log() const {
   }
   for (const std::string& name : content.passed_over) {
     spdlog::info("{}: its mount was changed: what was learned of it before is not used", name);
+  }
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    if (const auto& errors = content.radars[i]) {
+      spdlog::info("{}: mount yaw {:+.2f} +- {:.2f} deg, Doppler {:+.2f} +- {:.2f} % by {}",
+                   radars_[i].name, kDegPerRad * errors->mount_yaw_rad.value,
+                   kDegPerRad * errors->mount_yaw_rad.std, 100.0 * errors->doppler_scale.value,
+                   100.0 * errors->doppler_scale.std, path_);
+    }
   }
   return content.radars;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/spelling.hpp"
 #include "daemon/configuration/toml.hpp"
 #include "daemon/process/message_text.hpp"
@@ -55,7 +56,7 @@ std::optional<std::int64_t> integer_in(const toml::node& node, std::int64_t min,
 
 /// For an angle that would be right were it in degrees.
 std::string degrees_hint(std::string_view key, std::optional<double> value, Range range) {
-  const double angle_rad = value.value_or(0.0) * std::numbers::pi / 180.0;
+  const double angle_rad = value.value_or(0.0) * kRadPerDeg;
   const bool is_likely = key.ends_with("_rad") && value && std::abs(*value) >= 1.0 &&
                          angle_rad >= range.min && angle_rad <= range.max;
   return is_likely ? concat({" (", digits(*value), " degrees are ",

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "test/data_tests/shared_data.hpp"
 #include "tools/eval/calibrate/calibration.hpp"
 #include "tools/eval/temporary_folder.hpp"
@@ -17,7 +18,6 @@ using namespace cremed;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGoalDeg = 0.3;
 constexpr double kWrongDeg = 2.0;
 
@@ -34,7 +34,7 @@ Configuration configuration_of(const City& city) {
 Configuration disturbed(Configuration configuration) {
   double sign = 1.0;
   for (RadarConfiguration& radar : configuration.radars) {
-    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * kWrongDeg * kDegree;
+    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * kWrongDeg * kRadPerDeg;
     sign = -sign;
   }
   return configuration;
@@ -43,7 +43,7 @@ Configuration disturbed(Configuration configuration) {
 std::vector<double> yaws_deg(const Configuration& configuration, const std::string& log) {
   std::vector<double> yaws;
   for (const RadarCalibration& radar : calibrate(configuration, {log}, nullptr).radars) {
-    yaws.push_back(radar.fit.value[kYaw] / kDegree);
+    yaws.push_back(radar.fit.value[kYaw] / kRadPerDeg);
   }
   return yaws;
 }
@@ -66,7 +66,7 @@ TEST_CASE("Real drives: mounts that are two degrees off are found again, without
     found.push_back(yaws_deg(disturbed(configuration), log));
     for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
       const double mount_deg =
-          configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad / kDegree;
+          configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad / kRadPerDeg;
       CAPTURE(scene, configuration.radars[i].name, mount_deg, found.back()[i]);
       std::printf("%s %s: data set %.2f, found %.2f, from 2 degrees off %.2f deg\n", scene,
                   configuration.radars[i].name.c_str(), mount_deg, undisturbed[i], found.back()[i]);

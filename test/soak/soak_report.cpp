@@ -7,10 +7,10 @@
 #include <numbers>
 #include <string_view>
 
+#include "cremed/estimator/scan/degrees.hpp"
+
 namespace cremed::soak {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::string names_of(FaultSet faults) {
   std::string names;

@@ -14,6 +14,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/eval/calibrate/calibration.hpp"
 #include "tools/eval/temporary_folder.hpp"
@@ -23,7 +24,6 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGoalDeg = 0.3;
 
 /// Ahead, to the left, back; the last one a GPR if asked for.
@@ -59,7 +59,7 @@ struct RecordedDrive {
 double degrees_off(const RadarConfiguration& found, const RadarConfiguration& truth) {
   const double off_rad =
       found.ego_motion.vehicle_from_radar.yaw_rad - truth.ego_motion.vehicle_from_radar.yaw_rad;
-  return std::abs(std::remainder(off_rad, 2.0 * std::numbers::pi)) / kDegree;
+  return std::abs(std::remainder(off_rad, 2.0 * std::numbers::pi)) / kRadPerDeg;
 }
 
 TEST_CASE("mounts that are two degrees off are found again, without truth") {
@@ -75,14 +75,14 @@ TEST_CASE("mounts that are two degrees off are found again, without truth") {
   Configuration wrong = configuration_of(recorded.radars);
   double sign = 1.0;
   for (RadarConfiguration& radar : wrong.radars) {
-    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * 2.0 * kDegree;
+    radar.ego_motion.vehicle_from_radar.yaw_rad += sign * 2.0 * kRadPerDeg;
     sign = -sign;
   }
   const auto calibrations = calibrate(wrong, {recorded.log}, nullptr).radars;
   const Configuration found = calibrated(wrong, calibrations);
   for (std::size_t i = 0; i < found.radars.size(); ++i) {
     const double off_deg = degrees_off(found.radars[i], recorded.radars[i]);
-    const double std_deg = calibrations[i].fit.std[kYaw] / kDegree;
+    const double std_deg = calibrations[i].fit.std[kYaw] / kRadPerDeg;
     CAPTURE(found.radars[i].name, off_deg, std_deg);
     CHECK(calibrations[i].is_changed[kYaw]);
     CHECK(off_deg < kGoalDeg);

@@ -6,13 +6,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "tools/eval/drive/path_drift.hpp"
 
 using namespace cremed;
 
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// Steps of a drive: what truth did, and what was estimated of it.
 struct Drive {

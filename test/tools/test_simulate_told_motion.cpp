@@ -14,6 +14,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "test/tools/seen_from.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/simulate/told_motion.hpp"
@@ -24,7 +25,6 @@ using namespace cremed::test;
 namespace {
 
 constexpr double kLeadS = 0.04;
-constexpr double kDegree = M_PI / 180.0;
 const Pose2 kMount{3.4, 0.6, 0.4};
 
 /// A target that was seen, and where its place in the world is by the truth file alone. Positions
@@ -151,13 +151,13 @@ TEST_CASE("What a vehicle tells is what it measured 10 to 20 ms ago, nearly") {
     const ToldMotion told = bus.at(time_s);
     const VehicleState measured = course.at(time_s - 0.015);
     REQUIRE(std::abs(std::remainder(told.speed_mps, 0.02)) < 1e-9);
-    REQUIRE(std::abs(std::remainder(told.yaw_rate_radps, 0.01 * kDegree)) < 1e-9);
+    REQUIRE(std::abs(std::remainder(told.yaw_rate_radps, 0.01 * kRadPerDeg)) < 1e-9);
     speed_square += std::pow(told.speed_mps - measured.speed_mps, 2.0);
     yaw_rate_square += std::pow(told.yaw_rate_radps - measured.yaw_rate_radps, 2.0);
     number += 1.0;
   }
   CHECK(std::sqrt(speed_square / number) == Approx(0.02).epsilon(0.35));
-  CHECK(std::sqrt(yaw_rate_square / number) == Approx(0.15 * kDegree).epsilon(0.35));
+  CHECK(std::sqrt(yaw_rate_square / number) == Approx(0.15 * kRadPerDeg).epsilon(0.35));
 }
 
 TEST_CASE("An ARS408 that is told tells how a standing target moves across, of moving ones too") {

@@ -8,13 +8,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "tools/eval/table/simulated_pairs.hpp"
 
 using namespace cremed;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool is_same(const std::vector<Detection>& a, const std::vector<Detection>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -141,10 +140,10 @@ TEST_CASE("Motion is uniform over the paper's range") {
   Moments yaw;
   for (const RegistrationPair& pair : simulated_pairs(problem, 2, 10, 300)) {
     CHECK(std::abs(pair.truth.x_m) <= 0.25);
-    CHECK(std::abs(pair.truth.yaw_rad) <= 15.0 * kDegree);
+    CHECK(std::abs(pair.truth.yaw_rad) <= 15.0 * kRadPerDeg);
     x.add(pair.truth.x_m / 0.25);
     y.add(pair.truth.y_m / 0.25);
-    yaw.add(pair.truth.yaw_rad / (15.0 * kDegree));
+    yaw.add(pair.truth.yaw_rad / (15.0 * kRadPerDeg));
   }
   CHECK(x.variance() == Approx(1.0 / 3.0).margin(0.03));
   CHECK(yaw.variance() == Approx(1.0 / 3.0).margin(0.03));
@@ -172,7 +171,8 @@ TEST_CASE("As many targets are seen as the problem says, within the field of vie
     for (const Detection& detection : pair.current) {
       CHECK(detection.id < row.landmarks);
       if (row.visible < 1.0) {
-        CHECK(std::abs(detection.azimuth_rad) < 40.0 * kDegree + 6.0 * detection.azimuth_std_rad);
+        CHECK(std::abs(detection.azimuth_rad) <
+              40.0 * kRadPerDeg + 6.0 * detection.azimuth_std_rad);
       }
     }
   }

@@ -10,6 +10,8 @@
 
 #include <Eigen/Dense>
 
+#include "cremed/estimator/scan/degrees.hpp"
+
 namespace cremed {
 namespace {
 
@@ -61,7 +63,7 @@ void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& co
 double Credibility::rmse_m() const { return std::sqrt(mean(squared_position_m2_, count_)); }
 
 double Credibility::rmse_deg() const {
-  return std::sqrt(mean(squared_yaw_rad2_, count_)) * 180.0 / std::numbers::pi;
+  return std::sqrt(mean(squared_yaw_rad2_, count_)) * kDegPerRad;
 }
 
 double Credibility::anees() const { return mean(nees_, count_); }

@@ -8,19 +8,18 @@
 #include <cstddef>
 #include <numbers>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr double kDegreeRad = std::numbers::pi / 180.0;
-
 /// Beam and resolution from the data sheet, near scan; far targets are as well resolved here.
 constexpr RadarCharacter kCharacter{
-    .zones = {{{9.0 * kDegreeRad, 200.0}, {45.0 * kDegreeRad, 90.0}, {60.0 * kDegreeRad, 20.0}}},
+    .zones = {{{9.0 * kRadPerDeg, 200.0}, {45.0 * kRadPerDeg, 90.0}, {60.0 * kRadPerDeg, 20.0}}},
     .least_range_m = 1.0,
     .range_resolution_m = 0.42,
-    .azimuth_resolution_rad = 3.2 * kDegreeRad,
+    .azimuth_resolution_rad = 3.2 * kRadPerDeg,
     .doppler_resolution_mps = 0.12,
     .mean_ghosts = 4};
 

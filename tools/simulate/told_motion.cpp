@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "cremed/estimator/scan/degrees.hpp"
+
 namespace cremed {
 namespace {
-
-constexpr double kDegreeRad = std::numbers::pi / 180.0;
 
 /// A value is measured and sent every 10 ms and is 10 ms old when it arrives, so 10 to 20 ms old
 /// while it is in use.
@@ -17,11 +17,11 @@ constexpr double kDelayS = 0.01;
 
 /// Wheel encoders and gyro of a real car against each other and its map-based pose (nuScenes).
 constexpr double kSpeedStdMps = 0.02;
-constexpr double kYawRateStdRadps = 0.15 * kDegreeRad;
+constexpr double kYawRateStdRadps = 0.15 * kRadPerDeg;
 
 /// Grids of 0x300 and 0x301.
 constexpr double kSpeedStepMps = 0.02;
-constexpr double kYawRateStepRadps = 0.01 * kDegreeRad;
+constexpr double kYawRateStepRadps = 0.01 * kRadPerDeg;
 
 double on_grid(double value, double step) { return step * std::round(value / step); }
 

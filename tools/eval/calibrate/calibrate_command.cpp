@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "tools/eval/calibrate/calibration.hpp"
@@ -26,8 +27,7 @@ struct Column {
   int decimals;
 };
 
-constexpr double kDegrees = 57.295779513082321;
-constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegrees, 2},
+constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegPerRad, 2},
                                {kX, "x m", 1.0, 3},
                                {kY, "y m", 1.0, 3},
                                {kOffset, "Doppler offset m/s", 1.0, 3},
@@ -84,10 +84,10 @@ void print_vehicle(const FittedVehicle& vehicle) {
   } else {
     std::fprintf(stderr,
                  "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
-                 vehicle.value[kRoll] * kDegrees, vehicle.std[kRoll] * kDegrees);
+                 vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
   }
   std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across\n",
-               vehicle.value[kSlip] * kDegrees, vehicle.std[kSlip] * kDegrees);
+               vehicle.value[kSlip] * kDegPerRad, vehicle.std[kSlip] * kDegPerRad);
 }
 
 void print_table(const Configuration& configuration, const Calibration& calibration) {

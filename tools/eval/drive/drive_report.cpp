@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/output/text_line.hpp"
 #include "daemon/output/tum_writer.hpp"
 #include "tools/eval/chi_square.hpp"
@@ -13,8 +14,6 @@
 
 namespace cremed {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::size_t gaps(const SourceEvaluation& source) {
   return source.path.empty() ? 0 : source.path.back().gaps;

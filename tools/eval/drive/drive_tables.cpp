@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
+#include "cremed/estimator/scan/degrees.hpp"
+
 namespace cremed {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// One axis' row; `unit` turns the rates' metres or radians into what is printed.
 void print_axis(std::FILE* file, const std::string& source, const char* name,

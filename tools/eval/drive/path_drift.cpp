@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "cremed/estimator/scan/degrees.hpp"
+
 namespace cremed {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// Sums while they are being added up, means after.
 void divide_by_segments(PathDrift& drift) {

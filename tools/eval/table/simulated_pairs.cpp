@@ -7,28 +7,30 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr std::size_t kLandmarks = 20;
 constexpr std::size_t kClusterExtras = 2;
 constexpr double kClusterStdM = 0.1;
 constexpr double kMaxStepM = 0.25;
-constexpr double kMaxTurnRad = 15.0 * kDegree;
+constexpr double kMaxTurnRad = 15.0 * kRadPerDeg;
 constexpr double kPeriodS = 0.2;
 
-constexpr SimulatedProblemSettings kPsr{"PSR", "psr",         3,   5.0, 15.0, kPi, 2.0 * kPi,
-                                        0.2,   3.0 * kDegree, 0.3, 0,   100,  1000};
-constexpr SimulatedProblemSettings kPsrC{"PSR-C", "psr",         3,   5.0, 15.0, kPi, 2.0 * kPi,
-                                         0.2,     3.0 * kDegree, 0.3, 8,   100,  1000};
+constexpr SimulatedProblemSettings kPsr{
+    "PSR", "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, 0.2, 3.0 * kRadPerDeg, 0.3, 0, 100, 1000};
+constexpr SimulatedProblemSettings kPsrC{"PSR-C",          "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, 0.2,
+                                         3.0 * kRadPerDeg, 0.3,   8, 100, 1000};
 constexpr SimulatedProblemSettings kSim{
-    "Sim", "sim", 2, 2.5, 37.5, 55.0 * kDegree, 40.0 * kDegree, 0.13, 0.0157, 0.3, 0, 50, 500};
+    "Sim",  "sim", 2, 2.5, 37.5, 55.0 * kRadPerDeg, 40.0 * kRadPerDeg, 0.13,
+    0.0157, 0.3,   0, 50,  500};
 constexpr SimulatedProblemSettings kSimC{
-    "Sim-C", "sim", 2, 2.5, 37.5, 55.0 * kDegree, 40.0 * kDegree, 0.13, 0.0157, 0.3, 8, 50, 500};
+    "Sim-C", "sim", 2, 2.5, 37.5, 55.0 * kRadPerDeg, 40.0 * kRadPerDeg, 0.13,
+    0.0157,  0.3,   8, 50,  500};
 
 /// Number of the random stream; run 0 stands for the landmarks.
 std::uint64_t stream(SimulatedProblem problem, std::size_t set, std::size_t run) {

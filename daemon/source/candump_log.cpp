@@ -24,7 +24,7 @@ CandumpLog::CandumpLog(const std::string& path, std::vector<std::string> interfa
       interfaces_(std::move(interfaces)),
       has_frames_(interfaces_.size()),
       stop_(stop) {
-  refuse_foreign(reader_.begin());
+  refuse_foreign_format(reader_.begin(), path_);
 }
 
 SourceEvent CandumpLog::next(CanFrame& frame) {
@@ -45,7 +45,7 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
         return SourceEvent::end;
     }
     if (reader_.line_number() == 1) {
-      refuse_foreign(text);
+      refuse_foreign_format(text, path_);
     }
     const CandumpLine line = parse_candump_line(text);
     const std::size_t interface = index_of(line.interface_name);
@@ -69,12 +69,6 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
     }
   }
   return SourceEvent::end;
-}
-
-void CandumpLog::refuse_foreign(std::string_view begin) const {
-  if (const std::string problem = foreign_format(begin, path_); !problem.empty()) {
-    throw std::runtime_error(problem);
-  }
 }
 
 void CandumpLog::count_other(std::string_view interface) {

@@ -44,7 +44,6 @@ class CandumpLog final : public FrameSource {
   [[nodiscard]] int read_error() const { return read_error_; }
 
  private:
-  void refuse_foreign(std::string_view begin) const;
   void count_other(std::string_view interface);
   void complain(std::string_view reason);
   /// Index of the interface, or interfaces_.size().

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "daemon/process/message_text.hpp"
 
@@ -57,7 +58,7 @@ std::string remedy(Way way, std::string_view command, const std::string& path) {
   const std::string file = path == "-" ? "LOG" : in_shell(printable(path));
   switch (way) {
     case Way::unpack:
-      return concat({"`", command, " ", file, " | cremed --replay -`"});
+      return concat({"`", command, " ", file, " >drive.log`"});
     case Way::convert:
       return concat({"`python3 -m can.logconvert ", file, " drive.log` (python3-can)"});
     case Way::asc:
@@ -87,6 +88,12 @@ std::string foreign_format(std::string_view begin, const std::string& path) {
   }
   const bool is_table = is_csv(begin.substr(0, begin.find('\n')));
   return is_table ? concat({what, kCsv, "; ", remedy(Way::convert, "", path)}) : std::string();
+}
+
+void refuse_foreign_format(std::string_view begin, const std::string& path) {
+  if (const std::string problem = foreign_format(begin, path); !problem.empty()) {
+    throw std::runtime_error(problem);
+  }
 }
 
 }  // namespace cremed

@@ -11,4 +11,7 @@ namespace cremed {
 /// of it; empty if it may be one. `path` is for the text, "-" standard input.
 std::string foreign_format(std::string_view begin, const std::string& path);
 
+/// Throws std::runtime_error with that, unless it is empty.
+void refuse_foreign_format(std::string_view begin, const std::string& path);
+
 }  // namespace cremed

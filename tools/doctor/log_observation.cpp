@@ -10,6 +10,7 @@
 #include "daemon/process/message_text.hpp"
 #include "daemon/source/candump.hpp"
 #include "daemon/source/line_reader.hpp"
+#include "daemon/source/log_format.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
@@ -32,6 +33,9 @@ void read_all(LineReader& reader, const std::string& path, Observer& observer) {
       throw std::runtime_error(concat({path, ": ", std::strerror(errno)}));
     }
     if (status == LineReader::Status::line) {
+      if (reader.line_number() == 1) {
+        refuse_foreign_format(text, path);
+      }
       add_line(text, observer);
     }
   }
@@ -42,6 +46,7 @@ void read_all(LineReader& reader, const std::string& path, Observer& observer) {
 Observation observe_log(const Configuration& configuration, const std::string& path) {
   Observer observer(configuration);
   LineReader reader(path);
+  refuse_foreign_format(reader.begin(), path);
   read_all(reader, path, observer);
   Observation observation = observer.finish();
   bool is_empty = true;

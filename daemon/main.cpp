@@ -22,26 +22,14 @@ namespace {
 
 enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
-void warn_of_doubts(const cremed::Configuration& configuration) {
-  for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
-    spdlog::warn("{}", doubt);
-  }
-}
-
 int check(const std::string& path) {
   const auto configuration = cremed::load_configuration(path);
   std::fputs(cremed::configuration_summary(configuration).c_str(), stdout);
-  warn_of_doubts(configuration);
+  for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
+    spdlog::warn("{}", doubt);
+  }
   spdlog::info("{}: good, number of radars: {}", path, configuration.radars.size());
   return good;
-}
-
-/// The first lines of the log: what runs, and with what.
-void introduce(const std::string& path, const cremed::Configuration& configuration) {
-  spdlog::info("cremed {}, configuration: {}", CREMED_VERSION, path);
-  for (const cremed::RadarConfiguration& radar : configuration.radars) {
-    spdlog::info("{}", cremed::radar_summary(radar));
-  }
 }
 
 int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
@@ -55,8 +43,8 @@ int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
   const std::string path = cremed::configuration_path(command_line.config);
   const auto configuration = cremed::load_configuration(path);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
-  introduce(path, configuration);
-  warn_of_doubts(configuration);
+  spdlog::info("cremed {}", CREMED_VERSION);
+  cremed::log_configuration(path, configuration);
   return is_live ? cremed::run_live(command_line, path, configuration)
                  : cremed::run_replay(command_line, path, configuration);
 }

@@ -7,6 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "daemon/configuration/configuration_summary.hpp"
 #include "daemon/live_session.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
@@ -111,7 +112,7 @@ int run_live(const CommandLine& command_line, const std::string& path,
         session.reset();  // Two at once would fight for the same buses.
         session = begin(command_line, *changed, stop);
         spdlog::set_level(spdlog::level::from_str(changed->logging.level));
-        spdlog::info("configuration read again: {}", path);
+        log_configuration(path, *changed);
       }
       notifier.ready();
     }

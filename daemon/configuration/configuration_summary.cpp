@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
@@ -81,8 +82,6 @@ std::string sent_text(const Configuration& configuration) {
   return names.empty() ? "nothing" : "speed and yaw rate to " + names + " (motion_feedback)";
 }
 
-}  // namespace
-
 std::string radar_summary(const RadarConfiguration& radar) {
   const auto* const ars408 = std::get_if<Ars408Options>(&radar.decoder);
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
@@ -90,6 +89,8 @@ std::string radar_summary(const RadarConfiguration& radar) {
                      ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
                      radar.interface, mount.x_m, mount.y_m, kDegPerRad * mount.yaw_rad);
 }
+
+}  // namespace
 
 std::string configuration_summary(const Configuration& configuration) {
   std::string text =
@@ -116,6 +117,16 @@ std::vector<std::string> configuration_doubts(const Configuration& configuration
     }
   }
   return doubts;
+}
+
+void log_configuration(const std::string& path, const Configuration& configuration) {
+  spdlog::info("configuration: {}", path);
+  for (const RadarConfiguration& radar : configuration.radars) {
+    spdlog::info("{}", radar_summary(radar));
+  }
+  for (const std::string& doubt : configuration_doubts(configuration)) {
+    spdlog::warn("{}", doubt);
+  }
 }
 
 }  // namespace cremed

@@ -13,10 +13,10 @@ namespace cremed {
 /// what the odometry uses, where it goes, and what is sent on the buses. Lines end with '\n'.
 std::string configuration_summary(const Configuration& configuration);
 
-/// The same of one radar in one line, for a log.
-std::string radar_summary(const RadarConfiguration& radar);
-
 /// What is allowed but is rarely meant, a line each.
 std::vector<std::string> configuration_doubts(const Configuration& configuration);
+
+/// Logs what a run begins with: its file, a line a radar, and doubts.
+void log_configuration(const std::string& path, const Configuration& configuration);
 
 }  // namespace cremed

@@ -18,8 +18,7 @@ TEST_CASE("What is no candump log is answered with the command that makes one of
     const char* answer;
   };
   const Row row = GENERATE(
-      Row{"\x1F\x8B\x08\0\0"sv,
-          "a b.x is compressed by gzip; `zcat \"a b.x\" >drive.log`"},
+      Row{"\x1F\x8B\x08\0\0"sv, "a b.x is compressed by gzip; `zcat \"a b.x\" >drive.log`"},
       Row{"\xFD"
           "7zXZ\0\0"sv,
           "`xzcat "},

@@ -151,6 +151,7 @@ std::string scan_channel(const std::string& radar_name) {
 LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     : url_(std::move(url)),
       publish_scans_(configuration.output.publish_scans),
+      nav_msgs_channel_(configuration.output.nav_msgs_odometry),
       messages_(configuration.radars.size()) {
   fused_.source = kFusedSource;
   fused_.seq = odometry_.seq = 0;
@@ -225,6 +226,9 @@ void LcmPublisher::on_odometry(const Odometry& odometry) {
   fused_.doubts = odometry_.doubts;
   publish("CREMED_ODOMETRY", odometry_);
   ++odometry_.seq;
+  if (!nav_msgs_channel_.empty() && nav_msgs_.update(odometry)) {
+    publish(nav_msgs_channel_.c_str(), nav_msgs_.message());
+  }
 }
 
 void LcmPublisher::on_fused(const EgoMotion& motion, std::int32_t solve_us) {

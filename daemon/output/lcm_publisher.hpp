@@ -17,11 +17,13 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/lcm_log_file.hpp"
+#include "daemon/output/nav_msgs_odometry.hpp"
 #include "daemon/output/odometry_sink.hpp"
 
 namespace cremed {
 
-/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t.
+/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t and
+/// nav_msgs.Odometry.
 /// Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
@@ -69,9 +71,11 @@ class LcmPublisher final : public OdometrySink {
   std::unique_ptr<lcm_t, Destroy> lcm_;
   std::optional<LcmLogFile> file_;  // In place of lcm_ where the address is a file to write.
   bool publish_scans_;
+  std::string nav_msgs_channel_;  // Empty: not asked for.
   std::vector<Messages> messages_;
   ego_motion_t fused_;
   odometry_t odometry_;
+  NavMsgsOdometry nav_msgs_;
   std::array<std::uint8_t, 16384> buffer_{};
   std::uint64_t failures_ = 0;
 };

@@ -42,7 +42,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   CommandLine c;
   std::string speed = "max";
   CLI::App app{
-      "cremed: radar ego-motion with a covariance that can be believed\n"
+      "Radar ego-motion with a covariance that can be believed\n"
       "Without --replay it runs on the CAN interfaces of the configuration.",
       "cremed"};
   app.set_version_flag("--version", "cremed " CREMED_VERSION);

@@ -34,6 +34,18 @@ constexpr TextRule kSource = {
     "the name of a radar, \"odometry\" unless that is off, \"fused\" for the same of two radars or "
     "more, or \"\""};
 
+/// A name that LCM takes, 63 characters at most, and that is not one of cremed's own channels.
+bool is_free_channel(std::string_view text) {
+  constexpr std::size_t kLongest = 63;
+  return text.size() <= kLongest && !text.starts_with("CREMED_") &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
+constexpr TextRule kChannel = {
+    is_free_channel,
+    "a channel such as \"/odometry#nav_msgs.Odometry\", up to 63 letters, digits or signs and not "
+    "CREMED_..., or \"\" for none"};
+
 bool is_source(std::string_view source, const Configuration& configuration) {
   if (source == kOdometrySource) {
     return configuration.odometry.enabled;
@@ -61,6 +73,10 @@ void check_output(TomlReader& reader, const Configuration& configuration) {
   check_path("odometry", output.odometry, "csv", output.csv);
   check_path("tum", output.tum, "csv", output.csv);
   check_path("tum", output.tum, "odometry", output.odometry);
+  if (!output.nav_msgs_odometry.empty() && !configuration.odometry.enabled) {
+    reader.report("nav_msgs_odometry",
+                  "is to be published, but odometry.enabled = false; must be \"\"");
+  }
   if (!output.odometry.empty() && !configuration.odometry.enabled) {
     reader.report("odometry", "is to be written, but odometry.enabled = false; must be \"\"");
   }
@@ -72,6 +88,7 @@ void read_output(TomlReader& reader, OutputConfiguration& output) {
   reader.text("odometry", output.odometry, kPath);
   reader.text("tum", output.tum, kPath);
   reader.text("tum_source", output.tum_source, kSource);
+  reader.text("nav_msgs_odometry", output.nav_msgs_odometry, kChannel);
   reader.boolean("publish_scans", output.publish_scans);
   reader.finish();
 }

@@ -54,7 +54,8 @@ struct OutputConfiguration {
   /// What the trajectory follows: a radar, or the odometry. Empty: the odometry where there are two
   /// radars or more, otherwise the radar.
   std::string tum_source;
-  bool publish_scans = false;  ///< radar_scan_t on CREMED_SCAN_<RADAR>.
+  std::string nav_msgs_odometry;  ///< LCM channel of nav_msgs.Odometry; empty: none.
+  bool publish_scans = false;     ///< radar_scan_t on CREMED_SCAN_<RADAR>.
 };
 
 /// What to do about real-time scheduling and locked memory, which the service manager grants.

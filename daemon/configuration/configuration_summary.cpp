@@ -70,6 +70,9 @@ std::string odometry_text(const Configuration& configuration) {
 
 std::string output_text(const OutputConfiguration& output) {
   std::string text = output.lcm_url == "none" ? "" : "LCM " + output.lcm_url;
+  if (!text.empty() && !output.nav_msgs_odometry.empty()) {
+    text += " with " + output.nav_msgs_odometry;
+  }
   for (const std::string& file : {output.csv, output.odometry, output.tum}) {
     text = file.empty() ? text : joined(text, file);
   }

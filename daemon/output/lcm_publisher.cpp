@@ -17,6 +17,9 @@
 namespace cremed {
 namespace {
 
+constexpr const char* kMotionChannel = "CREMED_EGO_MOTION";
+constexpr const char* kStatusChannel = "CREMED_STATUS";
+
 void reserve(radar_scan_t& scan) {
   scan.id.reserve(kMaxDetections);
   scan.validity.reserve(kMaxDetections);
@@ -141,25 +144,29 @@ lcm_t* create_lcm(const std::string& url) {
 
 }  // namespace
 
-std::string scan_channel(const std::string& radar_name) {
-  std::string channel = "CREMED_SCAN_" + radar_name;
-  std::transform(channel.begin(), channel.end(), channel.begin(),
+std::string channel_of(const std::string& channel, const std::string& source) {
+  std::string name = channel + "_" + source;
+  std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return channel;
+  return name;
 }
 
 LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     : url_(std::move(url)),
       publish_scans_(configuration.output.publish_scans),
+      nav_msgs_channel_(configuration.output.nav_msgs_odometry),
       messages_(configuration.radars.size()) {
   fused_.source = kFusedSource;
+  fused_channel_ = channel_of(kMotionChannel, fused_.source);
   fused_.seq = odometry_.seq = 0;
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     const std::string& name = configuration.radars[i].name;
     Messages& messages = messages_[i];
     messages.motion.source = messages.scan.source = messages.status.source = name;
     messages.motion.seq = messages.scan.seq = messages.status.seq = 0;
-    messages.scan_channel = scan_channel(name);
+    messages.motion_channel = channel_of(kMotionChannel, name);
+    messages.scan_channel = channel_of("CREMED_SCAN", name);
+    messages.status_channel = channel_of(kStatusChannel, name);
     reserve(messages.scan);
   }
 }
@@ -185,7 +192,8 @@ std::string LcmPublisher::connect() {
   }
   const std::uint64_t failures = failures_;
   for (Messages& messages : messages_) {
-    publish("CREMED_STATUS", messages.status);  // As last known: counters never go back.
+    publish({kStatusChannel, messages.status_channel.c_str()},
+            messages.status);  // As last known: counters never go back.
     ++messages.status.seq;
   }
   if (failures_ != failures) {
@@ -205,15 +213,15 @@ bool LcmPublisher::send(const char* channel, int size) {
 }
 
 template <typename Message>
-void LcmPublisher::publish(const char* channel, const Message& message) {
+void LcmPublisher::publish(std::initializer_list<const char*> channels, const Message& message) {
   const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
-  if (size < 0 || !send(channel, size)) {
-    ++failures_;
-  }
+  const bool is_sent = size >= 0 && std::all_of(channels.begin(), channels.end(),
+                                                [&](auto channel) { return send(channel, size); });
+  failures_ += is_sent ? 0U : 1U;
 }
 
 void LcmPublisher::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) {
-  publish_motion(motion, solve_us, messages_[radar].motion);
+  publish_motion(motion, solve_us, messages_[radar].motion_channel, messages_[radar].motion);
 }
 
 void LcmPublisher::on_odometry(const Odometry& odometry) {
@@ -223,16 +231,19 @@ void LcmPublisher::on_odometry(const Odometry& odometry) {
     odometry_.doubts |= ((odometry.radars >> i) & 1U) != 0 ? messages_[i].motion.doubts : 0;
   }
   fused_.doubts = odometry_.doubts;
-  publish("CREMED_ODOMETRY", odometry_);
+  publish({"CREMED_ODOMETRY"}, odometry_);
   ++odometry_.seq;
+  if (!nav_msgs_channel_.empty() && nav_msgs_.update(odometry)) {
+    publish({nav_msgs_channel_.c_str()}, nav_msgs_.message());
+  }
 }
 
 void LcmPublisher::on_fused(const EgoMotion& motion, std::int32_t solve_us) {
-  publish_motion(motion, solve_us, fused_);
+  publish_motion(motion, solve_us, fused_channel_, fused_);
 }
 
 void LcmPublisher::publish_motion(const EgoMotion& motion, std::int32_t solve_us,
-                                  ego_motion_t& message) {
+                                  const std::string& channel, ego_motion_t& message) {
   message.utime = motion.utime_us;
   message.utime_start = motion.utime_start_us;
   message.status = static_cast<std::int8_t>(motion.status);
@@ -244,7 +255,7 @@ void LcmPublisher::publish_motion(const EgoMotion& motion, std::int32_t solve_us
   message.num_targets = motion.targets;
   message.num_iterations = motion.iterations;
   message.solve_us = solve_us;
-  publish("CREMED_EGO_MOTION", message);
+  publish({kMotionChannel, channel.c_str()}, message);
   ++message.seq;
 }
 
@@ -262,7 +273,7 @@ void LcmPublisher::on_scan(std::size_t radar, const RadarScan& scan) {
   for (std::size_t i = 0; i < scan.count; ++i) {
     append(scan.detections[i], message);
   }
-  publish(messages_[radar].scan_channel.c_str(), message);
+  publish({messages_[radar].scan_channel.c_str()}, message);
   ++message.seq;
 }
 
@@ -324,7 +335,7 @@ void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
     m.motions_by_status[i] = count(status.motions_by_status[i]);
   }
-  publish("CREMED_STATUS", m);
+  publish({kStatusChannel, messages_[radar].status_channel.c_str()}, m);
   ++m.seq;
 }
 

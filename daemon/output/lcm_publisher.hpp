@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,12 +18,15 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/lcm_log_file.hpp"
+#include "daemon/output/nav_msgs_odometry.hpp"
 #include "daemon/output/odometry_sink.hpp"
 
 namespace cremed {
 
-/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t.
-/// Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
+/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t and
+/// nav_msgs.Odometry. What several sources tell goes out on one channel for all and on one a
+/// source: a reader of all needs no names, and lcm-spy, which shows a channel's last message, shows
+/// them all. Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
   /// Does not connect yet: until connect() succeeds, every message is a failure.
@@ -57,26 +61,33 @@ class LcmPublisher final : public OdometrySink {
     ego_motion_t motion;
     radar_scan_t scan;
     status_t status;
+    std::string motion_channel;
     std::string scan_channel;
+    std::string status_channel;
   };
-  void publish_motion(const EgoMotion& motion, std::int32_t solve_us, ego_motion_t& message);
+  void publish_motion(const EgoMotion& motion, std::int32_t solve_us, const std::string& channel,
+                      ego_motion_t& message);
   std::string open();
   bool send(const char* channel, int size);
+  /// The same bytes on each of the channels.
   template <typename Message>
-  void publish(const char* channel, const Message& message);
+  void publish(std::initializer_list<const char*> channels, const Message& message);
 
   std::string url_;
   std::unique_ptr<lcm_t, Destroy> lcm_;
   std::optional<LcmLogFile> file_;  // In place of lcm_ where the address is a file to write.
   bool publish_scans_;
+  std::string nav_msgs_channel_;  // Empty: not asked for.
   std::vector<Messages> messages_;
   ego_motion_t fused_;
+  std::string fused_channel_;
   odometry_t odometry_;
+  NavMsgsOdometry nav_msgs_;
   std::array<std::uint8_t, 16384> buffer_{};
   std::uint64_t failures_ = 0;
 };
 
-/// "CREMED_SCAN_" and the radar's name in upper case.
-std::string scan_channel(const std::string& radar_name);
+/// Of one source: `channel`, '_' and the source's name in upper case.
+std::string channel_of(const std::string& channel, const std::string& source);
 
 }  // namespace cremed

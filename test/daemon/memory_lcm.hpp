@@ -35,11 +35,13 @@ inline void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* 
       {channel, {bytes, bytes + buffer->data_size}});
 }
 
-/// Everything published while `publish` runs, through LCM's in-process transport.
-inline std::vector<Received> receive(LcmPublisher& publisher,
-                                     const std::function<void()>& publish) {
+/// Everything published while `publish` runs on channels like `pattern`, through LCM's in-process
+/// transport; by default on those of all sources.
+inline std::vector<Received> receive(
+    LcmPublisher& publisher, const std::function<void()>& publish,
+    const char* pattern = "(CREMED_(EGO_MOTION|STATUS|ODOMETRY|SCAN_.*)|/.*)") {
   std::vector<Received> received;
-  lcm_subscription_t* all = lcm_subscribe(publisher.handle(), ".*", on_message, &received);
+  lcm_subscription_t* all = lcm_subscribe(publisher.handle(), pattern, on_message, &received);
   publish();
   while (lcm_handle_timeout(publisher.handle(), 20) > 0) {
   }

@@ -277,6 +277,7 @@ lcm_url = "none"
 csv = "/tmp/odometry.csv"
 tum = "trajectory.tum"
 tum_source = "left"
+nav_msgs_odometry = "/odometry#nav_msgs.Odometry"
 publish_scans = true
 [logging]
 level = "trace"
@@ -285,6 +286,7 @@ level = "trace"
   CHECK(configuration.output.csv == "/tmp/odometry.csv");
   CHECK(configuration.output.tum == "trajectory.tum");
   CHECK(configuration.output.tum_source == "left");
+  CHECK(configuration.output.nav_msgs_odometry == "/odometry#nav_msgs.Odometry");
   CHECK(configuration.output.publish_scans);
   CHECK(configuration.logging.level == "trace");
 }

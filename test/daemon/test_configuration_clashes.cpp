@@ -30,6 +30,8 @@ TEST_CASE("values that contradict each other are refused") {
       {kArs408 + radar_text("left", "bosch_gpr", "can1") +
            "[odometry]\nenabled = false\n[output]\ntum_source = \"fused\"\n",
        14, "output.tum_source", "is \"fused\"", "\"fused\" for the same of two radars or more"},
+      {kArs408 + "[odometry]\nenabled = false\n[output]\nnav_msgs_odometry = \"/odometry\"\n", 9,
+       "output.nav_msgs_odometry", "is to be published, but odometry.enabled = false", "\"\""},
       {kArs408 + "[odometry]\nenabled = false\n[output]\ntum_source = \"odometry\"\n", 9,
        "output.tum_source", "is \"odometry\"", "\"odometry\" unless that is off"},
       {kArs408 + "[odometry]\nenabled = false\n[output]\nodometry = \"a\"\n", 9, "output.odometry",

@@ -107,14 +107,14 @@ std::string text_of(const Configuration& configuration) {
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
   }
-  const auto& [lcm_url, csv, odometry_csv, tum, tum_source, publish_scans] = output;
+  const auto& [lcm_url, csv, odometry_csv, tum, tum_source, nav_msgs, publish_scans] = output;
   const auto& [real_time, socket, max_latency] = live;
   const auto& [receive_buffer, hardware_stamps] = socket;
   const auto& [level] = logging;
   text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
           std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
   return text + lcm_url + "|" + csv + "|" + odometry_csv + "|" + tum + "|" + tum_source + "|" +
-         std::to_string(publish_scans) + "|" + level;
+         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level;
 }
 
 std::vector<std::string> manual_lines() {

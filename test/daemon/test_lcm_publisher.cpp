@@ -79,6 +79,29 @@ TEST_CASE("The motion of all radars goes out as \"fused\", numbered on its own")
   CHECK(decode<ego_motion_t>(received[3]).seq == 1);
 }
 
+TEST_CASE("Each source has a channel of its own besides, with the same bytes") {
+  LcmPublisher publisher("memq://", two_radars());
+  REQUIRE(publisher.connect().empty());
+  const auto received = receive(
+      publisher,
+      [&] {
+        publisher.on_motion(1, turning(), 0);
+        publisher.on_fused(turning(), 0);
+        publisher.on_status(0, RadarStatus{});
+      },
+      "CREMED_.*");
+  std::vector<std::string> channels;
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    channels.push_back(received[i].channel);
+    CHECK(received[i].channel.size() + 1 + received[i].data.size() <= kOneDatagram);
+    CHECK((i % 2 == 0 || received[i].data == received[i - 1].data));
+  }
+  CHECK(channels == std::vector<std::string>{"CREMED_EGO_MOTION", "CREMED_EGO_MOTION_REAR-LEFT_2",
+                                             "CREMED_EGO_MOTION", "CREMED_EGO_MOTION_FUSED",
+                                             "CREMED_STATUS", "CREMED_STATUS_FRONT"});
+  CHECK(publisher.failures() == 0);
+}
+
 TEST_CASE("status_t says whether the covariance is to be believed") {
   CHECK(status_t::DOUBT_REGISTRATION_CONTRADICTS_DOPPLER ==
         static_cast<int>(registration_contradicts_doppler));

@@ -105,6 +105,7 @@ TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates"
   }
   Configuration configuration = configuration_of(default_radars());
   configuration.output.publish_scans = true;
+  configuration.output.nav_msgs_odometry = "/odometry#nav_msgs.Odometry";
   LcmPublisher publisher("udpm://239.255.76.67:7667?ttl=0", configuration);
   REQUIRE(publisher.connect().empty());
   CHECK(allocations_of_replay(simulated, {&publisher}) == 0);

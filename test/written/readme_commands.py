@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Of others; those of the project are known by their names and paths.
-OTHERS = {"apt-get", "candump", "cmake", "cp", "ctest", "evo_ape", "install", "ip", "journalctl",
+OTHERS = {"apt-get", "candump", "cmake", "cp", "cpack", "ctest", "evo_ape", "install", "ip", "journalctl",
           "lcm-logger", "systemctl", "systemd-analyze"}
 
 

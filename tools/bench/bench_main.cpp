@@ -66,8 +66,9 @@ void register_all(const Arguments& arguments) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "How long a registration takes. Further options are Google Benchmark's, such as "
-      "--benchmark_filter=REGEX and --benchmark_min_time=SECONDS",
+      "Measures how long a registration takes\n"
+      "Further options are Google Benchmark's, such as --benchmark_filter=REGEX and "
+      "--benchmark_min_time=SECONDS.",
       "cremed-bench"};
   app.set_version_flag("--version", "cremed-bench " CREMED_VERSION);
   app.allow_extras();

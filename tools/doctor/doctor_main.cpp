@@ -22,6 +22,7 @@
 #include "daemon/process/process_setup.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
+#include "daemon/version.hpp"
 #include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -229,7 +230,9 @@ int run_talk(const Arguments& arguments, const Configuration& configuration) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Explains why there is no odometry: one finding a line, with what mends it"};
+  CLI::App app{"Explains why there is no odometry: one finding a line, with what mends it",
+               "cremed-doctor"};
+  app.set_version_flag("--version", "cremed-doctor " CREMED_VERSION);
   Arguments arguments;
   add_diagnosis_options(app, arguments);
   add_other_outputs(app, arguments);

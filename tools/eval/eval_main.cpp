@@ -195,6 +195,7 @@ void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs
 
 int run(int argc, char** argv) {
   CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
+  app.set_help_all_flag("--help-all", "Print the help of all subcommands and exit");
   app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
   app.require_subcommand(1);
   TableArguments table;

@@ -70,10 +70,12 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "Ego-motions and odometry of an LCM log as the CSV that cremed --output-csv and\n"
-      "--output-odometry write"};
+      "Writes an LCM log as CSV\n"
+      "Ego-motions and odometry become the rows that cremed --output-csv and --output-odometry "
+      "write.",
+      "cremed-lcm-to-csv"};
   Arguments arguments;
-  app.set_version_flag("--version", CREMED_VERSION);
+  app.set_version_flag("--version", "cremed-lcm-to-csv " CREMED_VERSION);
   app.add_option("LOG", arguments.log, "Log of lcm-logger")->required();
   app.add_option("--output", arguments.output, "CSV file of the ego-motions; '-': standard output")
       ->capture_default_str();

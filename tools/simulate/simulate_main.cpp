@@ -17,6 +17,7 @@
 #include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "daemon/source/candump.hpp"
+#include "daemon/version.hpp"
 #include "tools/line_stream.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
@@ -124,7 +125,8 @@ void simulate(Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Simulates a drive as CAN frames of its radars, with truth"};
+  CLI::App app{"Simulates a drive as CAN frames of its radars, with truth", "cremed-simulate"};
+  app.set_version_flag("--version", "cremed-simulate " CREMED_VERSION);
   Arguments arguments;
   add_options(app, arguments);
   try {

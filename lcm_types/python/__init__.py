@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""cremed's messages, and a listener for them that needs nothing but Python:
+
+    import cremed
+    for heard in cremed.Listener():      # or cremed.read_log("FILE of lcm-logger")
+        print(heard.channel, heard.message.utime)
+"""
+from .ego_motion_t import ego_motion_t
+from .listener import Heard, Listener, read_log
+from .odometry_t import odometry_t
+from .radar_scan_t import radar_scan_t
+from .status_t import status_t
+
+__all__ = ["Heard", "Listener", "ego_motion_t", "odometry_t", "radar_scan_t", "read_log", "status_t"]

@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""cremed's messages as LCM sends and records them, without LCM's library: Debian has no binding."""
+import socket
+import struct
+from dataclasses import dataclass
+
+from .ego_motion_t import ego_motion_t
+from .odometry_t import odometry_t
+from .radar_scan_t import radar_scan_t
+from .status_t import status_t
+
+GROUP, PORT = "239.255.76.67", 7667  # LCM's default.
+LONGEST_DATAGRAM = 65536
+MAGIC_SHORT, MAGIC_EVENT = 0x4C433032, 0xEDA1DA01
+# linux/socket.h: asm-generic; the socket module has no name for it.
+SO_TIMESTAMPNS = 35
+# A message begins with the fingerprint of its type, so no channel has to be known.
+# pylint: disable=protected-access
+TYPES = {kind._get_packed_fingerprint(): kind
+         for kind in (ego_motion_t, odometry_t, radar_scan_t, status_t)}
+
+
+@dataclass
+class Heard:
+    """A message, its channel, and when the kernel got it, or lcm-logger: microseconds since 1970."""
+    channel: str
+    received_us: int
+    message: object
+
+
+def decoded(channel, received_us, payload):
+    """None, if it is not one of cremed's."""
+    kind = TYPES.get(bytes(payload[:8]))
+    try:
+        return kind and Heard(channel, received_us, kind.decode(bytes(payload)))
+    except (struct.error, ValueError):  # Cut off.
+        return None
+
+
+class Listener:
+    """Iterates over what is heard, for ever. `interface` is an address of this computer: "127.0.0.1"
+    hears what is published with a route on lo, "" leaves the choice to the routes."""
+
+    def __init__(self, group=GROUP, port=PORT, interface=""):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        for option in (socket.SO_REUSEADDR, socket.SO_REUSEPORT, SO_TIMESTAMPNS):
+            self.socket.setsockopt(socket.SOL_SOCKET, option, 1)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
+        self.socket.bind((group, port))
+        membership = socket.inet_aton(group) + socket.inet_aton(interface or "0.0.0.0")
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+
+    def receive(self, timeout_s=None):
+        """The next datagram's message: None after `timeout_s`, and where it is none of cremed's."""
+        self.socket.settimeout(timeout_s)
+        try:
+            datagram, ancillary, *_ = self.socket.recvmsg(LONGEST_DATAGRAM, 256)
+        except TimeoutError:
+            return None
+        # Messages of several datagrams have another magic; cremed's all fit one.
+        if len(datagram) < 8 or struct.unpack_from(">I", datagram)[0] != MAGIC_SHORT:
+            return None
+        channel, _, payload = datagram[8:].partition(b"\0")
+        return decoded(channel.decode(errors="replace"), _stamp_us(ancillary), payload)
+
+    def __iter__(self):
+        while True:
+            if (heard := self.receive()) is not None:
+                yield heard
+
+
+def _stamp_us(ancillary):
+    for level, kind, data in ancillary:
+        if (level, kind) == (socket.SOL_SOCKET, SO_TIMESTAMPNS):
+            seconds, nanoseconds = struct.unpack("=qq", data)
+            return seconds * 1_000_000 + nanoseconds // 1000
+    raise OSError("a datagram has no stamp")
+
+
+def read_log(path):
+    """Iterates over cremed's messages of a log that lcm-logger, or cremed itself, has written."""
+    with open(path, "rb") as log:
+        while len(header := log.read(28)) == 28:
+            magic, _, received_us, channel_length, length = struct.unpack(">IqqII", header)
+            if magic != MAGIC_EVENT:
+                raise ValueError(f"{path}: is no LCM log, or damaged before byte {log.tell()}")
+            channel, payload = log.read(channel_length), log.read(length)
+            if len(payload) == length:
+                heard = decoded(channel.decode(errors="replace"), received_us, payload)
+                if heard is not None:
+                    yield heard

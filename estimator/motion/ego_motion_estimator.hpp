@@ -19,9 +19,9 @@ namespace cremed {
 
 /// What an EgoMotion holds. The numbers are those of ego_motion_t; they never change meaning.
 enum class MotionStatus : std::uint8_t {
-  ok = 0,              ///< An estimate.
-  standing_still = 1,  ///< An estimate; speed, and sigma of x and y over dt, <= standstill_mps,
-                       ///< |yaw| <= 3 sigma, median |Doppler| / sigma <= 1.
+  ok = 0,               ///< An estimate.
+  standing_still = 1,   ///< An estimate; speed, and sigma of x and y over dt, <= standstill_mps,
+                        ///< |yaw| <= 3 sigma, median |Doppler| / sigma <= 1.
   no_reference = 2,     ///< The first usable scan: there is no earlier one to compare with.
   incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status).
   gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kFullCircleRad = 6.2832;
 
-/// In the order of CovarianceModel.
-constexpr std::array<std::string_view, 2> kCovarianceModels{"exclusive", "gauss_newton"};
+/// In the order of Likelihood.
+constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "gauss_newton"};
 
 void check_gaussians(TomlReader& reader, const OutlierRayOptions& ray) {
   const bool given_here = reader.has("min_range_m") || reader.has("max_range_m") ||
@@ -72,8 +72,8 @@ void read_estimator(TomlReader reader, EgoMotionOptions& options) {
   reader.integer("max_iterations", registration.max_iterations, 1, 1000);
   reader.integer("max_component_evaluations", registration.max_component_evaluations, 1'000,
                  100'000'000);
-  if (const auto model = reader.choice("covariance", kCovarianceModels)) {
-    registration.covariance = static_cast<CovarianceModel>(*model);
+  if (const auto model = reader.choice("covariance", kLikelihoods)) {
+    registration.likelihood = static_cast<Likelihood>(*model);
   }
   reader.integer("min_targets", options.min_targets, 2, kMaxDetections);
   reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});

@@ -18,7 +18,7 @@ struct OutlierRayOptions {
 /// How Doppler enters.
 struct DopplerOptions {
   bool enabled = true;
-  /// Use that of the previous scan too. With CovarianceModel::exclusive only.
+  /// Use that of the previous scan too. With Likelihood::exclusive only.
   bool both_scans = true;
   /// s_dt: standard deviation of the time between two scans, as each target's own. The paper has
   /// 0.005 s for the ARS408. Measured on nuScenes 0061 and 0103 (54 000 static targets) Doppler
@@ -29,7 +29,7 @@ struct DopplerOptions {
 };
 
 /// Standard deviations of errors that all targets of a scan share: unlike a target's own, they do
-/// not average out, however many targets there are. With CovarianceModel::exclusive only. While the
+/// not average out, however many targets there are. With Likelihood::exclusive only. While the
 /// vehicle stands all but the accelerations are zero.
 ///
 /// The defaults are what ARS408 show against wheel encoders on nuScenes 0061 and 0103: the front

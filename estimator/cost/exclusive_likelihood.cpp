@@ -24,33 +24,18 @@ constexpr int kRoundsPerStep = 8;
 /// Work of evaluating a pair, in evaluations of a mixture's component, which come by the vector.
 constexpr std::int64_t kPairWork = 4;
 
-double determinant(const Symmetric2& m) { return m.xx * m.yy - m.xy * m.xy; }
-
-Symmetric2 operator+(const Symmetric2& a, const Symmetric2& b) {
-  return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
-}
-
-Symmetric2 inverse(const Symmetric2& m) {
-  const double scale = 1.0 / determinant(m);
-  return {m.yy * scale, -m.xy * scale, m.xx * scale};
-}
-
-Eigen::Vector2d operator*(const Symmetric2& m, const Eigen::Vector2d& v) {
-  return {m.xx * v.x() + m.xy * v.y(), m.xy * v.x() + m.yy * v.y()};
-}
-
 /// 2 pi N(e; C), given C^-1.
 double scaled_density(const Eigen::Vector2d& e, const Symmetric2& information) {
-  return std::sqrt(determinant(information)) * std::exp(-0.5 * e.dot(information * e));
+  return std::sqrt(information.determinant()) * std::exp(-0.5 * e.dot(information * e));
 }
 
 /// sum_k w_k N(m_i - ray_k; S_ray,k + S_i), times 2 pi.
 double new_target_density(const Target& target, const OutlierRay& ray) {
   double density = ray.size() == 0 ? kClutterPerM2 : 0.0;
   for (const RayComponent& component : ray) {
-    density +=
-        component.weight * scaled_density({target.x_m - component.x_m, target.y_m - component.y_m},
-                                          inverse(component.covariance_m2 + target.covariance_m2));
+    density += component.weight *
+               scaled_density({target.x_m - component.x_m, target.y_m - component.y_m},
+                              (component.covariance_m2 + target.covariance_m2).inverse());
   }
   return density;
 }
@@ -79,13 +64,13 @@ void ExclusiveLikelihood::assign(const TargetSet& previous, const TargetSet& cur
         probability / (1.0 - probability) / (n * new_target_density(current[i], ray));
     ratio_scale_m2_[i] = scale;
     // det(C_ij) >= det(S_i), so that psi_ij <= scale / sqrt(det(S_i)) exp(-distance^2 / 2).
-    const double nearest_ratio = scale / std::sqrt(determinant(current[i].covariance_m2));
+    const double nearest_ratio = scale / std::sqrt(current[i].covariance_m2.determinant());
     max_squared_distance_[i] = 2.0 * std::log(std::max(nearest_ratio / kMinRatio, 1.0));
   }
   for (std::size_t j = 0; j < previous.size(); ++j) {
     x_m_[j] = previous[j].x_m;
     y_m_[j] = previous[j].y_m;
-    variance_m2_[j] = previous[j].covariance_m2.xx + previous[j].covariance_m2.yy;
+    variance_m2_[j] = previous[j].covariance_m2.trace();
   }
   candidate_begin_[0] = 0;
   matched_ = 0.0;
@@ -96,7 +81,7 @@ void ExclusiveLikelihood::assign(const TargetSet& previous, const TargetSet& cur
 bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, const Target& moved) {
   const double x_m = moved.x_m;
   const double y_m = moved.y_m;
-  const double variance_m2 = moved.covariance_m2.xx + moved.covariance_m2.yy;
+  const double variance_m2 = moved.covariance_m2.trace();
   const double reach = std::sqrt(max_squared_distance_[i]) + kListReach;
   const double max_squared_distance = reach * reach;
   const std::size_t size = previous.size();
@@ -112,7 +97,7 @@ bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, con
     }
     const Symmetric2 covariance = previous[j].covariance_m2 + moved.covariance_m2;
     const Eigen::Vector2d e(x_m - x_m_[j], y_m - y_m_[j]);
-    if (e.dot(inverse(covariance) * e) <= max_squared_distance) {
+    if (e.dot(covariance.inverse() * e) <= max_squared_distance) {
       if (count == candidates_.size()) {
         return false;
       }
@@ -142,13 +127,13 @@ bool ExclusiveLikelihood::list_pairs(const TargetSet& previous, const TargetSet&
 void ExclusiveLikelihood::add_pair(std::size_t i, std::size_t j, const Target& previous,
                                    const Target& moved, const Eigen::Vector2d& lever_m) {
   const Eigen::Vector2d e(moved.x_m - previous.x_m, moved.y_m - previous.y_m);
-  const Symmetric2 information = inverse(previous.covariance_m2 + moved.covariance_m2);
+  const Symmetric2 information = (previous.covariance_m2 + moved.covariance_m2).inverse();
   const Eigen::Vector2d pull = information * e;
   const double squared_distance = e.dot(pull);
   if (squared_distance > max_squared_distance_[i]) {
     return;
   }
-  const double density = std::sqrt(determinant(information)) * std::exp(-0.5 * squared_distance);
+  const double density = std::sqrt(information.determinant()) * std::exp(-0.5 * squared_distance);
   terms_[association_.size()] = {information.xx, information.xy, information.yy, pull};
   association_.add(j, ratio_scale_m2_[i] * density, along_states(pull, lever_m));
 }
@@ -187,7 +172,7 @@ NormalEquations ExclusiveLikelihood::sum_up() {
     for (std::size_t k = association_.row_begin(i); k < association_.row_begin(i + 1); ++k) {
       const double p = association_.probability(k);
       const Term& term = terms_[k];
-      information = information + Symmetric2{p * term.xx, p * term.xy, p * term.yy};
+      information = information + p * Symmetric2{term.xx, term.xy, term.yy};
       pull += p * term.pull_per_m;
       matched_ += p;
     }

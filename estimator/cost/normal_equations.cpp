@@ -7,9 +7,6 @@
 namespace cremed {
 namespace {
 
-/// Least reciprocal condition number that still counts as positive definite.
-constexpr double kMinReciprocalCondition = 1e-14;
-
 template <int States>
 std::optional<Eigen::Matrix<double, States, States>> invert(
     const Eigen::Matrix<double, States, States>& information) {

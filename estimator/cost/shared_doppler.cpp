@@ -47,9 +47,9 @@ SharedDoppler::SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppl
       errors_(errors),
       vehicle_from_radar_(vehicle_from_radar) {}
 
-SharedDoppler::SharedVector SharedDoppler::prior_information(double rolling) const {
+SharedErrors SharedDoppler::prior_information(double rolling) const {
   const double sideways_std_mps2 = degrees_of_freedom_ == 3 ? errors_.acceleration_std_mps2 : 0.0;
-  SharedVector information;
+  SharedErrors information;
   information << information_of(rolling * errors_.doppler_offset_std_mps),
       information_of(rolling * errors_.mount_yaw_std_rad),
       information_of(errors_.acceleration_std_mps2), information_of(sideways_std_mps2),
@@ -57,12 +57,12 @@ SharedDoppler::SharedVector SharedDoppler::prior_information(double rolling) con
   return information;
 }
 
-void SharedDoppler::add(const TargetSet& previous, const TargetSet& current,
-                        const Eigen::Vector3d& motion, double dt_s, NormalEquations& equations) {
-  Eigen::Vector3d half_way = motion;
+NormalEquations SharedDoppler::linearise(const TargetSet& previous, const TargetSet& current,
+                                         double dt_s, const Unknowns& at) const {
+  Unknowns half_way = at;
   Eigen::Matrix3d by_motion = Eigen::Matrix3d::Identity();
   if (degrees_of_freedom_ == 3) {
-    turn_back(half_way, by_motion);
+    turn_back(half_way.motion, by_motion);
   }
   Sums sums;
   add_scan(current, half_way, dt_s, 1.0, sums);
@@ -70,37 +70,36 @@ void SharedDoppler::add(const TargetSet& previous, const TargetSet& current,
     add_scan(previous, half_way, dt_s, -1.0, sums);
   }
   const double noise_m = 1.0 / std::sqrt(sums.motion.information(0, 0));
-  const SharedVector prior = prior_information(rolling_part(motion, noise_m, dt_s));
-  const SharedVector pull = prior.cwiseProduct(shared_);
+  const SharedErrors prior = prior_information(rolling_part(at.motion, noise_m, dt_s));
+  const SharedErrors pull = prior.cwiseProduct(at.shared);
   sums.shared.diagonal() += prior;
   sums.gradient += pull;
   const Eigen::LLT<SharedMatrix> factor(sums.shared);
   const Eigen::Matrix<double, kShared, 3> gain = factor.solve(sums.cross.transpose());
-  const SharedVector step = factor.solve(sums.gradient);
-  equations.information +=
-      by_motion.transpose() * (sums.motion.information - sums.cross * gain) * by_motion;
-  equations.gradient += by_motion.transpose() * (sums.motion.gradient - sums.cross * step);
-  equations.cost += sums.motion.cost + 0.5 * shared_.dot(pull) - 0.5 * sums.gradient.dot(step);
-  shared_ -= step;
+  const SharedErrors step = factor.solve(sums.gradient);
+  return {by_motion.transpose() * (sums.motion.information - sums.cross * gain) * by_motion,
+          by_motion.transpose() * (sums.motion.gradient - sums.cross * step),
+          sums.motion.cost + 0.5 * at.shared.dot(pull) - 0.5 * sums.gradient.dot(step),
+          at.shared - step};
 }
 
-void SharedDoppler::add_scan(const TargetSet& targets, const Eigen::Vector3d& half_way, double dt_s,
+void SharedDoppler::add_scan(const TargetSet& targets, const Unknowns& half_way, double dt_s,
                              double side, Sums& sums) const {
   const double half_s2 = side * 0.5 * dt_s * dt_s;
   for (const Target& target : targets) {
-    const DopplerGeometry geometry(target, half_way, vehicle_from_radar_);
-    SharedVector shared;
-    shared << dt_s, geometry.per_bearing_m, half_s2 * geometry.jacobian.transpose();
+    const DopplerGeometry geometry(target, half_way.motion, vehicle_from_radar_);
+    SharedErrors by_shared;
+    by_shared << dt_s, geometry.per_bearing_m, half_s2 * geometry.jacobian.transpose();
     const DopplerResidual doppler =
-        doppler_residual(target, geometry, dt_s, options_, 1.0, shared.dot(shared_));
+        doppler_residual(target, geometry, dt_s, options_, 1.0, by_shared.dot(half_way.shared));
     const double weight = doppler.per_m * doppler.per_m;
     const Eigen::RowVector3d jacobian = weight * geometry.jacobian;
     sums.motion.information.noalias() += jacobian.transpose() * geometry.jacobian;
     sums.motion.gradient.noalias() += doppler.error_m * jacobian.transpose();
     sums.motion.cost += doppler.cost;
-    sums.cross.noalias() += jacobian.transpose() * shared.transpose();
-    sums.shared.noalias() += (weight * shared) * shared.transpose();
-    sums.gradient.noalias() += weight * doppler.error_m * shared;
+    sums.cross.noalias() += jacobian.transpose() * by_shared.transpose();
+    sums.shared.noalias() += (weight * by_shared) * by_shared.transpose();
+    sums.gradient.noalias() += weight * doppler.error_m * by_shared;
   }
 }
 

@@ -15,8 +15,8 @@ namespace cremed {
 /// A distance up to its noise is none.
 double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s);
 
-/// The Doppler of both scans, with the errors that their targets share. Each of these is an unknown
-/// of its own, known beforehand only to be small (SharedErrorOptions):
+/// The Doppler of both scans, with the errors that their targets share as nuisance parameters, each
+/// with a Gaussian prior around zero (SharedErrorOptions):
 ///
 ///     e_i = u_i(c) - v_i dt + dt b + du_i/dphi d +- dt^2/2 (du_i/dx a + du_i/dy l + du_i/dyaw w)
 ///
@@ -27,10 +27,13 @@ double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s);
 /// through the turn: c = (R(-yaw/2) (x, y), yaw), but in 2 DoF, where it never moves sideways,
 /// c = m and l = 0.
 ///
-/// b, d, a, l, w are Gaussian around zero; for a given m their best values follow from a linear
-/// equation, and eliminating them (Schur complement) leaves the equations of m alone:
+/// The shared errors s = (b, d, a, l, w) are eliminated (Schur complement), which leaves the
+/// equations of m alone:
 ///
 ///     H = H_mm - H_ms (H_ss + P^-1)^-1 H_sm       g = g_m - H_ms (H_ss + P^-1)^-1 g_s
+///
+/// As e_i is linear in s, its value matters for one thing only: which targets count as moving.
+/// NormalEquations::shared is s - (H_ss + P^-1)^-1 g_s, the best for this m.
 ///
 /// b and d are errors of a vehicle that drives: their deviations are those of SharedErrorOptions
 /// times rolling_part(m), the noise of m by Doppler taken alone.
@@ -39,17 +42,11 @@ class SharedDoppler {
   SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,
                 const SharedErrorOptions& errors, const Pose2& vehicle_from_radar);
 
-  /// Begins a registration: shared errors are unknown again.
-  void start() { shared_.setZero(); }
-
-  /// Adds to `equations` what the Doppler says about `motion`. Which targets move is told by the
-  /// shared errors found at the call before.
-  void add(const TargetSet& previous, const TargetSet& current, const Eigen::Vector3d& motion,
-           double dt_s, NormalEquations& equations);
+  [[nodiscard]] NormalEquations linearise(const TargetSet& previous, const TargetSet& current,
+                                          double dt_s, const Unknowns& at) const;
 
  private:
-  static constexpr int kShared = 5;  // b, d, a, l, w
-  using SharedVector = Eigen::Matrix<double, kShared, 1>;
+  static constexpr int kShared = SharedErrors::RowsAtCompileTime;
   using SharedMatrix = Eigen::Matrix<double, kShared, kShared>;
 
   /// Normal equations of motion and shared errors together.
@@ -57,19 +54,18 @@ class SharedDoppler {
     NormalEquations motion;
     Eigen::Matrix<double, 3, kShared> cross = Eigen::Matrix<double, 3, kShared>::Zero();
     SharedMatrix shared = SharedMatrix::Zero();
-    SharedVector gradient = SharedVector::Zero();
+    SharedErrors gradient = SharedErrors::Zero();
   };
   /// `side`: 1 for the current scan, -1 for the previous.
-  void add_scan(const TargetSet& targets, const Eigen::Vector3d& half_way, double dt_s, double side,
+  void add_scan(const TargetSet& targets, const Unknowns& half_way, double dt_s, double side,
                 Sums& sums) const;
   /// P^-1, which is diagonal.
-  [[nodiscard]] SharedVector prior_information(double rolling) const;
+  [[nodiscard]] SharedErrors prior_information(double rolling) const;
 
   int degrees_of_freedom_;
   DopplerOptions options_;
   SharedErrorOptions errors_;
   Pose2 vehicle_from_radar_;
-  SharedVector shared_ = SharedVector::Zero();
 };
 
 }  // namespace cremed

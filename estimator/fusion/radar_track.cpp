@@ -22,7 +22,7 @@ constexpr double kMaxDopplerStdMps = 0.6;
 
 /// A registration that needs more steps from a prediction does not know where to go: on a real
 /// drive with turns (nuScenes 0061) those that took longer doubled the error of yaw.
-constexpr int kMaxIterations = 6;
+constexpr int kMaxIterations = 5;
 constexpr double kStepTolerance = 1e-3;
 
 /// Of positions against a prediction: no coarse stage, no search from elsewhere, no Doppler, and
@@ -33,7 +33,7 @@ RegistrationOptions positions_only(RegistrationOptions options) {
   options.max_iterations = kMaxIterations;
   options.step_tolerance = kStepTolerance;
   options.restarts = false;
-  options.covariance = CovarianceModel::exclusive;
+  options.likelihood = Likelihood::exclusive;
   options.doppler.enabled = false;
   options.shared_errors.velocity_std_mps = 0.0;
   return options;

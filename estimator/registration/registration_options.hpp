@@ -8,10 +8,10 @@
 
 namespace cremed {
 
-/// What estimate and covariance rest on.
-enum class CovarianceModel : std::uint8_t {
-  exclusive,     ///< All one-to-one assignments of targets, curvature: see ExclusiveLikelihood.
-  gauss_newton,  ///< The paper: Max-Sum-Mixture and (J'J)^-1; over-confident where targets cluster.
+/// The likelihood that is maximised, which also says how certain the estimate is.
+enum class Likelihood : std::uint8_t {
+  exclusive,        ///< All one-to-one assignments of targets: see ExclusiveCost.
+  max_sum_mixture,  ///< The paper's: see MixtureCost. Over-confident where targets cluster.
 };
 
 /// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
@@ -29,7 +29,7 @@ struct RegistrationOptions {
   bool restarts = true;
   /// Limit on the work of one registration, in evaluations of a mixture component.
   std::int64_t max_component_evaluations = 800'000;
-  CovarianceModel covariance = CovarianceModel::exclusive;
+  Likelihood likelihood = Likelihood::exclusive;
   OutlierRayOptions outlier_ray;
   DopplerOptions doppler;
   SharedErrorOptions shared_errors;

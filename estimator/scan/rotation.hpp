@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/scan/target_set.hpp"
+#include "cremed/estimator/scan/symmetric2.hpp"
 
 namespace cremed {
 

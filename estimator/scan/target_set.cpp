@@ -50,7 +50,7 @@ constexpr double kRoundedDeterminant = 1e-12;
 
 bool is_finite_target(const Target& t) {
   const Symmetric2& c = t.covariance_m2;
-  const double determinant = c.xx * c.yy - c.xy * c.xy;
+  const double determinant = c.determinant();
   return std::isfinite(t.x_m) && std::isfinite(t.y_m) && std::isfinite(t.bearing_rad) &&
          std::isfinite(t.doppler_mps) && std::isfinite(t.bearing_std_rad) &&
          std::isfinite(t.doppler_std_mps) && std::isfinite(determinant) &&

@@ -9,15 +9,9 @@
 #include "cremed/can_decoders/radar_scan.hpp"
 #include "cremed/estimator/scan/detection_options.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
+#include "cremed/estimator/scan/symmetric2.hpp"
 
 namespace cremed {
-
-/// Symmetric 2x2 matrix.
-struct Symmetric2 {
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-};
 
 /// One target as the registration uses it: a point in the vehicle frame with its covariance, and a
 /// Doppler along a line of sight.

@@ -157,7 +157,7 @@ moving_std_mps = 30
   CHECK(options.registration.max_start_iterations == 0);
   CHECK(options.registration.max_iterations == 20);
   CHECK(options.registration.max_component_evaluations == 70000);
-  CHECK(options.registration.covariance == CovarianceModel::gauss_newton);
+  CHECK(options.registration.likelihood == Likelihood::max_sum_mixture);
   CHECK(options.min_targets == 8);
   CHECK(options.max_gap_s == 0.25);
   CHECK(options.standstill_mps == 0.2);

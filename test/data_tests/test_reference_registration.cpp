@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/data_tests/shared_data.hpp"
+#include "test/estimator/simulation.hpp"
 #include "tools/eval/csv_table.hpp"
 #include "tools/eval/pairs/pairs_evaluation.hpp"
 #include "tools/eval/pairs/profile.hpp"
@@ -50,10 +51,11 @@ double median(std::vector<double> values) {
 /// Our cost at a motion that somebody else found.
 double cost_at(const RegistrationPair& pair, const RegistrationOptions& options,
                const Eigen::Vector3d& motion) {
-  Registration registration(options, pair.vehicle_from_radar);
-  registration.set_previous(to_targets(pair.previous, pair.vehicle_from_radar));
-  return registration
-      .linearise(to_targets(pair.current, pair.vehicle_from_radar), pair.dt_s, motion, 1.0, 1.0)
+  const Pose2& mount = pair.vehicle_from_radar;
+  const TargetSet previous = to_targets(pair.previous, mount);
+  const TargetSet current = to_targets(pair.current, mount);
+  return simulation::mixture_cost(options, mount, previous, current, pair.dt_s)
+      ->linearise({motion})
       .cost;
 }
 
@@ -101,7 +103,7 @@ TEST_CASE("Registration agrees with the reference implementation, pair by pair")
   CAPTURE(row.reference);
   std::istringstream text(read_shared(folder + row.pairs));
   const auto pairs = read_registration_pairs(text);
-  const auto options = *profile(row.profile, row.doppler, CovarianceModel::gauss_newton);
+  const auto options = *profile(row.profile, row.doppler, Likelihood::max_sum_mixture);
   const auto ours = solve_pairs(pairs, options);
   const auto theirs = read_reference(folder + row.reference);
   REQUIRE(ours.size() == theirs.size());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/cost/mixture_cost.hpp"
 #include "cremed/estimator/registration/registration_options.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -134,6 +136,18 @@ inline RegistrationOptions paper_options() {
   options.doppler.both_scans = false;
   options.shared_errors = no_shared_errors();
   return options;
+}
+
+/// The paper's cost of two scans, with the standard deviations of the current one times `scale`.
+inline std::unique_ptr<MixtureCost> mixture_cost(const RegistrationOptions& options,
+                                                 const Pose2& mount, const TargetSet& previous,
+                                                 const TargetSet& current, double dt_s,
+                                                 double scale = 1.0) {
+  auto cost = std::make_unique<MixtureCost>(options.degrees_of_freedom, options.doppler, mount);
+  cost->set_previous(previous, OutlierRay(options.outlier_ray, mount));
+  cost->set_current(current, dt_s);
+  cost->set_scales(scale, scale);
+  return cost;
 }
 
 }  // namespace cremed::simulation

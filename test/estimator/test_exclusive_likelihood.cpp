@@ -170,9 +170,8 @@ TEST_CASE("a cluster is where its centre is, and known as well as three targets 
     squared_step_m2 +=
         (kVarianceM2 * equations.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
 
-    Registration mixture(options, {});
-    mixture.set_previous(previous);
-    const NormalEquations nearest = mixture.linearise(current, kDt, centre, 1.0, 1.0);
+    const NormalEquations nearest =
+        simulation::mixture_cost(options, {}, previous, current, kDt)->linearise({centre});
     squared_mixture_step_m2 +=
         (kVarianceM2 * nearest.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
   }

@@ -188,10 +188,9 @@ TEST_CASE("searching again and pairs without end do not allocate") {
     };
     const TargetSet previous = targets(1);
     const TargetSet current = targets(row.second_seed);
-    for (const CovarianceModel model :
-         {CovarianceModel::exclusive, CovarianceModel::gauss_newton}) {
+    for (const Likelihood model : {Likelihood::exclusive, Likelihood::max_sum_mixture}) {
       RegistrationOptions options;
-      options.covariance = model;
+      options.likelihood = model;
       options.degrees_of_freedom = 3;
       options.max_component_evaluations = 100'000'000;
       const auto registration = std::make_unique<Registration>(options, Pose2{});
@@ -201,7 +200,7 @@ TEST_CASE("searching again and pairs without end do not allocate") {
               result = registration->solve(current, kDt);
             }) == 0);
       CAPTURE(row.what, model);
-      if (model == CovarianceModel::exclusive) {
+      if (model == Likelihood::exclusive) {
         CHECK((result.starts > 1) == row.searches_again);
       }
     }

@@ -25,12 +25,12 @@ using simulation::uniform;
 
 constexpr double kDt = 0.2;
 
-constexpr std::array kModels = {CovarianceModel::exclusive, CovarianceModel::gauss_newton};
+constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
 
 RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               CovarianceModel model = CovarianceModel::exclusive) {
+                               Likelihood model = Likelihood::exclusive) {
   RegistrationOptions options = simulation::paper_options();
-  options.covariance = model;
+  options.likelihood = model;
   options.degrees_of_freedom = degrees_of_freedom;
   options.doppler.enabled = has_doppler;
   return options;
@@ -122,10 +122,10 @@ void for_all_regimes(const Check& check) {
           const Points points = landmarks(random, mount);
           const Detections previous =
               simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {});
-          for (const CovarianceModel model : kModels) {
+          for (const Likelihood model : kModels) {
             CAPTURE(model);
             Detections current = simulation::observe_all(points, regime.motion, kDt, mount, {});
-            if (degrees_of_freedom == 3 && model == CovarianceModel::exclusive) {
+            if (degrees_of_freedom == 3 && model == Likelihood::exclusive) {
               set_doppler(current, half_way(regime.motion) / kDt, mount);
             }
             check(options_of(degrees_of_freedom, has_doppler, model), mount, previous, current,
@@ -191,7 +191,7 @@ TEST_CASE("targets far apart weigh as if the correspondences were known") {
     information += jacobian.transpose() * jacobian / (2.0 * std_m * std_m);
   }
   const Eigen::Matrix3d expected = information.inverse();
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     RegistrationOptions options = options_of(3, false, model);
     options.outlier_ray.weight = 0.0;
     const Eigen::Matrix3d actual = solve(options, {}, scan, scan).covariance;
@@ -209,20 +209,19 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
         return simulation::targets(
             isotropic(simulation::observe_all(points, motion, kDt, mount, noise), 0.1), mount);
       };
-      Registration registration(options_of(3, has_doppler), mount);
-      registration.set_previous(observe(Eigen::Vector3d::Zero()));
+      const TargetSet previous = observe(Eigen::Vector3d::Zero());
       const TargetSet current = observe({0.3, 0.1, 0.05});
       for (int i = 0; i < 10; ++i) {
         const Eigen::Vector3d at{uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5),
                                  uniform(random, -0.1, 0.1)};
         for (const double scale : {1.0, 5.0}) {
-          const auto linearise = [&](const Eigen::Vector3d& motion) {
-            return registration.linearise(current, kDt, motion, scale, scale);
-          };
+          const auto cost = simulation::mixture_cost(options_of(3, has_doppler), mount, previous,
+                                                     current, kDt, scale);
           const Eigen::Vector3d expected = numeric::central_differences(
-              at, 1e-6, [&](const Eigen::Vector3d& m) { return linearise(m).cost; });
+              at, 1e-6, [&](const Eigen::Vector3d& m) { return cost->linearise({m}).cost; });
           CAPTURE(has_doppler, mount.yaw_rad, scale, at.transpose());
-          CHECK((linearise(at).gradient - expected).norm() < 1e-4 * (1.0 + expected.norm()));
+          CHECK((cost->linearise({at}).gradient - expected).norm() <
+                1e-4 * (1.0 + expected.norm()));
         }
       }
     }
@@ -235,11 +234,10 @@ TEST_CASE("the scale of the first stage widens the current scan only") {
   options.outlier_ray.weight = 0.0;
   const Detections scan =
       isotropic(simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, {}), 0.1);
-  Registration registration(options, {});
-  registration.set_previous(simulation::targets(scan, {}));
+  const TargetSet targets = simulation::targets(scan, {});
   const auto information = [&](double scale) {
-    return registration
-        .linearise(simulation::targets(scan, {}), kDt, Eigen::Vector3d::Zero(), scale, 1.0)
+    return simulation::mixture_cost(options, {}, targets, targets, kDt, scale)
+        ->linearise({})
         .information;
   };
   // 1 + 1 before, 9 + 1 after.
@@ -257,7 +255,7 @@ TEST_CASE("the way back is the inverse of the way there") {
     Detections b = simulation::observe_all(points, motion, kDt, mount, {});
     simulation::perturb(a, random);
     simulation::perturb(b, random);
-    for (const CovarianceModel model : kModels) {
+    for (const Likelihood model : kModels) {
       const RegistrationOptions options = options_of(3, false, model);
       const RegistrationResult there = solve(options, mount, a, b);
       const RegistrationResult back = solve(options, mount, b, a);

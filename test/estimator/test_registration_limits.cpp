@@ -25,12 +25,12 @@ using simulation::uniform;
 
 constexpr double kDt = 0.2;
 
-constexpr std::array kModels = {CovarianceModel::exclusive, CovarianceModel::gauss_newton};
+constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
 
 RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               CovarianceModel model = CovarianceModel::exclusive) {
+                               Likelihood model = Likelihood::exclusive) {
   RegistrationOptions options = simulation::paper_options();
-  options.covariance = model;
+  options.likelihood = model;
   options.degrees_of_freedom = degrees_of_freedom;
   options.doppler.enabled = has_doppler;
   return options;
@@ -55,7 +55,7 @@ TEST_CASE("one place cannot fix three states") {
     const Points one = simulation::scatter(random, 1, 2.0, 100.0, radians(60.0), 0.0);
     const Points many(static_cast<std::size_t>(1 + i % 20), one[0]);
     for (const double weight : {0.0, 0.2}) {
-      for (const CovarianceModel model : kModels) {
+      for (const Likelihood model : kModels) {
         RegistrationOptions options = options_of(3, i % 2 == 0, model);
         options.outlier_ray.weight = weight;
         const RegistrationResult result =
@@ -72,7 +72,7 @@ TEST_CASE("one place cannot fix three states") {
 
 TEST_CASE("no target fixes nothing") {
   const Points some = {{10.0, 1.0}, {20.0, -4.0}};
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     for (const int degrees_of_freedom : {2, 3}) {
       RegistrationOptions options = options_of(degrees_of_freedom, true, model);
       CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
@@ -132,8 +132,10 @@ double step_left(const RegistrationOptions& options, const TargetSet& previous,
   if (result.status != RegistrationStatus::converged) {
     return 0.0;
   }
-  Eigen::Vector3d gradient = registration.linearise(current, kDt, result.motion, 1.0, 1.0).gradient;
-  if (options.covariance == CovarianceModel::exclusive) {
+  Eigen::Vector3d gradient = simulation::mixture_cost(options, {}, previous, current, kDt)
+                                 ->linearise({result.motion})
+                                 .gradient;
+  if (options.likelihood == Likelihood::exclusive) {
     const auto likelihood = std::make_unique<ExclusiveLikelihood>();
     likelihood->assign(previous, current, OutlierRay(options.outlier_ray, {}));
     likelihood->list_pairs(previous, current, result.motion);
@@ -143,7 +145,7 @@ double step_left(const RegistrationOptions& options, const TargetSet& previous,
 }
 
 TEST_CASE("converged means that no step of note is left") {
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     for (const double weight : {0.0, 0.2}) {
       Random random(5);
       RegistrationOptions options = options_of(2, false, model);
@@ -169,7 +171,7 @@ constexpr std::array kFields = {&Detection::range_m,         &Detection::azimuth
                                 &Detection::azimuth_std_rad, &Detection::doppler_std_mps};
 
 /// How many targets that are no numbers, each alone in an otherwise good scan, go unnoticed.
-int count_unseen(CovarianceModel model, bool is_previous) {
+int count_unseen(Likelihood model, bool is_previous) {
   Random random(6);
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);
   const Detections previous = see(points, kStill);
@@ -194,23 +196,23 @@ int count_unseen(CovarianceModel model, bool is_previous) {
 }
 
 TEST_CASE("a target of the previous scan that is no number does not pass unseen") {
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     CHECK(count_unseen(model, true) == 0);
   }
 }
 
 TEST_CASE("a target of the current scan that is no number does not pass a mixture unseen") {
-  CHECK(count_unseen(CovarianceModel::gauss_newton, false) == 0);
+  CHECK(count_unseen(Likelihood::max_sum_mixture, false) == 0);
 }
 
 TEST_CASE("a target of the current scan that is no number does not pass unseen") {
-  CHECK(count_unseen(CovarianceModel::exclusive, false) == 0);
+  CHECK(count_unseen(Likelihood::exclusive, false) == 0);
 }
 
 TEST_CASE("a time that is none ends as non_finite") {
   Random random(6);
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     for (const double dt_s : {kNan, kInfinity}) {
       CHECK(solve(options_of(2, true, model), see(points, kStill), see(points, {0.2, 0.0, 0.02}),
                   dt_s)

@@ -22,9 +22,9 @@ using simulation::uniform;
 constexpr double kDt = 0.2;
 
 RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               CovarianceModel model = CovarianceModel::exclusive) {
+                               Likelihood model = Likelihood::exclusive) {
   RegistrationOptions options = simulation::paper_options();
-  options.covariance = model;
+  options.likelihood = model;
   options.degrees_of_freedom = degrees_of_freedom;
   options.doppler.enabled = has_doppler;
   return options;
@@ -58,7 +58,7 @@ TEST_CASE("in a mixture Doppler needs no common place to tell the speed") {
   for (int i = 0; i < 50; ++i) {
     const Strangers scans(random);
     const Eigen::Vector3d motion(uniform(random, -1.0, 1.0), 0.0, radians(4.0));
-    const RegistrationResult result = solve(options_of(2, true, CovarianceModel::gauss_newton),
+    const RegistrationResult result = solve(options_of(2, true, Likelihood::max_sum_mixture),
                                             see(scans.near, kStill), see(scans.far, motion));
     const double sigma_m = std::sqrt(result.covariance(0, 0));
     CHECK(sigma_m < 0.05);
@@ -88,7 +88,7 @@ TEST_CASE("the first stage widens Doppler by both of its scales") {
   const Strangers scans(random);
   const Eigen::Vector3d motion(1.4, 0.0, 0.0);
   const auto is_found = [&](double start_doppler_scale) {
-    RegistrationOptions options = options_of(2, true, CovarianceModel::gauss_newton);
+    RegistrationOptions options = options_of(2, true, Likelihood::max_sum_mixture);
     options.start_doppler_scale = start_doppler_scale;
     const RegistrationResult result =
         solve(options, see(scans.near, kStill), see(scans.far, motion));

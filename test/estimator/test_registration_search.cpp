@@ -19,10 +19,10 @@ struct Shares {
   double confident_wrong = 0.0;  ///< Converged elsewhere.
 };
 
-Shares search(CovarianceModel covariance, double start_scale, double max_yaw_rad) {
+Shares search(Likelihood likelihood, double start_scale, double max_yaw_rad) {
   constexpr int kRuns = 500;
   Scenario scenario = without_doppler();
-  scenario.options.covariance = covariance;
+  scenario.options.likelihood = likelihood;
   scenario.options.start_scale = start_scale;
   scenario.max_yaw_rad = max_yaw_rad;
   Random random(7);
@@ -41,7 +41,7 @@ Shares search(CovarianceModel covariance, double start_scale, double max_yaw_rad
 
 TEST_CASE("the scaled start finds motions that a single stage misses") {
   const auto share_found = [](double start_scale) {
-    return search(CovarianceModel::gauss_newton, start_scale, radians(20.0)).found;
+    return search(Likelihood::max_sum_mixture, start_scale, radians(20.0)).found;
   };
   CHECK(share_found(6.0) > 0.97);
   CHECK(share_found(1.0) < 0.85);
@@ -55,15 +55,15 @@ TEST_CASE("a search that ends in a local minimum is noticed and made again") {
   // One search alone ends elsewhere in more than 0.2 of these runs.
   for (const Row& row : {Row{6.0, radians(30.0)}, Row{1.0, radians(15.0)}}) {
     CAPTURE(row.start_scale);
-    const Shares once = search(CovarianceModel::gauss_newton, row.start_scale, row.max_yaw_rad);
+    const Shares once = search(Likelihood::max_sum_mixture, row.start_scale, row.max_yaw_rad);
     CHECK(once.confident_wrong > 0.2);
-    const Shares again = search(CovarianceModel::exclusive, row.start_scale, row.max_yaw_rad);
+    const Shares again = search(Likelihood::exclusive, row.start_scale, row.max_yaw_rad);
     CHECK(again.searched_again > 0.2);
     CHECK(again.found > 0.99);
     CHECK(again.confident_wrong == 0.0);
   }
   // Searches are only made again where they have to be.
-  CHECK(search(CovarianceModel::exclusive, 6.0, radians(10.0)).searched_again < 0.01);
+  CHECK(search(Likelihood::exclusive, 6.0, radians(10.0)).searched_again < 0.01);
 }
 
 }  // namespace

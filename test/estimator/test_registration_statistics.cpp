@@ -122,7 +122,7 @@ TEST_CASE(
   CAPTURE(with_ray.anees, without_ray.anees);
   CHECK(without_ray.gross < 0.02);
   CHECK(without_ray.anees > with_ray.anees + 0.2);
-  clutter.options.covariance = CovarianceModel::gauss_newton;
+  clutter.options.likelihood = Likelihood::max_sum_mixture;
   CHECK(evaluate(clutter, 200).gross > 0.5);
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("one-to-one assignments are credible on all of the paper's problems, c
     Scenario scenario = row.scenario;
     scenario.clusters = row.clusters;
     const Statistics exclusive = evaluate(scenario, 2500);
-    scenario.options.covariance = CovarianceModel::gauss_newton;
+    scenario.options.likelihood = Likelihood::max_sum_mixture;
     const Statistics gauss_newton = evaluate(scenario, 2500);
     const double width =
         kQuantile * numeric::anees_deviation(exclusive.runs, scenario.options.degrees_of_freedom);

@@ -162,7 +162,7 @@ TEST_CASE("the same input gives the same bits, whatever was solved in between") 
     used->set_previous(simulation::targets(other.previous, {}));
     used->solve(simulation::targets(other.current, {}), kDt);
     used->solve(simulation::targets(broken, {}), kDt);
-    used->linearise(current, 0.5, {1.0, 2.0, 3.0}, 4.0, 5.0);
+    used->solve(current, 0.5);
     used->set_previous(simulation::targets(pair.previous, {}));
     CHECK(is_identical(first, used->solve(current, kDt)));
   }
@@ -174,17 +174,17 @@ TEST_CASE("the solution on a mixture is where linearise says it is") {
     const ScanPair pair = random_pair(random, 0.3);
     const TargetSet current = simulation::targets(pair.current, {});
     RegistrationOptions options = options_of(3, true);
-    options.covariance = CovarianceModel::gauss_newton;
+    options.likelihood = Likelihood::max_sum_mixture;
     const auto registration = prepare(options, {}, pair.previous);
     const RegistrationResult result = registration->solve(current, kDt);
-    const NormalEquations there = registration->linearise(current, kDt, result.motion, 1.0, 1.0);
+    const auto cost =
+        simulation::mixture_cost(options, {}, simulation::targets(pair.previous, {}), current, kDt);
+    const NormalEquations there = cost->linearise({result.motion});
     CHECK(there.cost == result.cost);
     CHECK((there.information * result.covariance - Eigen::Matrix3d::Identity()).norm() < 1e-9);
     // The next step, in standard deviations: below it the sum of what Gauss-Newton neglects.
     CHECK(there.gradient.dot(result.covariance * there.gradient) < 0.1 * 0.1);
-    const NormalEquations start =
-        registration->linearise(current, kDt, Eigen::Vector3d::Zero(), 1.0, 1.0);
-    CHECK(result.cost < start.cost);
+    CHECK(result.cost < cost->linearise({}).cost);
   }
 }
 

@@ -23,7 +23,7 @@ using simulation::Random;
 using simulation::uniform;
 
 constexpr double kDt = 0.1;
-constexpr std::array kModels = {CovarianceModel::exclusive, CovarianceModel::gauss_newton};
+constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
 
 struct Problem {
   std::string what;
@@ -63,9 +63,9 @@ std::vector<Problem> full_problems() {
           make_problem("blurred", wide, wide, {5.0, 0.3, 3.0}, 10)};
 }
 
-RegistrationOptions options_of(CovarianceModel model, int degrees_of_freedom) {
+RegistrationOptions options_of(Likelihood model, int degrees_of_freedom) {
   RegistrationOptions options;
-  options.covariance = model;
+  options.likelihood = model;
   options.degrees_of_freedom = degrees_of_freedom;
   return options;
 }
@@ -89,7 +89,7 @@ constexpr std::int64_t kMostWork =
 
 TEST_CASE("full scans of any kind stay within the work allowed and are numbers") {
   for (const Problem& problem : full_problems()) {
-    for (const CovarianceModel model : kModels) {
+    for (const Likelihood model : kModels) {
       for (const int degrees_of_freedom : {2, 3}) {
         const RegistrationOptions options = options_of(model, degrees_of_freedom);
         Registration registration(options, {});
@@ -107,14 +107,14 @@ TEST_CASE("full scans of any kind stay within the work allowed and are numbers")
 TEST_CASE("work that runs out is no convergence, and ends soon after") {
   const Points points = scatter(1, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", points, points, {0.1, 0.01, 0.1}, 2);
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     for (const int degrees_of_freedom : {2, 3}) {
       RegistrationOptions options = options_of(model, degrees_of_freedom);
       Registration free(options, {});
       free.set_previous(problem.previous);
       const RegistrationResult whole = free.solve(problem.current, kDt);
       // Gauss-Newton's steps may come to nothing in scans as dense as these.
-      if (model == CovarianceModel::exclusive) {
+      if (model == Likelihood::exclusive) {
         REQUIRE(whole.status == RegistrationStatus::converged);
       }
       // Up to a linearisation less than what is needed.
@@ -139,7 +139,7 @@ TEST_CASE("work that runs out while searching again is no convergence") {
   const Points there = scatter(2, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", here, there, {0.1, 0.01, 0.1}, 3);
   const auto solve = [&](std::int64_t limit) {
-    RegistrationOptions options = options_of(CovarianceModel::exclusive, 2);
+    RegistrationOptions options = options_of(Likelihood::exclusive, 2);
     options.max_component_evaluations = limit;
     Registration registration(options, {});
     registration.set_previous(problem.previous);
@@ -162,7 +162,7 @@ TEST_CASE("work that runs out while searching again is no convergence") {
 TEST_CASE("work is counted anew for every registration") {
   const Points points = scatter(1, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", points, points, {0.1, 0.01, 0.1}, 2);
-  for (const CovarianceModel model : kModels) {
+  for (const Likelihood model : kModels) {
     Registration registration(options_of(model, 2), {});
     registration.set_previous(problem.previous);
     const RegistrationResult first = registration.solve(problem.current, kDt);
@@ -180,7 +180,7 @@ TEST_CASE("where work runs out nothing shows of what was solved before") {
   const simulation::Noise noise{0.1, 0.01, 0.1};
   const Problem small = make_problem("", few, few, noise, 2);
   const Problem large = make_problem("", few, many, noise, 2);
-  RegistrationOptions options = options_of(CovarianceModel::exclusive, 2);
+  RegistrationOptions options = options_of(Likelihood::exclusive, 2);
   options.max_component_evaluations = 4000;
   Registration used(options, {});
   used.set_previous(small.previous);

@@ -64,17 +64,17 @@ struct Solution {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-Solution solve(SharedDoppler& doppler, const TargetSet& previous, const TargetSet& current) {
+Solution solve(const SharedDoppler& doppler, const TargetSet& previous, const TargetSet& current) {
+  Unknowns at;
   Solution solution;
-  doppler.start();
   for (int i = 0; i < 20; ++i) {
-    NormalEquations equations;
-    doppler.add(previous, current, solution.motion, kDt, equations);
+    const NormalEquations equations = doppler.linearise(previous, current, kDt, at);
     const auto inverse = invert_information(equations.information, 2);
     REQUIRE(inverse);
     solution.covariance = *inverse;
-    solution.motion -= *inverse * equations.gradient;
+    at = {at.motion - *inverse * equations.gradient, equations.shared};
   }
+  solution.motion = at.motion;
   return solution;
 }
 
@@ -119,9 +119,8 @@ TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gi
   const Eigen::Matrix<double, 6, 6> covariance = information(free, free).inverse();
   const Eigen::Matrix<double, 6, 1> step = -covariance * gradient(free);
 
-  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
-  NormalEquations equations;
-  doppler.add(previous, current, motion, kDt, equations);
+  const SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
+  const NormalEquations equations = doppler.linearise(previous, current, kDt, {motion});
   const auto inverse = invert_information(equations.information, 2);
   REQUIRE(inverse);
   const Eigen::Vector3d found = -*inverse * equations.gradient;
@@ -136,12 +135,9 @@ TEST_CASE("The gradient is the derivative of the cost") {
   const SharedErrorOptions errors{0.05, 0.0, 0.0, 0.0, 2.0, 0.5};
   const TargetSet previous = seen({7.9, 0.0, 0.10}, kMount, 30, 0.1, 3);
   const TargetSet current = seen({8.2, 0.0, 0.13}, kMount, 40, 0.1, 4);
-  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
+  const SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount);
   const auto equations_at = [&](const Eigen::Vector3d& motion) {
-    doppler.start();
-    NormalEquations equations;
-    doppler.add(previous, current, motion, kDt, equations);
-    return equations;
+    return doppler.linearise(previous, current, kDt, {motion});
   };
   const Eigen::Vector3d motion(0.62, 0.0, 0.012);
   const Eigen::Vector3d expected = numeric::central_differences(
@@ -153,8 +149,8 @@ TEST_CASE("The gradient is the derivative of the cost") {
 TEST_CASE("An offset that all targets share does not average out") {
   SharedErrorOptions errors = no_errors();
   errors.doppler_offset_std_mps = 0.05;
-  SharedDoppler with = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
-  SharedDoppler without = shared_doppler(no_movers(), no_errors(), {3.4, 0.0, 0.0});
+  const SharedDoppler with = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
+  const SharedDoppler without = shared_doppler(no_movers(), no_errors(), {3.4, 0.0, 0.0});
   const double narrow_rad = radians(10.0);  // Wide apart, the targets would tell offset from speed.
   for (const int count : {10, 50, 250}) {
     CAPTURE(count);
@@ -168,10 +164,9 @@ TEST_CASE("An offset that all targets share does not average out") {
 TEST_CASE("While the vehicle stands there is no offset") {
   SharedErrorOptions errors = no_errors();
   errors.doppler_offset_std_mps = 0.05;
-  SharedDoppler doppler = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
+  const SharedDoppler doppler = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
   const TargetSet scan = seen(Eigen::Vector3d::Zero(), {3.4, 0.0, 0.0}, 100, 0.1, 6, 0.2);
-  NormalEquations equations;
-  doppler.add(scan, scan, Eigen::Vector3d::Zero(), kDt, equations);
+  const NormalEquations equations = doppler.linearise(scan, scan, kDt, {});
   CHECK(equations.information(0, 0) > 0.9 * 200.0 / std::pow(0.1 * kDt, 2));
 }
 
@@ -184,14 +179,14 @@ TEST_CASE(
   const TargetSet current = seen({8.3, 0.0, 0.16}, kMount, 90, 0.0, 8);
   const Eigen::Vector3d mean = kDt * Eigen::Vector3d(8.15, 0.0, 0.13);
 
-  SharedDoppler both = shared_doppler(no_movers(), errors, kMount);
+  const SharedDoppler both = shared_doppler(no_movers(), errors, kMount);
   const Solution solution = solve(both, previous, current);
   CHECK((solution.motion - mean).norm() < 2e-4);
   CHECK(std::sqrt(solution.covariance(0, 0)) < 0.002);
 
   DopplerOptions options = no_movers();
   options.both_scans = false;
-  SharedDoppler one = shared_doppler(options, errors, kMount);
+  const SharedDoppler one = shared_doppler(options, errors, kMount);
   const Solution alone = solve(one, previous, current);
   CHECK(alone.motion.x() == Approx(kDt * 8.3).margin(5e-4));
   const double sigma_m = std::sqrt(alone.covariance(0, 0));
@@ -210,18 +205,17 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
   Eigen::Vector3d expected(10.0 * kDt, -2.0 * kDt, turn_rad);
   expected.head<2>() = Eigen::Rotation2Dd(0.5 * turn_rad) * expected.head<2>();
 
-  SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount, 3);
-  Eigen::Vector3d motion(0.7, 0.0, turn_rad);
+  const SharedDoppler doppler = shared_doppler(no_movers(), errors, kMount, 3);
+  Unknowns at{{0.7, 0.0, turn_rad}};
   for (int i = 0; i < 20; ++i) {
-    NormalEquations equations;
-    equations.information(2, 2) = 1e12;
-    equations.gradient.z() = 1e12 * (motion.z() - turn_rad);
-    doppler.add(previous, current, motion, kDt, equations);
+    NormalEquations equations = doppler.linearise(previous, current, kDt, at);
+    equations.information(2, 2) += 1e12;
+    equations.gradient.z() += 1e12 * (at.motion.z() - turn_rad);
     const auto inverse = invert_information(equations.information, 3);
     REQUIRE(inverse);
-    motion -= *inverse * equations.gradient;
+    at = {at.motion - *inverse * equations.gradient, equations.shared};
   }
-  CHECK((motion - expected).norm() < 5e-4);
+  CHECK((at.motion - expected).norm() < 5e-4);
 }
 
 TEST_CASE("A vehicle rolls as far as its motion is beyond noise") {
@@ -250,8 +244,8 @@ TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
     detection.doppler_std_mps = 0.1;
     scan.add(detection, believed);
   }
-  SharedDoppler naive = shared_doppler(no_movers(), no_errors(), believed);
-  SharedDoppler aware = shared_doppler(no_movers(), errors, believed);
+  const SharedDoppler naive = shared_doppler(no_movers(), no_errors(), believed);
+  const SharedDoppler aware = shared_doppler(no_movers(), errors, believed);
   const Solution wrong = solve(naive, scan, scan);
   const Solution right = solve(aware, scan, scan);
   CHECK(std::abs(wrong.motion.z()) > 5.0 * std::sqrt(wrong.covariance(2, 2)));

@@ -23,7 +23,7 @@
 namespace {
 
 using cremed::BenchProblem;
-using cremed::CovarianceModel;
+using cremed::Likelihood;
 
 struct Arguments {
   std::string pairs;
@@ -44,8 +44,8 @@ std::vector<cremed::RegistrationPair> read_pairs(const std::string& path) {
 }
 
 void register_all(const Arguments& arguments) {
-  const auto covariance = arguments.covariance == "exclusive" ? CovarianceModel::exclusive
-                                                              : CovarianceModel::gauss_newton;
+  const auto covariance =
+      arguments.covariance == "exclusive" ? Likelihood::exclusive : Likelihood::max_sum_mixture;
   for (BenchProblem& problem : cremed::simulated_problems(covariance)) {
     cremed::register_pair_bench("pair", std::move(problem));
   }

@@ -69,7 +69,7 @@ RegistrationPair random_pair(std::size_t targets, const Area& area, const Sensor
 
 }  // namespace
 
-std::vector<BenchProblem> simulated_problems(CovarianceModel covariance) {
+std::vector<BenchProblem> simulated_problems(Likelihood likelihood) {
   std::vector<BenchProblem> problems;
   for (const bool doppler : {false, true}) {
     for (const SimulatedProblem problem : kSimulatedProblems) {
@@ -78,25 +78,25 @@ std::vector<BenchProblem> simulated_problems(CovarianceModel covariance) {
         continue;
       }
       problems.push_back({std::string(of.name).append(doppler ? "-D" : ""),
-                          *profile(of.profile, doppler, covariance),
+                          *profile(of.profile, doppler, likelihood),
                           simulated_pairs(problem, kSeed, kSets, kRuns)});
     }
   }
   return problems;
 }
 
-BenchProblem problem_of_size(std::size_t targets, CovarianceModel covariance) {
+BenchProblem problem_of_size(std::size_t targets, Likelihood likelihood) {
   std::mt19937_64 random(kSeed);
-  BenchProblem problem{std::to_string(targets), *profile("sim", true, covariance), {}};
+  BenchProblem problem{std::to_string(targets), *profile("sim", true, likelihood), {}};
   for (std::size_t k = 0; k < kPairsOfSize; ++k) {
     problem.pairs.push_back(random_pair(targets, {30.0, 28.0, 25.0}, {0.13, 0.0157, 0.3}, random));
   }
   return problem;
 }
 
-BenchProblem ambiguous_problem(CovarianceModel covariance) {
+BenchProblem ambiguous_problem(Likelihood likelihood) {
   std::mt19937_64 random(kSeed);
-  BenchProblem problem{"worst", *profile("nuscenes", true, covariance), {}};
+  BenchProblem problem{"worst", *profile("nuscenes", true, likelihood), {}};
   problem.options.degrees_of_freedom = 3;
   for (std::size_t k = 0; k < kPairsOfSize; ++k) {
     problem.pairs.push_back(

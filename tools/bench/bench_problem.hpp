@@ -19,12 +19,12 @@ struct BenchProblem {
 };
 
 /// PSR, PSR-C, Sim, Sim-C, and the latter two with Doppler (-D), of the same landmarks for ever.
-std::vector<BenchProblem> simulated_problems(CovarianceModel covariance);
+std::vector<BenchProblem> simulated_problems(Likelihood likelihood);
 
 /// Sim-D with so many targets in both scans, scattered over the whole view, at the sensor's noise.
-BenchProblem problem_of_size(std::size_t targets, CovarianceModel covariance);
+BenchProblem problem_of_size(std::size_t targets, Likelihood likelihood);
 
 /// The worst: full scans, 3 DoF, Doppler, every target within the noise of every other.
-BenchProblem ambiguous_problem(CovarianceModel covariance);
+BenchProblem ambiguous_problem(Likelihood likelihood);
 
 }  // namespace cremed

@@ -32,7 +32,7 @@ std::vector<MixturePoint> points_of(const TargetSet& targets) {
 
 void run(benchmark::State& state) {
   const auto size = static_cast<std::size_t>(state.range(0));
-  const BenchProblem problem = problem_of_size(size, CovarianceModel::gauss_newton);
+  const BenchProblem problem = problem_of_size(size, Likelihood::max_sum_mixture);
   const RegistrationPair& pair = problem.pairs.front();
   const OutlierRay ray(problem.options.outlier_ray, pair.vehicle_from_radar);
   const auto mixture = std::make_unique<Mixture>();

@@ -100,8 +100,8 @@ int run_pairs(const PairsArguments& arguments) {
   const cremed::RegistrationMethod method = cremed::registration_method(arguments.method);
   const auto options =
       cremed::profile(arguments.profile, arguments.doppler,
-                      arguments.covariance == "exclusive" ? cremed::CovarianceModel::exclusive
-                                                          : cremed::CovarianceModel::gauss_newton);
+                      arguments.covariance == "exclusive" ? cremed::Likelihood::exclusive
+                                                          : cremed::Likelihood::max_sum_mixture);
   const auto pairs = cremed::with_input(arguments.file, cremed::read_registration_pairs);
   if (pairs.empty()) {
     throw std::runtime_error(arguments.file + ": no pairs");

@@ -5,10 +5,10 @@
 namespace cremed {
 
 std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
-                                           CovarianceModel covariance) {
+                                           Likelihood likelihood) {
   RegistrationOptions options;
   options.doppler.enabled = doppler;
-  options.covariance = covariance;
+  options.likelihood = likelihood;
   if (name == "nuscenes") {
     options.doppler.stamp_std_s = 0.005;  // The paper's; all else is the default.
     return options;

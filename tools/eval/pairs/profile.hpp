@@ -12,6 +12,6 @@ namespace cremed {
 /// The paper's settings for a family of problems: "psr", "sim" or "nuscenes"; nothing for another
 /// name.
 std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
-                                           CovarianceModel covariance = CovarianceModel::exclusive);
+                                           Likelihood likelihood = Likelihood::exclusive);
 
 }  // namespace cremed

@@ -19,11 +19,11 @@ namespace {
 using MakeOptions = RegistrationOptions (*)(std::string_view profile_name, bool doppler);
 
 RegistrationOptions paper_options(std::string_view profile_name, bool doppler) {
-  return *profile(profile_name, doppler, CovarianceModel::gauss_newton);
+  return *profile(profile_name, doppler, Likelihood::max_sum_mixture);
 }
 
 RegistrationOptions our_options(std::string_view profile_name, bool doppler) {
-  return *profile(profile_name, doppler, CovarianceModel::exclusive);
+  return *profile(profile_name, doppler, Likelihood::exclusive);
 }
 
 /// A method of the table; one with Doppler runs only on the problems that have it (2 DoF).

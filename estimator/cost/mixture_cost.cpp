@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/cost/mixture_cost.hpp"
+
+#include "cremed/estimator/cost/doppler.hpp"
+#include "cremed/estimator/scan/rotation.hpp"
+
+namespace cremed {
+
+MixtureCost::MixtureCost(int degrees_of_freedom, const DopplerOptions& doppler,
+                         const Pose2& vehicle_from_radar)
+    : degrees_of_freedom_(degrees_of_freedom),
+      doppler_(doppler),
+      vehicle_from_radar_(vehicle_from_radar) {}
+
+void MixtureCost::set_current(const TargetSet& current, double dt_s) {
+  current_ = &current;
+  dt_s_ = dt_s;
+  evaluations_ = 0;
+}
+
+void MixtureCost::set_scales(double positions, double doppler) {
+  scale_ = positions;
+  doppler_scale_ = doppler;
+}
+
+NormalEquations MixtureCost::linearise(const Unknowns& at) {
+  NormalEquations equations;
+  add_positions(at.motion, equations);
+  if (doppler_.enabled) {
+    add_doppler(at.motion, equations);
+  }
+  return equations;
+}
+
+void MixtureCost::add_positions(const Eigen::Vector3d& motion, NormalEquations& equations) {
+  const std::size_t size = current_->size();
+  const Rotation rotation(motion.z());
+  for (std::size_t i = 0; i < size; ++i) {
+    const Target& target = (*current_)[i];
+    lever_m_[i] = rotation * Eigen::Vector2d(target.x_m, target.y_m);
+    points_[i] = {lever_m_[i].x() + motion.x(), lever_m_[i].y() + motion.y(),
+                  rotation * (scale_ * scale_ * target.covariance_m2)};
+  }
+  mixture_.evaluate({points_.data(), size}, {residuals_.data(), size});
+  for (std::size_t i = 0; i < size; ++i) {
+    const Eigen::Matrix<double, 3, 2>& jacobian = residuals_[i].jacobian;
+    equations.add_point({jacobian.col(0).squaredNorm(), jacobian.col(0).dot(jacobian.col(1)),
+                         jacobian.col(1).squaredNorm()},
+                        jacobian.transpose() * residuals_[i].residual, lever_m_[i]);
+    equations.cost += residuals_[i].cost;
+  }
+  evaluations_ += static_cast<std::int64_t>(size * mixture_.size());
+}
+
+void MixtureCost::add_doppler(const Eigen::Vector3d& motion, NormalEquations& equations) const {
+  for (const Target& target : *current_) {
+    const DopplerGeometry geometry(target, motion, vehicle_from_radar_);
+    const DopplerResidual doppler =
+        doppler_residual(target, geometry, dt_s_, doppler_, doppler_scale_);
+    const Eigen::RowVector3d jacobian = doppler.per_m * geometry.jacobian;
+    equations.information.noalias() += jacobian.transpose() * jacobian;
+    equations.gradient.noalias() += jacobian.transpose() * (doppler.per_m * doppler.error_m);
+    equations.cost += doppler.cost;
+  }
+}
+
+std::optional<Eigen::Matrix3d> MixtureCost::covariance(const Unknowns& /*at*/,
+                                                       const NormalEquations& equations) const {
+  return invert_information(equations.information, degrees_of_freedom_);
+}
+
+}  // namespace cremed

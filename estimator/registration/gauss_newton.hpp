@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/cost/normal_equations.hpp"
+#include "cremed/estimator/registration/registration_result.hpp"
+
+namespace cremed {
+
+/// A negative log likelihood of the motion between two scans. MixtureCost and ExclusiveCost are
+/// two; a third one is one file in cost/ and a line in Registration::solve.
+template <typename Cost>
+concept RegistrationCost = requires(Cost cost, const Unknowns& at, Eigen::Vector3d motion) {
+  /// Cost, gradient and information at `at`, and nothing else: what the cost keeps between calls
+  /// are caches (lists of pairs, warm starts).
+  { cost.linearise(at) } -> std::same_as<NormalEquations>;
+  /// Whether the last linearisation took all pairs into account that matter: there is room for so
+  /// many only.
+  { cost.is_complete() } -> std::same_as<bool>;
+  /// Whether the last linearisation is as exact as it gets. If not, settle() asks for that from now
+  /// on: on the way to the minimum a rough one does.
+  { cost.is_settled() } -> std::same_as<bool>;
+  {cost.settle()};
+  /// Whether a step is halved until it does not raise the cost.
+  { Cost::kHasStepControl } -> std::convertible_to<bool>;
+  /// Work since the two scans were set, in evaluations of a mixture component.
+  { cost.evaluations() } -> std::same_as<std::int64_t>;
+};
+
+/// A step is halved so often at most, to 1 / 2048.
+inline constexpr int kMaxHalvings = 12;
+
+/// Where rounding of the cost hides what a step gains, its squared length in standard deviations is
+/// no more than this: 0.3 sigma.
+inline constexpr double kMaxStuckStep = 0.1;
+
+/// When a descent ends.
+struct StoppingRule {
+  int degrees_of_freedom;
+  double step_tolerance;  ///< Squared length of a step, in standard deviations: s' H s.
+  int max_iterations;
+  std::int64_t max_evaluations;
+};
+
+/// Where a descent is.
+struct Descent {
+  Unknowns at;
+  NormalEquations equations;  ///< At `at`.
+  int iterations = 0;
+};
+
+/// Takes `step`, or half of it and so on, until the cost is no higher; false if none is.
+template <RegistrationCost Cost>
+bool take_step(Cost& cost, Eigen::Vector3d step, const StoppingRule& rule, Descent& descent) {
+  for (int i = 0; i < kMaxHalvings && cost.evaluations() < rule.max_evaluations; ++i, step *= 0.5) {
+    const Unknowns next{descent.at.motion + step, descent.equations.shared};
+    const NormalEquations equations = cost.linearise(next);
+    if (!Cost::kHasStepControl || equations.cost <= descent.equations.cost) {
+      descent = {next, equations, descent.iterations + 1};
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Gauss-Newton with step halving, from where `descent` has been linearised.
+template <RegistrationCost Cost>
+RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descent) {
+  for (const int last = descent.iterations + rule.max_iterations;;) {
+    if (!cost.is_complete()) {
+      return RegistrationStatus::ambiguous;
+    }
+    if (!std::isfinite(descent.equations.cost)) {
+      return RegistrationStatus::non_finite;
+    }
+    const NormalEquations& equations = descent.equations;
+    const auto inverse = invert_information(equations.information, rule.degrees_of_freedom);
+    if (!inverse) {
+      return RegistrationStatus::degenerate;
+    }
+    const Eigen::Vector3d step = -*inverse * equations.gradient;
+    const double squared_step = -step.dot(equations.gradient);
+    if (squared_step < rule.step_tolerance) {
+      if (cost.is_settled()) {
+        return RegistrationStatus::converged;
+      }
+      cost.settle();
+      descent.at.shared = equations.shared;
+      descent.equations = cost.linearise(descent.at);
+    } else if (descent.iterations == last) {
+      return RegistrationStatus::no_convergence;
+    } else if (!take_step(cost, step, rule, descent)) {
+      const bool is_spent = cost.evaluations() >= rule.max_evaluations;
+      return is_spent || squared_step > kMaxStuckStep ? RegistrationStatus::no_convergence
+                                                      : RegistrationStatus::converged;
+    }
+  }
+}
+
+}  // namespace cremed

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""An LCM log of cremed as MCAP."""
+import math
+
+import cremed
+from mcap_writer import McapWriter
+
+# Those of several sources become a topic a source.
+TOPICS = {cremed.odometry_t: "CREMED_ODOMETRY", cremed.ego_motion_t: "CREMED_EGO_MOTION",
+          cremed.status_t: "CREMED_STATUS", cremed.radar_scan_t: "CREMED_SCAN"}
+JSON_TYPES = {bool: "boolean", int: "integer", float: "number", str: "string"}
+
+
+def names_of(kind):
+    """{0: "ok", ...}, of the constants STATUS_OK = 0, ..."""
+    return {getattr(kind, name): name.removeprefix("STATUS_").lower()
+            for name in dir(kind) if name.startswith("STATUS_")}
+
+
+STATUS_NAMES = {kind: names_of(kind) for kind in TOPICS}
+
+
+def schema_of(kind):
+    """A number that is NaN, "none", is left out of a message: JSON has no NaN."""
+    properties = {}
+    for name, value in ((name, getattr(kind(), name)) for name in kind.__slots__):
+        if isinstance(value, list):
+            item = JSON_TYPES[type(value[0])] if value else "number"
+            properties[name] = {"type": "array", "items": {"type": item}}
+        else:
+            properties[name] = {"type": JSON_TYPES[type(value)]}
+    if STATUS_NAMES[kind]:
+        properties["status_name"] = {"type": "string"}
+    return f"cremed.{kind.__name__}", {"type": "object", "properties": properties}
+
+
+def is_number(value):
+    values = value if isinstance(value, (list, tuple)) else [value]
+    return not any(isinstance(one, float) and not math.isfinite(one) for one in values)
+
+
+def as_json(message):
+    values = {name: getattr(message, name) for name in message.__slots__}
+    if STATUS_NAMES[type(message)]:
+        values["status_name"] = STATUS_NAMES[type(message)].get(message.status, "unknown")
+    return {name: list(value) if isinstance(value, tuple) else value
+            for name, value in values.items() if is_number(value)}
+
+
+def topic_of(message):
+    source = getattr(message, "source", "")
+    return TOPICS[type(message)] + (f"_{source.upper()}" if source else "")
+
+
+def convert(log, file, library):
+    """Returns how many messages were written. Their time is that of the measurement: a log of a replay
+    has the drive's pace. The time of recording is the time of publication."""
+    writer, last, count = McapWriter(file, library), {}, 0
+    schemas = {kind: schema_of(kind) for kind in TOPICS}
+    for heard in cremed.read_log(log):
+        message, topic = heard.message, topic_of(heard.message)
+        key = (message.utime, message.seq)
+        if message.utime == 0:  # A status from before the first frame.
+            continue
+        if last.get(topic) == key:  # On the channel for all, and on that of the source.
+            continue
+        last[topic] = key
+        writer.add(topic, schemas[type(message)], message.seq, message.utime * 1000,
+                   heard.received_us * 1000, as_json(message))
+        count += 1
+    writer.finish()
+    return count

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+package cremed.spy;
+
+import cremed.ego_motion_t;
+import java.lang.reflect.Field;
+import java.lang.reflect.Modifier;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.StringJoiner;
+
+/** A message as rows of name and value, with the names of codes in place of numbers. */
+public final class MessageRows {
+  /** The constants that a field's value is one of, or a sum of. */
+  private record Code(String prefix, boolean isSum) {}
+
+  private static final Map<String, Code> CODES =
+      Map.of(
+          "status", new Code("STATUS_", false),
+          "last_motion_status", new Code("STATUS_", false),
+          "link_state", new Code("LINK_", false),
+          "bus_state", new Code("BUS_", false),
+          "radar_output", new Code("OUTPUT_", false),
+          "radar_faults", new Code("FAULT_", true),
+          "doubts", new Code("DOUBT_", true));
+  private static final int LONGEST_ARRAY = 11;
+
+  private MessageRows() {}
+
+  public static List<String[]> of(Object message) {
+    List<String[]> rows = new ArrayList<>();
+    try {
+      for (Field field : message.getClass().getFields()) {
+        if (!Modifier.isStatic(field.getModifiers())) {
+          rows.add(new String[] {field.getName(), text(field, message)});
+        }
+      }
+    } catch (IllegalAccessException e) {
+      throw new IllegalStateException(e);
+    }
+    return rows;
+  }
+
+  private static String text(Field field, Object message) throws IllegalAccessException {
+    Object value = field.get(message);
+    if (value == null || value instanceof String || value instanceof Boolean) {
+      return String.valueOf(value);
+    }
+    if (value.getClass().isArray()) {
+      return array(value);
+    }
+    Code code = CODES.get(field.getName());
+    return code != null ? named(code, field, message) : number(value);
+  }
+
+  private static String array(Object values) {
+    int length = java.lang.reflect.Array.getLength(values);
+    if (length > LONGEST_ARRAY) {
+      return length + " values";
+    }
+    StringJoiner text = new StringJoiner("  ");
+    for (int i = 0; i < length; ++i) {
+      text.add(number(java.lang.reflect.Array.get(values, i)));
+    }
+    return text.toString();
+  }
+
+  private static String number(Object value) {
+    return value instanceof Double || value instanceof Float
+        ? String.format(Locale.ROOT, "%.5g", ((Number) value).doubleValue())
+        : value.toString();
+  }
+
+  private static String named(Code code, Field field, Object message)
+      throws IllegalAccessException {
+    // Statuses of motions stand in the motion's own message.
+    Class<?> holder =
+        field.getName().equals("last_motion_status") ? ego_motion_t.class : message.getClass();
+    int value = ((Number) field.get(message)).intValue();
+    StringJoiner names = new StringJoiner(", ");
+    for (Field constant : holder.getFields()) {
+      if (Modifier.isStatic(constant.getModifiers()) && constant.getName().startsWith(code.prefix)) {
+        int number = ((Number) constant.get(null)).intValue();
+        if (code.isSum ? (value & number) != 0 : value == number) {
+          names.add(constant.getName().substring(code.prefix.length()).toLowerCase(Locale.ROOT));
+        }
+      }
+    }
+    return names.length() > 0 ? names.toString() : code.isSum && value == 0 ? "none" : "" + value;
+  }
+}

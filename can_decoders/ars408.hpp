@@ -51,7 +51,7 @@ class Ars408Decoder final : public RadarDecoder {
 
   ScanPart decode(const CanFrame& frame) override;
   [[nodiscard]] Detection detection(const TargetPayload& target) const override;
-  [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256}; }
+  [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256, 2}; }
   [[nodiscard]] RadarHealth health() const override;
 
   /// The latest 0x201 and 0x700, for a status report.

@@ -99,7 +99,7 @@ class BoschGprDecoder final : public RadarDecoder {
 
   ScanPart decode(const CanFrame& frame) override;
   [[nodiscard]] Detection detection(const TargetPayload& target) const override;
-  [[nodiscard]] ScanFraming framing() const override { return {false, 4, kBoschGprSlots}; }
+  [[nodiscard]] ScanFraming framing() const override { return {false, 4, kBoschGprSlots, 2}; }
   [[nodiscard]] RadarHealth health() const override;
 
   /// The latest Info message, for a status report.

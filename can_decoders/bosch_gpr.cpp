@@ -139,7 +139,7 @@ std::size_t BoschGprDecoder::index_of(const CanFrame& frame) const {
   if (frame.extended || frame.error) {
     return kForeign;
   }
-  if (frame.id >= options_.base_id && frame.id - options_.base_id < kTargetMessages) {
+  if (frame.id >= options_.base_id && frame.id - options_.base_id < kGprTargetIds) {
     return frame.id - options_.base_id;
   }
   return frame.id == options_.info_id ? kInfoIndex : kForeign;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_settings.hpp"
 
 namespace cremed {
 
@@ -24,7 +25,11 @@ struct BoschGprOptions {
   double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are kept out.
 };
 
+const RadarFamily& family_of(const BoschGprOptions& options);
+
 inline constexpr std::uint8_t kBoschGprSlots = 48;
+/// Two messages for each slot, always.
+inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
 
 /// Message A: the measurement, with the sensor's own signs.
 struct BoschGprTargetA {
@@ -106,8 +111,7 @@ class BoschGprDecoder final : public RadarDecoder {
   [[nodiscard]] const std::optional<BoschGprInfo>& info() const { return info_; }
 
  private:
-  static constexpr std::size_t kTargetMessages = std::size_t{2} * kBoschGprSlots;
-  static constexpr std::size_t kInfoIndex = kTargetMessages;
+  static constexpr std::size_t kInfoIndex = kGprTargetIds;
   static constexpr std::size_t kForeign = kInfoIndex + 1;
   static constexpr std::uint8_t kAnyCounter = 0xFF;
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,15 +9,6 @@
 #include "daemon/configuration/configuration.hpp"
 
 namespace cremed {
-
-/// A GPR sends two messages for each of its 48 targets, always.
-inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
-
-/// Standard CAN identifiers.
-using IdSet = std::bitset<0x800>;
-
-/// What the radar sends.
-IdSet sent_ids(const RadarConfiguration& radar);
 
 /// What the radar sends or obeys.
 IdSet used_ids(const RadarConfiguration& radar);

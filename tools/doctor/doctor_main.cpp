@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -171,7 +170,7 @@ const RadarConfiguration& ars408_named(const std::string& name,
                                        const Configuration& configuration) {
   std::string names;
   for (const RadarConfiguration& radar : configuration.radars) {
-    if (std::holds_alternative<Ars408Options>(radar.decoder)) {
+    if (radar.decoder.as<Ars408Options>() != nullptr) {
       if (radar.name == name) {
         return radar;
       }

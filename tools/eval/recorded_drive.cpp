@@ -8,7 +8,6 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "cremed/estimator/scan/rotation_lead.hpp"
 #include "daemon/configuration/interfaces.hpp"
@@ -45,7 +44,7 @@ class RecordingSink final : public OdometrySink {
 
   /// Of clusters: the velocity across of an object is measured.
   [[nodiscard]] double told_yaw_rate_radps(std::size_t radar, const RadarScan& scan) const {
-    const auto* ars408 = std::get_if<Ars408Options>(&configuration_.radars[radar].decoder);
+    const auto* ars408 = configuration_.radars[radar].decoder.as<Ars408Options>();
     return ars408 != nullptr && ars408->output == Ars408Output::clusters
                ? reported_yaw_rate_radps(scan)
                : 0.0;

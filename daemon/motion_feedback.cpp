@@ -13,7 +13,7 @@ MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& b
   for (const RadarConfiguration& radar : configuration.radars) {
     Sensor sensor;
     if (const auto* options = radar.decoder.as<Ars408Options>()) {
-      sensor = {options->motion_feedback, interface_index(configuration, radar),
+      sensor = {options->motion_feedback, interface_index(configuration, sensors_.size()),
                 options->sensor_id};
     }
     sensors_.push_back(sensor);

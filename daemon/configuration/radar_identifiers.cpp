@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/configuration/radar_identifiers.hpp"
 
+#include "daemon/configuration/interfaces.hpp"
+
 namespace cremed {
 IdSet used_ids(const RadarConfiguration& radar) {
   return radar.decoder.sent_ids() | radar.decoder.obeyed_ids();
 }
 
-std::vector<std::uint32_t> ids_on(const std::string& interface,
-                                  const std::vector<RadarConfiguration>& radars) {
+std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& configuration) {
   IdSet ids;
-  for (const RadarConfiguration& radar : radars) {
-    ids |= radar.interface == interface ? radar.decoder.sent_ids() : IdSet{};
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const bool is_there = interface_index(configuration, i) == interface;
+    ids |= is_there ? configuration.radars[i].decoder.sent_ids() : IdSet{};
   }
   std::vector<std::uint32_t> list;
   for (std::uint32_t id = 0; id < ids.size(); ++id) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "daemon/configuration/configuration.hpp"
@@ -13,8 +13,8 @@ namespace cremed {
 /// What the radar sends or obeys.
 IdSet used_ids(const RadarConfiguration& radar);
 
-/// What the radars on an interface send, in ascending order.
-std::vector<std::uint32_t> ids_on(const std::string& interface,
-                                  const std::vector<RadarConfiguration>& radars);
+/// What the radars on an interface send, in ascending order; `interface` is that of
+/// interface_index().
+std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& configuration);
 
 }  // namespace cremed

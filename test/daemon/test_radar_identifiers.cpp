@@ -61,11 +61,12 @@ TEST_CASE("An ARS408 also uses the identifiers it obeys") {
 }
 
 TEST_CASE("Radars that share a bus share its list; others do not matter") {
-  const std::vector<RadarConfiguration> radars = {ars408(0, Ars408Output::clusters), gpr(),
-                                                  ars408(1, Ars408Output::clusters)};
-  const auto ids = ids_on("can0", radars);
+  Configuration configuration;
+  configuration.radars = {ars408(0, Ars408Output::clusters), gpr(),
+                          ars408(1, Ars408Output::clusters)};
+  const auto ids = ids_on(0, configuration);
   CHECK(ids.size() == 2 * kArs408Messages.size());
   CHECK(std::is_sorted(ids.begin(), ids.end()));
-  CHECK(ids_on("can1", radars).size() == kGprTargetIds + 1);
-  CHECK(ids_on("can2", radars).empty());
+  CHECK(ids_on(1, configuration).size() == kGprTargetIds + 1);
+  CHECK(ids_on(2, configuration).empty());
 }

@@ -240,7 +240,7 @@ TEST_CASE("--check-config shows it, and its identifiers are let through") {
       Catch::Contains("front           fan       can3               0.000    0.000     0.00  "
                       "0x504-0x505\n"));
   CHECK(radar_summary(configuration.radars[0]).starts_with("front: Fan on can3, mount x 0.000 m"));
-  CHECK(ids_on("can3", configuration.radars) == std::vector<std::uint32_t>{0x504, 0x505});
+  CHECK(ids_on(0, configuration) == std::vector<std::uint32_t>{0x504, 0x505});
 }
 
 TEST_CASE("Its frames become odometry") {

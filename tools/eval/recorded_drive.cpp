@@ -75,6 +75,7 @@ void check_logs(const Replay& replay) {
 
 std::vector<RecordedRadar> record_drive(const Configuration& configuration,
                                         const std::vector<std::string>& logs) {
+  require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
   for (const std::string& path : logs) {

@@ -61,6 +61,7 @@ std::vector<std::string_view> keys_of(const RadarFamily& family) {
 
 const RadarFamily* read_type(TomlReader& reader, const std::vector<const RadarFamily*>& families) {
   std::vector<std::string_view> types;
+  types.reserve(families.size());
   for (const RadarFamily* family : families) {
     types.push_back(family->type);
   }

@@ -101,8 +101,8 @@ ScanPart header(std::uint16_t counter, unsigned target_count) {
 }
 
 // Bytes past the layout mean nothing: the caller leaves them out, so that repeats are comparable.
-ScanPart target_part(ScanPart::Kind kind, Ars408Bytes bytes) {
-  ScanPart part{.kind = kind, .slot = bytes[0]};
+ScanPart target_part(std::uint8_t message, Ars408Bytes bytes) {
+  ScanPart part{.kind = ScanPart::Kind::target, .message = message, .slot = bytes[0]};
   std::copy(bytes.begin(), bytes.end(), part.payload.begin());
   return part;
 }
@@ -120,10 +120,10 @@ ScanPart scan_part(const Ars408MessageRow& row, Ars408Bytes bytes) {
     }
     case Ars408Message::cluster_general:
     case Ars408Message::object_general:
-      return target_part(ScanPart::Kind::first, bytes.first(row.length));
+      return target_part(0, bytes.first(row.length));
     case Ars408Message::cluster_quality:
     case Ars408Message::object_quality:
-      return target_part(ScanPart::Kind::second, bytes.first(row.length));
+      return target_part(1, bytes.first(row.length));
     default:
       return {};
   }
@@ -213,8 +213,8 @@ Detection Ars408Decoder::detection(const TargetPayload& target) const {
 }
 
 Detection Ars408Decoder::cluster(const TargetPayload& target) const {
-  const auto general = decode_ars408_cluster_general(target.first);
-  const auto quality = decode_ars408_cluster_quality(target.second);
+  const auto general = decode_ars408_cluster_general(target[0]);
+  const auto quality = decode_ars408_cluster_quality(target[1]);
   Detection detection = polar(*general, quality->rms);
   if (detection.validity != Validity::usable) {
     return detection;
@@ -228,8 +228,8 @@ Detection Ars408Decoder::cluster(const TargetPayload& target) const {
 }
 
 Detection Ars408Decoder::object(const TargetPayload& target) const {
-  const auto general = decode_ars408_object_general(target.first);
-  const auto quality = decode_ars408_object_quality(target.second);
+  const auto general = decode_ars408_object_general(target[0]);
+  const auto quality = decode_ars408_object_quality(target[1]);
   Detection detection = polar(*general, quality->rms);
   if (detection.validity != Validity::usable) {
     return detection;

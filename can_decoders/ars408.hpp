@@ -8,6 +8,7 @@
 #include "cremed/can_decoders/ars408_messages.hpp"
 #include "cremed/can_decoders/ars408_state_watch.hpp"
 #include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_settings.hpp"
 
 namespace cremed {
 
@@ -28,7 +29,10 @@ struct Ars408Options {
   std::uint8_t keep_dyn_props = (1U << 1U) | (1U << 3U) | (1U << 5U);
   /// Objects with a smaller ProbOfExist code (table P, 0..7) are kept out. Default: 5, >= 90 %.
   std::uint8_t min_existence_code = 5;
+  bool motion_feedback = false;  ///< The sensor is sent the estimate (0x300, 0x301) by the daemon.
 };
+
+const RadarFamily& family_of(const Ars408Options& options);
 
 /// One Continental ARS408. A scan is its list of clusters (0x600, 0x701, 0x702) or of objects
 /// (0x60A, 0x60B, 0x60C); a target's slot is its id. Everything else the sensor sends, object
@@ -51,7 +55,7 @@ class Ars408Decoder final : public RadarDecoder {
 
   ScanPart decode(const CanFrame& frame) override;
   [[nodiscard]] Detection detection(const TargetPayload& target) const override;
-  [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256}; }
+  [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256, 2}; }
   [[nodiscard]] RadarHealth health() const override;
 
   /// The latest 0x201 and 0x700, for a status report.

@@ -9,6 +9,9 @@
 
 namespace cremed {
 
+/// An ARS408 sends its 0x201 once a second.
+inline constexpr std::int64_t kArs408ShortestStateGapUs = 400'000;
+
 /// Tells the 0x201 of a sensor from frames of something else with its identifier (a GPR): it names
 /// the sensor, and comes once a second.
 class Ars408StateWatch {
@@ -16,10 +19,10 @@ class Ars408StateWatch {
   /// Notes a frame with the identifier. Of frames with one stamp nothing is known of how often.
   bool is_own(std::uint8_t sensor_id, const std::optional<Ars408RadarState>& state,
               std::int64_t stamp_us) {
-    constexpr std::int64_t kShortestGapUs = 400'000;
     const std::int64_t gap_us = stamp_us - last_us_.value_or(stamp_us);
     last_us_ = stamp_us;
-    return state && state->sensor_id == sensor_id && (gap_us <= 0 || gap_us >= kShortestGapUs);
+    return state && state->sensor_id == sensor_id &&
+           (gap_us <= 0 || gap_us >= kArs408ShortestStateGapUs);
   }
 
  private:

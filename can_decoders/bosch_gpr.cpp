@@ -139,7 +139,7 @@ std::size_t BoschGprDecoder::index_of(const CanFrame& frame) const {
   if (frame.extended || frame.error) {
     return kForeign;
   }
-  if (frame.id >= options_.base_id && frame.id - options_.base_id < kTargetMessages) {
+  if (frame.id >= options_.base_id && frame.id - options_.base_id < kGprTargetIds) {
     return frame.id - options_.base_id;
   }
   return frame.id == options_.info_id ? kInfoIndex : kForeign;
@@ -210,7 +210,8 @@ ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
     info_ = decode_bosch_gpr_info(payload);
     return {};
   }
-  return {.kind = index % 2 == 0 ? ScanPart::Kind::first : ScanPart::Kind::second,
+  return {.kind = ScanPart::Kind::target,
+          .message = static_cast<std::uint8_t>(index % 2),
           .slot = static_cast<std::uint8_t>(index / 2),
           .counter = counter,
           .stamp_us = frame.stamp_us,
@@ -234,8 +235,8 @@ RadarHealth BoschGprDecoder::health() const {
 }
 
 Detection BoschGprDecoder::detection(const TargetPayload& target) const {
-  const auto a = decode_bosch_gpr_target_a(target.first);
-  const auto b = decode_bosch_gpr_target_b(target.second);
+  const auto a = decode_bosch_gpr_target_a(target[0]);
+  const auto b = decode_bosch_gpr_target_b(target[1]);
   if (!a->measured) {
     return {};
   }

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "cremed/can_decoders/radar_decoder.hpp"
+#include "cremed/can_decoders/radar_settings.hpp"
 
 namespace cremed {
 
@@ -24,7 +25,11 @@ struct BoschGprOptions {
   double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are kept out.
 };
 
+const RadarFamily& family_of(const BoschGprOptions& options);
+
 inline constexpr std::uint8_t kBoschGprSlots = 48;
+/// Two messages for each slot, always.
+inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
 
 /// Message A: the measurement, with the sensor's own signs.
 struct BoschGprTargetA {
@@ -99,15 +104,14 @@ class BoschGprDecoder final : public RadarDecoder {
 
   ScanPart decode(const CanFrame& frame) override;
   [[nodiscard]] Detection detection(const TargetPayload& target) const override;
-  [[nodiscard]] ScanFraming framing() const override { return {false, 4, kBoschGprSlots}; }
+  [[nodiscard]] ScanFraming framing() const override { return {false, 4, kBoschGprSlots, 2}; }
   [[nodiscard]] RadarHealth health() const override;
 
   /// The latest Info message, for a status report.
   [[nodiscard]] const std::optional<BoschGprInfo>& info() const { return info_; }
 
  private:
-  static constexpr std::size_t kTargetMessages = std::size_t{2} * kBoschGprSlots;
-  static constexpr std::size_t kInfoIndex = kTargetMessages;
+  static constexpr std::size_t kInfoIndex = kGprTargetIds;
   static constexpr std::size_t kForeign = kInfoIndex + 1;
   static constexpr std::uint8_t kAnyCounter = 0xFF;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "cremed/can_decoders/can_frame.hpp"
@@ -13,16 +14,19 @@ namespace cremed {
 
 using Payload = std::array<std::uint8_t, 8>;
 
-/// What one frame adds to a scan. A target always comes as two messages (ARS408: general and
-/// quality; GPR: A and B); they are kept as bytes and become a Detection when both are there.
+/// No radar sends more messages for one target.
+inline constexpr std::size_t kMaxMessages = 4;
+
+/// What one frame adds to a scan. The messages of a target (ARS408: general and quality; GPR: A and
+/// B) are kept as bytes and become a Detection when all are there.
 struct ScanPart {
   enum class Kind : std::uint8_t {
     none,    ///< The frame is not part of a scan: another id, a state report, or rejected.
     header,  ///< A new scan begins: `counter` and `target_count` are set.
-    first,   ///< First message of target `slot`.
-    second,  ///< Second message of target `slot`.
+    target,  ///< Message number `message` of target `slot`.
   };
   Kind kind = Kind::none;
+  std::uint8_t message = 0;  ///< From 0; less than ScanFraming::messages.
   std::uint8_t slot = 0;
   std::uint16_t counter = 0;
   std::uint16_t target_count = 0;
@@ -30,17 +34,15 @@ struct ScanPart {
   Payload payload{};
 };
 
-/// Both messages of one target.
-struct TargetPayload {
-  Payload first{};
-  Payload second{};
-};
+/// All messages of one target, as many as ScanFraming::messages says.
+using TargetPayload = std::array<Payload, kMaxMessages>;
 
 /// How a radar family frames its scans.
 struct ScanFraming {
   bool has_header = true;  ///< false: every part carries the counter instead.
   std::uint32_t counter_modulus = 65536;
   std::uint16_t slot_count = 256;  ///< Without header: targets in every scan.
+  std::uint8_t messages = 1;       ///< Of each target, 1 to kMaxMessages.
 };
 
 /// Why frames did not become parts of a scan. Frames of other ids are not counted here.
@@ -64,7 +66,7 @@ class RadarDecoder {
   /// What the frame adds to a scan; Kind::none for everything else.
   virtual ScanPart decode(const CanFrame& frame) = 0;
 
-  /// The target that two messages of this radar describe.
+  /// The target that its messages describe.
   [[nodiscard]] virtual Detection detection(const TargetPayload& target) const = 0;
 
   [[nodiscard]] virtual ScanFraming framing() const = 0;

@@ -15,6 +15,9 @@ constexpr std::uint8_t kLatestFirstSlot = 3;
 /// More cycles than that are not lost in the middle of a list.
 constexpr std::uint32_t kMostCycles = 8;
 
+/// Bits 0 to message - 1.
+constexpr unsigned before(unsigned message) { return (1U << message) - 1U; }
+
 /// Stamps come from outside, so their difference and sum may not fit a signed number.
 std::uint64_t distance(std::int64_t a, std::int64_t b) {
   const auto [low, high] = std::minmax(a, b);
@@ -33,10 +36,12 @@ ScanAssembler::ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_u
     : decoder_(&decoder),
       framing_(decoder.framing()),
       timeout_us_(timeout_us),
-      stamp_offset_us_(stamp_offset_us) {}
+      stamp_offset_us_(stamp_offset_us) {
+  framing_.messages = std::clamp<std::uint8_t>(framing_.messages, 1, kMaxMessages);
+}
 
 void ScanAssembler::add(const ScanPart& part) {
-  if (part.kind == ScanPart::Kind::none) {
+  if (part.kind == ScanPart::Kind::none || part.message >= framing_.messages) {
     return;
   }
   note_stamp(part.stamp_us);
@@ -80,10 +85,7 @@ void ScanAssembler::finish() {
 }
 
 std::optional<std::size_t> ScanAssembler::awaited_parts() const {
-  if (!is_open_) {
-    return std::nullopt;
-  }
-  return 2 * capacity() - (open_.has_first.count() + open_.has_second.count());
+  return is_open_ ? std::optional<std::size_t>(missing_parts(capacity())) : std::nullopt;
 }
 
 const RadarScan* ScanAssembler::next() {
@@ -149,7 +151,7 @@ void ScanAssembler::add_repeated_header(const ScanPart& part) {
 
 /// The header of a scan that was begun without comes late.
 void ScanAssembler::adopt_header(const ScanPart& part) {
-  if (open_.has_second.any() || part.target_count < open_.known) {
+  if (open_.has_later_messages || part.target_count < open_.known) {
     note_conflict(part);
     return;
   }
@@ -170,9 +172,8 @@ void ScanAssembler::note_conflict(const ScanPart& part) {
 }
 
 bool ScanAssembler::begins_list(const ScanPart& part) const {
-  const bool may_begin = is_open_ ? open_.has_second.any() : closed_counter_ && !is_list_refused_;
-  return may_begin && is_after_pause_ && part.kind == ScanPart::Kind::first &&
-         part.slot <= kLatestFirstSlot;
+  const bool may_begin = is_open_ ? open_.has_later_messages : closed_counter_ && !is_list_refused_;
+  return may_begin && is_after_pause_ && part.message == 0 && part.slot <= kLatestFirstSlot;
 }
 
 void ScanAssembler::open_without_header(const ScanPart& part) {
@@ -211,22 +212,23 @@ void ScanAssembler::add_unannounced(const ScanPart& part) {
 
 void ScanAssembler::store(const ScanPart& part) {
   open_.last_part_us = part.stamp_us;
-  const bool is_first = part.kind == ScanPart::Kind::first;
-  SlotSet& present = is_first ? open_.has_first : open_.has_second;
-  const SlotSet& other = is_first ? open_.has_second : open_.has_first;
-  Payload& stored = is_first ? targets_[part.slot].first : targets_[part.slot].second;
-  if (present[part.slot]) {
+  std::uint8_t& present = open_.messages[part.slot];
+  Payload& stored = targets_[part.slot][part.message];
+  if ((present >> part.message & 1U) != 0) {
     compare(stored, part.payload);
     return;
   }
-  if (!other[part.slot]) {
-    if (!admit(part.slot)) {
-      return;
-    }
-    counters_.reordered_parts += is_first ? 0 : 1;
+  if (present == 0 && !admit(part.slot)) {
+    return;
   }
+  counters_.reordered_parts += (~present & before(part.message)) != 0 ? 1 : 0;
   stored = part.payload;
-  present.set(part.slot);
+  present = static_cast<std::uint8_t>(present | 1U << part.message);
+  ++open_.parts;
+  if (present == before(framing_.messages)) {
+    ++open_.whole;
+  }
+  open_.has_later_messages = open_.has_later_messages || part.message != 0;
   if (is_whole()) {
     close();
   }
@@ -281,9 +283,11 @@ std::size_t ScanAssembler::capacity() const {
   return std::min<std::size_t>(open_.announced, kMaxDetections);
 }
 
-bool ScanAssembler::is_whole() const {
-  return (open_.has_first & open_.has_second).count() == capacity();
+std::uint64_t ScanAssembler::missing_parts(std::uint64_t targets) const {
+  return framing_.messages * targets - open_.parts;
 }
+
+bool ScanAssembler::is_whole() const { return open_.whole == capacity(); }
 
 ScanStatus ScanAssembler::status() const {
   if (open_.announced > kMaxDetections) {
@@ -322,7 +326,7 @@ void ScanAssembler::fill(RadarScan& scan) const {
   scan.count = 0;
   for (std::size_t i = 0; i < open_.known; ++i) {
     const std::uint8_t slot = order_[i];
-    if (!open_.has_first[slot] || !open_.has_second[slot]) {
+    if (open_.messages[slot] != before(framing_.messages)) {
       continue;
     }
     Detection detection = decoder_->detection(targets_[slot]);
@@ -339,8 +343,7 @@ void ScanAssembler::count(const RadarScan& scan) {
   counters_.incomplete_scans += complete ? 0 : 1;
   counters_.headerless_scans += open_.has_header ? 0 : 1;
   counters_.empty_scans += complete && scan.count == 0 ? 1 : 0;
-  counters_.missing_parts +=
-      std::uint64_t{2} * open_.announced - (open_.has_first.count() + open_.has_second.count());
+  counters_.missing_parts += missing_parts(open_.announced);
 }
 
 }  // namespace cremed

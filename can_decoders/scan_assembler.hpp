@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,7 +20,7 @@ struct AssemblerCounters {
   std::uint64_t missing_parts = 0;      ///< Announced messages that never came.
   std::uint64_t duplicate_parts = 0;    ///< Same message, same bytes, again: ignored.
   std::uint64_t conflicting_parts = 0;  ///< Same message, other bytes: the scan is not whole.
-  std::uint64_t reordered_parts = 0;    ///< Second message of a target before its first: used.
+  std::uint64_t reordered_parts = 0;    ///< Message of a target before an earlier one of it: used.
   std::uint64_t excess_parts = 0;       ///< Targets beyond the announced number: dropped.
   std::uint64_t orphan_parts = 0;       ///< Parts while no scan is open: dropped.
   std::uint64_t repeated_scans = 0;     ///< Header with the counter of the last scan: dropped.
@@ -40,9 +39,8 @@ struct AssemblerCounters {
 /// would overwrite the oldest.
 ///
 /// What makes a scan less than complete has this precedence: over_capacity, conflicting_parts,
-/// dropped_frames, missing_parts. Whatever its status, a scan holds the targets of which both
-/// messages came, in the order in which the first of the two did, but for those whose slot is
-/// empty.
+/// dropped_frames, missing_parts. Whatever its status, a scan holds the targets of which all
+/// messages came, in the order in which the first of them did, but for those whose slot is empty.
 ///
 /// With header: a header of the open scan again is a duplicate (a conflict, if it announces another
 /// number); one of the last closed scan closes the open scan and opens none, so that a repeated
@@ -50,7 +48,8 @@ struct AssemblerCounters {
 /// damaged: a conflict.
 ///
 /// A lost header does not lose its scan: the first message of one of the first four targets, after
-/// a pause and where no more first messages are due, begins a new scan. Its stamp is late by the
+/// a pause and where no more first messages are due (where targets have one message: while no scan
+/// is open), begins a new scan. Its stamp is late by the
 /// frames that were lost before it: one of them, 0.25 ms, up to four. Its counter is one cycle
 /// after the last; `announced` is the number of targets of which a part came.
 ///
@@ -99,8 +98,6 @@ class ScanAssembler {
   [[nodiscard]] const AssemblerCounters& counters() const { return counters_; }
 
  private:
-  using SlotSet = std::bitset<kMaxDetections>;
-
   /// What is known of the scan that is being collected.
   struct OpenScan {
     std::int64_t stamp_us = 0;
@@ -108,11 +105,14 @@ class ScanAssembler {
     std::uint16_t counter = 0;
     std::uint16_t announced = 0;
     std::uint16_t known = 0;  ///< Targets of which a part came: valid entries in order_.
+    std::uint16_t whole = 0;  ///< Those of them of which all parts came.
+    std::uint16_t parts = 0;
+    bool has_later_messages = false;  ///< Not only the first of each target.
     bool conflicting = false;
     bool dropped = false;
     bool has_header = true;
-    SlotSet has_first{};
-    SlotSet has_second{};
+    /// By slot; bit n: message n came.
+    std::array<std::uint8_t, kMaxDetections> messages{};
   };
 
   void note_stamp(std::int64_t stamp_us);
@@ -136,6 +136,7 @@ class ScanAssembler {
   void open(const ScanPart& part, std::uint16_t announced);
   void note_step(std::uint16_t counter);
   [[nodiscard]] std::size_t capacity() const;
+  [[nodiscard]] std::uint64_t missing_parts(std::uint64_t targets) const;
   [[nodiscard]] bool is_whole() const;
   [[nodiscard]] ScanStatus status() const;
   void close();

@@ -6,6 +6,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/output/multicast_route.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/report/report.hpp"
@@ -127,7 +128,9 @@ std::string LiveReporter::report() {
     if (i == 0) {
       report_clock(now, buses_[i]);
     }
-    report_bus(*source_.interfaces()[i], now, buses_[i]);
+    if (source_.interfaces()[i]->name() != kAutoInterface) {
+      report_bus(*source_.interfaces()[i], now, buses_[i]);
+    }
   }
   if (configuration_.odometry.enabled) {
     line += "; " + report_odometry();
@@ -178,6 +181,9 @@ void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
 
 std::string LiveReporter::report_radar(std::size_t radar) {
   const RadarConfiguration& configuration = configuration_.radars[radar];
+  if (is_auto(configuration)) {
+    return concat({configuration.name, ": its CAN interface is not found yet"});
+  }
   RadarChannel& channel = *pipeline_.radars()[radar];
   const RadarStatus& status = channel.status(0, source_);
   Progress& progress = progress_[radar];

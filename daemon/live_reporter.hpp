@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ class LiveReporter {
   /// All but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
                const LiveSource& source, const LcmPublisher* publisher);
+
+  /// The interface of a radar that had none is known.
+  void set_interface(std::size_t radar, const std::string& name) {
+    configuration_.radars[radar].interface = name;
+  }
 
   /// Looks at everything. Called once a second; returns the line.
   std::string report();

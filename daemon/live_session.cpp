@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <spdlog/spdlog.h>
+
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -29,6 +31,8 @@ std::optional<LcmPublisher> publisher_of(const Configuration& configuration,
 LiveSession::LiveSession(const Configuration& configuration, const std::string& lcm_url,
                          const std::string& state_file, const volatile std::sig_atomic_t* stop)
     : learned_file_(state_file, configuration),
+      configuration_(configuration),
+      search_(configuration),
       source_(configuration, stop),
       publisher_(publisher_of(configuration, lcm_url)),
       feedback_(configuration, source_),
@@ -87,10 +91,38 @@ void LiveSession::save_learned() {
   }
 }
 
+void LiveSession::look_for_radars(std::int64_t monotonic_us) {
+  for (const Sighting& sighting : search_.listen(source_.links(), monotonic_us)) {
+    const RadarPlace& place = sighting.place;
+    if (place.status == PlaceStatus::found) {
+      use(sighting);
+    } else {
+      log_.update(configuration_.radars[sighting.radar].name, static_cast<int>(place.status), [&] {
+        return concat({place.problem, "; waiting: ", place.remedy});
+      });
+    }
+  }
+}
+
+/// From here on it is as if the name had been written.
+void LiveSession::use(const Sighting& sighting) {
+  const auto& [radar, place] = sighting;
+  const std::uint8_t interface =
+      source_.attach(pipeline_.radars()[radar]->interface, place.interface);
+  pipeline_.set_interface(radar, interface);
+  feedback_.set_interface(radar, interface);
+  reporter_.set_interface(radar, place.interface);
+  const RadarConfiguration& found = configuration_.radars[radar];
+  spdlog::info("{}: {} is on {}", found.name, found.decoder.describe(), place.interface);
+}
+
 bool LiveSession::turn(const ServiceNotifier& notifier) {
   source_.expect(pipeline_.frames_to_next_scan());
   const bool goes_on = pipeline_.take_next(source_);
   const std::int64_t now_us = monotonic_us();
+  if (!search_.is_over()) {
+    look_for_radars(now_us);
+  }
   if (now_us >= next_report_us_) {
     next_report_us_ = now_us + kReportPeriodUs;
     connect(now_us);

@@ -16,6 +16,7 @@
 #include "daemon/pipeline.hpp"
 #include "daemon/report/service_notifier.hpp"
 #include "daemon/source/live_source.hpp"
+#include "daemon/source/radar_search.hpp"
 
 namespace cremed {
 
@@ -38,10 +39,14 @@ class LiveSession {
  private:
   std::vector<OdometrySink*> sinks();
   void connect(std::int64_t monotonic_us);
+  void look_for_radars(std::int64_t monotonic_us);
+  void use(const Sighting& sighting);
   void save_learned();
 
   LearnedFile learned_file_;
   std::optional<LearnedWriter> learned_writer_;
+  Configuration configuration_;
+  RadarSearch search_;
   LiveSource source_;
   std::optional<LcmPublisher> publisher_;
   MotionFeedback feedback_;

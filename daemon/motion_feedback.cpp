@@ -3,7 +3,6 @@
 #include "daemon/motion_feedback.hpp"
 
 #include <algorithm>
-#include <variant>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
 #include "daemon/configuration/interfaces.hpp"
@@ -13,8 +12,9 @@ namespace cremed {
 MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& bus) : bus_(bus) {
   for (const RadarConfiguration& radar : configuration.radars) {
     Sensor sensor;
-    if (const auto* options = std::get_if<Ars408Options>(&radar.decoder)) {
-      sensor = {radar.motion_feedback, interface_index(configuration, radar), options->sensor_id};
+    if (const auto* options = radar.decoder.as<Ars408Options>()) {
+      sensor = {options->motion_feedback, interface_index(configuration, sensors_.size()),
+                options->sensor_id};
     }
     sensors_.push_back(sensor);
   }

@@ -21,6 +21,9 @@ class MotionFeedback final : public OdometrySink {
   MotionFeedback(const Configuration& configuration, LiveSource& bus);
 
   [[nodiscard]] bool is_needed() const;
+  void set_interface(std::size_t radar, std::uint8_t interface) {
+    sensors_[radar].interface = interface;
+  }
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;
   [[nodiscard]] std::uint64_t failures() const override { return failures_; }
 

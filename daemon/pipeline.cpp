@@ -66,9 +66,8 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
       is_predicted_(configuration.odometry.filter.rate_hz != 0),
       standstill_mps_(configuration.odometry.filter.standstill_mps) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    const RadarConfiguration& radar = configuration.radars[i];
-    radars_.push_back(
-        std::make_unique<RadarChannel>(radar, i, interface_index(configuration, radar)));
+    radars_.push_back(std::make_unique<RadarChannel>(configuration.radars[i], i,
+                                                     interface_index(configuration, i)));
   }
   if (configuration.odometry.enabled) {
     filter_.emplace(odometry_options(configuration), odometry_radars(configuration, learned));

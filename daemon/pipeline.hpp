@@ -67,6 +67,11 @@ class Pipeline {
   /// No scan can be whole before so many more frames have come; 0 if no scan is open.
   [[nodiscard]] std::size_t frames_to_next_scan() const;
 
+  /// The radar's frames are those of this interface from now on.
+  void set_interface(std::size_t radar, std::uint8_t interface) {
+    radars_[radar]->interface = interface;
+  }
+
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
   /// What the odometry learned of the radars, by radar, for a next start; empty while it is neither
   /// ok nor standing_still. Not for the hot path.

@@ -3,27 +3,13 @@
 #include "daemon/radar_channel.hpp"
 
 #include <cmath>
-#include <variant>
 
 namespace cremed {
-namespace {
-
-struct MakeDecoder {
-  std::unique_ptr<RadarDecoder> operator()(const Ars408Options& options) const {
-    return std::make_unique<Ars408Decoder>(options);
-  }
-  std::unique_ptr<RadarDecoder> operator()(const BoschGprOptions& options) const {
-    return std::make_unique<BoschGprDecoder>(options);
-  }
-};
-
-}  // namespace
-
 RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t radar_index,
                            std::uint8_t interface_index)
     : index(radar_index),
       interface(interface_index),
-      decoder(std::visit(MakeDecoder{}, configuration.decoder)),
+      decoder(configuration.decoder.make_decoder()),
       assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6),
                 std::llround(configuration.stamp_offset_s * 1e6)),
       estimator(configuration.ego_motion),

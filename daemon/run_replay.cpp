@@ -60,6 +60,7 @@ void refuse_overwriting(const CommandLine& command_line, const OutputConfigurati
 /// Whatever cannot be, before anything is opened.
 void refuse(const CommandLine& command_line, const std::string& configuration_path,
             const Configuration& configuration) {
+  require_interface_names(configuration);
   const OutputConfiguration& output = configuration.output;
   if (!command_line.output_odometry.value_or(output.odometry).empty() &&
       !configuration.odometry.enabled) {

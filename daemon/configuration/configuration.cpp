@@ -111,7 +111,8 @@ void read_logging(TomlReader reader, LoggingConfiguration& logging) {
   reader.finish();
 }
 
-std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions& defaults) {
+std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions& defaults,
+                                     RadarFamilies families) {
   std::vector<TomlReader> tables = reader.tables("radar");
   if (tables.size() > kMaxRadars) {
     reader.report("radar", concat({"has ", std::to_string(tables.size()),
@@ -121,17 +122,18 @@ std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions&
   std::vector<PlacedRadar> radars;
   radars.reserve(tables.size());
   for (TomlReader& table : tables) {
-    radars.push_back(read_radar(std::move(table), defaults));
+    radars.push_back(read_radar(std::move(table), defaults, families));
   }
   return radars;
 }
 
-Configuration read_configuration(const toml::table& table, ReadContext& context) {
+Configuration read_configuration(const toml::table& table, ReadContext& context,
+                                 RadarFamilies families) {
   TomlReader reader(&table, "", 1, context);
   Configuration configuration;
   EgoMotionOptions defaults;
   read_estimator(reader.table("estimator"), defaults);
-  std::vector<PlacedRadar> radars = read_radars(reader, defaults);
+  std::vector<PlacedRadar> radars = read_radars(reader, defaults, families);
   read_calibrated(reader.table("calibrated"), radars);
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
@@ -168,11 +170,12 @@ std::optional<std::size_t> tum_radar(const Configuration& configuration) {
   return source.empty() && !is_fused(configuration) ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
-Configuration parse_configuration(std::string_view toml, const std::string& file_name) {
+Configuration parse_configuration(std::string_view toml, const std::string& file_name,
+                                  RadarFamilies families) {
   ReadContext context{Diagnostics(file_name), nullptr};
   Configuration configuration;
   if (const auto table = parse_toml(toml, context.diagnostics)) {
-    configuration = read_configuration(*table, context);
+    configuration = read_configuration(*table, context, families);
   }
   if (!context.diagnostics.empty()) {
     throw ConfigurationError(context.diagnostics.text());
@@ -195,10 +198,13 @@ Configuration load_configuration(const std::string& path) {
 std::set<std::string> known_configuration_keys() {
   std::set<std::string> keys;
   ReadContext context{Diagnostics(""), &keys};
-  if (const auto table = parse_toml("[[radar]]\nname = \"front\"\ntype = \"ars408\"\n"
-                                    "[[radar]]\ntype = \"bosch_gpr\"",
-                                    context.diagnostics)) {
-    read_configuration(*table, context);  // What it reports as missing does not matter here.
+  std::string radars;
+  for (const RadarFamily* family : radar_families()) {
+    radars += concat({"[[radar]]\nname = \"front\"\ntype = ", quoted(family->type), "\n"});
+  }
+  if (const auto table = parse_toml(radars, context.diagnostics)) {
+    read_configuration(*table, context,
+                       radar_families());  // What it reports as missing does not matter here.
   }
   return keys;
 }

@@ -9,11 +9,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
-#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/radar_family.hpp"
 #include "cremed/estimator/fusion/odometry_options.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "daemon/configuration/bus_options.hpp"
@@ -33,8 +32,7 @@ inline constexpr std::string_view kOdometrySource = "odometry";
 struct RadarConfiguration {
   std::string name;       ///< Unique whatever its case; at most 15 of letters, digits, _ and -.
   std::string interface;  ///< CAN interface as in the log or on the computer, e.g. "can0".
-  std::variant<Ars408Options, BoschGprOptions> decoder;
-  bool motion_feedback = false;  ///< ARS408: sends the estimate back to the sensor (0x300, 0x301).
+  RadarSettings decoder = Ars408Options{};
   double scan_timeout_s = 0.03;  ///< An open scan with no new part for this long is closed.
   double stamp_offset_s = 0.0;   ///< Added to the stamps of its scans.
   EgoMotionOptions ego_motion;
@@ -99,8 +97,10 @@ bool is_fused(const Configuration& configuration);
 /// The radar that the trajectory follows; nothing: the odometry.
 std::optional<std::size_t> tum_radar(const Configuration& configuration);
 
-/// Parses and validates everything before anything is opened. `file_name` is for messages only.
-Configuration parse_configuration(std::string_view toml, const std::string& file_name);
+/// Parses and validates everything before anything is opened. `file_name` is for messages only;
+/// `families` are the types that a radar may have.
+Configuration parse_configuration(std::string_view toml, const std::string& file_name,
+                                  RadarFamilies families = radar_families());
 
 /// Reads and parses a file; a file that cannot be read is a ConfigurationError too.
 Configuration load_configuration(const std::string& path);

@@ -5,25 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "daemon/configuration/bus_options.hpp"
 #include "daemon/configuration/configuration_estimator.hpp"
-#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
 #include "daemon/process/plain_text.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr std::array<std::string_view, 2> kTypes = {"ars408", "bosch_gpr"};
-constexpr std::array<std::string_view, 2> kOutputs = {"clusters", "objects"};
-constexpr std::array<std::string_view, 3> kCrcPolicies = {"off", "count", "enforce"};
 constexpr std::size_t kMaxName = 15;
 constexpr double kMaxMountM = 50.0;
 constexpr double kFullCircleRad = 6.2832;
 constexpr double kHalfCircleRad = 3.1416;
-constexpr std::uint32_t kMaxStandardId = 0x7FF;
 
 bool is_name(std::string_view text) {
   const auto fits = [](char c) {
@@ -48,62 +43,46 @@ constexpr TextRule kName = {
 constexpr TextRule kInterface = {is_interface,
                                  "1 to 15 characters that print, without space, '/' or ':'"};
 
-void read_ars408(TomlReader& reader, RadarConfiguration& radar) {
-  auto& options = radar.decoder.emplace<Ars408Options>();
-  reader.integer("sensor_id", options.sensor_id, 0, 7);
-  if (const auto output = reader.choice("output", kOutputs)) {
-    options.output = static_cast<Ars408Output>(*output);
-  }
-  reader.bits("keep_invalid_states", options.keep_invalid_states, 31);
-  std::uint32_t keep_dyn_props = options.keep_dyn_props;
-  reader.bits("keep_dyn_props", keep_dyn_props, 7);
-  options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
-  reader.integer("min_existence_code", options.min_existence_code, 0, 7);
-  reader.boolean("motion_feedback", radar.motion_feedback);
+/// In the order of their types.
+std::vector<const RadarFamily*> by_type(RadarFamilies families) {
+  std::vector<const RadarFamily*> sorted(families.begin(), families.end());
+  std::sort(sorted.begin(), sorted.end(),
+            [](const RadarFamily* a, const RadarFamily* b) { return a->type < b->type; });
+  return sorted;
 }
 
-void check_gpr_ids(TomlReader& reader, const BoschGprOptions& options) {
-  if (reader.clean() && options.info_id >= options.base_id &&
-      options.info_id < options.base_id + kGprTargetIds) {
-    reader.report(
-        reader.has("info_id") ? "info_id" : "base_id",
-        "makes info_id one of the targets' identifiers; must be outside base_id to base_id + 95");
-  }
-}
-
-void read_gpr(TomlReader& reader, RadarConfiguration& radar) {
-  auto& options = radar.decoder.emplace<BoschGprOptions>();
-  reader.identifier("base_id", options.base_id, kMaxStandardId + 1 - kGprTargetIds);
-  reader.identifier("info_id", options.info_id, kMaxStandardId);
-  if (const auto policy = reader.choice("crc_policy", kCrcPolicies)) {
-    options.crc_policy = static_cast<CrcPolicy>(*policy);
-  }
-  reader.boolean("invert_azimuth", options.invert_azimuth);
-  reader.boolean("invert_doppler", options.invert_doppler);
-  reader.number("min_existence", options.min_existence, {0.0, 0.96875});
-  check_gpr_ids(reader, options);
-}
-
-/// The keys that `read` asks for.
-std::vector<std::string_view> keys_of(void (*read)(TomlReader&, RadarConfiguration&)) {
+/// The keys that it reads.
+std::vector<std::string_view> keys_of(const RadarFamily& family) {
   ReadContext scratch{Diagnostics(""), nullptr};
   TomlReader reader(nullptr, "", 0, scratch);
-  RadarConfiguration radar;
-  read(reader, radar);
+  family.read(reader);
   return reader.known();
 }
 
-/// Keys of the type that the radar has; those of the other type are refused by name.
-void read_decoder(TomlReader& reader, RadarConfiguration& radar) {
-  const auto type = reader.choice("type", kTypes, Presence::required);
-  if (!type || *type == 0) {
-    read_ars408(reader, radar);
+const RadarFamily* read_type(TomlReader& reader, const std::vector<const RadarFamily*>& families) {
+  std::vector<std::string_view> types;
+  types.reserve(families.size());
+  for (const RadarFamily* family : families) {
+    types.push_back(family->type);
   }
-  if (!type || *type == 1) {
-    read_gpr(reader, radar);
+  const auto type = reader.choice("type", types, Presence::required);
+  return type ? families[*type] : nullptr;
+}
+
+/// Keys of the type that the radar has, of any where that is not known; those of others are refused
+/// by name.
+void read_decoder(TomlReader& reader, RadarFamilies families, RadarConfiguration& radar) {
+  const std::vector<const RadarFamily*> sorted = by_type(families);
+  const RadarFamily* const type = read_type(reader, sorted);
+  for (const RadarFamily* family : sorted) {
+    if (type == nullptr || family == type) {
+      radar.decoder = family->read(reader);
+    }
   }
-  reader.refuse(keys_of(read_ars408), "is a key of type \"ars408\"; must be left out here");
-  reader.refuse(keys_of(read_gpr), "is a key of type \"bosch_gpr\"; must be left out here");
+  for (const RadarFamily* family : sorted) {
+    reader.refuse(keys_of(*family),
+                  concat({"is a key of type ", quoted(family->type), "; must be left out here"}));
+  }
 }
 
 void read_mount(TomlReader& reader, Pose2& vehicle_from_radar, Presence presence) {
@@ -121,17 +100,22 @@ void read_limits(TomlReader reader, DetectionLimits& limits) {
   reader.finish();
 }
 
-/// That of the type.
-double default_rotation_lead_s(const RadarConfiguration& radar) {
-  const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
-  return ars408 != nullptr && ars408->output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
+std::string types_told_yaw_rate() {
+  std::vector<std::string_view> types;
+  for (const RadarFamily* family : by_type(radar_families())) {
+    if (family->rotation_lead_s != nullptr) {
+      types.push_back(family->type);
+    }
+  }
+  return list_text(types);
 }
 
-/// Of a sensor that is told the yaw rate.
+/// Only of a sensor that is told the yaw rate.
 void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
-  if (!std::holds_alternative<Ars408Options>(radar.decoder)) {
+  if (!radar.decoder.rotation_lead_s()) {
     reader.refuse(std::array{kRotationLead},
-                  "is a key of type \"ars408\", which is told the yaw rate; must be left out here");
+                  concat({"is a key of type ", types_told_yaw_rate(),
+                          ", which is told the yaw rate; must be left out here"}));
     return;
   }
   reader.number(kRotationLead, radar.ego_motion.correction.rotation_lead_s, {-0.2, 0.2});
@@ -153,7 +137,7 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
   TomlReader mount = reader.table("mount");
   read_mount(mount, radar.ego_motion.vehicle_from_radar, Presence::required);
   mount.finish();
-  radar.ego_motion.correction.rotation_lead_s = default_rotation_lead_s(radar);
+  radar.ego_motion.correction.rotation_lead_s = radar.decoder.rotation_lead_s().value_or(0.0);
   TomlReader calibration = reader.table("calibration");
   read_calibration(calibration, radar);
   calibration.finish();
@@ -161,14 +145,15 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
 
 }  // namespace
 
-PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults) {
+PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults,
+                       RadarFamilies families) {
   PlacedRadar placed{{}, reader.line_of("name"), reader.line_of("interface")};
   RadarConfiguration& radar = placed.radar;
   radar.ego_motion = defaults;
   reader.text("name", radar.name, kName, Presence::required);
   reader.text("interface", radar.interface, kInterface, Presence::required);
   reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 0.06});
-  read_decoder(reader, radar);
+  read_decoder(reader, families, radar);
   read_calibrated(reader, radar);
   read_limits(reader.table("limits"), radar.ego_motion.limits);
   read_estimator(reader.table("estimator"), radar.ego_motion);

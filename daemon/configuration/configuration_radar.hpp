@@ -18,8 +18,8 @@ struct PlacedRadar {
   std::size_t interface_line = 0;
 };
 
-/// Reads one [[radar]] table; `defaults` are those of [estimator].
-PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults);
+/// Reads one [[radar]] table; `defaults` are those of [estimator], `families` the types there are.
+PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults, RadarFamilies families);
 
 /// Reads [calibrated], whose tables have the names of radars: what is in them takes the place of
 /// what is in [radar.mount] and [radar.calibration].

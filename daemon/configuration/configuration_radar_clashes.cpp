@@ -4,6 +4,7 @@
 #include <string>
 
 #include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -30,9 +31,22 @@ void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostic
   }
 }
 
+/// By what it sends one radar must be told from the other.
+void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
+  if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
+    diagnostics.add(
+        is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
+        concat({"is \"auto\", but ", later.radar.decoder.describe(), " is looked for where radars ",
+                quoted(earlier.radar.name), " and ", quoted(later.radar.name),
+                " are alike; must be the name of an interface for both"}));
+  }
+}
+
 void check_ids(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
   const IdSet shared = used_ids(earlier.radar) & used_ids(later.radar);
-  if (earlier.radar.interface == later.radar.interface && shared.any()) {
+  if (is_auto(earlier.radar) || is_auto(later.radar)) {
+    check_search(earlier, later, diagnostics);
+  } else if (earlier.radar.interface == later.radar.interface && shared.any()) {
     diagnostics.add(later.interface_line, "radar.interface",
                     concat({"is the interface", of_radar(earlier), ", and both use CAN identifier ",
                             hexadecimal(shared._Find_first()),

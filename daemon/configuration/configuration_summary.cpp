@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <variant>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -41,10 +40,10 @@ std::string text_of(const IdSet& ids) {
 
 std::string row_of(const RadarConfiguration& radar) {
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
-  const bool is_ars408 = std::holds_alternative<Ars408Options>(radar.decoder);
-  return fmt::format(kRow, radar.name, is_ars408 ? "ars408" : "bosch_gpr", radar.interface,
+  return fmt::format(kRow, radar.name, radar.decoder.family().type, radar.interface,
                      fmt::format("{:.3f}", mount.x_m), fmt::format("{:.3f}", mount.y_m),
-                     fmt::format("{:.2f}", kDegPerRad * mount.yaw_rad), text_of(sent_ids(radar)));
+                     fmt::format("{:.2f}", kDegPerRad * mount.yaw_rad),
+                     text_of(radar.decoder.sent_ids()));
 }
 
 std::string names_of(const std::vector<RadarConfiguration>& radars,
@@ -80,17 +79,18 @@ std::string output_text(const OutputConfiguration& output) {
 }
 
 std::string sent_text(const Configuration& configuration) {
-  const std::string names =
-      names_of(configuration.radars, [](const auto& radar) { return radar.motion_feedback; });
+  const std::string names = names_of(configuration.radars, [](const auto& radar) {
+    const auto* ars408 = radar.decoder.template as<Ars408Options>();
+    return ars408 != nullptr && ars408->motion_feedback;
+  });
   return names.empty() ? "nothing" : "speed and yaw rate to " + names + " (motion_feedback)";
 }
 
 std::string radar_summary(const RadarConfiguration& radar) {
-  const auto* const ars408 = std::get_if<Ars408Options>(&radar.decoder);
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
   return fmt::format("{}: {} on {}, mount x {:.3f} m, y {:.3f} m, yaw {:.2f} deg", radar.name,
-                     ars408 != nullptr ? fmt::format("ARS408 {}", ars408->sensor_id) : "Bosch GPR",
-                     radar.interface, mount.x_m, mount.y_m, kDegPerRad * mount.yaw_rad);
+                     radar.decoder.label(), radar.interface, mount.x_m, mount.y_m,
+                     kDegPerRad * mount.yaw_rad);
 }
 
 }  // namespace

@@ -4,22 +4,52 @@
 
 #include <algorithm>
 
-namespace cremed {
+#include "daemon/process/message_text.hpp"
 
-std::vector<std::string> interface_names(const Configuration& configuration) {
+namespace cremed {
+namespace {
+
+/// Names, and of each radar where its own is among them.
+struct Interfaces {
   std::vector<std::string> names;
+  std::vector<std::uint8_t> of_radars;
+};
+
+Interfaces interfaces_of(const Configuration& configuration) {
+  Interfaces interfaces;
+  std::vector<std::string>& names = interfaces.names;
   for (const RadarConfiguration& radar : configuration.radars) {
-    if (std::find(names.begin(), names.end(), radar.interface) == names.end()) {
+    const auto known =
+        is_auto(radar) ? names.end() : std::find(names.begin(), names.end(), radar.interface);
+    interfaces.of_radars.push_back(static_cast<std::uint8_t>(known - names.begin()));
+    if (known == names.end()) {
       names.push_back(radar.interface);
     }
   }
-  return names;
+  return interfaces;
 }
 
-std::uint8_t interface_index(const Configuration& configuration, const RadarConfiguration& radar) {
-  const std::vector<std::string> names = interface_names(configuration);
-  const auto name = std::find(names.begin(), names.end(), radar.interface);
-  return static_cast<std::uint8_t>(name - names.begin());
+}  // namespace
+
+bool is_auto(const RadarConfiguration& radar) { return radar.interface == kAutoInterface; }
+
+std::vector<std::string> interface_names(const Configuration& configuration) {
+  return interfaces_of(configuration).names;
+}
+
+std::uint8_t interface_index(const Configuration& configuration, std::size_t radar) {
+  return interfaces_of(configuration).of_radars[radar];
+}
+
+void require_interface_names(const Configuration& configuration) {
+  for (const RadarConfiguration& radar : configuration.radars) {
+    if (is_auto(radar)) {
+      throw ConfigurationError(
+          concat({"radar ", quoted(radar.name), ": interface = \"auto\" is for live buses; must ",
+                  "be the name in the log (`cremed-doctor --suggest-config LOG` tells which ",
+                  "radar is where)"}));
+    }
+  }
 }
 
 }  // namespace cremed

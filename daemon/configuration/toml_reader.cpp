@@ -224,7 +224,7 @@ void TomlReader::require_less(std::string_view low_key, double low, std::string_
 
 void TomlReader::refuse(std::span<const std::string_view> keys, std::string_view problem) {
   for (const std::string_view key : keys) {
-    if (!contains(known_, key) && has(key)) {
+    if (!contains(known_, key) && !contains(refused_, key) && has(key)) {
       report(key, problem);
       refused_.push_back(key);
     }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cremed/can_decoders/option_reader.hpp"
 #include "daemon/configuration/diagnostics.hpp"
 
 namespace toml {
@@ -23,12 +23,6 @@ class table;
 namespace cremed {
 
 enum class Presence : std::uint8_t { optional, required };
-
-/// Closed.
-struct Range {
-  double min = 0.0;
-  double max = 0.0;
-};
 
 /// Which strings a key takes, and the words for it: "must be ...".
 struct TextRule {
@@ -43,36 +37,30 @@ struct ReadContext {
 };
 
 /// Reads one table key by key: checks type and range, reports what is wrong, and remembers which
-/// keys are known. A key that is absent or wrong leaves the value as it is, so defaults are what
-/// the values were. Usage:
+/// keys are known. Defaults are what the values were. Usage:
 ///
 ///     reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
 ///     reader.finish();  // All that was not asked for is an unknown key.
-///
-/// Keys must be string literals.
-class TomlReader {
+class TomlReader final : public OptionReader {
  public:
   /// `table` may be null: a table that the file does not have; then `line` is where it would be.
   TomlReader(const toml::table* table, std::string path, std::size_t line, ReadContext& context);
 
-  void number(std::string_view key, double& value, Range range,
-              Presence presence = Presence::optional);
-  template <std::integral Integer>
-  void integer(std::string_view key, Integer& value, std::int64_t min, std::int64_t max) {
-    if (const auto read = integer_within(key, min, max)) {
-      value = static_cast<Integer>(*read);
-    }
+  void number(std::string_view key, double& value, Range range) override {
+    number(key, value, range, Presence::optional);
   }
-  /// An integer from 0, shown as hexadecimal in messages.
-  void identifier(std::string_view key, std::uint32_t& value, std::uint32_t max);
-  void boolean(std::string_view key, bool& value);
+  void number(std::string_view key, double& value, Range range, Presence presence);
+  void identifier(std::string_view key, std::uint32_t& value, std::uint32_t max) override;
+  void boolean(std::string_view key, bool& value) override;
   void text(std::string_view key, std::string& value, const TextRule& rule,
             Presence presence = Presence::optional);
-  /// Index of the name that the key has; nothing if it is absent or wrong.
+  std::optional<std::size_t> choice(std::string_view key,
+                                    std::span<const std::string_view> names) override {
+    return choice(key, names, Presence::optional);
+  }
   std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> names,
-                                    Presence presence = Presence::optional);
-  /// A list of codes from 0 to `max_code`, not empty, as bits.
-  void bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code);
+                                    Presence presence);
+  void bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) override;
 
   TomlReader table(std::string_view key);
   /// A list of tables, not empty and required.
@@ -85,18 +73,18 @@ class TomlReader {
   /// Reports every key that nothing asked for.
   void finish();
 
-  void report(std::string_view key, std::string_view problem);
-  [[nodiscard]] bool has(std::string_view key) const;
+  void report(std::string_view key, std::string_view problem) override;
+  [[nodiscard]] bool has(std::string_view key) const override;
   /// Of the key, or of the table if it has no such key.
   [[nodiscard]] std::size_t line_of(std::string_view key) const;
-  [[nodiscard]] bool clean() const { return clean_; }
+  [[nodiscard]] bool clean() const override { return clean_; }
   [[nodiscard]] const std::vector<std::string_view>& known() const { return known_; }
 
  private:
   const toml::node* take(std::string_view key, Presence presence, std::string_view wanted);
   const toml::node* take_leaf(std::string_view key, Presence presence, std::string_view wanted);
   std::optional<std::int64_t> integer_within(std::string_view key, std::int64_t min,
-                                             std::int64_t max);
+                                             std::int64_t max) override;
   void report_wrong(std::string_view key, const toml::node& node, std::string_view wanted);
   [[nodiscard]] std::string path_of(std::string_view key) const;
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 #include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/process/message_text.hpp"
@@ -78,7 +77,7 @@ std::string rejected_detections(const SelectionCounters& c) {
 }
 
 const Ars408Options* ars408_options(const RadarConfiguration& radar) {
-  return std::get_if<Ars408Options>(&radar.decoder);
+  return radar.decoder.as<Ars408Options>();
 }
 
 /// The command that sets the sensor to what the configuration expects.

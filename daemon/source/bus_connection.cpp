@@ -22,6 +22,13 @@ void BusConnection::maintain(const Link& link) {
   }
 }
 
+void BusConnection::add_ids(const std::vector<std::uint32_t>& ids) {
+  ids_.insert(ids_.end(), ids.begin(), ids.end());
+  if (socket_.is_open() && !socket_.set_ids(ids_)) {
+    lose(LinkState::failed);
+  }
+}
+
 void BusConnection::open(const Link& link) {
   const CanOpenResult result = link.error != 0
                                    ? CanOpenResult{CanOpenStatus::failed, link.error, "rtnetlink"}

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "daemon/source/bus_status.hpp"
@@ -29,7 +30,13 @@ class BusConnection {
 
   int send(const CanFrame& frame);
 
+  /// From now on it is this interface.
+  void set_name(std::string name) { name_ = std::move(name); }
+  /// Receives the frames of these identifiers too.
+  void add_ids(const std::vector<std::uint32_t>& ids);
+
   [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return ids_; }
   [[nodiscard]] int descriptor() const { return socket_.descriptor(); }
   [[nodiscard]] BusStatus& status() { return status_; }
   [[nodiscard]] const BusStatus& status() const { return status_; }

@@ -179,6 +179,10 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   return result;
 }
 
+bool CanSocket::set_ids(std::span<const std::uint32_t> ids) {
+  return set_filters(descriptor_, ids);
+}
+
 CanOpenResult CanSocket::adopt(int descriptor, const CanSocketOptions& options) {
   close();
   descriptor_ = descriptor;

@@ -58,6 +58,8 @@ class CanSocket {
   /// let pass, without remote frames; none: everything.
   CanOpenResult open(unsigned interface_index, std::span<const std::uint32_t> ids,
                      const CanSocketOptions& options);
+  /// Other identifiers than it was opened with; false: as they were, errno says why.
+  bool set_ids(std::span<const std::uint32_t> ids);
   /// For tests without CAN: takes over a datagram socket that yields `can_frame`s.
   CanOpenResult adopt(int descriptor, const CanSocketOptions& options);
   void close();

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <utility>
 
 #include <linux/netlink.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
+#include <net/if_arp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kBufferBytes = 32768;
 /// A message a link at most, and far more links than any vehicle has; what is left waits.
 constexpr int kMaxReads = 1000;
+/// Room for more has to be allocated when they come.
+constexpr std::size_t kUsualLinks = 64;
 
 const ifinfomsg* info_in(const nlmsghdr& header) {
   return reinterpret_cast<const ifinfomsg*>(reinterpret_cast<const char*>(&header) + NLMSG_HDRLEN);
@@ -40,8 +42,8 @@ std::string_view name_in(const nlmsghdr& header) {
 
 }  // namespace
 
-LinkWatch::LinkWatch(std::vector<std::string> names)
-    : names_(std::move(names)), links_(names_.size()), buffer_(kBufferBytes) {
+LinkWatch::LinkWatch() : buffer_(kBufferBytes) {
+  links_.reserve(kUsualLinks);
   update();
 }
 
@@ -66,7 +68,8 @@ void LinkWatch::open() {
 
 /// Of all links as they are now: at the start, and after notifications were lost.
 void LinkWatch::request_all() {
-  std::fill(links_.begin(), links_.end(), Link{});
+  links_.clear();
+  error_ = 0;
   struct {
     nlmsghdr header;
     ifinfomsg info;
@@ -80,12 +83,12 @@ void LinkWatch::request_all() {
 }
 
 void LinkWatch::fail() {
-  const int error = errno;
+  error_ = errno;
   if (descriptor_ >= 0) {
     ::close(descriptor_);
   }
   descriptor_ = -1;
-  std::fill(links_.begin(), links_.end(), Link{0, false, error});
+  links_.clear();
 }
 
 void LinkWatch::update() {
@@ -118,20 +121,37 @@ void LinkWatch::take(const char* messages, std::size_t size) {
        header = NLMSG_NEXT(header, left)) {
     if (header->nlmsg_type == RTM_NEWLINK || header->nlmsg_type == RTM_DELLINK) {
       const ifinfomsg* const info = info_in(*header);
-      note(static_cast<unsigned>(info->ifi_index), name_in(*header),
-           header->nlmsg_type == RTM_NEWLINK, (info->ifi_flags & IFF_UP) != 0);
+      note({std::string(name_in(*header)),
+            {static_cast<unsigned>(info->ifi_index), (info->ifi_flags & IFF_UP) != 0, 0},
+            info->ifi_type == ARPHRD_CAN},
+           header->nlmsg_type == RTM_NEWLINK);
     }
   }
 }
 
-void LinkWatch::note(unsigned index, std::string_view name, bool is_there, bool is_up) {
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (is_there && names_[i] == name) {
-      links_[i] = {index, is_up, 0};
-    } else if (links_[i].index == index) {
-      links_[i] = {};  // Removed, or renamed.
+void LinkWatch::note(const NamedLink& link, bool is_there) {
+  std::erase_if(links_, [&](const NamedLink& known) {
+    return known.link.index == link.link.index || (is_there && known.name == link.name);
+  });
+  if (is_there) {
+    links_.push_back(link);
+  }
+}
+
+Link LinkWatch::link(std::string_view name) const {
+  const auto found = std::find_if(links_.begin(), links_.end(),
+                                  [&](const NamedLink& link) { return link.name == name; });
+  return found == links_.end() ? Link{0, false, error_} : found->link;
+}
+
+std::vector<std::string> LinkWatch::up_can_names() const {
+  std::vector<std::string> names;
+  for (const NamedLink& link : links_) {
+    if (link.is_can && link.link.is_up) {
+      names.push_back(link.name);
     }
   }
+  return names;
 }
 
 }  // namespace cremed

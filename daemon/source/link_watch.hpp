@@ -22,7 +22,7 @@ struct Link {
 /// that name, a quarter of a second each time for one that is absent.
 class LinkWatch {
  public:
-  explicit LinkWatch(std::vector<std::string> names);
+  LinkWatch();
   ~LinkWatch();
   LinkWatch(const LinkWatch&) = delete;
   LinkWatch& operator=(const LinkWatch&) = delete;
@@ -30,18 +30,24 @@ class LinkWatch {
   /// Takes in what the kernel has told since the last call; does not wait.
   void update();
 
-  /// Of the name's place in the list.
-  [[nodiscard]] const Link& link(std::size_t name) const { return links_[name]; }
+  [[nodiscard]] Link link(std::string_view name) const;
+  /// Names of the CAN interfaces that are up.
+  [[nodiscard]] std::vector<std::string> up_can_names() const;
 
  private:
+  struct NamedLink {
+    std::string name;
+    Link link;
+    bool is_can = false;
+  };
   void open();
   void request_all();
   void fail();
   void take(const char* messages, std::size_t size);
-  void note(unsigned index, std::string_view name, bool is_there, bool is_up);
+  void note(const NamedLink& link, bool is_there);
 
-  std::vector<std::string> names_;
-  std::vector<Link> links_;
+  std::vector<NamedLink> links_;
+  int error_ = 0;
   std::vector<char> buffer_;
   int descriptor_ = -1;
 };

@@ -52,11 +52,10 @@ void sleep_us(std::int64_t duration_us) {
 LiveSource::LiveSource(const Configuration& configuration, const volatile std::sig_atomic_t* stop)
     : max_latency_us_(std::llround(configuration.live.max_latency_s * 1e6)),
       stop_(stop),
-      links_(interface_names(configuration)),
       merge_(interface_names(configuration).size(), CanSocket::kBatchFrames) {
   for (const std::string& name : interface_names(configuration)) {
-    interfaces_.push_back(std::make_unique<BusConnection>(name, ids_on(name, configuration.radars),
-                                                          configuration.live.socket));
+    interfaces_.push_back(std::make_unique<BusConnection>(
+        name, ids_on(interfaces_.size(), configuration), configuration.live.socket));
   }
   maintain();
   polled_.resize(interfaces_.size() + 1);
@@ -68,6 +67,19 @@ BusStatus LiveSource::bus(std::uint8_t interface) const {
   BusStatus status = interfaces_[interface]->status();
   status.clock_steps = clock_steps_;
   return status;
+}
+
+std::uint8_t LiveSource::attach(std::uint8_t interface, const std::string& name) {
+  BusConnection& found = *interfaces_[interface];
+  const auto known = std::find_if(interfaces_.begin(), interfaces_.end(),
+                                  [&](const auto& other) { return other->name() == name; });
+  next_look_us_ = 0;
+  if (known == interfaces_.end()) {
+    found.set_name(name);
+    return interface;
+  }
+  (*known)->add_ids(found.ids());
+  return static_cast<std::uint8_t>(known - interfaces_.begin());
 }
 
 int LiveSource::send(std::uint8_t interface, const CanFrame& frame) {
@@ -136,7 +148,7 @@ void LiveSource::maintain() {
   next_look_us_ = now_us + kLookPeriodUs;
   links_.update();
   for (std::size_t i = 0; i < interfaces_.size(); ++i) {
-    interfaces_[i]->maintain(links_.link(i));
+    interfaces_[i]->maintain(links_.link(interfaces_[i]->name()));
   }
 }
 

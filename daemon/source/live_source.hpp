@@ -45,6 +45,12 @@ class LiveSource final : public FrameSource {
   /// a short rest, they are read together after it, instead of one wake-up each.
   void expect(std::size_t frames) { expected_frames_ = frames; }
 
+  /// The interface of an entry that had none (kAutoInterface) is known. Returns the entry that has
+  /// its frames from now on: where others are on that interface, theirs.
+  std::uint8_t attach(std::uint8_t interface, const std::string& name);
+
+  [[nodiscard]] const LinkWatch& links() const { return links_; }
+
   /// errno, or 0.
   int send(std::uint8_t interface, const CanFrame& frame);
 

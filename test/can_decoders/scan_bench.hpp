@@ -15,7 +15,8 @@ namespace cremed::test {
 inline constexpr std::int64_t kTimeoutUs = 50'000;
 
 /// A radar family without bytes to decode: the first byte of each payload is a value that the
-/// detection hands on, and 255 in the first message marks an empty slot.
+/// detection hands on (of the first message and the last), and 255 in the first marks an empty
+/// slot.
 class PlainDecoder final : public RadarDecoder {
  public:
   explicit PlainDecoder(const ScanFraming& framing) : framing_(framing) {}
@@ -24,9 +25,10 @@ class PlainDecoder final : public RadarDecoder {
   [[nodiscard]] ScanFraming framing() const override { return framing_; }
   [[nodiscard]] RadarHealth health() const override { return {}; }
   [[nodiscard]] Detection detection(const TargetPayload& target) const override {
-    return {.range_m = static_cast<double>(target.first[0]),
-            .range_std_m = static_cast<double>(target.second[0]),
-            .validity = target.first[0] == 255 ? Validity::empty : Validity::usable};
+    return {.range_m = static_cast<double>(target[0][0]),
+            .range_std_m = static_cast<double>(
+                target[std::min<std::size_t>(framing_.messages, kMaxMessages) - 1][0]),
+            .validity = target[0][0] == 255 ? Validity::empty : Validity::usable};
   }
 
  private:
@@ -44,11 +46,19 @@ class ScanBench {
   void header(std::uint16_t counter, std::uint16_t target_count) {
     add({.kind = ScanPart::Kind::header, .counter = counter, .target_count = target_count});
   }
+  void message(std::uint8_t number, std::uint8_t slot, std::uint8_t value = 1,
+               std::uint16_t counter = 0) {
+    add({.kind = ScanPart::Kind::target,
+         .message = number,
+         .slot = slot,
+         .counter = counter,
+         .payload = {value}});
+  }
   void first(std::uint8_t slot, std::uint8_t value = 1, std::uint16_t counter = 0) {
-    add({.kind = ScanPart::Kind::first, .slot = slot, .counter = counter, .payload = {value}});
+    message(0, slot, value, counter);
   }
   void second(std::uint8_t slot, std::uint8_t value = 1, std::uint16_t counter = 0) {
-    add({.kind = ScanPart::Kind::second, .slot = slot, .counter = counter, .payload = {value}});
+    message(1, slot, value, counter);
   }
   /// Header, all first and all second messages of slots 0..count-1.
   void list(std::uint16_t counter, std::uint16_t count) {

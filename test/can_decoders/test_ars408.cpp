@@ -40,25 +40,25 @@ TEST_CASE("Target messages become parts of the slot their id names") {
   struct Row {
     Ars408Output output;
     std::string frame;
-    Kind kind;
+    std::uint8_t message;
     std::uint8_t slot;
     Payload payload;
   };
   const std::vector<Row> rows = {
       {Ars408Output::clusters,
        "701#C86D625880200180",
-       Kind::first,
+       0,
        200,
        {0xC8, 0x6D, 0x62, 0x58, 0x80, 0x20, 0x01, 0x80}},
-      {Ars408Output::clusters, "702#0508888671", Kind::second, 5, {0x05, 0x08, 0x88, 0x86, 0x71}},
+      {Ars408Output::clusters, "702#0508888671", 1, 5, {0x05, 0x08, 0x88, 0x86, 0x71}},
       {Ars408Output::objects,
        "60B#384F04028020019C",
-       Kind::first,
+       0,
        56,
        {0x38, 0x4F, 0x04, 0x02, 0x80, 0x20, 0x01, 0x9C}},
       {Ars408Output::objects,
        "60C#3884A33A0220E8",
-       Kind::second,
+       1,
        56,
        {0x38, 0x84, 0xA3, 0x3A, 0x02, 0x20, 0xE8}},
   };
@@ -66,7 +66,8 @@ TEST_CASE("Target messages become parts of the slot their id names") {
     INFO(row.frame);
     Ars408Decoder decoder({.output = row.output});
     const ScanPart part = decoder.decode(hex_frame(row.frame, 99));
-    CHECK(part.kind == row.kind);
+    CHECK(part.kind == Kind::target);
+    CHECK(part.message == row.message);
     CHECK(part.slot == row.slot);
     CHECK(part.payload == row.payload);
     CHECK(part.stamp_us == 99);
@@ -77,7 +78,7 @@ TEST_CASE("Target messages become parts of the slot their id names") {
 TEST_CASE("Bytes past the layout are not part of the payload") {
   Ars408Decoder decoder({});
   const ScanPart part = decoder.decode(hex_frame("702#0508888671AABBCC"));
-  CHECK(part.kind == Kind::second);
+  CHECK(part.message == 1);
   CHECK(part.payload == Payload{0x05, 0x08, 0x88, 0x86, 0x71});
 }
 
@@ -197,7 +198,7 @@ TEST_CASE("A frame that claims more bytes than it can hold is read within bounds
   Ars408Decoder decoder({});
   CanFrame frame = hex_frame("701#004E81FC80200147");
   frame.length = 255;
-  CHECK(decoder.decode(frame).kind == Kind::first);
+  CHECK(decoder.decode(frame).kind == Kind::target);
 }
 
 }  // namespace

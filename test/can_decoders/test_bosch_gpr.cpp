@@ -158,8 +158,8 @@ TargetPayload target(const char* a, const char* b) {
   TargetPayload target;
   const CanFrame frame_a = hex_frame(a);
   const CanFrame frame_b = hex_frame(b);
-  std::copy_n(frame_a.data.begin(), 8, target.first.begin());
-  std::copy_n(frame_b.data.begin(), 8, target.second.begin());
+  std::copy_n(frame_a.data.begin(), 8, target[0].begin());
+  std::copy_n(frame_b.data.begin(), 8, target[1].begin());
   return target;
 }
 

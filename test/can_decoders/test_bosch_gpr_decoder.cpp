@@ -23,7 +23,8 @@ TEST_CASE("Every identifier of the radar is a slot") {
     for (const bool is_a : {true, false}) {
       const CanFrame frame = GprFrame{.slot = slot, .is_a = is_a, .counter = 2}.at(55);
       const ScanPart part = decoder.decode(frame);
-      CHECK(part.kind == (is_a ? Kind::first : Kind::second));
+      CHECK(part.kind == Kind::target);
+      CHECK(part.message == (is_a ? 0 : 1));
       CHECK(part.slot == slot);
       CHECK(part.counter == 2);
       CHECK(part.stamp_us == 55);
@@ -112,7 +113,7 @@ TEST_CASE("The checksum policy decides about a wrong checksum") {
                          Row{CrcPolicy::enforce, 1, false}}) {
     BoschGprDecoder decoder({.crc_policy = row.policy});
     INFO(static_cast<int>(row.policy));
-    CHECK((decoder.decode(hex_frame("200#01500000000060D2")).kind == Kind::first) == row.used);
+    CHECK((decoder.decode(hex_frame("200#01500000000060D2")).kind == Kind::target) == row.used);
     CHECK(decoder.counters().crc_errors == row.errors);
     decoder.decode(hex_frame("100#B4070000000000DA"));
     CHECK(decoder.info().has_value() == row.used);
@@ -130,7 +131,7 @@ TEST_CASE("A message's own counter shows loss and drops nothing") {
   BoschGprDecoder decoder({.crc_policy = CrcPolicy::enforce});
   for (const auto& [frame, errors] : sequence) {
     INFO(frame);
-    CHECK(decoder.decode(hex_frame(frame)).kind == Kind::first);
+    CHECK(decoder.decode(hex_frame(frame)).kind == Kind::target);
     CHECK(decoder.counters().counter_errors == errors);
   }
 }
@@ -174,6 +175,7 @@ TEST_CASE("A scan of the GPR is 48 slots without a header") {
   CHECK_FALSE(framing.has_header);
   CHECK(framing.counter_modulus == 4);
   CHECK(framing.slot_count == 48);
+  CHECK(framing.messages == 2);
 }
 
 }  // namespace

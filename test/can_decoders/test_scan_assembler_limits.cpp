@@ -9,7 +9,7 @@
 namespace cremed::test {
 namespace {
 
-const ScanFraming kWithHeader{true, 65536, 256};
+const ScanFraming kWithHeader{true, 65536, 256, 2};
 
 TEST_CASE("256 targets fit") {
   ScanBench bench(kWithHeader);

@@ -8,7 +8,7 @@ namespace cremed::test {
 namespace {
 
 // Without header; four slots are enough to see everything.
-const ScanFraming kSlots{false, 4, 4};
+const ScanFraming kSlots{false, 4, 4, 2};
 
 void burst(ScanBench& bench, std::uint16_t counter, std::uint8_t from = 0, std::uint8_t to = 4) {
   for (std::uint8_t slot = from; slot < to; ++slot) {

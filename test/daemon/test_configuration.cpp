@@ -4,10 +4,10 @@
 #include <clocale>
 #include <locale>
 #include <string>
-#include <variant>
 
 #include <catch2/catch.hpp>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
@@ -23,7 +23,7 @@ TEST_CASE("required keys alone give the defaults of the structs") {
   CHECK(radar.name == "front");
   CHECK(radar.interface == "can0");
   CHECK(radar.scan_timeout_s == RadarConfiguration{}.scan_timeout_s);
-  const auto& decoder = std::get<Ars408Options>(radar.decoder);
+  const auto& decoder = *radar.decoder.as<Ars408Options>();
   CHECK(decoder.keep_invalid_states == Ars408Options{}.keep_invalid_states);
   CHECK(radar.ego_motion.vehicle_from_radar.x_m == 3.4);
   CHECK(radar.ego_motion.vehicle_from_radar.y_m == -0.5);
@@ -52,7 +52,7 @@ calibration.doppler_std_factor = 2.5
 )");
   const RadarConfiguration& radar = configuration.radars.at(0);
   CHECK(radar.scan_timeout_s == 0.04);
-  const auto& decoder = std::get<Ars408Options>(radar.decoder);
+  const auto& decoder = *radar.decoder.as<Ars408Options>();
   CHECK(decoder.sensor_id == 7);
   CHECK(decoder.output == Ars408Output::objects);
   CHECK(decoder.keep_invalid_states == 0x80000001U);
@@ -111,7 +111,7 @@ invert_azimuth = true
 invert_doppler = true
 min_existence = 0.5
 )");
-  const auto& decoder = std::get<BoschGprOptions>(configuration.radars.at(0).decoder);
+  const auto& decoder = *configuration.radars.at(0).decoder.as<BoschGprOptions>();
   CHECK(decoder.base_id == 0x300);
   CHECK(decoder.info_id == 0x101);
   CHECK(decoder.crc_policy == CrcPolicy::enforce);

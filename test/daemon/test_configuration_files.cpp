@@ -10,12 +10,12 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
@@ -26,9 +26,9 @@ const std::string kFolder = CREMED_SOURCE_DIR "/config/";
 
 // Structured bindings: a field that is added to a struct and not here does not compile.
 void write(std::ostream& out, const Ars408Options& options) {
-  const auto& [sensor_id, output, states, dyn_props, existence] = options;
+  const auto& [sensor_id, output, states, dyn_props, existence, feedback] = options;
   out << "ars408 " << int{sensor_id} << ' ' << static_cast<int>(output) << ' ' << states << ' '
-      << int{dyn_props} << ' ' << int{existence} << '\n';
+      << int{dyn_props} << ' ' << int{existence} << ' ' << feedback << '\n';
 }
 
 void write(std::ostream& out, const BoschGprOptions& options) {
@@ -71,10 +71,13 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
 std::string text_of(const RadarConfiguration& radar) {
   std::ostringstream out;
   out.precision(17);
-  const auto& [name, interface, decoder, feedback, timeout, stamp_offset, ego_motion] = radar;
-  out << name << ' ' << interface << ' ' << feedback << ' ' << timeout << ' ' << stamp_offset
-      << '\n';
-  std::visit([&](const auto& options) { write(out, options); }, decoder);
+  const auto& [name, interface, decoder, timeout, stamp_offset, ego_motion] = radar;
+  out << name << ' ' << interface << ' ' << timeout << ' ' << stamp_offset << '\n';
+  if (const auto* ars408 = decoder.as<Ars408Options>()) {
+    write(out, *ars408);
+  } else {
+    write(out, *decoder.as<BoschGprOptions>());
+  }
   write(out, ego_motion);
   return out.str();
 }

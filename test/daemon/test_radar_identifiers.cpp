@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/radar_channel.hpp"
@@ -46,25 +47,26 @@ IdSet decoded_ids(const RadarConfiguration& radar) {
 TEST_CASE("What is let through is what the decoder takes, no more and no less") {
   for (const auto& radar : {ars408(0, Ars408Output::clusters), ars408(7, Ars408Output::objects),
                             ars408(3, Ars408Output::clusters), gpr()}) {
-    CHECK(sent_ids(radar) == decoded_ids(radar));
+    CHECK(radar.decoder.sent_ids() == decoded_ids(radar));
   }
 }
 
 TEST_CASE("An ARS408 also uses the identifiers it obeys") {
-  const IdSet commands =
-      used_ids(ars408(2, Ars408Output::clusters)) & ~sent_ids(ars408(2, Ars408Output::clusters));
+  const RadarConfiguration radar = ars408(2, Ars408Output::clusters);
+  const IdSet commands = used_ids(radar) & ~radar.decoder.sent_ids();
   CHECK(commands.count() == 6);
   CHECK(commands[0x220]);
   CHECK(commands[0x321]);
-  CHECK(used_ids(gpr()) == sent_ids(gpr()));
+  CHECK(used_ids(gpr()) == gpr().decoder.sent_ids());
 }
 
 TEST_CASE("Radars that share a bus share its list; others do not matter") {
-  const std::vector<RadarConfiguration> radars = {ars408(0, Ars408Output::clusters), gpr(),
-                                                  ars408(1, Ars408Output::clusters)};
-  const auto ids = ids_on("can0", radars);
+  Configuration configuration;
+  configuration.radars = {ars408(0, Ars408Output::clusters), gpr(),
+                          ars408(1, Ars408Output::clusters)};
+  const auto ids = ids_on(0, configuration);
   CHECK(ids.size() == 2 * kArs408Messages.size());
   CHECK(std::is_sorted(ids.begin(), ids.end()));
-  CHECK(ids_on("can1", radars).size() == kGprTargetIds + 1);
-  CHECK(ids_on("can2", radars).empty());
+  CHECK(ids_on(1, configuration).size() == kGprTargetIds + 1);
+  CHECK(ids_on(2, configuration).empty());
 }

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/report/report.hpp"
 
@@ -229,7 +230,7 @@ TEST_CASE("A speed by positions that is not Doppler's is named with its causes")
 
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {
   RadarConfiguration radar = front();
-  std::get<Ars408Options>(radar.decoder).keep_dyn_props = 0xFF;
+  radar.decoder.as<Ars408Options>()->keep_dyn_props = 0xFF;
   RadarStatus status = healthy();
   status.health.faults = RadarHealth::speed_missing | RadarHealth::yaw_rate_missing;
   CHECK(radar_findings(radar, status).empty());

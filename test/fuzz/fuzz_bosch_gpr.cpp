@@ -57,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ScanPart part = decoder.decode(frame);
     parts += part.kind != ScanPart::Kind::none ? 1 : 0;
     check(part.slot < kBoschGprSlots && part.counter < 4);
-    (part.kind == ScanPart::Kind::second ? target.second : target.first) = part.payload;
+    check(part.message < decoder.framing().messages);
+    target[part.message] = part.payload;
     fuzz::check_detection(decoder.detection(target));
     check_messages(std::span(frame.data).first(std::min<std::size_t>(frame.length, 64)));
   }

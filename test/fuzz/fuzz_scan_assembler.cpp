@@ -80,13 +80,13 @@ class Bench {
   void check_counters() const {
     const AssemblerCounters& c = assembler_.counters();
     check(c.scans == scans_ && c.incomplete_scans == incomplete_ && c.empty_scans == empty_);
-    check(c.timeouts <= c.incomplete_scans && c.missing_parts <= 2 * announced_);
+    check(c.timeouts <= c.incomplete_scans && c.missing_parts <= framing_.messages * announced_);
     // Nothing is open now: each part was a header, went into a scan, or was refused.
     const std::uint64_t headers =
         framing_.has_header ? c.scans + c.repeated_scans - c.headerless_scans : 0;
     check(c.headerless_scans <= c.incomplete_scans);
-    const std::uint64_t stored = 2 * announced_ - c.missing_parts;
-    check(2 * detections_ <= stored);
+    const std::uint64_t stored = framing_.messages * announced_ - c.missing_parts;
+    check(framing_.messages * detections_ <= stored);
     check(parts_ == headers + stored + c.duplicate_parts + c.conflicting_parts + c.excess_parts +
                         c.orphan_parts);
   }

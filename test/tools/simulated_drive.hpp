@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
@@ -30,17 +29,13 @@ inline const Scenario& scenario(std::string_view name) {
 }
 
 inline RadarConfiguration radar(const std::string& name, const std::string& interface,
-                                const Pose2& vehicle_from_radar,
-                                const std::variant<Ars408Options, BoschGprOptions>& decoder) {
+                                const Pose2& vehicle_from_radar, const RadarSettings& decoder) {
   RadarConfiguration result;
   result.name = name;
   result.interface = interface;
   result.decoder = decoder;
   result.ego_motion.vehicle_from_radar = vehicle_from_radar;
-  const auto* ars408 = std::get_if<Ars408Options>(&decoder);
-  if (ars408 != nullptr && ars408->output == Ars408Output::clusters) {
-    result.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-  }
+  result.ego_motion.correction.rotation_lead_s = decoder.rotation_lead_s().value_or(0.0);
   return result;
 }
 
@@ -89,13 +84,6 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   return result;
 }
 
-inline std::unique_ptr<RadarDecoder> decoder_of(const RadarConfiguration& radar) {
-  if (const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder)) {
-    return std::make_unique<Ars408Decoder>(*ars408);
-  }
-  return std::make_unique<BoschGprDecoder>(std::get<BoschGprOptions>(radar.decoder));
-}
-
 /// What the daemon would make of the log for one radar.
 struct DecodedRadar {
   std::vector<RadarScan> scans;
@@ -104,7 +92,7 @@ struct DecodedRadar {
 };
 
 inline DecodedRadar decode(const std::string& log, const RadarConfiguration& radar) {
-  const auto decoder = decoder_of(radar);
+  const auto decoder = radar.decoder.make_decoder();
   ScanAssembler assembler(*decoder, 50'000);
   DecodedRadar result;
   const auto take = [&] {

@@ -57,6 +57,27 @@ TEST_CASE("cremed-doctor: findings are one a line, the status says that there ar
   CHECK_THAT(lossy.output, Catch::StartsWith("warning: front: 8 of 41 scans are not whole"));
 }
 
+TEST_CASE("cremed-doctor: a log shows the interfaces that are to be found") {
+  const TemporaryFolder folder;
+  const auto changed = [&](const std::string& change) {
+    REQUIRE(std::system(
+                ("sed '" + change + "' " + kData + "bends.toml >" + folder.file("toml")).c_str()) ==
+            0);
+    return doctor(folder, "--config " + folder.file("toml") + " --replay " + kData + "bends.log");
+  };
+  const ToolRun found = changed("s/^interface = .*/interface = \"auto\"/");
+  CHECK(found.status == 0);
+  CHECK_THAT(found.output, Catch::StartsWith("good: front: 13."));
+  CHECK_THAT(found.output, Catch::Contains("\ngood: rear: 10."));
+  const ToolRun absent = changed("0,/^interface = .*/s//interface = \"auto\"\\nsensor_id = 4/");
+  CHECK(absent.status == 1);
+  CHECK_THAT(absent.output,
+             Catch::StartsWith("error: front: no CAN interface shows an ARS408 with sensor id 4 "
+                               "(can0: an ARS408 with sensor id 0; can1: a Bosch GPR with base id "
+                               "0x200); check "));
+  CHECK_THAT(absent.output, Catch::Contains("\nrear: 10."));
+}
+
 TEST_CASE("cremed-doctor: lost frames that the log itself reports") {
   const TemporaryFolder folder;
   const ToolRun result = doctor_of_filtered(

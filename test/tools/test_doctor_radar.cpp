@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <variant>
 
 #include <catch2/catch.hpp>
 
@@ -25,7 +24,7 @@ struct Case {
 };
 
 Ars408Options& front_options(Configuration& configuration) {
-  return std::get<Ars408Options>(configuration.radars[0].decoder);
+  return *configuration.radars[0].decoder.as<Ars408Options>();
 }
 
 /// Each n-th frame of the identifier is lost.

@@ -6,7 +6,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/doctor/seen_radar.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/radar_family.hpp"
+#include "tools/doctor/bus_observation.hpp"
 
 using namespace cremed;
 
@@ -27,8 +30,8 @@ std::vector<std::string> seen(const std::vector<Ids>& traffic) {
     }
   }
   std::vector<std::string> names;
-  for (const SeenRadar& radar : seen_radars(bus)) {
-    names.push_back(to_text(radar));
+  for (const RadarSettings& radar : seen_radars(bus.traffic)) {
+    names.push_back(radar.describe());
   }
   return names;
 }
@@ -64,19 +67,36 @@ TEST_CASE("Identifiers and lengths give radars away") {
   CHECK(seen(row.traffic) == row.radars);
 }
 
+/// The contents of a state report tell an ARS408 from what else has its identifier.
+TEST_CASE("A state report names its sensor and comes once a second") {
+  const auto names = [](std::uint8_t named_id, std::int64_t period_us) {
+    BusObservation bus;
+    for (int i = 0; i < 4; ++i) {
+      CanFrame frame{.stamp_us = i * period_us, .id = 0x211, .length = 8};
+      frame.data[4] = named_id;
+      bus.add(frame);
+    }
+    return seen_radars(bus.traffic).size();
+  };
+  CHECK(names(1, 1'000'000) == 1);
+  CHECK(names(1, 0) == 1);
+  CHECK(names(1, 100'000) == 0);
+  CHECK(names(2, 1'000'000) == 0);
+}
+
 TEST_CASE("Only classic data frames count") {
   BusObservation bus;
   bus.add({.id = 0x201, .length = 8, .extended = true});
   bus.add({.id = 0x201, .length = 8, .remote = true});
   bus.add({.id = 0x201, .length = 8, .fd = true});
   bus.add({.id = 0x201, .length = 8, .error = true});
-  CHECK(seen_radars(bus).empty());
+  CHECK(seen_radars(bus.traffic).empty());
   CHECK(bus.foreign_frames == 3);
   CHECK(bus.status.frames == 3);
   CHECK(bus.status.error_frames == 1);
 }
 
 TEST_CASE("Keys to set") {
-  CHECK(key_of({SeenRadar::Kind::ars408, 3}) == "sensor_id = 3");
-  CHECK(key_of({SeenRadar::Kind::bosch_gpr, 0x260}) == "base_id = 0x260");
+  CHECK(RadarSettings(Ars408Options{.sensor_id = 3}).key() == "sensor_id = 3");
+  CHECK(RadarSettings(BoschGprOptions{.base_id = 0x260}).key() == "base_id = 0x260");
 }

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "test/tools/doctor_bench.hpp"
-#include "tools/doctor/seen_radar.hpp"
 #include "tools/doctor/suggestion.hpp"
 
 using namespace cremed;
@@ -46,25 +43,22 @@ std::string filled_in(std::string text) {
 }
 
 /// Interface and radar of each table, once the gaps are filled in.
-std::vector<std::pair<std::string, SeenRadar>> radars_in(const std::string& suggestion) {
-  std::vector<std::pair<std::string, SeenRadar>> radars;
+std::vector<std::string> radars_in(const std::string& suggestion) {
+  std::vector<std::string> radars;
   for (const RadarConfiguration& radar :
        parse_configuration(filled_in(suggestion), "suggested.toml").radars) {
-    radars.emplace_back(radar.interface, expected_radar(radar));
+    radars.push_back(radar.interface + ": " + radar.decoder.describe());
     CHECK(radar.ego_motion.vehicle_from_radar.yaw_rad == 0.5);
   }
   return radars;
 }
-
-constexpr auto kArs408 = SeenRadar::Kind::ars408;
-constexpr auto kGpr = SeenRadar::Kind::bosch_gpr;
 
 }  // namespace
 
 TEST_CASE("One ARS408 is suggested, and its mount has to be filled in") {
   const std::string text = suggested(recording_of({ars408("a", "can0", 0)}));
   CAPTURE(text);
-  CHECK(radars_in(text) == std::vector{std::pair{std::string("can0"), SeenRadar{kArs408, 0}}});
+  CHECK(radars_in(text) == std::vector<std::string>{"can0: an ARS408 with sensor id 0"});
   try {
     parse_configuration(text, "suggested.toml");
     FAIL("a mount that nobody filled in was accepted");
@@ -83,11 +77,11 @@ TEST_CASE("Five ARS408 on two buses are suggested with their ids") {
       recording_of({ars408("a", "can1", 0), ars408("b", "can0", 0), ars408("c", "can0", 3),
                     ars408("d", "can1", 1), ars408("e", "can1", 7)}));
   CAPTURE(text);
-  CHECK(radars_in(text) == std::vector<std::pair<std::string, SeenRadar>>{{"can0", {kArs408, 0}},
-                                                                          {"can0", {kArs408, 3}},
-                                                                          {"can1", {kArs408, 0}},
-                                                                          {"can1", {kArs408, 1}},
-                                                                          {"can1", {kArs408, 7}}});
+  CHECK(radars_in(text) == std::vector<std::string>{"can0: an ARS408 with sensor id 0",
+                                                    "can0: an ARS408 with sensor id 3",
+                                                    "can1: an ARS408 with sensor id 0",
+                                                    "can1: an ARS408 with sensor id 1",
+                                                    "can1: an ARS408 with sensor id 7"});
 }
 
 TEST_CASE("A GPR is suggested with its base id") {
@@ -95,7 +89,7 @@ TEST_CASE("A GPR is suggested with its base id") {
   gpr.decoder = BoschGprOptions{.base_id = 0x480};
   const std::string text = suggested(recording_of({gpr}));
   CAPTURE(text);
-  CHECK(radars_in(text) == std::vector{std::pair{std::string("can1"), SeenRadar{kGpr, 0x480}}});
+  CHECK(radars_in(text) == std::vector<std::string>{"can1: a Bosch GPR with base id 0x480"});
 }
 
 TEST_CASE("An ARS408 that sends objects, or nothing, is suggested with what sets it right") {

@@ -12,7 +12,6 @@
 #include <numbers>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -110,7 +109,7 @@ std::vector<Fault> faults() {
   return {
       {"sign of Doppler", kRear,
        [](RadarConfiguration& radar) {
-         std::get<BoschGprOptions>(radar.decoder).invert_doppler = true;
+         radar.decoder.as<BoschGprOptions>()->invert_doppler = true;
        },
        kWrong | positions_contradict_speed, by_both},
       {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong, by_both},

@@ -101,7 +101,7 @@ TEST_CASE("without a configuration the radars are those of the demo") {
     const cremed::Pose2& expected_mount = expected[i].ego_motion.vehicle_from_radar;
     CHECK(radars[i].name == expected[i].name);
     CHECK(radars[i].interface == expected[i].interface);
-    CHECK(radars[i].decoder.index() == expected[i].decoder.index());
+    CHECK(radars[i].decoder.is_same_radar(expected[i].decoder));
     CHECK(mount.x_m == expected_mount.x_m);
     CHECK(mount.y_m == expected_mount.y_m);
     CHECK(mount.yaw_rad == expected_mount.yaw_rad);

@@ -218,7 +218,7 @@ TEST_CASE(
   CHECK(slope(all, yaw_rate, azimuth_error, turns_left) == Approx(0.0).margin(0.004));
   CHECK(slope(all, yaw_rate, azimuth_error, turns_right) == Approx(0.0).margin(0.004));
 
-  const auto decoder = decoder_of(drive.radars[0]);
+  const auto decoder = drive.radars[0].decoder.make_decoder();
   for (const CanFrame& frame : drive.frames) decoder->decode(frame);
   CHECK((decoder->health().faults & RadarHealth::speed_missing) != 0);
   CHECK((decoder->health().faults & RadarHealth::yaw_rate_missing) != 0);

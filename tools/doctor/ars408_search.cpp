@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <variant>
 #include <vector>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/process/message_text.hpp"
-#include "tools/doctor/seen_radar.hpp"
 
 namespace cremed {
 namespace {
@@ -17,14 +16,14 @@ namespace {
 std::string text(std::uint8_t sensor_id) { return std::to_string(sensor_id); }
 
 std::uint8_t configured_id(const RadarConfiguration& radar) {
-  return std::get<Ars408Options>(radar.decoder).sensor_id;
+  return radar.decoder.as<Ars408Options>()->sensor_id;
 }
 
 /// The radar of the configuration that has this id on the same bus; null if it is this one or none.
 const RadarConfiguration* other_radar(std::uint8_t sensor_id, const Configuration& configuration,
                                       const RadarConfiguration& radar) {
   for (const RadarConfiguration& other : configuration.radars) {
-    const auto* options = std::get_if<Ars408Options>(&other.decoder);
+    const auto* options = other.decoder.as<Ars408Options>();
     if (options != nullptr && other.name != radar.name && other.interface == radar.interface &&
         options->sensor_id == sensor_id) {
       return &other;
@@ -34,9 +33,10 @@ const RadarConfiguration* other_radar(std::uint8_t sensor_id, const Configuratio
 }
 
 bool has_gpr(const BusObservation& bus) {
-  const std::vector<SeenRadar> radars = seen_radars(bus);
-  return std::any_of(radars.begin(), radars.end(),
-                     [](const SeenRadar& seen) { return seen.kind == SeenRadar::Kind::bosch_gpr; });
+  const std::vector<RadarSettings> radars = seen_radars(bus.traffic);
+  return std::any_of(radars.begin(), radars.end(), [](const RadarSettings& seen) {
+    return seen.as<BoschGprOptions>() != nullptr;
+  });
 }
 
 bool is_set_alike(const Ars408RadarState& a, const Ars408RadarState& b) {

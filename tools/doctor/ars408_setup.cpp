@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
@@ -142,7 +141,7 @@ TalkResult set_up_ars408(const Ars408Talk& talk, const Ars408Setup& setup) {
     return TalkResult::not_sent;
   }
   const Ars408RadarState wanted =
-      wanted_state(std::get<Ars408Options>(talk.radar.decoder), setup, met->state);
+      wanted_state(*talk.radar.decoder.as<Ars408Options>(), setup, met->state);
   const std::vector<Setting> settings = settings_of(setup);
   if (!setup.store && is_as_wanted(settings, wanted, met->state)) {
     talk.out << "It is set so already; nothing was sent.\n";

@@ -3,11 +3,11 @@
 #include "tools/doctor/bus_observation.hpp"
 
 #include <algorithm>
-#include <span>
+#include <cstddef>
 
 #include <linux/can/error.h>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "daemon/process/message_text.hpp"
 #include "daemon/source/can_error.hpp"
 
 namespace cremed {
@@ -21,15 +21,6 @@ void BusObservation::note_stamp(std::int64_t stamp_us) {
   last_stamp_us = stamp_us;
 }
 
-void BusObservation::note_state(const CanFrame& frame) {
-  if (ars408_base_id(frame.id) == static_cast<std::uint32_t>(Ars408Message::radar_state)) {
-    const std::uint8_t sensor = ars408_sensor_id(frame.id);
-    const auto report = decode_ars408_radar_state(std::span(frame.data).first(frame.length));
-    const bool is_own = state_watches_[sensor].is_own(sensor, report, frame.stamp_us);
-    ars408_states[sensor] += is_own ? 1 : 0;
-  }
-}
-
 void BusObservation::add(const CanFrame& frame) {
   note_stamp(frame.stamp_us);
   if (frame.error) {
@@ -39,14 +30,28 @@ void BusObservation::add(const CanFrame& frame) {
     return;
   }
   ++status.frames;
-  if (!frame.is_classic_data() || frame.id >= ids.size()) {
+  if (!frame.is_classic_data() || frame.id >= traffic.ids.size()) {
     ++foreign_frames;
     return;
   }
-  IdObservation& id = ids[frame.id];
-  ++id.frames;
-  id.length = frame.length;
-  note_state(frame);
+  traffic.add(frame);
+}
+
+std::string seen_ids(const BusObservation& bus) {
+  constexpr std::size_t kMaxNamed = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t id = 0; id < bus.traffic.ids.size(); ++id) {
+    if (bus.traffic.ids[id].frames != 0 && ++count <= kMaxNamed) {
+      text += concat({count == 1 ? "" : ", ", hexadecimal(id)});
+    }
+  }
+  text += count > kMaxNamed ? concat({" and ", std::to_string(count - kMaxNamed), " more"}) : "";
+  if (bus.foreign_frames != 0) {
+    text += concat({text.empty() ? "" : ", ", std::to_string(bus.foreign_frames),
+                    " extended, remote or FD frames"});
+  }
+  return text;
 }
 
 }  // namespace cremed

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "cremed/can_decoders/ars408_state_watch.hpp"
+#include "cremed/can_decoders/bus_traffic.hpp"
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/source/bus_status.hpp"
 
@@ -23,12 +22,6 @@ enum class InterfaceState : std::uint8_t {
   failed,   ///< The kernel refused a socket.
 };
 
-/// What one identifier carried.
-struct IdObservation {
-  std::uint64_t frames = 0;
-  std::uint8_t length = 0;  ///< Of the last frame.
-};
-
 /// Everything seen of one bus.
 struct BusObservation {
   std::string interface;
@@ -42,17 +35,15 @@ struct BusObservation {
   std::uint64_t stamps_back = 0;      ///< Frames that are stamped before the one they follow.
   std::int64_t longest_back_us = 0;   ///< The longest of these steps.
   std::optional<std::int64_t> last_stamp_us;
-  std::array<IdObservation, 0x800> ids{};
-  /// Frames with the identifier of a 0x201 that are one, by sensor id.
-  std::array<std::uint64_t, 8> ars408_states{};
+  BusTraffic traffic;
 
   void add(const CanFrame& frame);
 
  private:
   void note_stamp(std::int64_t stamp_us);
-  void note_state(const CanFrame& frame);
-
-  std::array<Ars408StateWatch, 8> state_watches_{};
 };
+
+/// The first identifiers on a bus, and what else is on it: "0x123, 0x124".
+std::string seen_ids(const BusObservation& bus);
 
 }  // namespace cremed

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +15,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/output/multicast_route.hpp"
 #include "daemon/process/plain_streams.hpp"
@@ -29,6 +29,7 @@
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/diagnosis_json.hpp"
+#include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/suggestion.hpp"
@@ -132,11 +133,16 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   return observation;
 }
 
-int run_diagnosis(const Arguments& arguments, const Configuration& configuration) {
+int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
   // Live, a signal ends the listening; of a log it ends the doctor.
-  const Observation observation =
-      observe(arguments, configuration, arguments.replay.empty() ? handle_stop_signals() : nullptr);
-  const std::vector<Finding> findings = diagnose(configuration, observation);
+  const auto* const stop = arguments.replay.empty() ? handle_stop_signals() : nullptr;
+  const LocatedRadars located =
+      stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
+  const Configuration& configuration = located.configuration;
+  const Observation observation = observe(arguments, configuration, stop);
+  std::vector<Finding> findings = located.findings;
+  const std::vector<Finding> diagnosed = diagnose(configuration, observation);
+  findings.insert(findings.end(), diagnosed.begin(), diagnosed.end());
   const bool all_well = is_well(findings);
   if (arguments.is_json) {
     std::cout << diagnosis_json(configuration, observation, findings) << '\n';
@@ -171,7 +177,7 @@ const RadarConfiguration& ars408_named(const std::string& name,
                                        const Configuration& configuration) {
   std::string names;
   for (const RadarConfiguration& radar : configuration.radars) {
-    if (std::holds_alternative<Ars408Options>(radar.decoder)) {
+    if (radar.decoder.as<Ars408Options>() != nullptr) {
       if (radar.name == name) {
         return radar;
       }
@@ -215,10 +221,28 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   return false;
 }
 
-int run_talk(const Arguments& arguments, const Configuration& configuration) {
+/// Where that radar is. Of the others nothing is said.
+LocatedRadars locate_asked(const std::string& name, const Configuration& configuration) {
+  if (!is_auto(ars408_named(name, configuration))) {
+    return {configuration, {}};
+  }
+  const volatile std::sig_atomic_t stop = 0;  // A signal ends the doctor.
+  LocatedRadars located = locate_live(configuration, &stop);
+  std::erase_if(located.findings,
+                [&](const Finding& finding) { return !finding.what.starts_with(name + ": "); });
+  return located;
+}
+
+int run_talk(const Arguments& arguments, const Configuration& asked) {
   const std::vector<Ars408FilterState> filters = filters_of(arguments);
-  const RadarConfiguration& radar =
-      ars408_named(arguments.ars408 + arguments.filtered, configuration);
+  const std::string& name = arguments.ars408 + arguments.filtered;
+  const LocatedRadars located = locate_asked(name, asked);
+  std::for_each(located.findings.begin(), located.findings.end(), print);
+  if (!located.findings.empty()) {
+    return failure;
+  }
+  const Configuration& configuration = located.configuration;
+  const RadarConfiguration& radar = ars408_named(name, configuration);
   CanSocket socket;
   if (!open_bus(radar.interface, socket)) {
     return failure;

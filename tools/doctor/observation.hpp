@@ -14,7 +14,7 @@ namespace cremed {
 /// The scans of one radar that were not whole: what their headers announced, what came.
 struct IncompleteScans {
   std::uint64_t announced_targets = 0;
-  std::uint64_t whole_targets = 0;  ///< Both messages came.
+  std::uint64_t whole_targets = 0;  ///< All messages came.
   std::uint16_t most_announced = 0;
 };
 

@@ -8,11 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
-#include "daemon/configuration/radar_identifiers.hpp"
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/report/report.hpp"
-#include "tools/doctor/seen_radar.hpp"
 
 namespace cremed {
 namespace {
@@ -26,61 +25,70 @@ const BusObservation& bus_of(const RadarConfiguration& radar, const Observation&
                        [&](const auto& bus) { return bus.interface == radar.interface; });
 }
 
+void erase(const RadarSettings& radar, std::vector<RadarSettings>& radars) {
+  std::erase_if(radars, [&](const RadarSettings& other) { return other.is_same_radar(radar); });
+}
+
 /// Radars on a bus that no radar of the configuration is meant to be.
-std::vector<SeenRadar> unclaimed(const BusObservation& bus, const Configuration& configuration) {
-  std::vector<SeenRadar> radars = seen_radars(bus);
+std::vector<RadarSettings> unclaimed(const BusObservation& bus,
+                                     const Configuration& configuration) {
+  std::vector<RadarSettings> radars = seen_radars(bus.traffic);
   for (const RadarConfiguration& radar : configuration.radars) {
     if (radar.interface == bus.interface) {
-      std::erase(radars, expected_radar(radar));
+      erase(radar.decoder, radars);
     }
   }
   return radars;
 }
 
-bool contains(const std::vector<SeenRadar>& radars, const SeenRadar& wanted) {
-  return std::find(radars.begin(), radars.end(), wanted) != radars.end();
+bool contains(const std::vector<RadarSettings>& radars, const RadarSettings& wanted) {
+  return std::any_of(radars.begin(), radars.end(),
+                     [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
 }
 
 std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.name); }
 
 /// Another radar of the same kind is more likely than one of the other kind.
-std::optional<SeenRadar> most_likely(const std::vector<SeenRadar>& radars,
-                                     const SeenRadar& expected) {
-  for (const SeenRadar& radar : radars) {
-    if (radar.kind == expected.kind) {
+std::optional<RadarSettings> most_likely(const std::vector<RadarSettings>& radars,
+                                         const RadarSettings& expected) {
+  for (const RadarSettings& radar : radars) {
+    if (&radar.family() == &expected.family()) {
       return radar;
     }
   }
   return radars.empty() ? std::nullopt : std::optional(radars.front());
 }
 
-Finding other_radar(const RadarConfiguration& radar, const SeenRadar& expected,
-                    const SeenRadar& seen) {
-  const std::string what =
-      concat({"not ", to_text(expected), " but ", to_text(seen), " is on ", radar.interface});
-  if (seen.kind == expected.kind) {
+/// The command that gives an ARS408 the configured id.
+std::string sensor_id_command(const RadarConfiguration& radar, const Ars408Options& has) {
+  return concat({"`cremed-doctor --configure-ars408 ", radar.name, " --sensor-id ",
+                 number(has.sensor_id), "`"});
+}
+
+Finding other_radar(const RadarConfiguration& radar, const RadarSettings& seen) {
+  const std::string what = concat(
+      {"not ", radar.decoder.describe(), " but ", seen.describe(), " is on ", radar.interface});
+  if (&seen.family() == &radar.decoder.family()) {
+    const auto* const ars408 = seen.as<Ars408Options>();
     return {Severity::error, what,
-            concat({"set ", key_of(seen), " for radar ", quoted_name(radar),
-                    seen.kind == SeenRadar::Kind::ars408
-                        ? concat({", or give the sensor its id: `cremed-doctor --configure-ars408 ",
-                                  radar.name, " --sensor-id ", number(seen.number), "`"})
-                        : ""})};
+            concat({"set ", seen.key(), " for radar ", quoted_name(radar),
+                    ars408 == nullptr ? ""
+                                      : concat({", or give the sensor its id: ",
+                                                sensor_id_command(radar, *ars408)})})};
   }
-  return {
-      Severity::error, what,
-      concat({"set type = ", seen.kind == SeenRadar::Kind::ars408 ? "\"ars408\"" : "\"bosch_gpr\"",
-              " and ", key_of(seen), " for radar ", quoted_name(radar)})};
+  return {Severity::error, what,
+          concat({"set type = ", quoted(seen.family().type), " and ", seen.key(), " for radar ",
+                  quoted_name(radar)})};
 }
 
 /// Radars on a bus that may be the one that is missing there: none that another radar of the
 /// configuration is looking for.
-std::vector<SeenRadar> candidates(const Configuration& configuration,
-                                  const Observation& observation, const BusObservation& bus) {
-  std::vector<SeenRadar> radars = unclaimed(bus, configuration);
+std::vector<RadarSettings> candidates(const Configuration& configuration,
+                                      const Observation& observation, const BusObservation& bus) {
+  std::vector<RadarSettings> radars = unclaimed(bus, configuration);
   for (const RadarConfiguration& other : configuration.radars) {
-    const SeenRadar expected = expected_radar(other);
-    if (!contains(seen_radars(bus_of(other, observation)), expected)) {
-      std::erase(radars, expected);
+    if (!contains(seen_radars(bus_of(other, observation).traffic), other.decoder)) {
+      erase(other.decoder, radars);
     }
   }
   return radars;
@@ -90,12 +98,11 @@ std::vector<SeenRadar> candidates(const Configuration& configuration,
 Findings identify(const Configuration& configuration, const Observation& observation,
                   const RadarConfiguration& radar) {
   const BusObservation& bus = bus_of(radar, observation);
-  const SeenRadar expected = expected_radar(radar);
-  if (const auto seen = most_likely(candidates(configuration, observation, bus), expected)) {
-    return {other_radar(radar, expected, *seen)};
+  if (const auto seen = most_likely(candidates(configuration, observation, bus), radar.decoder)) {
+    return {other_radar(radar, *seen)};
   }
   return {{Severity::error,
-           concat({"frames on ", radar.interface, ", but none of ", to_text(expected), ": ",
+           concat({"frames on ", radar.interface, ", but none of ", radar.decoder.describe(), ": ",
                    seen_ids(bus)}),
            concat({"check that radar ", quoted_name(radar),
                    " has power and is on this bus, and its type, sensor_id or base_id"})}};
@@ -103,11 +110,11 @@ Findings identify(const Configuration& configuration, const Observation& observa
 
 /// Cluster or object lists without the message that says how good each target is.
 bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
-  const SeenRadar expected = expected_radar(radar);
-  const std::size_t shift = std::size_t{0x10} * expected.number;
-  const auto seen = [&](std::size_t id) { return bus.ids[id + shift].frames != 0; };
-  return expected.kind == SeenRadar::Kind::ars408 &&
-         ((seen(0x701) && !seen(0x702)) || (seen(0x60B) && !seen(0x60C)));
+  const auto* const ars408 = radar.decoder.as<Ars408Options>();
+  const auto seen = [&](std::uint32_t id) {
+    return bus.traffic.ids[ars408_id(id, ars408->sensor_id)].frames != 0;
+  };
+  return ars408 != nullptr && ((seen(0x701) && !seen(0x702)) || (seen(0x60B) && !seen(0x60C)));
 }
 
 std::string quality_off(const RadarConfiguration& radar) {
@@ -137,13 +144,13 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   }
   const Severity severity =
       scans.incomplete_scans == scans.scans ? Severity::error : Severity::warning;
-  const bool has_header = expected_radar(radar).kind == SeenRadar::Kind::ars408;
+  const bool has_header = radar.decoder.make_decoder()->framing().has_header;
   const std::string what =
       concat({number(scans.incomplete_scans), " of ", number(scans.scans), " scans are not whole: ",
               has_header ? "their headers say " + number(incomplete.announced_targets) +
                                " targets, " + number(incomplete.whole_targets) + " came whole"
                          : counted(scans.missing_parts, "frame") + " missing"});
-  if (has_header && incomplete.most_announced > kMostThatFit) {
+  if (radar.decoder.as<Ars408Options>() != nullptr && incomplete.most_announced > kMostThatFit) {
     findings.push_back(
         {severity, what,
          concat({"up to ", number(incomplete.most_announced),
@@ -158,37 +165,39 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
 }
 
 /// Lists of targets that came with the radar's identifiers.
-std::uint64_t lists_of(const SeenRadar& radar, const BusObservation& bus) {
+std::uint64_t lists_of(const RadarSettings& radar, const BusTraffic& bus) {
+  if (const auto* gpr = radar.as<BoschGprOptions>()) {
+    return bus.ids[gpr->base_id].frames;
+  }
+  const auto* const ars408 = radar.as<Ars408Options>();
   const auto frames = [&](Ars408Message message) {
-    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), radar.number)].frames;
+    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), ars408->sensor_id)].frames;
   };
-  return radar.kind == SeenRadar::Kind::bosch_gpr ? bus.ids[radar.number].frames
-                                                  : std::max(frames(Ars408Message::cluster_status),
-                                                             frames(Ars408Message::object_status));
+  return ars408 == nullptr ? 0
+                           : std::max(frames(Ars408Message::cluster_status),
+                                      frames(Ars408Message::object_status));
 }
 
-std::string twin_remedy(const RadarConfiguration& radar, const SeenRadar& twin, bool is_echo) {
+std::string twin_remedy(const RadarConfiguration& radar, bool is_echo) {
   if (is_echo) {
     return "look for a gateway that repeats frames; do not merge two logs of one bus";
   }
-  if (twin.kind == SeenRadar::Kind::bosch_gpr) {
-    return "give one of them a bus of its own, or another base id";
-  }
-  return concat({"unplug one, give the other an id of its own (sensor_id, then ",
-                 "`cremed-doctor --configure-ars408 ", radar.name, " --sensor-id ",
-                 number(twin.number), "`)"});
+  const auto* const ars408 = radar.decoder.as<Ars408Options>();
+  return ars408 == nullptr
+             ? "give one of them a bus of its own, or another base id"
+             : concat({"unplug one, give the other an id of its own (sensor_id, then ",
+                       sensor_id_command(radar, *ars408), ")"});
 }
 
-/// Two sensors with one id, by how often their lists come. An ARS408 sends 13 to 17 a second; of a
-/// GPR the rate is less certain, so its scans have to be spoilt as well.
+/// Two ARS408 or GPRs with one id, by how often their lists come. An ARS408 sends 13 to 17 a
+/// second; of a GPR the rate is less certain, so its scans have to be spoilt as well.
 Findings find_twin(const RadarConfiguration& radar, const RadarObservation& observed,
                    const BusObservation& bus, double seconds) {
   constexpr double kShortestS = 0.5;
-  const SeenRadar expected = expected_radar(radar);
   const AssemblerCounters& scans = observed.status.assembler;
-  const bool is_gpr = expected.kind == SeenRadar::Kind::bosch_gpr;
+  const bool is_gpr = radar.decoder.as<BoschGprOptions>() != nullptr;
   const double pause_s = fell_silent(observed, seconds) ? observed.times.longest_pause_s : 0.0;
-  const std::uint64_t lists = lists_of(expected, bus);
+  const std::uint64_t lists = lists_of(radar.decoder, bus.traffic);
   const double lists_hz = static_cast<double>(lists) / std::max(seconds - pause_s, kShortestS);
   const bool is_twin = lists_hz > (is_gpr ? 15.0 : 22.0);
   // Counters of two that come in turn skip to and fro.
@@ -198,10 +207,10 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
   }
   const bool is_echo = scans.repeated_scans + scans.duplicate_parts > lists / 4;
   return {{Severity::error,
-           concat({tenths(lists_hz), " lists a second from ", to_text(expected), " on ",
+           concat({tenths(lists_hz), " lists a second from ", radar.decoder.describe(), " on ",
                    radar.interface, ", of one sensor ", is_gpr ? "10: " : "13 to 17: ",
                    is_echo ? "each frame comes twice" : "two sensors have this id"}),
-           twin_remedy(radar, expected, is_echo)}};
+           twin_remedy(radar, is_echo)}};
 }
 
 /// It was there, and is not any more, or not all the time.
@@ -222,6 +231,17 @@ void add_pause(const RadarObservation& observed, double seconds, Findings& findi
        "check its supply and plug for loose contacts; it may have restarted"});
 }
 
+std::string wrong_content_remedy(const RadarSettings& radar) {
+  if (const auto* ars408 = radar.as<Ars408Options>()) {
+    return concat({"another device (a Bosch GPR?) uses identifiers of sensor id ",
+                   number(ars408->sensor_id),
+                   ": give them buses of their own, or check type and sensor_id"});
+  }
+  return radar.as<BoschGprOptions>() != nullptr
+             ? "check base_id, and that it is a General Purpose Radar"
+             : concat({"check that it is ", radar.describe()});
+}
+
 void add_bad_frames(const RadarConfiguration& radar, const RadarStatus& status,
                     Findings& findings) {
   const DecoderCounters& c = status.decoder;
@@ -240,32 +260,27 @@ void add_bad_frames(const RadarConfiguration& radar, const RadarStatus& status,
     findings.push_back(
         {Severity::warning,
          counted(c.wrong_slot, "frame") + " whose content contradicts the identifier",
-         expected_radar(radar).kind == SeenRadar::Kind::ars408
-             ? concat({"another device (a Bosch GPR?) uses identifiers of sensor id ",
-                       std::to_string(expected_radar(radar).number),
-                       ": give them buses of their own, or check type and sensor_id"})
-             : "check base_id, and that it is a General Purpose Radar"});
+         wrong_content_remedy(radar.decoder)});
   }
 }
 
 /// Do its targets come at all? A few of a GPR's identifiers may be those of others.
 bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
   constexpr std::size_t kFirstArs408List = 0x600;
-  const bool is_gpr = expected_radar(radar).kind == SeenRadar::Kind::bosch_gpr;
-  const IdSet ids = sent_ids(radar);
-  std::size_t heard = 0;
-  for (std::size_t id = is_gpr ? 0 : kFirstArs408List; id < ids.size(); ++id) {
-    heard += ids[id] && bus.ids[id].frames != 0 ? 1 : 0;
-  }
-  return heard > (is_gpr ? ids.count() / 2 : 0);
+  const IdSet ids = radar.decoder.sent_ids();
+  const IdSet heard = ids & bus.traffic.seen();
+  return radar.decoder.as<Ars408Options>() != nullptr ? (heard >> kFirstArs408List).any()
+                                                      : heard.count() > ids.count() / 2;
 }
 
 /// What remains if nothing else explains that there is no estimate.
 void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
                      Findings& findings) {
   if (status.assembler.scans == 0) {
+    const bool is_ars408 = radar.decoder.as<Ars408Options>() != nullptr;
     findings.push_back({Severity::error, "it reports its state but sends no targets",
-                        concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"})});
+                        is_ars408 ? concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"})
+                                  : "see its data sheet for what makes it send them"});
   } else if (estimates(status) == 0) {
     findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
                         "listen longer, `--seconds 10`"});
@@ -289,11 +304,12 @@ bool fell_silent(const RadarObservation& observed, double seconds) {
 Findings find_elsewhere(const Configuration& configuration, const Observation& observation,
                         std::size_t radar) {
   const RadarConfiguration& wanted = configuration.radars[radar];
-  const SeenRadar expected = expected_radar(wanted);
   for (const BusObservation& bus : observation.buses) {
-    if (bus.interface != wanted.interface && contains(unclaimed(bus, configuration), expected)) {
+    if (bus.interface != wanted.interface &&
+        contains(unclaimed(bus, configuration), wanted.decoder)) {
       return {{Severity::error,
-               concat({to_text(expected), " is on ", bus.interface, ", not on ", wanted.interface}),
+               concat({wanted.decoder.describe(), " is on ", bus.interface, ", not on ",
+                       wanted.interface}),
                concat({"set interface = ", quoted(bus.interface), " for radar ",
                        quoted_name(wanted)})}};
     }
@@ -306,7 +322,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
   const RadarConfiguration& wanted = configuration.radars[radar];
   const RadarObservation& observed = observation.radars[radar];
   const BusObservation& bus = bus_of(wanted, observation);
-  if (!contains(seen_radars(bus), expected_radar(wanted))) {
+  if (!contains(seen_radars(bus.traffic), wanted.decoder)) {
     Findings elsewhere = find_elsewhere(configuration, observation, radar);
     if (!elsewhere.empty()) {
       return elsewhere;

@@ -7,11 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
-#include "tools/doctor/seen_radar.hpp"
 
 namespace cremed {
 namespace {
@@ -47,34 +46,35 @@ std::vector<const BusObservation*> by_name(const Observation& observation) {
   return buses;
 }
 
-bool has(const BusObservation& bus, const SeenRadar& radar, Ars408Message message) {
-  return bus.ids[ars408_id(static_cast<std::uint32_t>(message), radar.number)].frames != 0;
-}
-
-std::string output_line(const BusObservation& bus, const SeenRadar& radar) {
-  if (has(bus, radar, Ars408Message::cluster_status)) {
+/// What to do about an ARS408 that does not send clusters.
+std::string output_line(const BusObservation& bus, const RadarSettings& radar) {
+  const auto* const ars408 = radar.as<Ars408Options>();
+  const auto has = [&](Ars408Message message) {
+    const std::uint32_t id = ars408_id(static_cast<std::uint32_t>(message), ars408->sensor_id);
+    return bus.traffic.ids[id].frames != 0;
+  };
+  if (ars408 == nullptr || has(Ars408Message::cluster_status)) {
     return "";
   }
-  return has(bus, radar, Ars408Message::object_status)
+  return has(Ars408Message::object_status)
              ? "# It sends objects now; clusters are far better: `cremed-doctor "
                "--configure-ars408`.\n"
              : "# It sends no targets now: `cremed-doctor --configure-ars408`.\n";
 }
 
-std::string table(const BusObservation& bus, const SeenRadar& radar, std::size_t number) {
-  const bool is_ars408 = radar.kind == SeenRadar::Kind::ars408;
+std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number) {
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
-                 is_ars408 ? "ars408" : "bosch_gpr", "\"\ninterface = \"", bus.interface, "\"\n",
-                 key_of(radar), "\n", is_ars408 ? output_line(bus, radar) : "", kMount});
+                 radar.family().type, "\"\ninterface = \"", bus.interface, "\"\n", radar.key(),
+                 "\n", output_line(bus, radar), kMount});
 }
 
 }  // namespace
 
-std::string suggested_configuration(const Observation& observation) {
+std::string suggested_configuration(const Observation& observation, RadarFamilies families) {
   std::string tables;
   std::size_t count = 0;
   for (const BusObservation* bus : by_name(observation)) {
-    for (const SeenRadar& radar : seen_radars(*bus)) {
+    for (const RadarSettings& radar : seen_radars(bus->traffic, families)) {
       tables += count < kMaxRadars ? table(*bus, radar, ++count) : "";
     }
   }

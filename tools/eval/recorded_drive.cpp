@@ -8,7 +8,6 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "cremed/estimator/scan/rotation_lead.hpp"
 #include "daemon/configuration/interfaces.hpp"
@@ -45,7 +44,7 @@ class RecordingSink final : public OdometrySink {
 
   /// Of clusters: the velocity across of an object is measured.
   [[nodiscard]] double told_yaw_rate_radps(std::size_t radar, const RadarScan& scan) const {
-    const auto* ars408 = std::get_if<Ars408Options>(&configuration_.radars[radar].decoder);
+    const auto* ars408 = configuration_.radars[radar].decoder.as<Ars408Options>();
     return ars408 != nullptr && ars408->output == Ars408Output::clusters
                ? reported_yaw_rate_radps(scan)
                : 0.0;
@@ -76,6 +75,7 @@ void check_logs(const Replay& replay) {
 
 std::vector<RecordedRadar> record_drive(const Configuration& configuration,
                                         const std::vector<std::string>& logs) {
+  require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
   for (const std::string& path : logs) {

@@ -12,6 +12,7 @@
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/plain_streams.hpp"
 #include "daemon/process/process_setup.hpp"
@@ -109,12 +110,17 @@ void write_truth(const cremed::Simulation& simulation, const std::string& path) 
   file.finish();
 }
 
+std::vector<cremed::RadarConfiguration> radars_of(const std::string& path) {
+  const cremed::Configuration configuration = cremed::load_configuration(path);
+  cremed::require_interface_names(configuration);
+  return configuration.radars;
+}
+
 void simulate(Arguments& arguments) {
   const cremed::Scenario& scenario = asked_scenario(arguments.scenario);
   if (arguments.output.empty()) throw UsageError("--output is required, a file or '-'");
-  const auto radars = arguments.config.empty()
-                          ? cremed::default_radars()
-                          : cremed::load_configuration(arguments.config).radars;
+  const auto radars =
+      arguments.config.empty() ? cremed::default_radars() : radars_of(arguments.config);
   cremed::refuse_aliases({{"--config", arguments.config}},
                          {{"--output", arguments.output}, {"--truth", arguments.truth}});
   arguments.options.start_us = arguments.start_s * 1'000'000;

@@ -39,7 +39,7 @@ std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
   int sharing = 0;
   for (const RadarConfiguration& other : radars) {
     if (other.interface != radar.interface) continue;
-    if (std::holds_alternative<BoschGprOptions>(other.decoder)) {
+    if (other.decoder.as<BoschGprOptions>() != nullptr) {
       share -= kGprBusShare;
     } else {
       ++sharing;
@@ -48,7 +48,7 @@ std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
   const auto target_us = static_cast<double>(frame_time_us(8) + frame_time_us(7));
   const auto room =
       static_cast<std::size_t>(std::max(0.0, share) * kArs408CycleUs / (sharing * target_us));
-  const bool objects = std::get<Ars408Options>(radar.decoder).output == Ars408Output::objects;
+  const bool objects = radar.decoder.as<Ars408Options>()->output == Ars408Output::objects;
   return std::min(room, objects ? Ars408Sender::kMaxObjects : Ars408Sender::kMaxClusters);
 }
 
@@ -139,12 +139,15 @@ void Simulation::attach(const std::vector<RadarConfiguration>& radars, const Sen
   const RadarConfiguration& radar = radars[setup.radar];
   SenderSetup limited = setup;
   CanBus& bus = bus_of(radar.interface);
-  if (const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder)) {
+  if (const auto* ars408 = radar.decoder.as<Ars408Options>()) {
     limited.max_targets = ars408_targets(radars, radar);
     attach_ars408(*ars408, limited, bus);
-  } else {
+  } else if (const auto* gpr = radar.decoder.as<BoschGprOptions>()) {
     limited.max_targets = kBoschGprSlots;
-    attach_gpr(std::get<BoschGprOptions>(radar.decoder), limited, bus);
+    attach_gpr(*gpr, limited, bus);
+  } else {
+    throw std::invalid_argument(radar.name + ": there is no simulation of type " +
+                                std::string(radar.decoder.family().type));
   }
 }
 

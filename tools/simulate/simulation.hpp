@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "tools/simulate/can_bus.hpp"

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include <Eigen/Dense>
 
@@ -46,8 +45,7 @@ CalibrationVector configured(const RadarConfiguration& radar) {
 }
 
 bool has_rotation_lead(const RadarConfiguration& radar) {
-  const auto* ars408 = std::get_if<Ars408Options>(&radar.decoder);
-  return ars408 != nullptr && ars408->output == Ars408Output::clusters;
+  return radar.decoder.rotation_lead_s().value_or(0.0) != 0.0;
 }
 
 std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth) {

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/radar_family.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr std::array<std::string_view, 2> kOutputs = {"clusters", "objects"};
+constexpr std::uint8_t kSensors = 8;
+
+/// A foreign frame on any of these is a new setting or a wrong motion. 0x008 and 0x010 (relay) do
+/// no harm.
+constexpr std::array<std::uint32_t, 6> kCommands = {0x200, 0x202, 0x300, 0x301, 0x400, 0x401};
+
+std::uint32_t id_of(Ars408Message message, std::uint8_t sensor) {
+  return ars408_id(static_cast<std::uint32_t>(message), sensor);
+}
+
+RadarSettings read(OptionReader& reader) {
+  Ars408Options options;
+  reader.integer("sensor_id", options.sensor_id, 0, kSensors - 1);
+  if (const auto output = reader.choice("output", kOutputs)) {
+    options.output = static_cast<Ars408Output>(*output);
+  }
+  reader.bits("keep_invalid_states", options.keep_invalid_states, 31);
+  std::uint32_t keep_dyn_props = options.keep_dyn_props;
+  reader.bits("keep_dyn_props", keep_dyn_props, 7);
+  options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
+  reader.integer("min_existence_code", options.min_existence_code, 0, 7);
+  reader.boolean("motion_feedback", options.motion_feedback);
+  return options;
+}
+
+std::unique_ptr<RadarDecoder> make_decoder(const Ars408Options& options) {
+  return std::make_unique<Ars408Decoder>(options);
+}
+
+IdSet sent_ids(const Ars408Options& options) {
+  IdSet ids;
+  for (const Ars408MessageRow& row : kArs408Messages) {
+    ids.set(id_of(row.message, options.sensor_id));
+  }
+  return ids;
+}
+
+IdSet obeyed_ids(const Ars408Options& options) {
+  IdSet ids;
+  for (const std::uint32_t id : kCommands) {
+    ids.set(ars408_id(id, options.sensor_id));
+  }
+  return ids;
+}
+
+double rotation_lead_s(const Ars408Options& options) {
+  return options.output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
+}
+
+std::string label(const Ars408Options& options) {
+  return "ARS408 " + std::to_string(options.sensor_id);
+}
+
+std::string describe(const Ars408Options& options) {
+  return "an ARS408 with sensor id " + std::to_string(options.sensor_id);
+}
+
+std::string key(const Ars408Options& options) {
+  return "sensor_id = " + std::to_string(options.sensor_id);
+}
+
+/// A GPR of which a frame is lost may have the identifier and the length too.
+bool has_state(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
+  const std::uint32_t id = id_of(Ars408Message::radar_state, sensor);
+  const IdTraffic& traffic = bus.ids[id];
+  return ids[id] && traffic.length == traffic.payload.size() &&
+         traffic.shortest_gap_us >= kArs408ShortestStateGapUs &&
+         decode_ars408_radar_state(traffic.payload)->sensor_id == sensor;
+}
+
+/// Any message that comes once a cycle or second shows a sensor; its length tells it from others.
+bool is_on(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
+  const auto has = [&](Ars408Message message, std::uint8_t length) {
+    const std::uint32_t id = id_of(message, sensor);
+    return ids[id] && bus.ids[id].length == length;
+  };
+  return has_state(bus, ids, sensor) || has(Ars408Message::cluster_status, 5) ||
+         has(Ars408Message::object_status, 4);
+}
+
+std::vector<RadarSettings> recognise(const BusTraffic& bus, IdSet& unexplained) {
+  std::vector<RadarSettings> radars;
+  for (std::uint8_t sensor = 0; sensor < kSensors; ++sensor) {
+    const Ars408Options options{.sensor_id = sensor};
+    if (is_on(bus, unexplained, sensor)) {
+      unexplained &= ~sent_ids(options);
+      radars.emplace_back(options);
+    }
+  }
+  return radars;
+}
+
+}  // namespace
+
+const RadarFamily& family_of(const Ars408Options& /*options*/) {
+  static constexpr RadarFamily kArs408{.type = "ars408",
+                                       .read = read,
+                                       .make_decoder = kOfSettings<make_decoder>,
+                                       .sent_ids = kOfSettings<sent_ids>,
+                                       .label = kOfSettings<label>,
+                                       .describe = kOfSettings<describe>,
+                                       .key = kOfSettings<key>,
+                                       .recognise = recognise,
+                                       .obeyed_ids = kOfSettings<obeyed_ids>,
+                                       .rotation_lead_s = kOfSettings<rotation_lead_s>};
+  return kArs408;
+}
+
+}  // namespace cremed

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/configuration/radar_place.hpp"
+
+#include <algorithm>
+
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+bool shows(const HeardBus& bus, const RadarSettings& wanted) {
+  const std::vector<RadarSettings> radars = seen_radars(bus.traffic);
+  return std::any_of(radars.begin(), radars.end(),
+                     [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
+}
+
+/// "can0: a Bosch GPR with base id 0x200; can1: no radar"
+std::string heard_text(const std::vector<HeardBus>& buses) {
+  std::string text;
+  for (const HeardBus& bus : buses) {
+    std::string radars;
+    for (const RadarSettings& radar : seen_radars(bus.traffic)) {
+      radars += concat({radars.empty() ? "" : ", ", radar.describe()});
+    }
+    text += concat({text.empty() ? "" : "; ", printable(bus.interface), ": ",
+                    radars.empty() ? "no radar" : radars});
+  }
+  return text.empty() ? "no CAN interface is up" : text;
+}
+
+RadarPlace absent(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
+  return {
+      PlaceStatus::absent, "",
+      concat({"no CAN interface shows ", radar.decoder.describe(), " (", heard_text(buses), ")"}),
+      "check its power and cable, and that its interface is up"};
+}
+
+/// The interface is known: may the radar be there?
+RadarPlace checked(std::size_t radar, const Configuration& configuration,
+                   const std::string& interface) {
+  const RadarConfiguration& wanted = configuration.radars[radar];
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const RadarConfiguration& other = configuration.radars[i];
+    const IdSet shared = used_ids(wanted) & used_ids(other);
+    if (i != radar && other.interface == interface && shared.any()) {
+      return {PlaceStatus::clash, "",
+              concat({wanted.decoder.describe(), " is on ", interface, ", where radar ",
+                      quoted(other.name), " uses CAN identifier ",
+                      hexadecimal(shared._Find_first()), " as well"}),
+              "give one of them another bus, or other identifiers"};
+    }
+  }
+  return {PlaceStatus::found, interface, "", ""};
+}
+
+RadarPlace place_of(std::size_t radar, const Configuration& configuration,
+                    const std::vector<HeardBus>& buses) {
+  const RadarConfiguration& wanted = configuration.radars[radar];
+  std::string names;
+  std::string name;
+  for (const HeardBus& bus : buses) {
+    if (shows(bus, wanted.decoder)) {
+      names += concat({names.empty() ? "" : " and on ", printable(bus.interface)});
+      name = bus.interface;
+    }
+  }
+  if (names.empty()) {
+    return absent(wanted, buses);
+  }
+  if (names != name) {
+    return {PlaceStatus::ambiguous, "", concat({wanted.decoder.describe(), " is on ", names}),
+            concat({"set interface to one of them for radar ", quoted(wanted.name)})};
+  }
+  return checked(radar, configuration, name);
+}
+
+}  // namespace
+
+std::vector<Sighting> find_interfaces(const std::vector<HeardBus>& buses,
+                                      Configuration& configuration) {
+  std::vector<Sighting> sightings;
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    RadarConfiguration& radar = configuration.radars[i];
+    if (is_auto(radar)) {
+      sightings.push_back({i, place_of(i, configuration, buses)});
+      const RadarPlace& place = sightings.back().place;
+      radar.interface = place.status == PlaceStatus::found ? place.interface : radar.interface;
+    }
+  }
+  return sightings;
+}
+
+}  // namespace cremed

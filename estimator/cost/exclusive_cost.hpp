@@ -35,8 +35,8 @@ class ExclusiveCost {
 
   NormalEquations linearise(const Unknowns& at);
   /// Steps of the positions never raise their cost (EM, see above). With Doppler the costs of two
-  /// motions cannot be compared: which targets count as moving is judged by the shared errors of the
-  /// motion before.
+  /// motions cannot be compared: which targets count as moving is judged by the shared errors of
+  /// the motion before.
   static constexpr bool kHasStepControl = false;
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] bool is_settled() const { return likelihood_.is_settled(); }

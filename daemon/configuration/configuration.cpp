@@ -180,6 +180,7 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
   if (!context.diagnostics.empty()) {
     throw ConfigurationError(context.diagnostics.text());
   }
+  configuration.warnings = context.warnings.text();
   return configuration;
 }
 

@@ -82,6 +82,7 @@ struct Configuration {
   OutputConfiguration output;
   LiveConfiguration live;
   LoggingConfiguration logging;
+  std::string warnings;  ///< "file:line: key: what to write instead", one a line; "": none.
 };
 
 /// what(): "file:line: key: what is wrong; what would be right", a line for each error, in the

@@ -3,48 +3,34 @@
 #include "daemon/configuration/configuration_estimator.hpp"
 
 #include <array>
-#include <cmath>
-#include <string>
 #include <string_view>
 
 #include "cremed/can_decoders/radar_scan.hpp"
-#include "cremed/estimator/cost/outlier_ray.hpp"
-#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr double kFullCircleRad = 6.2832;
 
-/// In the order of Likelihood.
-constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "gauss_newton"};
+/// In the order of Likelihood. Until version 1 the key was "covariance", with other names.
+constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "max_sum_mixture"};
+constexpr std::array<std::string_view, 2> kOldLikelihoods{"exclusive", "gauss_newton"};
 
-void check_gaussians(TomlReader& reader, const OutlierRayOptions& ray) {
-  const bool given_here = reader.has("min_range_m") || reader.has("max_range_m") ||
-                          reader.has("ratio") || reader.has("growth");
-  if (reader.clean() && given_here && needed_ray_components(ray) > double{kMaxRayComponents}) {
-    reader.report("growth",
-                  concat({"needs ", std::to_string(std::lround(needed_ray_components(ray))),
-                          " Gaussians to reach max_range_m; must need at most ",
-                          std::to_string(kMaxRayComponents), ": raise growth or ratio"}));
-  }
-}
+constexpr std::string_view kIsConstant = "is not an option any more; must be left out";
 
 void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
   reader.number("weight", ray.weight, {0.0, 0.99});
   reader.number("min_range_m", ray.min_range_m, {0.01, 1000.0});
   reader.number("max_range_m", ray.max_range_m, {0.01, 1000.0});
-  reader.number("ratio", ray.ratio, {0.01, 0.99});
-  reader.number("growth", ray.growth, {1.01, 10.0});
+  reader.refuse(std::array<std::string_view, 2>{"ratio", "growth"}, kIsConstant);
   reader.number("field_of_view_rad", ray.field_of_view_rad, {0.01, kFullCircleRad});
   reader.require_less("min_range_m", ray.min_range_m, "max_range_m", ray.max_range_m);
-  check_gaussians(reader, ray);
   reader.finish();
 }
 
 void read_doppler(TomlReader reader, DopplerOptions& doppler) {
   reader.boolean("enabled", doppler.enabled);
-  reader.boolean("both_scans", doppler.both_scans);
+  reader.refuse(std::array<std::string_view, 1>{"both_scans"}, kIsConstant);
   reader.number("stamp_std_s", doppler.stamp_std_s, {0.0, 1.0});
   reader.number("moving_weight", doppler.moving_weight, {0.0, 0.99});
   reader.number("moving_std_mps", doppler.moving_std_mps, {0.1, 1000.0});
@@ -61,20 +47,27 @@ void read_shared_errors(TomlReader reader, SharedErrorOptions& errors) {
   reader.finish();
 }
 
+void read_likelihood(TomlReader& reader, Likelihood& likelihood) {
+  const auto named = reader.choice("likelihood", kLikelihoods);
+  const auto by_old_key =
+      reader.deprecated_choice("covariance", kOldLikelihoods, "likelihood", kLikelihoods);
+  if (named || by_old_key) {
+    likelihood = static_cast<Likelihood>(named ? *named : *by_old_key);
+  }
+}
+
 }  // namespace
 
 void read_estimator(TomlReader reader, EgoMotionOptions& options) {
   RegistrationOptions& registration = options.registration;
   reader.integer("degrees_of_freedom", registration.degrees_of_freedom, 2, 3);
   reader.number("start_scale", registration.start_scale, {1.0, 100.0});
-  reader.number("start_doppler_scale", registration.start_doppler_scale, {1.0, 100.0});
-  reader.integer("max_start_iterations", registration.max_start_iterations, 0, 100);
+  reader.refuse(std::array<std::string_view, 2>{"start_doppler_scale", "max_start_iterations"},
+                kIsConstant);
   reader.integer("max_iterations", registration.max_iterations, 1, 1000);
   reader.integer("max_component_evaluations", registration.max_component_evaluations, 1'000,
                  100'000'000);
-  if (const auto model = reader.choice("covariance", kLikelihoods)) {
-    registration.likelihood = static_cast<Likelihood>(*model);
-  }
+  read_likelihood(reader, registration.likelihood);
   reader.integer("min_targets", options.min_targets, 2, kMaxDetections);
   reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
   reader.number("standstill_mps", options.standstill_mps, {0.0, 1.0});

@@ -108,6 +108,9 @@ std::string configuration_summary(const Configuration& configuration) {
 
 std::vector<std::string> configuration_doubts(const Configuration& configuration) {
   std::vector<std::string> doubts;
+  if (!configuration.warnings.empty()) {
+    doubts.push_back(configuration.warnings);
+  }
   for (const RadarConfiguration& radar : configuration.radars) {
     // Radians are usually counted from -pi to pi; small degrees are the likelier meaning beyond.
     const double yaw = radar.ego_motion.vehicle_from_radar.yaw_rad;

@@ -32,8 +32,9 @@ struct TextRule {
 
 /// What the readers of one file share.
 struct ReadContext {
-  Diagnostics diagnostics;
+  Diagnostics diagnostics;                      ///< Errors: the file is refused.
   std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys asked for.
+  Diagnostics warnings = diagnostics;
 };
 
 /// Reads one table key by key: checks type and range, reports what is wrong, and remembers which
@@ -72,6 +73,13 @@ class TomlReader final : public OptionReader {
   void refuse(std::span<const std::string_view> keys, std::string_view problem);
   /// Reports every key that nothing asked for.
   void finish();
+
+  /// Index of the name that a key has which `new_key` has replaced, with a warning; an error if
+  /// both are there. `old_names` are in the order of the new ones.
+  std::optional<std::size_t> deprecated_choice(std::string_view old_key,
+                                               std::span<const std::string_view> old_names,
+                                               std::string_view new_key,
+                                               std::span<const std::string_view> new_names);
 
   void report(std::string_view key, std::string_view problem) override;
   [[nodiscard]] bool has(std::string_view key) const override;

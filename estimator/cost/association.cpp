@@ -8,7 +8,7 @@
 namespace cremed {
 namespace {
 
-/// Beyond it a pair is certain anyway, and 1 - p would be lost.
+/// Beyond it a pair is certain: 1 - p = 1e-12, of which a double still has four digits.
 constexpr double kMaxRatio = 1e12;
 
 /// The root of f^2 + f s = 1 in [0, 1].

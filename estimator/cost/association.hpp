@@ -32,12 +32,15 @@ namespace cremed {
 /// targets compete for two.) All storage is inside the object.
 class Association {
  public:
+  /// 16 partners for each of 256 targets.
   static constexpr std::size_t kMaxPairs = 4096;
+  /// Bounds the work of clusters, where probabilities then are off by about kTolerance still.
   static constexpr int kMaxRounds = 32;
-  /// Where some of a cluster are hidden the factors have far to go: after so many rounds they are
-  /// moved by half as much again in the logarithm.
+  /// Scaling converges slowly where some of a cluster are hidden: after so many rounds, which solve
+  /// all other cases, it is over-relaxed (factor 1.5 in the logarithm).
   static constexpr int kPlainRounds = 4;
-  /// Scaling ends when no column's probability of having a partner changes by more.
+  /// Scaling ends when no column's probability of having a partner changes by more: 0.2 % of a
+  /// target's weight.
   static constexpr double kTolerance = 2e-3;
   /// The same for the gradients of log u, log v, in units of the states.
   static constexpr double kGradientTolerance = 1e-2;

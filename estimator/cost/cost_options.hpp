@@ -10,15 +10,14 @@ struct OutlierRayOptions {
   double weight = 0.5;        ///< w_o: total weight in the mixture, 0 (no ray) .. < 1.
   double min_range_m = 0.5;   ///< r_min
   double max_range_m = 50.0;  ///< r_max
-  double ratio = 0.7;         ///< a: standard deviation over range of a component, 0 < a < 1.
-  double growth = 1.8;        ///< b: range of a component over that of the one before, > 1.
   double field_of_view_rad = 1.3962634015954636;  ///< Full opening angle; 80 deg.
 };
 
 /// How Doppler enters.
 struct DopplerOptions {
   bool enabled = true;
-  /// Use that of the previous scan too. With Likelihood::exclusive only.
+  /// Use that of the previous scan too; false where it has none, as in the paper's simulation. With
+  /// Likelihood::exclusive only.
   bool both_scans = true;
   /// s_dt: standard deviation of the time between two scans, as each target's own. The paper has
   /// 0.005 s for the ARS408. Measured on nuScenes 0061 and 0103 (54 000 static targets) Doppler
@@ -27,6 +26,10 @@ struct DopplerOptions {
   double moving_weight = 0.05;    ///< Weight of the component for moving targets, 0..1.
   double moving_std_mps = 100.0;  ///< Its standard deviation.
 };
+
+/// Slower than this a vehicle's body comes to rest: the systematic errors of one that drives (of
+/// Doppler, mount and body) count in proportion to the speed, up to this one.
+inline constexpr double kRollingMps = 1.0;
 
 /// Standard deviations of errors that all targets of a scan share: unlike a target's own, they do
 /// not average out, however many targets there are. With Likelihood::exclusive only. While the

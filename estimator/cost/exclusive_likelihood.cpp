@@ -10,11 +10,14 @@
 namespace cremed {
 namespace {
 
-/// Pairs of a smaller psi are left out: their probability is smaller still.
+/// Pairs of a smaller psi are left out. p <= psi, so that each takes less than 0.1 % of a target's
+/// weight with it.
 constexpr double kMinRatio = 1e-3;
-/// P at most: a previous target may always be hidden.
+/// P at most: of 20 targets one is hidden, or too weak, in the next scan even if nothing moves.
 constexpr double kMaxDetectionProbability = 0.95;
-/// Density of new targets where there is no outlier ray, per square metre and target (2 pi times).
+/// Density of new targets where there is no outlier ray, per square metre and target, times 2 pi:
+/// as if they were drawn from 6 km^2, 20 times what a radar of 300 m sees all around. A pair is
+/// then taken for new only beyond 5 sigma and more.
 constexpr double kClutterPerM2 = 1e-6;
 
 /// Rounds of the association for a step of the search that others follow. To the end it takes 13 on

@@ -33,15 +33,16 @@ namespace cremed {
 ///     complete information     sum p_ij J_i' C_ij^-1 J_i               (assignment known; EM step)
 ///     missing information      -sum g_ij (d p_ij / d x)'                (Louis, JRSS B 1982)
 ///
-/// Complete less missing information is the curvature of -log L: what is known of x although the
-/// assignment is not. As in the mixture, covariances are held fixed in derivatives. All storage is
+/// Complete less missing information is the curvature of -log L: the assignment is marginalised. As
+/// in the mixture, covariances are held fixed in derivatives. All storage is
 /// inside the object.
 class ExclusiveLikelihood {
  public:
   /// Two scans, none of them empty.
   void assign(const TargetSet& previous, const TargetSet& current, const OutlierRay& ray);
 
-  /// How far, in standard deviations, targets may move until pairs have to be listed again.
+  /// A list holds the pairs that may come to matter while targets move by so many standard
+  /// deviations.
   static constexpr double kListReach = 1.0;
 
   /// Lists the pairs that can matter near `motion`. false: more than there is room for; the pairs
@@ -56,7 +57,7 @@ class ExclusiveLikelihood {
   /// Whether the last ones are as exact as they get.
   [[nodiscard]] bool is_settled() const { return association_.is_solved(); }
 
-  /// What not knowing the assignment takes from the information, at the last linearisation.
+  /// The missing information, at the last linearisation.
   [[nodiscard]] Eigen::Matrix3d missing_information(const Eigen::Vector3d& sigma) {
     return association_.missing_information(sigma);
   }

@@ -6,16 +6,13 @@
 
 namespace cremed {
 
-double needed_ray_components(const OutlierRayOptions& options) {
-  const double a = options.ratio;
-  const double span = (1.0 - a) / (1.0 + a) * options.max_range_m / options.min_range_m;
-  return 1.0 + std::ceil(std::log(span) / std::log(options.growth));
-}
-
 std::size_t ray_component_count(const OutlierRayOptions& options) {
+  const double span =
+      (1.0 - kRayRatio) / (1.0 + kRayRatio) * options.max_range_m / options.min_range_m;
+  const double needed = 1.0 + std::ceil(std::log(span) / std::log(kRayGrowth));
   // fmax, unlike clamp, also ends NaN: the logarithm of impossible options.
-  return static_cast<std::size_t>(std::fmin(std::fmax(needed_ray_components(options), 1.0),
-                                            static_cast<double>(kMaxRayComponents)));
+  return static_cast<std::size_t>(
+      std::fmin(std::fmax(needed, 1.0), static_cast<double>(kMaxRayComponents)));
 }
 
 OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_from_radar) {
@@ -25,10 +22,10 @@ OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_fr
   size_ = ray_component_count(options);
   weight_ = options.weight;
   const double azimuth_std_rad = 1.5 * options.field_of_view_rad;
-  double range_m = options.min_range_m / (1.0 - options.ratio);
+  double range_m = options.min_range_m / (1.0 - kRayRatio);
   double total_weight = 0.0;
-  for (std::size_t k = 0; k < size_; ++k, range_m *= options.growth) {
-    const double range_std_m = 2.0 * options.ratio * range_m;
+  for (std::size_t k = 0; k < size_; ++k, range_m *= kRayGrowth) {
+    const double range_std_m = 2.0 * kRayRatio * range_m;
     RayComponent& component = components_[k];
     component.x_m = vehicle_from_radar.x_m + range_m * std::cos(vehicle_from_radar.yaw_rad);
     component.y_m = vehicle_from_radar.y_m + range_m * std::sin(vehicle_from_radar.yaw_rad);

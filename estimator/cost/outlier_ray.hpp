@@ -11,6 +11,11 @@
 
 namespace cremed {
 
+/// a: standard deviation over range of a component; b: range of a component over that of the one
+/// before. Source: the paper (RA-L 2022), which has no other in any of its tables.
+inline constexpr double kRayRatio = 0.7;
+inline constexpr double kRayGrowth = 1.8;
+/// A ray from 1 cm to 1 km takes 18.
 inline constexpr std::size_t kMaxRayComponents = 32;
 
 /// One Gaussian of the outlier model, in the vehicle frame.
@@ -41,10 +46,8 @@ class OutlierRay {
   double weight_ = 0.0;
 };
 
-/// N = 1 + ceil(log((1 - a) / (1 + a) r_max / r_min) / log b), however many that is.
-double needed_ray_components(const OutlierRayOptions& options);
-
-/// The same, at least 1, at most kMaxRayComponents.
+/// N = 1 + ceil(log((1 - a) / (1 + a) r_max / r_min) / log b), at least 1, at most
+/// kMaxRayComponents.
 std::size_t ray_component_count(const OutlierRayOptions& options);
 
 }  // namespace cremed

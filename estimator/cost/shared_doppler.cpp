@@ -8,20 +8,17 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/scan/squared.hpp"
+
 namespace cremed {
 
 namespace {
 
-/// Slower than this the vehicle's body comes to rest.
-constexpr double kRollingMps = 1.0;
+/// In place of a deviation of zero, in m/s, rad, m/s^2 or rad/s^2: the error is fixed at zero, and
+/// its information still a finite number.
+constexpr double kMinStd = 1e-9;
 
-/// An error of zero deviation is none: it is held fast.
-constexpr double kLeastStd = 1e-9;
-
-double information_of(double deviation) {
-  const double held = std::max(deviation, kLeastStd);
-  return 1.0 / (held * held);
-}
+double information_of(double deviation) { return 1.0 / squared(std::max(deviation, kMinStd)); }
 
 /// Turns the translation of a motion by half its yaw, back to the frame half way; `by_motion` is
 /// the derivative.

@@ -6,16 +6,10 @@
 
 #include <Eigen/LU>
 
+#include "cremed/estimator/cost/cost_options.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+
 namespace cremed {
-namespace {
-
-/// What a road vehicle may do between two scans.
-constexpr double kAccelerationMps2 = 3.0;
-
-double squared(double value) { return value * value; }
-
-}  // namespace
-
 JointVelocity::JointVelocity(const OdometryOptions& options) : options_(options) {
   information_(1, 1) = 1.0 / squared(options.start_yaw_rate_std_radps);
 }
@@ -23,7 +17,7 @@ JointVelocity::JointVelocity(const OdometryOptions& options) : options_(options)
 void JointVelocity::add(const DopplerVelocity& velocity, const Pose2& vehicle_from_radar,
                         double age_s) {
   const double speed = velocity.velocity_mps.norm();
-  const double changed = squared(kAccelerationMps2 * age_s);
+  const double changed = squared(SharedErrorOptions().acceleration_std_mps2 * age_s);
   Eigen::Matrix2d noise = velocity.covariance;
   noise(0, 0) += squared(options_.doppler_x.std) + squared(options_.offset.std) + changed;
   noise(1, 1) +=

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "cremed/estimator/scan/squared.hpp"
+
 namespace cremed {
 namespace {
 
-constexpr double kLeastShare = 0.25;
-
-double squared(double value) { return value * value; }
+/// See prior_after().
+constexpr double kMinStdShare = 0.25;
 
 }  // namespace
 
@@ -69,7 +70,7 @@ SharedPrior prior_after(const std::vector<std::optional<LearnedError>>& learned,
       const double std = unlearned[i].std;
       const double own_std = std::hypot(learned[i]->std, restart_std);
       prior.own[i] = {
-          {learned[i]->value - sum / weights, std::clamp(own_std, kLeastShare * std, std)}, true};
+          {learned[i]->value - sum / weights, std::clamp(own_std, kMinStdShare * std, std)}, true};
     }
   }
   prior.common_variance = 1.0 / weights;

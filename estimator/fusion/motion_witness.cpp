@@ -11,8 +11,8 @@
 namespace cremed {
 namespace {
 
-constexpr double kSigmas = 5.0;
-constexpr double kMaxAgeS = 0.3;
+constexpr double kSigmas = 5.0;   // By chance once in two million motions.
+constexpr double kMaxAgeS = 0.3;  // 3 m/s of braking: less tells one car from the next.
 
 /// Mean time between a moment and those of an interval whose middle is `distance_s` from it.
 double mean_distance_s(double distance_s, double span_s) {

@@ -9,6 +9,7 @@
 #include "cremed/estimator/fusion/joint_velocity.hpp"
 #include "cremed/estimator/fusion/pose_chain.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -16,17 +17,21 @@ namespace {
 
 using namespace state_layout;
 
-/// Above it the Doppler of a scan tells the speed rather than corrects it.
+/// Above it a scan's Doppler is not gated but tells the speed: max_doppler_nis would let pass 4 m/s
+/// and more, which other cars differ from us by.
 constexpr double kUnknownSpeedStdMps = 1.0;
-/// What a radar said longer ago says nothing of now.
+/// How long the verdict on a radar's scan, or a doubt, counts: four scans of an ARS408, in which a
+/// braking vehicle changes its speed by 3 m/s.
 constexpr double kVerdictS = 0.3;
+/// Longer than kVerdictS: no doubt yet.
 constexpr std::int64_t kLongAgoUs = 1'000'000;
 /// Of a slow radar: how long a contradiction may have lasted.
 constexpr double kScanPeriodS = 0.1;
-/// Mean innovation of a radar in doubt above which it contradicts the others: if all of its error
+/// Time-averaged NIS of a radar in doubt above which it contradicts the others: if all of its error
 /// stayed the same for a minute, chance would still exceed 5.4 once in 1000 only.
-constexpr double kContradiction = 5.0;
-/// Radars agree on a velocity up to this mean square, in standard deviations.
+constexpr double kMaxMeanInnovation = 5.0;
+/// Radars agree on a velocity up to this mean square, in standard deviations: two that do exceed it
+/// once in 135 (chi^2 of three degrees of freedom above 12), more of them less often.
 constexpr double kMaxDisagreement = 4.0;
 /// Between a speed and the one that is expected, where chance must not decide: once in 370.
 constexpr double kSigmas = 3.0;
@@ -34,9 +39,10 @@ constexpr double kSigmas = 3.0;
 /// Targets beside the way pass by too fast to be found again four scans later: what registers then
 /// turned the yaw of scenes 0061 and 0103 after 10 s by 0.48 and 0.20 degrees, without it 0.34 and
 /// 0.18.
-bool looks_across(const Pose2& mount) { return std::abs(std::sin(mount.yaw_rad)) > 0.7; }
-
-double squared(double value) { return value * value; }
+bool looks_across(const Pose2& mount) {
+  constexpr double kMaxSine = 0.7;  // 45 degrees off the way
+  return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
+}
 
 /// To the last bit, as users may expect.
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
@@ -351,7 +357,7 @@ OdometryStatus OdometryFilter::status(const VehicleEstimate& vehicle, std::int64
   const auto std = [&](int i) { return std::sqrt(vehicle.covariance(i, i)); };
   const bool stands = std::abs(vehicle.mean(kSpeed)) <= options_.standstill_mps &&
                       std(kSpeed) <= options_.standstill_mps &&
-                      std::abs(vehicle.mean(kYawRate)) <= 3.0 * std(kYawRate);
+                      std::abs(vehicle.mean(kYawRate)) <= kSigmas * std(kYawRate);
   return stands ? OdometryStatus::standing_still : OdometryStatus::ok;
 }
 
@@ -472,7 +478,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  const bool contradicts = !trust.is_believed && trust.doppler.exceeds(kContradiction);
+  const bool contradicts = !trust.is_believed && trust.doppler.exceeds(kMaxMeanInnovation);
   return {trust.is_left_out || contradicts,
           trust.doppler.mean(),
           trust.lateral.mean(),

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+
 namespace cremed {
 
 /// A quantity that forgets its value: Ornstein-Uhlenbeck, exp(-t / time) of it is left after t.
@@ -10,7 +12,7 @@ struct ForgettingNoise {
   double time_s = 1.0;  ///< After which it is another.
 };
 
-/// What the odometry filter takes for granted. Those that a user may know are keys of [odometry] in
+/// The priors of the odometry filter. Those that a user may know are keys of [odometry] in
 /// the configuration. Defaults: five ARS408 of a car on two real drives (nuScenes 0061, 0103)
 /// unless another source is named.
 struct OdometryOptions {
@@ -63,7 +65,8 @@ struct OdometryOptions {
   ForgettingNoise lateral_per_metre{0.02, 5.0};  ///< Of y by positions over distance.
 
   // Doppler.
-  double doppler_std_mps = 0.13;        ///< Of one target: start of what is learned from residuals.
+  /// Of one target: start of what is learned from residuals.
+  double doppler_std_mps = kArs408DopplerStdMps;
   double velocity_floor_x_mps = 0.005;  ///< The best that a scan's velocity can be,
   double velocity_floor_y_mps = 0.02;   ///< sideways.
   double max_doppler_nis = 16.0;        ///< Gate, two degrees of freedom: 0.03 % by chance.
@@ -87,8 +90,8 @@ struct OdometryOptions {
   double settled_yaw_rate_std_radps = 0.1;
   int settled_scans = 5;
   double predicted_s = 0.25;  ///< Two scans of an ARS408 are missing.
-  double ambiguous_s = 1.0;
-  double lost_s = 1.0;  ///< By then the speed may have changed by several m/s.
+  double ambiguous_s = 1.0;   ///< A car beside us may hide the road for 13 scans of an ARS408.
+  double lost_s = 1.0;        ///< By then the speed may have changed by several m/s.
 
   // Time.
   double anchor_period_s = 2.2;  ///< The pose is told relative to an anchor renewed so often.

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
-
-double squared(double value) { return value * value; }
 
 int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/cost/cost_options.hpp"
 #include "cremed/estimator/fusion/pose_chain.hpp"
 #include "cremed/estimator/fusion/state_layout.hpp"
 
@@ -16,7 +17,7 @@ LinearMeasurement MeasurementModel::doppler(const DopplerVelocity& velocity, dou
   const double dt_s = -std::max(age_s, 0.0);
   const double v = state.mean(kSpeed) + dt_s * state.mean(kAcceleration);
   const double w = state.mean(kYawRate) + dt_s * state.mean(kYawAcceleration);
-  const double driving = std::min(1.0, std::abs(v));
+  const double driving = std::min(1.0, std::abs(v) / kRollingMps);
   const double body = driving * std::exp(dt_s / options.body_velocity.time_s);
   const double lever_x = vehicle_from_radar.x_m + at(kLeverX);
   const double lever_y = vehicle_from_radar.y_m + at(kLeverY);

@@ -25,8 +25,8 @@ struct MeasurementModel {
   ///
   /// d mount yaw, e lever arm, b Doppler scale (b_c of all radars), u errors of the velocity, o of
   /// all Doppler (o_c of all radars), k DopplerVelocity::per_offset. m, u, o are those of a vehicle
-  /// that drives: times min(1, |v|), held fixed in derivatives. d V_y is left out of z_x: it is
-  /// small, but through it the smallest disagreement in x would turn the slip.
+  /// that drives: times min(1, |v| / kRollingMps), held fixed in derivatives. d V_y is left out of
+  /// z_x: it is small, but through it the smallest disagreement in x would turn the slip.
   [[nodiscard]] LinearMeasurement doppler(const DopplerVelocity& velocity, double age_s) const;
 
   /// y and yaw of a registered pair, with (dx, dy, dpsi) the pose of clone `scan` in the frame of

@@ -8,10 +8,10 @@
 namespace cremed {
 
 void NoiseFactor::add(double innovation) {
-  constexpr double kRate = 0.05;
-  constexpr double kMostInnovation = 4.0;  // One wild measurement says little about the others.
-  const double excess = std::min(innovation, kMostInnovation) - 1.0;
-  value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMost);
+  constexpr double kRate = 0.05;          // One over 20 measurements.
+  constexpr double kMaxInnovation = 4.0;  // Of a true covariance 2 % are larger (exp(-4)).
+  const double excess = std::min(innovation, kMaxInnovation) - 1.0;
+  value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMaxFactor);
 }
 
 void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {

@@ -11,6 +11,9 @@
 
 namespace cremed {
 
+/// Standard deviation of one target's Doppler, an ARS408's on real drives (nuScenes 0061, 0103).
+inline constexpr double kArs408DopplerStdMps = 0.13;
+
 /// The sensor's velocity over ground, from the Doppler of one scan, in the axes of the vehicle.
 struct DopplerVelocity {
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
@@ -30,8 +33,8 @@ struct DopplerVelocity {
 /// outlier, and left out of the result: per_offset = (A'WA)^-1 A'W 1 tells what it does there.
 class DopplerVelocityEstimator {
  public:
-  /// The velocity nearest to `start`, if targets within `start_scale_mps` of it agree on one.
-  /// `std_mps`: standard deviation of a target's Doppler.
+  /// The velocity nearest to `start`, if targets within 2.3 m/s of it (4.685 times 0.5) agree on
+  /// one. `std_mps`: standard deviation of a target's Doppler.
   std::optional<DopplerVelocity> fit(const TargetSet& targets, const Eigen::Vector2d& start,
                                      double std_mps);
   /// The velocity that explains most targets, roughly: a start for fit(). Zero without any.

@@ -5,19 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/motion/median.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {
 
-/// Reorders the range, which must not be empty.
-template <typename Iterator>
-double median(Iterator first, Iterator last) {
-  const Iterator middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last);
-  return *middle;
-}
+/// Beyond what a difference's own covariance explains: by chance once in 370.
+constexpr double kSigmas = 3.0;
 
 }  // namespace
 
@@ -132,14 +128,15 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
-/// Chance finds next to never what no vehicle could have departed from since the last estimate.
+/// Whether the vehicle could have got from the last estimate to this one. A match of chance
+/// neighbours is anywhere in the range of the search, and hardly ever there.
 bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
   const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
   const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
                                  kMaxYawAccelerationRadps2);
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return has_velocity_ && sigma.x() > 0.0 &&
-         (departure.array() <= (possible * dt_s * dt_s + 3.0 * sigma).array()).all();
+         (departure.array() <= (possible * dt_s * dt_s + kSigmas * sigma).array()).all();
 }
 
 /// Asks Doppler even where it takes no part in the estimate.
@@ -147,7 +144,7 @@ bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, doubl
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
   return two_worlds_.look(targets_, result.motion / dt_s,
-                          0.5 * kMaxAccelerationMps2 * dt_s + 3.0 * noise_mps, !has_started_,
+                          0.5 * kMaxAccelerationMps2 * dt_s + kSigmas * noise_mps, !has_started_,
                           [&](double speed_mps) {
                             other.motion.x() = speed_mps * dt_s;
                             return continues(other, dt_s);
@@ -161,15 +158,16 @@ bool EgoMotionEstimator::is_standing(const RegistrationResult& result, double dt
   const double limit_m = options_.standstill_mps * dt_s;
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return result.motion.head<2>().norm() <= limit_m && sigma.head<2>().maxCoeff() <= limit_m &&
-         std::abs(result.motion.z()) <= 3.0 * sigma.z() && median_normalised_doppler() <= 1.0;
+         std::abs(result.motion.z()) <= kSigmas * sigma.z() && median_normalised_doppler() <= 1.0;
 }
 
-/// 0.67 if there is nothing but noise.
+/// 0.67 of pure Gaussian noise: up to 1 is then noise, even if its deviation is 1.5 times as
+/// stated.
 double EgoMotionEstimator::median_normalised_doppler() {
   const auto last =
       std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
                      [](const Target& t) { return std::abs(t.doppler_mps) / t.doppler_std_mps; });
-  return median(scratch_.begin(), last);
+  return median_or(0.0, scratch_.begin(), last);
 }
 
 /// Speed along x that most targets agree on if they stand still and the vehicle turns as before.
@@ -178,11 +176,11 @@ double EgoMotionEstimator::doppler_speed_mps() {
   const Eigen::Vector3d turning(0.0, 0.0, has_velocity_ ? last_velocity_.z() : 0.0);
   auto last = scratch_.begin();
   for (const Target& target : targets_) {
-    if (std::abs(target.cos_bearing) > 0.5) {
+    if (std::abs(target.cos_bearing) > kMinForwardCosine) {
       *last++ = speed_along_x_mps(target, turning, options_.vehicle_from_radar);
     }
   }
-  return last == scratch_.begin() ? 0.0 : median(scratch_.begin(), last);
+  return median_or(0.0, scratch_.begin(), last);
 }
 
 }  // namespace cremed

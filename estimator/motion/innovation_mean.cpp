@@ -20,7 +20,7 @@ void InnovationMean::add(std::int64_t utime_us, double innovation) {
   pass(utime_us);
   Second& now = seconds_[static_cast<std::uint64_t>(second_) % kSeconds];
   ++now.count;
-  now.sum += std::min(innovation, kMost);
+  now.sum += std::min(innovation, kMaxInnovation);
   ++count_;
 }
 

@@ -6,21 +6,23 @@
 #include <cmath>
 #include <numeric>
 
+#include "cremed/estimator/scan/squared.hpp"
+
 namespace cremed {
 namespace {
 
 /// Bounds the work: a scan's first targets are an ARS408's nearest, which are known best.
 constexpr std::size_t kMaxTargets = 96;
-/// A target that is not known better to its side has nobody straight ahead. In m.
+/// A pair is straight ahead within kGateSigmas of this, 1.2 m: less than half a lane, so that what
+/// stands in the next one does not vote.
 constexpr double kMaxSideStdM = 0.6;
 /// Half of the step between yaw rates turns a target at 40 m by 0.6 m in 0.3 s.
 constexpr double kYawRateStepRadps = 0.1;
+/// 5 % of true pairs are outside.
 constexpr double kGateSigmas = 2.0;
 /// Of votes by chance, one more than expected. Exceeded in 1 % of pairs of scans that have nothing
 /// in common (Poisson, 0.3 to 0.5 votes expected at each of 448 places).
 constexpr double kStandsOutSigmas = 4.0;
-
-double squared(double value) { return value * value; }
 
 /// Of a speed and its neighbours, which scatter of positions and acceleration reach.
 template <typename Votes>

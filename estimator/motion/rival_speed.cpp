@@ -6,14 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "cremed/estimator/motion/median.hpp"
+
 namespace cremed {
 namespace {
 
-/// Of a vote that counts, from the speed it counts for, in standard deviations.
-constexpr double kReach = 3.0;
-/// Least |cos_bearing| of a target that tells the speed.
-constexpr double kLeastAlong = 0.5;
-/// Targets nearer than this are one place.
+/// A vote counts for a speed that it differs from by no more standard deviations: by chance one in
+/// 370 of its own does not.
+constexpr double kMaxVoteSigmas = 3.0;
+/// Targets nearer than this are one place: a car (2 by 4.5 m) is one or two.
 constexpr double kPlaceM = 3.0;
 
 /// Targets that have none of those before them near.
@@ -46,7 +47,7 @@ RivalSpeed::Votes RivalSpeed::collect(const TargetSet& targets, const Eigen::Vec
   std::size_t count = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Target& target = targets[i];
-    if (std::abs(target.cos_bearing) < kLeastAlong) {
+    if (std::abs(target.cos_bearing) < kMinForwardCosine) {
       continue;
     }
     const double bearing_mps = velocity.x() * target.sin_bearing * target.bearing_std_rad;
@@ -61,16 +62,11 @@ RivalSpeed::Votes RivalSpeed::collect(const TargetSet& targets, const Eigen::Vec
 double RivalSpeed::median_near(Votes votes, double speed_mps, double change_mps) {
   auto last = near_mps_.begin();
   for (const Vote& vote : votes) {
-    if (std::abs(vote.speed_mps - speed_mps) <= kReach * vote.std_mps + change_mps) {
+    if (std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps + change_mps) {
       *last++ = vote.speed_mps;
     }
   }
-  if (last == near_mps_.begin()) {
-    return speed_mps;
-  }
-  const auto middle = near_mps_.begin() + (last - near_mps_.begin()) / 2;
-  std::nth_element(near_mps_.begin(), middle, last);
-  return *middle;
+  return median_or(speed_mps, near_mps_.begin(), last);
 }
 
 RivalSpeed::Votes RivalSpeed::largest_group(Votes votes) {
@@ -79,7 +75,7 @@ RivalSpeed::Votes RivalSpeed::largest_group(Votes votes) {
   Votes largest;
   std::size_t end = 0;
   for (std::size_t begin = 0; begin < votes.size(); ++begin) {
-    const double width_mps = 2.0 * kReach * votes[begin].std_mps;
+    const double width_mps = 2.0 * kMaxVoteSigmas * votes[begin].std_mps;
     while (end < votes.size() && votes[end].speed_mps - votes[begin].speed_mps <= width_mps) {
       ++end;
     }
@@ -95,7 +91,7 @@ SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& ve
   const Votes votes = collect(targets, velocity);
   const double speed_mps = median_near(votes, velocity.x(), change_mps);
   const auto first_other = std::partition(votes.begin(), votes.end(), [&](const Vote& vote) {
-    return std::abs(vote.speed_mps - speed_mps) <= kReach * vote.std_mps;
+    return std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps;
   });
   const Votes rival = largest_group({first_other, votes.end()});
   const double rival_mps =

@@ -54,7 +54,11 @@ class RivalSpeed {
   std::array<double, kMaxDetections> near_mps_;
 };
 
-/// Speed along x that a target speaks for if it stands; of use where |cos_bearing| is not small.
+/// Least |cos_bearing| of a target that tells the speed along x: 60 degrees off the way, where the
+/// noise of Doppler counts twice.
+inline constexpr double kMinForwardCosine = 0.5;
+
+/// Speed along x that a target speaks for if it stands.
 double speed_along_x_mps(const Target& target, const Eigen::Vector3d& velocity,
                          const Pose2& vehicle_from_radar);
 

@@ -11,12 +11,15 @@
 namespace cremed {
 namespace {
 
-constexpr double kTooGreat = 3.0;
-/// Both are less than this only where errors are less than half of what is said. The shared errors
-/// that Doppler may have keep the first from getting smaller, what vehicles do not accelerate makes
-/// the second small anyway: 0.4 and 0.2 on healthy drives.
-constexpr double kTooSmallByDoppler = 0.35;
-constexpr double kTooSmallByNext = 0.12;
+/// Time-averaged NIS above which a covariance is too small: errors are then 1.7 times as large as
+/// it says. Chance alone does not get there: 100 innovations, of which four in a row share their
+/// error (0.3 s), have a mean of 1 +- 0.28.
+constexpr double kMaxMeanInnovation = 3.0;
+/// A covariance is too large where both means are below these. Healthy drives have 0.4 and 0.2 at
+/// least: the priors of shared errors bound the first from below, and the second is small where a
+/// vehicle accelerates less than its prior. Errors of half the stated size make them 0.25 and 0.05.
+constexpr double kMinMeanByDoppler = 0.35;
+constexpr double kMinMeanByNext = 0.12;
 
 double duration_s(const EgoMotion& motion) {
   return seconds_between(motion.utime_start_us, motion.utime_us);
@@ -62,17 +65,17 @@ void SelfCheck::compare_with_last(const EgoMotion& motion) {
 
 std::uint32_t SelfCheck::doubts() const {
   std::uint32_t result = 0;
-  if (doppler_.exceeds(kTooGreat)) {
+  if (doppler_.exceeds(kMaxMeanInnovation)) {
     result |= registration_contradicts_doppler;
   }
-  if (next_.exceeds(kTooGreat)) {
+  if (next_.exceeds(kMaxMeanInnovation)) {
     result |= motions_contradict_each_other;
   }
   if (speed_.is_contradicted()) {
     result |= positions_contradict_speed;
   }
-  if (doppler_.is_enough() && doppler_.mean() < kTooSmallByDoppler && next_.is_enough() &&
-      next_.mean() < kTooSmallByNext) {
+  if (doppler_.is_enough() && doppler_.mean() < kMinMeanByDoppler && next_.is_enough() &&
+      next_.mean() < kMinMeanByNext) {
     result |= covariance_too_large;
   }
   return result;

@@ -10,12 +10,13 @@
 namespace cremed {
 namespace {
 
-/// Of one target, an ARS408's on real drives (OdometryOptions::doppler_std_mps).
-constexpr double kDopplerStdMps = 0.13;
-/// Radars that look across the way know their forward speed less well.
+/// A third of the step between the speeds that are compared. Radars that look across the way know
+/// their forward speed less well, and are not checked.
 constexpr double kMaxSpeedStdMps = 0.3;
-/// Less is within the steps, and what a vehicle may accelerate between the scans.
+/// Less is within the steps of 1 m/s, and what a vehicle may accelerate in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
+/// Of a difference between two numbers of votes (Poisson). Chance alone exceeds it in 2 % of all
+/// comparisons; how many do in fact is told by SpeedCheck.
 constexpr double kMinSigmas = 2.0;
 
 }  // namespace
@@ -48,7 +49,7 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
 
 std::optional<double> SpeedCheck::doppler_mps(const TargetSet& targets) {
   const auto start = DopplerVelocityEstimator::search(targets);
-  const auto velocity = doppler_.fit(targets, start, kDopplerStdMps);
+  const auto velocity = doppler_.fit(targets, start, kArs408DopplerStdMps);
   if (!velocity || std::sqrt(velocity->covariance(0, 0)) > kMaxSpeedStdMps) {
     return std::nullopt;
   }

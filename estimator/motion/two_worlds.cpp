@@ -12,7 +12,10 @@ struct RivalLimits {
   std::size_t places;
   double share;
 };
+/// More than one truck has (three to five places), and more than the movers that are among the
+/// targets of any drive (5 %: DopplerOptions::moving_weight).
 constexpr RivalLimits kRival{5, 0.25};
+/// What is left of that where a half of it is hidden for a scan: the doubt does not flicker.
 constexpr RivalLimits kRivalInDoubt{3, 0.1};
 
 }  // namespace

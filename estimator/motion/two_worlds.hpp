@@ -27,7 +27,7 @@ class TwoWorlds {
             bool is_start, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_open =
-        (is_start && votes.own + votes.abeam < kFewestPlaces && votes.rival >= kFewestRivals) ||
+        (is_start && votes.own + votes.abeam < kMinRoadPlaces && votes.rival >= kMinRivalPlaces) ||
         (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     return is_in_doubt();
@@ -35,11 +35,11 @@ class TwoWorlds {
   [[nodiscard]] bool is_in_doubt() const { return doubtful_scans_ > 0; }
 
  private:
-  static constexpr int kClearScans = 10;
+  static constexpr int kClearScans = 10;  ///< 0.75 s of an ARS408.
   /// The rear of a truck and its sides are three to five places of 3 m.
-  static constexpr std::size_t kFewestPlaces = 6;
+  static constexpr std::size_t kMinRoadPlaces = 6;
   /// One place may be another car.
-  static constexpr std::size_t kFewestRivals = 2;
+  static constexpr std::size_t kMinRivalPlaces = 2;
 
   [[nodiscard]] bool is_rival(const SpeedVotes& votes) const;
 

@@ -11,19 +11,25 @@
 namespace cremed {
 namespace {
 
-/// Starts nearer than this to each other lead to the same minimum.
+/// Starts nearer than this to each other lead to the same minimum: it is within what a registration
+/// errs by (0.01 m, 0.001 rad), or what the first stage's widened deviations do not resolve.
 constexpr double kSameStartM = 0.01;
 constexpr double kSameStartRad = 0.005;
 
-/// With a smaller share of the targets found again the search may have ended in a local minimum.
+/// With a smaller share of the targets found again the search may have ended in a local minimum: of
+/// 1032 pairs of successive scans (nuScenes, front radar) none has less, and 1 % less than 0.62; of
+/// pairs of scans from different places 0.1 % have more.
 constexpr double kSuspiciousShare = 0.5;
-/// With a smaller one chance neighbours pass for correspondences.
+/// With a smaller one, after all searches, chance neighbours pass for correspondences: of such
+/// pairs from different places 5 to 26 % have more, and are left to the test for a rival.
 constexpr double kMinMatchedShare = 0.3;
-/// Where to search again, relative to the first start: the first stage's widened azimuth reaches
-/// from one to the next.
+/// Where to search again, relative to the first start: the first stage's widened azimuth (5 times
+/// 0.0157 rad, 2 sigma) reaches from one to the next.
 constexpr std::array<double, 4> kRestartYawRad{-0.15, 0.15, -0.3, 0.3};
-/// Another motion is a rival if it is farther away than this, squared and in standard deviations,
-/// and its likelihood smaller by no more than a factor of this logarithm.
+/// Another motion is a rival if it is farther away than this, squared and in standard deviations
+/// (5 sigma: the same minimum found twice differs by 0.3 sigma at most, kMaxStuckStep), and its
+/// likelihood smaller by no more than a factor of this logarithm: 20, so that of the motions
+/// without a rival 5 % at most are the wrong one of two.
 constexpr double kRivalSquaredDistance = 25.0;
 constexpr double kRivalLogRatio = 3.0;
 
@@ -113,7 +119,7 @@ Descent Registration::first_stage(Starts starts, double step_tolerance) {
   }
   Descent descent = best_of(starts);
   if (is_wide) {
-    descend(mixture_, rule(mixture_, options_.max_start_iterations, step_tolerance), descent);
+    descend(mixture_, rule(mixture_, kMaxStartIterations, step_tolerance), descent);
     mixture_.set_scales(1.0, 1.0);
   }
   return descent;

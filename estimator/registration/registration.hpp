@@ -28,6 +28,9 @@ namespace cremed {
 ///     const RegistrationResult result = registration.solve(current_targets, dt_s);
 class Registration {
  public:
+  /// Gauss-Newton steps of the first stage. Source: the paper (RA-L 2022).
+  static constexpr int kMaxStartIterations = 5;
+
   Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar);
 
   /// The scan that the motion starts at; must hold at least one target.

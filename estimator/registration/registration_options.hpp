@@ -16,11 +16,12 @@ enum class Likelihood : std::uint8_t {
 
 /// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
 struct RegistrationOptions {
-  int degrees_of_freedom = 2;        ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
-  double start_scale = 5.0;          ///< Factor on standard deviations in the first stage; 1: none.
-  double start_doppler_scale = 2.0;  ///< Further factor on the Doppler ones in the first stage.
-  int max_start_iterations = 5;      ///< Gauss-Newton steps of the first stage.
-  int max_iterations = 100;          ///< Gauss-Newton steps of the second stage.
+  int degrees_of_freedom = 2;  ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
+  double start_scale = 5.0;    ///< Factor on standard deviations in the first stage; 1: none.
+  /// Further factor on the Doppler ones in the first stage. The paper has 2 for sensors, 1 in its
+  /// simulation.
+  double start_doppler_scale = 2.0;
+  int max_iterations = 100;  ///< Gauss-Newton steps of the second stage.
   /// The second stage ends at a step shorter than this, squared, in standard deviations (step' J'J
   /// step).
   double step_tolerance = 1e-5;

@@ -125,11 +125,9 @@ TEST_CASE("every key of the estimator is taken") {
 [estimator]
 degrees_of_freedom = 3
 start_scale = 6.5
-start_doppler_scale = 1
-max_start_iterations = 0
 max_iterations = 20
 max_component_evaluations = 70000
-covariance = "gauss_newton"
+likelihood = "max_sum_mixture"
 min_targets = 8
 max_gap_s = 0.25
 standstill_mps = 0.2
@@ -141,8 +139,6 @@ max_std_rad = 0.05
 weight = 0.2
 min_range_m = 1
 max_range_m = 40
-ratio = 0.6
-growth = 2
 field_of_view_rad = 2.5
 [estimator.doppler]
 enabled = false
@@ -153,8 +149,6 @@ moving_std_mps = 30
   const EgoMotionOptions& options = configuration.radars.at(0).ego_motion;
   CHECK(options.registration.degrees_of_freedom == 3);
   CHECK(options.registration.start_scale == 6.5);
-  CHECK(options.registration.start_doppler_scale == 1.0);
-  CHECK(options.registration.max_start_iterations == 0);
   CHECK(options.registration.max_iterations == 20);
   CHECK(options.registration.max_component_evaluations == 70000);
   CHECK(options.registration.likelihood == Likelihood::max_sum_mixture);
@@ -169,8 +163,6 @@ moving_std_mps = 30
   CHECK(ray.weight == 0.2);
   CHECK(ray.min_range_m == 1.0);
   CHECK(ray.max_range_m == 40.0);
-  CHECK(ray.ratio == 0.6);
-  CHECK(ray.growth == 2.0);
   CHECK(ray.field_of_view_rad == 2.5);
   const DopplerOptions& doppler = options.registration.doppler;
   CHECK_FALSE(doppler.enabled);
@@ -186,18 +178,18 @@ estimator.outlier_ray.weight = 0.1
 )" + kArs408 + R"(
 [radar.estimator]
 start_scale = 4
-outlier_ray.growth = 2.5
+outlier_ray.max_range_m = 80
 doppler.enabled = false
 )" + radar_text("left", "ars408", "can1"));
   const RegistrationOptions& own = configuration.radars.at(0).ego_motion.registration;
   CHECK(own.start_scale == 4.0);
   CHECK(own.outlier_ray.weight == 0.1);
-  CHECK(own.outlier_ray.growth == 2.5);
+  CHECK(own.outlier_ray.max_range_m == 80.0);
   CHECK_FALSE(own.doppler.enabled);
   const RegistrationOptions& common = configuration.radars.at(1).ego_motion.registration;
   CHECK(common.start_scale == 3.0);
   CHECK(common.outlier_ray.weight == 0.1);
-  CHECK(common.outlier_ray.growth == OutlierRayOptions{}.growth);
+  CHECK(common.outlier_ray.max_range_m == OutlierRayOptions{}.max_range_m);
   CHECK(common.doppler.enabled);
 }
 

@@ -38,13 +38,12 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, start, iterations, tolerance, restarts, work,
-               covariance, ray, doppler, errors] = options;
-  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << start << ' ' << iterations << ' '
-      << tolerance << ' ' << restarts << ' ' << work << ' ' << static_cast<int>(covariance);
-  const auto& [weight, min_range, max_range, ratio, growth, field_of_view] = ray;
-  out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << ratio << ' ' << growth
-      << ' ' << field_of_view;
+  const auto& [freedom, scale, doppler_scale, iterations, tolerance, restarts, work, likelihood,
+               ray, doppler, errors] = options;
+  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << iterations << ' ' << tolerance
+      << ' ' << restarts << ' ' << work << ' ' << static_cast<int>(likelihood);
+  const auto& [weight, min_range, max_range, field_of_view] = ray;
+  out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << field_of_view;
   const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;
   out << "\ndoppler " << enabled << ' ' << both_scans << ' ' << stamp_std << ' ' << moving_weight
       << ' ' << moving_std;
@@ -289,7 +288,6 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     registration.degrees_of_freedom = 2;
     registration.outlier_ray.weight = 0.5;
     registration.start_scale = 5.0;
-    registration.start_doppler_scale = 2.0;
     CHECK(text_of(configuration.radars[i]) == text_of(expected));
   }
 }

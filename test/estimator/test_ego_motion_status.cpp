@@ -73,7 +73,7 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
       {"no time", driving,
        [](EgoMotionOptions& o) {
          o.registration.max_iterations = 1;
-         o.registration.max_start_iterations = 0;
+         o.registration.start_scale = 1.0;  // No first stage.
        },
        MotionStatus::no_convergence},
       {"nothing in view", driving, [](EgoMotionOptions& o) { o.limits.min_range_m = 299.0; },

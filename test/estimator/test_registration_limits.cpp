@@ -228,10 +228,11 @@ TEST_CASE("steps that run out are no convergence, and are counted over both stag
   const Detections current = see(points, {0.4, 0.0, radians(10.0)});
   RegistrationOptions options = options_of(2, true);
   options.max_iterations = 1;
-  options.max_start_iterations = 1;
+  options.step_tolerance = 1e-12;
   const RegistrationResult stopped = solve(options, previous, current);
   CHECK(stopped.status == RegistrationStatus::no_convergence);
-  CHECK(stopped.iterations == 2);
+  CHECK(stopped.iterations >= 2);
+  CHECK(stopped.iterations <= Registration::kMaxStartIterations + 1);
   CHECK(stopped.covariance(0, 0) > 0.0);
   options.start_scale = 1.0;
   CHECK(solve(options, previous, current).iterations == 1);

@@ -28,7 +28,6 @@ void check_accepted(const Configuration& configuration) {
     check(radar.scan_timeout_s > 0.0);
     const RegistrationOptions& registration = radar.ego_motion.registration;
     check(registration.outlier_ray.min_range_m < registration.outlier_ray.max_range_m);
-    check(registration.outlier_ray.growth > 1.0 && registration.outlier_ray.ratio < 1.0);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 
+#include "cremed/estimator/registration/registration.hpp"
 #include "tools/eval/pairs/free_states.hpp"
 
 namespace cremed {
@@ -208,7 +209,7 @@ RegistrationResult solve(const TargetSet& previous, const TargetSet& current,
   if (options.start_scale > 1.0) {
     result.iterations += iterations(minimise<kStates>(
         cost(options.start_scale, options.start_scale * options.start_doppler_scale),
-        options.max_start_iterations, states));
+        Registration::kMaxStartIterations, states));
   }
   const auto summary = minimise<kStates>(cost(1.0, 1.0), kMaxIterations, states);
   result.iterations += iterations(summary);

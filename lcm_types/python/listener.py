@@ -49,7 +49,11 @@ class Listener:
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         self.socket.bind((group, port))
         membership = socket.inet_aton(group) + socket.inet_aton(interface or "0.0.0.0")
-        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        try:
+            self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        except OSError as error:
+            raise OSError(error.errno, f"cannot join {group}, {error.strerror}: multicast needs a route "
+                          "(systemctl start cremed-multicast-route), or interface=\"127.0.0.1\"") from error
 
     def receive(self, timeout_s=None):
         """The next datagram's message: None after `timeout_s`, and where it is none of cremed's."""

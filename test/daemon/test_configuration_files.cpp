@@ -104,7 +104,7 @@ std::string text_of(const OdometryConfiguration& odometry) {
 }
 
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, odometry, output, live, logging] = configuration;
+  const auto& [radars, odometry, output, live, logging, warnings] = configuration;
   std::string text = text_of(odometry);
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
@@ -116,7 +116,7 @@ std::string text_of(const Configuration& configuration) {
   text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
           std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
   return text + lcm_url + "|" + csv + "|" + odometry_csv + "|" + tum + "|" + tum_source + "|" +
-         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level;
+         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level + "|" + warnings;
 }
 
 std::vector<std::string> manual_lines() {

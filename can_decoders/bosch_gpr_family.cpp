@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <string_view>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/hexadecimal.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
 
 namespace cremed {
@@ -49,17 +49,6 @@ IdSet sent_ids(const BoschGprOptions& options) {
     ids.set(options.base_id + i);
   }
   return ids;
-}
-
-/// "0x2A"
-std::string hexadecimal(std::uint32_t id) {
-  std::array<char, 8> digits{};
-  const auto end = std::to_chars(digits.begin(), digits.end(), id, 16).ptr;
-  std::string text = "0x";
-  for (const char* digit = digits.begin(); digit != end; ++digit) {
-    text += static_cast<char>(*digit >= 'a' ? *digit - 'a' + 'A' : *digit);
-  }
-  return text;
 }
 
 std::string label(const BoschGprOptions& /*options*/) { return "Bosch GPR"; }

@@ -33,6 +33,10 @@ Interfaces interfaces_of(const Configuration& configuration) {
 
 bool is_auto(const RadarConfiguration& radar) { return radar.interface == kAutoInterface; }
 
+bool has_interface_names(const Configuration& configuration) {
+  return std::none_of(configuration.radars.begin(), configuration.radars.end(), is_auto);
+}
+
 std::vector<std::string> interface_names(const Configuration& configuration) {
   return interfaces_of(configuration).names;
 }

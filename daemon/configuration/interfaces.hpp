@@ -17,6 +17,9 @@ inline constexpr std::string_view kAutoInterface = "auto";
 
 bool is_auto(const RadarConfiguration& radar);
 
+/// Whether no interface is to be found.
+bool has_interface_names(const Configuration& configuration);
+
 /// Distinct names of the radars' interfaces, in order of first mention. Each radar whose interface
 /// is to be found has an entry of its own.
 std::vector<std::string> interface_names(const Configuration& configuration);

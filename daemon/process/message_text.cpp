@@ -35,15 +35,6 @@ std::string printable(std::string_view text) {
   return size < text.size() ? shown + "..." : shown;
 }
 
-std::string hexadecimal(std::uint64_t value) {
-  std::string text;
-  do {
-    text.insert(text.begin(), "0123456789ABCDEF"[value % 16]);
-    value /= 16;
-  } while (value > 0);
-  return text.insert(0, "0x");
-}
-
 std::string concat(std::initializer_list<std::string_view> parts) {
   std::string text;
   for (const std::string_view part : parts) {

@@ -8,14 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "cremed/can_decoders/hexadecimal.hpp"
+
 // Words of error messages. None depends on the locale.
 namespace cremed {
 
 /// Text of the file as it may stand in a message: control characters replaced, cut when long.
 std::string printable(std::string_view text);
-
-/// "0x2A"
-std::string hexadecimal(std::uint64_t value);
 
 std::string concat(std::initializer_list<std::string_view> parts);
 

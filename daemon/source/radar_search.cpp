@@ -20,15 +20,10 @@ constexpr int kMaxBatches = 100;
 /// A vehicle has fewer.
 constexpr std::size_t kMaxEars = 64;
 
-bool is_named(const Configuration& configuration) {
-  const auto& radars = configuration.radars;
-  return std::none_of(radars.begin(), radars.end(), is_auto);
-}
-
 }  // namespace
 
 RadarSearch::RadarSearch(const Configuration& configuration)
-    : configuration_(configuration), is_over_(is_named(configuration)) {}
+    : configuration_(configuration), is_over_(has_interface_names(configuration)) {}
 
 std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t monotonic_us) {
   if (monotonic_us < next_listen_us_) {
@@ -94,7 +89,7 @@ std::vector<Sighting> RadarSearch::end_round() {
   for (HeardBus& bus : buses_) {
     bus.traffic = {};
   }
-  is_over_ = is_named(configuration_);
+  is_over_ = has_interface_names(configuration_);
   if (is_over_) {
     ears_.clear();
   }

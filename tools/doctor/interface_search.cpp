@@ -3,19 +3,14 @@
 #include "tools/doctor/interface_search.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <optional>
-#include <stdexcept>
-#include <string_view>
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
-#include "daemon/source/candump.hpp"
-#include "daemon/source/line_reader.hpp"
 #include "daemon/source/radar_search.hpp"
+#include "tools/doctor/log_lines.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
@@ -23,11 +18,6 @@ namespace {
 
 /// Two rounds of the search: a radar that is there is seen in the second at the latest.
 constexpr std::int64_t kListenUs = 3'000'000;
-
-bool is_named(const Configuration& configuration) {
-  const auto& radars = configuration.radars;
-  return std::none_of(radars.begin(), radars.end(), is_auto);
-}
 
 Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>& sightings,
                    std::size_t index) {
@@ -54,37 +44,26 @@ LocatedRadars located(const Configuration& found, const std::vector<Sighting>& s
   return result;
 }
 
-void hear(std::string_view line, std::vector<HeardBus>& buses) {
-  const CandumpLine parsed = parse_candump_line(line);
-  if (parsed.status != CandumpStatus::frame) {
+void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
+  if (line.status != CandumpStatus::frame) {
     return;
   }
   auto bus = std::find_if(buses.begin(), buses.end(), [&](const HeardBus& known) {
-    return known.interface == parsed.interface_name;
+    return known.interface == line.interface_name;
   });
   if (bus == buses.end()) {
     if (buses.size() >= kMostBuses) {
       return;
     }
     bus = buses.emplace(buses.end());
-    bus->interface = parsed.interface_name;
+    bus->interface = line.interface_name;
   }
-  bus->traffic.add(parsed.frame);
+  bus->traffic.add(line.frame);
 }
 
 std::vector<HeardBus> heard_in(const std::string& path) {
   std::vector<HeardBus> buses;
-  LineReader reader(path);
-  std::string_view line;
-  for (auto status = reader.next(line); status != LineReader::Status::end;
-       status = reader.next(line)) {
-    if (status == LineReader::Status::failed) {
-      throw std::runtime_error(concat({path, ": ", std::strerror(errno)}));
-    }
-    if (status == LineReader::Status::line) {
-      hear(line, buses);
-    }
-  }
+  read_log(path, [&](const CandumpLine& line) { hear(line, buses); });
   return buses;
 }
 
@@ -109,7 +88,7 @@ LocatedRadars locate_live(const Configuration& configuration,
 }
 
 LocatedRadars locate_in_log(const Configuration& configuration, const std::string& path) {
-  if (is_named(configuration)) {
+  if (has_interface_names(configuration)) {
     return {configuration, {}};
   }
   if (path == "-") {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "cremed/estimator/fusion/fused_motion.hpp"
-#include "cremed/estimator/fusion/motion_witness.hpp"
+#include "cremed/estimator/fusion/output/fused_motion.hpp"
+#include "cremed/estimator/fusion/output/motion_witness.hpp"
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {

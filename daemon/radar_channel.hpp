@@ -9,7 +9,7 @@
 
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/configuration/configuration.hpp"

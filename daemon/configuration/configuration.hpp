@@ -13,7 +13,7 @@
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
-#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "daemon/configuration/bus_options.hpp"
 

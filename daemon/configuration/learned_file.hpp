@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cremed/estimator/fusion/learned_errors.hpp"
+#include "cremed/estimator/fusion/state/learned_errors.hpp"
 #include "daemon/configuration/configuration.hpp"
 
 namespace cremed {

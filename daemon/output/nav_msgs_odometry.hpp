@@ -6,7 +6,7 @@
 
 #include <nav_msgs/Odometry.hpp>
 
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 
 namespace cremed {
 

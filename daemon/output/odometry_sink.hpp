@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cremed/can_decoders/radar_scan.hpp"
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "daemon/output/radar_status.hpp"
 

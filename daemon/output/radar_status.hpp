@@ -8,7 +8,7 @@
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/radar_health.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "daemon/source/frame_source.hpp"
 

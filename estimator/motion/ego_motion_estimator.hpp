@@ -33,7 +33,7 @@ enum class MotionStatus : std::uint8_t {
   ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well or
                         ///< has the Doppler of many targets, and only one motion can be the
                         ///< continuation of the scan before: not this one, or both. Or it fits
-                        ///< but contradicts the odometry (fusion/motion_witness.hpp).
+                        ///< but contradicts the odometry (fusion/output/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 

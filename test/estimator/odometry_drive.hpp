@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/odometry_filter.hpp"
-#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 

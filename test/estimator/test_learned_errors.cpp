@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/learned_errors.hpp"
+#include "cremed/estimator/fusion/state/learned_errors.hpp"
 #include "test/estimator/odometry_drive.hpp"
 
 namespace cremed {

@@ -9,9 +9,11 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/odometry_state.hpp"
-#include "cremed/estimator/fusion/pose_chain.hpp"
-#include "cremed/estimator/fusion/vehicle_motion.hpp"
+#include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/position_measurement.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/fusion/state/vehicle_motion.hpp"
 #include "test/estimator/numeric.hpp"
 
 // The filter's equations on a world that is as they say: are its covariances true?
@@ -70,15 +72,19 @@ class ModelDrive {
            solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().cwiseProduct(white);
   }
 
+  static void advance(OdometryState& state, double dt_s) {
+    state.advance_to(state.time_us() + std::llround(dt_s * 1e6));
+  }
+
   /// The truth moves as the model says, with noise drawn as large as the estimate grows by.
   void move(double dt_s) {
     const MotionStep step = moved(truth_.gaussian.mean().head<kMotionStates>(), dt_s, options_);
     const MotionStep::Vector next = step.state + draw<kMotionStates>(step.noise);
-    draw_forgetting(kCommonOffset, [&](OdometryState& state) { state.advance(dt_s); });
+    draw_forgetting(kCommonOffset, [&](OdometryState& state) { advance(state, dt_s); });
     for (int i = 0; i < kMotionStates; ++i) {
       truth_.gaussian.set_mean(i, next(i));
     }
-    estimate_.advance(dt_s);
+    advance(estimate_, dt_s);
   }
 
   void move_errors(std::size_t radar, double dt_s) {
@@ -107,9 +113,9 @@ class ModelDrive {
     DopplerVelocity velocity;
     velocity.covariance << 4e-4, 1e-4, 1e-4, 25e-4;
     velocity.per_offset = {radar == 0 ? -1.1 : 1.1, 0.05};
-    const LinearMeasurement of_truth = truth_.model(radar).doppler(velocity, 0.0);
+    const LinearMeasurement of_truth = DopplerMeasurement{truth_, radar, 0.0}.linearise(velocity);
     velocity.velocity_mps = draw<2>(of_truth.noise) - of_truth.residual;
-    use(estimate_.model(radar).doppler(velocity, 0.0));
+    use(DopplerMeasurement{estimate_, radar, 0.0}.linearise(velocity));
   }
 
   void measure_positions(std::size_t radar, int scan) {
@@ -123,12 +129,11 @@ class ModelDrive {
     }
     estimate_.clone_scan(radar, 0.0, scan_noise);
     for (std::size_t k = 0; k < kKeyframes && scan >= 20; ++k) {
-      const int keyframe = truth_.keyframe(radar, k);
-      LinearMeasurement of_truth =
-          truth_.model(radar).position(keyframe, truth_.scan(radar), Eigen::Vector3d::Zero());
+      const LinearMeasurement of_truth =
+          PositionMeasurement{truth_, radar, k}.linearise(Eigen::Vector3d::Zero());
       const Eigen::Vector2d measured = draw<2>(pair_noise) - of_truth.residual;
-      LinearMeasurement measurement = estimate_.model(radar).position(
-          keyframe, truth_.scan(radar), {0.0, measured.x(), measured.y()});
+      LinearMeasurement measurement =
+          PositionMeasurement{estimate_, radar, k}.linearise({0.0, measured.x(), measured.y()});
       measurement.noise = pair_noise;
       use(measurement);
     }

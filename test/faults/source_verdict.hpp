@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "test/faults/fault_drive.hpp"
 #include "test/faults/frame_faults.hpp"
 #include "tools/eval/credibility.hpp"

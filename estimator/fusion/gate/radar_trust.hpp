@@ -26,6 +26,10 @@ class NoiseFactor {
   double value_ = 1.0;
 };
 
+/// How long the verdict on a radar's scan, or a doubt, counts: four scans of an ARS408, in which a
+/// braking vehicle changes its speed by 3 m/s.
+inline constexpr double kVerdictS = 0.3;
+
 /// How far a radar is believed.
 struct RadarTrust {
   /// Scans in succession, of which those that agree are taken off again, until it is left out: 0.4
@@ -46,6 +50,10 @@ struct RadarTrust {
   std::int64_t verdict_us = 0;
   DopplerVelocity velocity;
 
+  /// Whether its last scan counts: of a radar that is believed, not longer ago than kVerdictS.
+  [[nodiscard]] bool votes(std::int64_t time_us) const;
+  /// Whether its last scan did, however long ago.
+  [[nodiscard]] bool has_agreed() const { return has_verdict && agrees; }
   /// Whether a scan's velocity is where the filter expects it.
   void judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected);
   /// What it contradicted was wrong.

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/odometry_options.hpp"
-#include "cremed/estimator/fusion/state_layout.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/state_layout.hpp"
 
 namespace cremed {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 

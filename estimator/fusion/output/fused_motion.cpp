@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/fused_motion.hpp"
+#include "cremed/estimator/fusion/output/fused_motion.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/radar_track.hpp"
+#include "cremed/estimator/fusion/measurement/radar_track.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,10 +50,7 @@ bool is_majority(const DopplerVelocity& velocity, const TargetSet& targets) {
 
 RadarTrack::RadarTrack(const OdometryOptions& options, const Pose2& mount,
                        const RegistrationOptions& registration)
-    : two_worlds(mount),
-      options_(options),
-      mount_(mount),
-      registration_(positions_only(registration), mount) {
+    : options_(options), mount_(mount), registration_(positions_only(registration), mount) {
   clear();
 }
 
@@ -64,7 +61,6 @@ void RadarTrack::clear() {
   has_stamp_ = false;
   doppler_std_mps_ = options_.doppler_std_mps;
   scan_covariance_ = kScanVariance.asDiagonal();
-  trust = {};
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cremed/estimator/fusion/pose_chain.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {
@@ -62,7 +63,8 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)) {}
 
-void OdometryState::start() {
+void OdometryState::start(std::int64_t time_us) {
+  time_us_ = time_us;
   for (int i = 0; i < gaussian.size(); ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
@@ -129,8 +131,9 @@ void OdometryState::start_passing_errors(std::size_t radar) {
   set(kLateralPerMetre, options_.lateral_per_metre.std);
 }
 
-void OdometryState::advance(double dt_s) {
-  for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
+void OdometryState::advance_to(std::int64_t time_us) {
+  for (double left_s = seconds_between(time_us_, time_us); left_s > 0.0;
+       left_s -= kMaxMotionStepS) {
     const double step_s = std::min(left_s, kMaxMotionStepS);
     const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
@@ -138,6 +141,7 @@ void OdometryState::advance(double dt_s) {
     forget(gaussian, kCommonOffset, options_.common_offset,
            options_.common_offset_per_yaw_rate_m * turning, step_s);
   }
+  time_us_ = std::max(time_us_, time_us);
 }
 
 VehicleEstimate OdometryState::vehicle() const {
@@ -213,10 +217,6 @@ std::vector<LearnedErrors> OdometryState::learned() const {
     result.push_back({yaws[i], scales[i]});
   }
   return result;
-}
-
-MeasurementModel OdometryState::model(std::size_t radar) const {
-  return {gaussian, options_, mounts_[radar], first_of(radar)};
 }
 
 int OdometryState::scan(std::size_t radar) const { return first_of(radar) + kScan; }

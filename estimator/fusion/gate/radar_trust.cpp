@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/radar_trust.hpp"
+#include "cremed/estimator/fusion/gate/radar_trust.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 
@@ -12,6 +14,10 @@ void NoiseFactor::add(double innovation) {
   constexpr double kMaxInnovation = 4.0;  // Of a true covariance 2 % are larger (exp(-4)).
   const double excess = std::min(innovation, kMaxInnovation) - 1.0;
   value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMaxFactor);
+}
+
+bool RadarTrust::votes(std::int64_t time_us) const {
+  return has_verdict && is_believed && seconds_between(verdict_us, time_us) <= kVerdictS;
 }
 
 void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 
 namespace cremed {

@@ -8,11 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/odometry_options.hpp"
-#include "cremed/estimator/fusion/radar_trust.hpp"
-#include "cremed/estimator/fusion/state_layout.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/state_layout.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
-#include "cremed/estimator/motion/two_worlds.hpp"
 #include "cremed/estimator/registration/registration.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -65,9 +63,6 @@ class RadarTrack {
 
   /// Makes the scan a keyframe in place of the oldest if it is time for one; which.
   std::optional<std::size_t> keep(const TargetSet& targets);
-
-  RadarTrust trust;
-  TwoWorlds two_worlds;  ///< A start anew ends no doubt.
 
  private:
   const OdometryOptions& options_;

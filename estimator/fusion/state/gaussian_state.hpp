@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/linear_measurement.hpp"
+#include "cremed/estimator/fusion/state/linear_measurement.hpp"
 
 namespace cremed {
 

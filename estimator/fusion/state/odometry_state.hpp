@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/gaussian_state.hpp"
-#include "cremed/estimator/fusion/learned_errors.hpp"
-#include "cremed/estimator/fusion/odometry_options.hpp"
-#include "cremed/estimator/fusion/radar_measurement.hpp"
-#include "cremed/estimator/fusion/state_layout.hpp"
-#include "cremed/estimator/fusion/vehicle_motion.hpp"
+#include "cremed/estimator/fusion/state/gaussian_state.hpp"
+#include "cremed/estimator/fusion/state/learned_errors.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/state_layout.hpp"
+#include "cremed/estimator/fusion/state/vehicle_motion.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
@@ -26,7 +27,7 @@ class OdometryState {
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
 
   /// Nothing is known but what the options say; the anchor is here.
-  void start();
+  void start(std::int64_t time_us = 0);
   /// The motion alone begins anew, with (v, w) and their covariance.
   void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
   /// So do the errors of a radar, and what a drive before learned of them counts no longer.
@@ -34,8 +35,8 @@ class OdometryState {
   /// So does the slip.
   void start_slip();
 
-  /// The vehicle moves on.
-  void advance(double dt_s);
+  /// The vehicle moves on; not if the state is later already.
+  void advance_to(std::int64_t time_us);
   [[nodiscard]] VehicleEstimate vehicle() const;
   /// A radar's scans come in order: its errors are those of its last scan's time.
   void advance_errors(std::size_t radar, double dt_s);
@@ -52,7 +53,11 @@ class OdometryState {
   /// What a next drive may begin with, by radar; empty if there is nothing.
   [[nodiscard]] std::vector<LearnedErrors> learned() const;
 
-  [[nodiscard]] MeasurementModel model(std::size_t radar) const;
+  [[nodiscard]] std::int64_t time_us() const { return time_us_; }
+  [[nodiscard]] const OdometryOptions& options() const { return options_; }
+  [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
+  [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
+  // Where it stands in `gaussian`: the clone of a radar's scan, of a keyframe, one of its errors.
   [[nodiscard]] int scan(std::size_t radar) const;
   [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
   [[nodiscard]] int error(std::size_t radar, int which) const;
@@ -64,6 +69,7 @@ class OdometryState {
   void start_shared(int which, const SharedPrior& prior);
 
   OdometryOptions options_;
+  std::int64_t time_us_ = 0;
   std::vector<Pose2> mounts_;
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/gate/filter_condition.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// Above it a scan's Doppler is not gated but gives the speed: max_doppler_nis would let pass 4 m/s
+/// and more, which other cars differ from us by.
+constexpr double kUnknownSpeedStdMps = 1.0;
+/// Longer than kVerdictS: no doubt yet.
+constexpr std::int64_t kLongAgoUs = 1'000'000;
+/// Of a yaw rate that is taken for zero: chance exceeds it once in 370.
+constexpr double kStandstillSigmas = 3.0;
+
+bool stands(const Odometry& odometry, double standstill_mps) {
+  const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };
+  return std::abs(odometry.twist.x()) <= standstill_mps && std(0) <= standstill_mps &&
+         std::abs(odometry.twist.z()) <= kStandstillSigmas * std(2);
+}
+
+}  // namespace
+
+void FilterCondition::start() {
+  is_settled_ = false;
+  used_scans_ = 0;
+  used_us_ = clear_us_ = state_.time_us();
+  doubt_us_ = state_.time_us() - kLongAgoUs;
+}
+
+void FilterCondition::use_scan(bool is_clear) {
+  used_us_ = state_.time_us();
+  clear_us_ = is_clear ? used_us_ : clear_us_;
+  ++used_scans_;
+  is_settled_ = is_settled_ || is_known();
+}
+
+bool FilterCondition::is_speed_unknown() const {
+  return state_.gaussian.std(kSpeed) > kUnknownSpeedStdMps;
+}
+
+bool FilterCondition::is_known() const {
+  const OdometryOptions& options = state_.options();
+  return state_.gaussian.std(kSpeed) <= options.settled_speed_std_mps &&
+         state_.gaussian.std(kYawRate) <= options.settled_yaw_rate_std_radps &&
+         used_scans_ >= options.settled_scans &&
+         consensus_.agreeing(used_us_) > consensus_.contradicting(used_us_);
+}
+
+bool FilterCondition::is_lost() const {
+  return seconds_between(used_us_, state_.time_us()) > state_.options().lost_s;
+}
+
+OdometryStatus FilterCondition::status(const Odometry& odometry) const {
+  const OdometryOptions& options = state_.options();
+  const double unused_s = seconds_between(used_us_, odometry.utime_us);
+  const bool is_predicted = unused_s > options.predicted_s;
+  const bool is_doubtful = seconds_between(doubt_us_, odometry.utime_us) <= kVerdictS;
+  if (is_doubtful && (!is_settled_ || is_predicted)) {
+    return OdometryStatus::ambiguous;
+  }
+  if (unused_s > options.lost_s) {
+    return OdometryStatus::lost;
+  }
+  if (!is_settled_) {
+    return consensus_.contradicting(state_.time_us()) > 0 ? OdometryStatus::ambiguous
+                                                          : OdometryStatus::initialising;
+  }
+  if (is_predicted) {
+    return OdometryStatus::predicted;
+  }
+  if (seconds_between(clear_us_, odometry.utime_us) > options.ambiguous_s) {
+    return OdometryStatus::ambiguous;
+  }
+  return stands(odometry, options.standstill_mps) ? OdometryStatus::standing_still
+                                                  : OdometryStatus::ok;
+}
+
+}  // namespace cremed

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/gate/radar_consensus.hpp"
+
+#include <algorithm>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+/// Of a slow radar: how long a contradiction may have lasted.
+constexpr double kScanPeriodS = 0.1;
+/// Radars agree on a velocity up to this mean square, in standard deviations: two that do exceed it
+/// once in 135 (chi^2 of three degrees of freedom above 12), more of them less often.
+constexpr double kMaxDisagreement = 4.0;
+
+}  // namespace
+
+RadarConsensus::RadarConsensus(const OdometryState& state)
+    : state_(state), trusts_(state.radars()) {}
+
+void RadarConsensus::clear() { std::fill(trusts_.begin(), trusts_.end(), RadarTrust()); }
+
+int RadarConsensus::count(std::int64_t time_us, bool agree) const {
+  return static_cast<int>(std::count_if(
+      trusts_.begin(), trusts_.end(),
+      [&](const RadarTrust& trust) { return trust.votes(time_us) && trust.agrees == agree; }));
+}
+
+std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
+  JointVelocity joint(state_.options());
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const RadarTrust& trust = trusts_[i];
+    if (trust.votes(time_us) && !trust.agrees) {
+      joint.add(trust.velocity, state_.mount(i), seconds_between(trust.verdict_us, time_us));
+    }
+  }
+  if (joint.radars() < 2 || joint.radars() <= agreeing(time_us) ||
+      joint.disagreement() > kMaxDisagreement) {
+    return std::nullopt;
+  }
+  return joint;
+}
+
+double RadarConsensus::longest_contradiction_s() const {
+  int scans = 0;
+  for (const RadarTrust& trust : trusts_) {
+    scans = trust.has_agreed() ? scans : std::max(scans, trust.contradictions);
+  }
+  return scans * kScanPeriodS;
+}
+
+std::uint32_t RadarConsensus::left_out() const {
+  std::uint32_t radars = 0;
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    radars |= trusts_[i].is_left_out ? 1U << i : 0U;
+  }
+  return radars;
+}
+
+}  // namespace cremed

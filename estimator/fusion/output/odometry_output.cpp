@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/output/odometry_output.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// To the last bit, as users may expect.
+Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
+  return 0.5 * (matrix + matrix.transpose());
+}
+
+/// (v, slip v, yaw rate): the velocity of the rear axle's centre in the vehicle's axes.
+void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
+  const double v = vehicle.mean(kSpeed);
+  const double slip = vehicle.mean(kSlip);
+  Eigen::Matrix3d by_state;
+  by_state << 1.0, 0.0, 0.0, slip, 0.0, v, 0.0, 1.0, 0.0;
+  constexpr std::array<int, 3> kTwist{kSpeed, kYawRate, kSlip};
+  const Eigen::Matrix3d covariance = vehicle.covariance(kTwist, kTwist);
+  odometry.twist = {v, slip * v, vehicle.mean(kYawRate)};
+  odometry.twist_covariance = symmetric(by_state * covariance * by_state.transpose());
+}
+
+}  // namespace
+
+OdometryOutput::OdometryOutput(OdometryState& state) : state_(state) {}
+
+OdometryOutput::Anchor OdometryOutput::Anchor::next(std::int64_t at_us,
+                                                    const VehicleEstimate& vehicle) const {
+  const Eigen::Vector3d moved = vehicle.mean.head<kPose>();
+  return {at_us, composed_pose(pose, moved),
+          symmetric(composed_covariance(pose, covariance, moved,
+                                        vehicle.covariance.topLeftCorner<kPose, kPose>()))};
+}
+
+void OdometryOutput::bridge(double gap_s) {
+  const OdometryOptions& options = state_.options();
+  const double way_m = options.start_speed_std_mps * gap_s;
+  const double turn_rad = options.start_yaw_rate_std_radps * gap_s;
+  anchor_ = anchor_.next(state_.time_us(), state_.vehicle());
+  anchor_.covariance.diagonal() +=
+      Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
+  odom_pose_ = gap_s > 0.0 && predicted_us_ > state_.time_us() ? predicted_odom_pose_ : odom_pose_;
+  anchor_.pose = odom_pose_;
+}
+
+void OdometryOutput::start() {
+  predicted_us_ = std::max(predicted_us_, state_.time_us());
+  restart_anchor();
+}
+
+void OdometryOutput::restart_anchor() {
+  anchor_.utime_us = output_us_ = state_.time_us();
+  next_anchor_us_.reset();
+}
+
+void OdometryOutput::forget_predictions() {
+  predicted_us_ = std::numeric_limits<std::int64_t>::min();
+}
+
+void OdometryOutput::advance_to(std::int64_t stamp_us) {
+  if (next_anchor_us_ && *next_anchor_us_ <= stamp_us) {
+    state_.advance_to(*next_anchor_us_);
+    renew_anchor();
+  }
+  state_.advance_to(stamp_us);
+}
+
+void OdometryOutput::renew_anchor() {
+  anchor_ = anchor_.next(state_.time_us(), state_.vehicle());
+  state_.renew_anchor();
+  next_anchor_us_.reset();
+}
+
+Odometry OdometryOutput::next() {
+  Odometry result = odometry(state_.vehicle(), anchor_, state_.time_us());
+  result.is_new = state_.time_us() > output_us_;
+  if (result.is_new) {
+    add_motion(result);
+  }
+  result.odom_pose = odom_pose_;
+  return result;
+}
+
+Odometry OdometryOutput::odometry(const VehicleEstimate& vehicle, const Anchor& anchor,
+                                  std::int64_t utime_us) {
+  Odometry result;
+  result.utime_us = utime_us;
+  result.utime_anchor_us = anchor.utime_us;
+  result.pose = vehicle.mean.head<kPose>();
+  result.covariance = symmetric(vehicle.covariance.topLeftCorner<kPose, kPose>());
+  result.odom_covariance = anchor.next(utime_us, vehicle).covariance;
+  add_twist(vehicle, result);
+  return result;
+}
+
+/// Since the last output, whose clone moves here; the anchor too, if it is old enough.
+void OdometryOutput::add_motion(Odometry& odometry) {
+  const Eigen::Vector3d before = state_.gaussian.mean().segment<kPose>(kOutput);
+  constexpr std::array<int, 6> kPoses{kOutput, kOutput + 1, kOutput + 2, kX, kY, kYaw};
+  odometry.utime_before_us = output_us_;
+  odometry.motion = relative_pose(before, odometry.pose);
+  const auto jacobian = relative_pose_jacobian(before, odometry.motion);
+  const Eigen::Matrix<double, 6, 6> covariance = state_.gaussian.covariance()(kPoses, kPoses);
+  odometry.motion_covariance = symmetric(jacobian * covariance * jacobian.transpose());
+  odometry.radars = radars_;
+  odom_pose_ = composed_pose(odom_pose_, odometry.motion);
+  output_us_ = state_.time_us();
+  radars_since_prediction_ |= radars_;
+  radars_ = 0;
+  state_.clone_output();
+  const OdometryOptions& options = state_.options();
+  if (options.rate_hz == 0 &&
+      seconds_between(anchor_.utime_us, output_us_) >= options.anchor_period_s) {
+    renew_anchor();
+  }
+}
+
+/// The state stays where the last scan left it, so that one that was measured before this time
+/// still finds it there. It passes a new anchor later than the predictions that are given in its
+/// frame.
+std::optional<Odometry> OdometryOutput::predict_next(std::int64_t now_us) {
+  const OdometryOptions& options = state_.options();
+  const std::int64_t from_us = state_.time_us();
+  const std::int64_t utime_us =
+      next_multiple_us(std::max(predicted_us_, from_us - 1), options.rate_hz);
+  if (utime_us > now_us || seconds_between(from_us, utime_us) > options.max_gap_s) {
+    return std::nullopt;
+  }
+  const Odometry result = predicted(utime_us);
+  predicted_us_ = utime_us;
+  predicted_odom_pose_ = result.odom_pose;
+  radars_since_prediction_ = 0;
+  if (!next_anchor_us_ && seconds_between(anchor_.utime_us, utime_us) >= options.anchor_period_s) {
+    next_anchor_us_ = utime_us;
+  }
+  return result;
+}
+
+Odometry OdometryOutput::predicted(std::int64_t utime_us) const {
+  const OdometryOptions& options = state_.options();
+  VehicleEstimate vehicle = state_.vehicle();
+  std::int64_t from_us = state_.time_us();
+  Anchor anchor = anchor_;
+  anchor.pose = composed_pose(
+      odom_pose_,
+      relative_pose(state_.gaussian.mean().segment<kPose>(kOutput), Eigen::Vector3d::Zero()));
+  if (next_anchor_us_) {
+    vehicle = vehicle.predicted(seconds_between(from_us, *next_anchor_us_), options);
+    from_us = *next_anchor_us_;
+    anchor = anchor.next(from_us, vehicle);
+    vehicle = vehicle.at_origin();
+  }
+  const double ahead_s = seconds_between(from_us, utime_us);
+  Odometry result = odometry(vehicle.predicted(ahead_s, options), anchor, utime_us);
+  result.is_new = true;
+  result.utime_before_us = predicted_us_;
+  result.odom_pose = composed_pose(anchor.pose, result.pose);
+  result.radars = radars_since_prediction_;
+  return result;
+}
+
+}  // namespace cremed

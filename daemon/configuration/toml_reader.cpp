@@ -65,8 +65,9 @@ std::string degrees_hint(std::string_view key, std::optional<double> value, Rang
 }
 
 bool has_control_character(std::string_view text) {
+  // char is signed on some processors; bytes of UTF-8 are none of these.
   return std::any_of(text.begin(), text.end(),
-                     [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; });
+                     [](unsigned char c) { return c < ' ' || c == '\x7F'; });
 }
 
 bool contains(const std::vector<std::string_view>& keys, std::string_view key) {

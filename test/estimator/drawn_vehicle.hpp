@@ -110,17 +110,17 @@ class DrawnVehicle {
     const SharedErrorOptions& errors = options_.registration.shared_errors;
     const double dt_s =
         seconds_since_start(motion.utime_us) - seconds_since_start(motion.utime_start_us);
-    const double rolling = rolling_part(drawn.truth, 0.0, dt_s);
+    const double driving = driving_share(drawn.truth, 0.0, dt_s);
     const double lateral_m = drawn.truth.x() * errors.mount_yaw_std_rad;
     Eigen::Matrix3d covariance = radars_[drawn.radar].std.cwiseAbs2().asDiagonal();
     covariance(0, 2) = covariance(2, 0) = 0.3 * std::sqrt(covariance(0, 0) * covariance(2, 2));
     const Eigen::Matrix3d root = covariance.llt().matrixL();
     Eigen::Vector3d seen = drawn.truth + root * Eigen::Vector3d(normal(), normal(), normal());
     seen.y() += mounts_rad_[drawn.radar] * drawn.truth.x();
-    seen.x() += rolling * body_error_mps(motion) * dt_s;
+    seen.x() += driving * body_error_mps(motion) * dt_s;
     covariance(1, 1) += lateral_m * lateral_m;
     say(seen, covariance, motion);
-    motion.covariance(0, 0) += std::pow(rolling * errors.velocity_std_mps * dt_s, 2);
+    motion.covariance(0, 0) += std::pow(driving * errors.velocity_std_mps * dt_s, 2);
     motion.status = drawn.truth.head<2>().norm() < options_.standstill_mps * dt_s
                         ? MotionStatus::standing_still
                         : MotionStatus::ok;

@@ -220,11 +220,11 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
 
 TEST_CASE("A vehicle rolls as far as its motion is beyond noise") {
   const Eigen::Vector3d forward(0.01, 0.0, 0.0);
-  CHECK(rolling_part(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
-  CHECK(rolling_part(forward, 0.02, 0.1) == 0.0);
-  CHECK(rolling_part(forward, 0.0, 0.1) == Approx(0.1));
-  CHECK(rolling_part(-forward, 0.005, 0.1) == Approx(0.05));
-  CHECK(rolling_part(100.0 * forward, 0.005, 0.1) == 1.0);
+  CHECK(driving_share(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
+  CHECK(driving_share(forward, 0.02, 0.1) == 0.0);
+  CHECK(driving_share(forward, 0.0, 0.1) == Approx(0.1));
+  CHECK(driving_share(-forward, 0.005, 0.1) == Approx(0.05));
+  CHECK(driving_share(100.0 * forward, 0.005, 0.1) == 1.0);
 }
 
 TEST_CASE("A mount that is turned a little costs yaw, not confidence") {

@@ -23,7 +23,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// One radar, two worlds: each sees its own of two drives.
+/// One radar that sees the targets of two drives.
 RadarScan both(RadarScan scan, const RadarScan& other) {
   for (std::size_t i = 0; i < other.count; ++i) {
     scan.detections[scan.count++] = other.detections[i];
@@ -31,11 +31,11 @@ RadarScan both(RadarScan scan, const RadarScan& other) {
   return scan;
 }
 
-TEST_CASE("two worlds are ambiguous, until one is gone or if the last motion tells") {
+TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion decides") {
   struct Row {
     std::string what;
     Eigen::Vector3d road;
-    int scans_before;  // of the road alone
+    int scans_before;  // of the road only
     MotionStatus status;
   };
   const std::vector<Row> rows = {

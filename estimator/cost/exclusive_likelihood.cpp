@@ -85,8 +85,8 @@ bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, con
   const double x_m = moved.x_m;
   const double y_m = moved.y_m;
   const double variance_m2 = moved.covariance_m2.trace();
-  const double reach = std::sqrt(max_squared_distance_[i]) + kListMarginSigmas;
-  const double max_squared_distance = reach * reach;
+  const double max_distance = std::sqrt(max_squared_distance_[i]) + kListMarginSigmas;
+  const double max_squared_distance = max_distance * max_distance;
   const std::size_t size = previous.size();
   for (std::size_t j = 0; j < size; ++j) {
     const double ex = x_m - x_m_[j];

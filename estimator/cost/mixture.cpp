@@ -75,14 +75,15 @@ void Mixture::copy_rough(std::size_t j) {
 void Mixture::bound_rounding() {
   MixtureComponents& c = components_;
   c.max_eccentricity = 0.0;
-  c.reach_m = 0.0;
+  c.max_coordinate_m = 0.0;
   double min_variance = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < c.size; ++j) {
     const double trace = c.exact.xx[j] + c.exact.yy[j];
     const double det = c.exact.xx[j] * c.exact.yy[j] - c.exact.xy[j] * c.exact.xy[j];
     c.max_eccentricity = std::max(c.max_eccentricity, trace * trace / det);
     min_variance = std::min(min_variance, det / trace);
-    c.reach_m = std::max({c.reach_m, std::abs(c.exact.x_m[j]), std::abs(c.exact.y_m[j])});
+    c.max_coordinate_m =
+        std::max({c.max_coordinate_m, std::abs(c.exact.x_m[j]), std::abs(c.exact.y_m[j])});
   }
   c.min_std_m = std::sqrt(min_variance);
 }

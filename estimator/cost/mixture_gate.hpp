@@ -71,9 +71,9 @@ CREMED_ALWAYS_INLINE void find_keys(const MixtureComponents& components, const M
 /// too large to bound it.
 CREMED_ALWAYS_INLINE float greatest_key(const MixtureComponents& components,
                                         const MixturePoint& point, float least_key) {
-  constexpr double kUnit = 0x1p-24;         // rounding of a float
-  constexpr double kLogError = 0.07;        // of log det
-  constexpr double kKeyToDistance = 200.0;  // a squared distance exceeds its key by less
+  constexpr double kUnit = 0x1p-24;               // rounding of a float
+  constexpr double kLogError = 0.07;              // of log det
+  constexpr double kMaxDistanceMinusKey = 200.0;  // a squared distance exceeds its key by less
   const Symmetric2& own = point.covariance_m2;
   const double trace = own.xx + own.yy;
   const double det = own.xx * own.yy - own.xy * own.xy;
@@ -81,13 +81,16 @@ CREMED_ALWAYS_INLINE float greatest_key(const MixtureComponents& components,
   const double eccentricity = components.max_eccentricity > own_eccentricity
                                   ? components.max_eccentricity
                                   : own_eccentricity;
-  const double reach_m = components.reach_m + std::abs(point.x_m) + std::abs(point.y_m);
-  const double error = kUnit * (16.0 * eccentricity + 4.0 * reach_m / components.min_std_m);
+  const double max_coordinate_m =
+      components.max_coordinate_m + std::abs(point.x_m) + std::abs(point.y_m);
+  const double error =
+      kUnit * (16.0 * eccentricity + 4.0 * max_coordinate_m / components.min_std_m);
   if (!(error < 0.02)) {
     return std::numeric_limits<float>::infinity();
   }
   const auto key = static_cast<double>(least_key);
-  return static_cast<float>(key + kNegligible + kLogError + 2.0 * error * (key + kKeyToDistance));
+  return static_cast<float>(key + kNegligible + kLogError +
+                            2.0 * error * (key + kMaxDistanceMinusKey));
 }
 
 /// `found` is not 0 for each of the two blocks of 16 keys that has a key not greater than `key`.

@@ -60,7 +60,7 @@ struct MixtureComponents {
   // Bounds of the rounding error of the rough distances.
   double max_eccentricity = 0.0;  ///< Greatest trace^2 / det of a covariance.
   double min_std_m = 0.0;         ///< Lower bound of any standard deviation.
-  double reach_m = 0.0;           ///< Greatest coordinate.
+  double max_coordinate_m = 0.0;  ///< Greatest coordinate.
 };
 
 /// Working space of a kernel.

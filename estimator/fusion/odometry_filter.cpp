@@ -182,12 +182,12 @@ bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets
   const Eigen::Vector3d velocity(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m, w);
   const double std_mps = std::sqrt(scan.velocity.covariance(0, 0));
   const double since_s = seconds_between(std::min(condition_.used_us(), stamp_us), stamp_us);
-  const double reach_mps =
+  const double max_difference_mps =
       kMaxSpeedSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
   const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
   return two_worlds_[radar].check(
       targets, velocity, kMaxSpeedSigmas * std_mps, is_start, [&](double speed_mps) {
-        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= reach_mps;
+        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= max_difference_mps;
       });
 }
 

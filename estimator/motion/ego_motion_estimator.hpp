@@ -48,14 +48,14 @@ struct EgoMotion {
   std::int64_t utime_start_us = 0;
   std::int64_t utime_us = 0;
   MotionStatus status = MotionStatus::no_reference;
-  Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNothing);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
-  bool incomplete = false;               ///< The current scan lacks parts; the others are used.
-  int targets = 0;                       ///< Usable targets in the current scan.
-  int iterations = 0;                    ///< Gauss-Newton steps.
-  double doppler_innovation = kNothing;  ///< See RegistrationResult.
+  Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNan);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNan);
+  bool incomplete = false;           ///< The current scan lacks parts; the others are used.
+  int targets = 0;                   ///< Usable targets in the current scan.
+  int iterations = 0;                ///< Gauss-Newton steps.
+  double doppler_innovation = kNan;  ///< See RegistrationResult.
 
-  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {
     return status == MotionStatus::ok || status == MotionStatus::standing_still;
   }

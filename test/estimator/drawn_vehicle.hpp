@@ -149,7 +149,7 @@ class DrawnVehicle {
   /// Velocity of the body, common to all radars, with a correlation time of 0.3 s.
   double body_error_mps(const EgoMotion& motion) {
     constexpr double kStepS = 0.01;
-    constexpr double kKept = 0.967;  // exp(-kStepS / 0.3 s)
+    constexpr double kCorrelationPerStep = 0.967;  // exp(-kStepS / 0.3 s)
     const double std_mps = options_.registration.shared_errors.velocity_std_mps;
     const auto index = [](std::int64_t utime_us) {
       return static_cast<std::size_t>(seconds_since_start(utime_us) / kStepS);
@@ -158,9 +158,10 @@ class DrawnVehicle {
     const std::size_t last = index(motion.utime_us);
     while (body_mps_.size() <= last) {
       const double fresh = std_mps * normal();
-      body_mps_.push_back(body_mps_.empty()
-                              ? fresh
-                              : kKept * body_mps_.back() + std::sqrt(1 - kKept * kKept) * fresh);
+      body_mps_.push_back(
+          body_mps_.empty() ? fresh
+                            : kCorrelationPerStep * body_mps_.back() +
+                                  std::sqrt(1 - kCorrelationPerStep * kCorrelationPerStep) * fresh);
     }
     double sum_mps = 0.0;
     for (std::size_t i = first; i <= last; ++i) {

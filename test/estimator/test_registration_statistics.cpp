@@ -31,7 +31,7 @@ struct Statistics {
 };
 
 /// A credible error exceeds this with probability 10^-8.
-constexpr double kGross = 40.0;
+constexpr double kMinGrossError = 40.0;
 
 Statistics evaluate(const Scenario& scenario, std::size_t runs) {
   Random random(20220411);
@@ -41,7 +41,7 @@ Statistics evaluate(const Scenario& scenario, std::size_t runs) {
   for (std::size_t i = 0; i < runs; ++i) {
     const auto [error, result] = simulation::run(scenario, random);
     const double nees = numeric::normalised_error(error, result.covariance, degrees_of_freedom);
-    if (result.status != RegistrationStatus::converged || !(nees < kGross)) {
+    if (result.status != RegistrationStatus::converged || !(nees < kMinGrossError)) {
       sum.gross += 1.0;
       continue;
     }

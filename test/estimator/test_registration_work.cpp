@@ -84,7 +84,7 @@ void check_numbers(const RegistrationResult& result) {
 
 /// Largest work of one linearisation of full scans, including the list of pairs.
 constexpr std::int64_t kMixtureWork = 256 * (256 + kMaxRayComponents);
-constexpr std::int64_t kMostWork =
+constexpr std::int64_t kMaxLinearisationWork =
     kMixtureWork +
     (4 + Association::kMaxRounds) * static_cast<std::int64_t>(Association::kMaxPairs);
 
@@ -98,7 +98,8 @@ TEST_CASE("full scans of any kind stay within the limit on work and are finite")
         const RegistrationResult result = registration.solve(problem.current, kDt);
         CAPTURE(problem.what, model, degrees_of_freedom, result.component_evaluations);
         check_numbers(result);
-        CHECK(result.component_evaluations <= options.max_component_evaluations + kMostWork);
+        CHECK(result.component_evaluations <=
+              options.max_component_evaluations + kMaxLinearisationWork);
         CHECK(result.component_evaluations > 0);
       }
     }
@@ -119,7 +120,7 @@ TEST_CASE("reaching the limit on work is no convergence, and ends soon after") {
         REQUIRE(whole.status == RegistrationStatus::converged);
       }
       // Less than needed by up to one linearisation.
-      for (std::int64_t limit = 0; limit < whole.component_evaluations - kMostWork;
+      for (std::int64_t limit = 0; limit < whole.component_evaluations - kMaxLinearisationWork;
            limit += whole.component_evaluations / 20) {
         options.max_component_evaluations = limit;
         Registration registration(options, {});
@@ -128,7 +129,7 @@ TEST_CASE("reaching the limit on work is no convergence, and ends soon after") {
         CAPTURE(model, degrees_of_freedom, limit, whole.component_evaluations);
         CHECK(result.status == RegistrationStatus::no_convergence);
         CHECK(result.component_evaluations >= limit);
-        CHECK(result.component_evaluations <= limit + kMostWork);
+        CHECK(result.component_evaluations <= limit + kMaxLinearisationWork);
         check_numbers(result);
       }
     }
@@ -156,7 +157,7 @@ TEST_CASE("reaching the limit on work in a repeated search is no convergence") {
     CAPTURE(share, result.starts, whole.component_evaluations);
     CHECK(result.starts <= whole.starts);
     CHECK(result.status != RegistrationStatus::converged);
-    CHECK(result.component_evaluations <= limit + kMostWork);
+    CHECK(result.component_evaluations <= limit + kMaxLinearisationWork);
   }
 }
 

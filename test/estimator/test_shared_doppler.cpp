@@ -229,7 +229,7 @@ TEST_CASE("The driving share is the speed beyond noise") {
 TEST_CASE("A small yaw error of the mount biases yaw within its covariance") {
   SharedErrorOptions errors = no_errors();
   errors.mount_yaw_std_rad = 0.01;
-  const Pose2 believed{3.4, 0.0, 0.0};
+  const Pose2 configured{3.4, 0.0, 0.0};
   const Pose2 true_mount{3.4, 0.0, 0.01};
   TargetSet scan;
   Random random(9);
@@ -241,10 +241,10 @@ TEST_CASE("A small yaw error of the mount biases yaw within its covariance") {
     detection.range_std_m = 0.2;
     detection.azimuth_std_rad = 1e-4;
     detection.doppler_std_mps = 0.1;
-    scan.add(detection, believed);
+    scan.add(detection, configured);
   }
-  const SharedDoppler naive = shared_doppler(no_movers(), no_errors(), believed);
-  const SharedDoppler aware = shared_doppler(no_movers(), errors, believed);
+  const SharedDoppler naive = shared_doppler(no_movers(), no_errors(), configured);
+  const SharedDoppler aware = shared_doppler(no_movers(), errors, configured);
   const Solution wrong = solve(naive, scan, scan);
   const Solution right = solve(aware, scan, scan);
   CHECK(std::abs(wrong.motion.z()) > 5.0 * std::sqrt(wrong.covariance(2, 2)));

@@ -42,9 +42,9 @@ bool contradicts(const Odometry& known, const EgoMotion& motion) {
 
 EgoMotion withdrawn(EgoMotion motion) {
   motion.status = MotionStatus::ambiguous;
-  motion.motion.setConstant(EgoMotion::kNothing);
-  motion.covariance.setConstant(EgoMotion::kNothing);
-  motion.doppler_innovation = EgoMotion::kNothing;
+  motion.motion.setConstant(EgoMotion::kNan);
+  motion.covariance.setConstant(EgoMotion::kNan);
+  motion.doppler_innovation = EgoMotion::kNan;
   return motion;
 }
 

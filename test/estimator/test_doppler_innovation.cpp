@@ -69,7 +69,7 @@ struct Pair {
   RegistrationResult result;
 };
 
-/// With two degrees of freedom y = 0, or that of an arc.
+/// With two degrees of freedom y = 0, or the y of an arc.
 Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc = false) {
   const bool is_car = options.degrees_of_freedom == 2;
   const simulation::Noise noise{0.13, 0.0157, 0.1};

@@ -46,7 +46,7 @@ TEST_CASE("each option's limit separates an estimate from its status") {
   };
   const Eigen::Vector3d driving(10.0, 0.0, 0.2);
   const std::vector<Row> rows = {
-      {"as it comes", driving, [](EgoMotionOptions&) {}, MotionStatus::ok},
+      {"default options", driving, [](EgoMotionOptions&) {}, MotionStatus::ok},
       {"slow enough", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 10.5; },
        MotionStatus::ok},
       {"too fast", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 9.5; },

@@ -176,7 +176,7 @@ TEST_CASE("repeated searches and too many pairs do not allocate") {
   };
   const std::vector<Row> rows = {{"another place", 60.0, 2, 0.0157, true},
                                  {"dense", 6.0, 1, 0.0157, false},
-                                 {"everything may be everything", 60.0, 2, 0.5, false}};
+                                 {"all pairs are possible", 60.0, 2, 0.5, false}};
   for (const Row& row : rows) {
     const auto targets = [&](std::uint64_t seed) {
       Random random(seed);

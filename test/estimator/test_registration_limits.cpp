@@ -123,7 +123,7 @@ TEST_CASE("few targets and targets in a line are solved within their covariance"
 }
 
 /// Squared length of the next step at the end of a registration without Doppler, in standard
-/// deviations; 0 unless it says that it has converged.
+/// deviations; 0 unless it has converged.
 double step_left(const RegistrationOptions& options, const TargetSet& previous,
                  const TargetSet& current) {
   Registration registration(options, {});

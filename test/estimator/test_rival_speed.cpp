@@ -59,7 +59,7 @@ TEST_CASE("Two worlds are counted by their places, with the rival's speed") {
       {"one world", 20, 0, 4.0, 0},
       {"a few at another speed", 20, 4, 4.0, 4},
       {"a car shows many targets and is one place", 20, 6, 0.5, 1},
-      {"more of the other world", 5, 12, 4.0, 12},
+      {"more of the rival's world", 5, 12, 4.0, 12},
   };
   const Eigen::Vector3d own(2.0, 0.0, 0.2);
   const Eigen::Vector3d other(6.0, 0.0, 0.2);

@@ -70,7 +70,7 @@ TEST_CASE("a detection becomes a point in the vehicle frame") {
   }
 }
 
-TEST_CASE("Doppler and the standard deviations of the line of sight are those of the radar") {
+TEST_CASE("a target has the Doppler and the line-of-sight noise of its detection") {
   const Target target = simulation::targets({usable_detection()}, {3.0, 0.5, 1.0})[0];
   CHECK(target.doppler_mps == -3.0);
   CHECK(target.doppler_std_mps == 0.1);

@@ -40,8 +40,8 @@ TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion de
   };
   const std::vector<Row> rows = {
       {"from the start", {8.0, 0.0, 0.0}, 0, MotionStatus::ambiguous},
-      {"the last motion tells", {8.0, 0.0, 0.0}, 2, MotionStatus::ok},
-      {"near each other, it does not", {0.8, 0.0, 0.0}, 2, MotionStatus::ambiguous},
+      {"the last motion decides", {8.0, 0.0, 0.0}, 2, MotionStatus::ok},
+      {"similar speeds, it does not", {0.8, 0.0, 0.0}, 2, MotionStatus::ambiguous},
   };
   for (const Row& row : rows) {
     CAPTURE(row.what);

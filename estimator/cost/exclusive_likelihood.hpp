@@ -44,7 +44,7 @@ class ExclusiveLikelihood {
   static constexpr double kListMarginSigmas = 1.0;
 
   /// Lists the pairs with a psi of at least 1e-3 near `motion`. false: more pairs than the
-  /// capacity; those of the last targets are then missing.
+  /// capacity; pairs of the last targets are then missing.
   bool list_pairs(const TargetSet& previous, const TargetSet& current,
                   const Eigen::Vector3d& motion);
 

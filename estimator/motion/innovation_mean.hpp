@@ -29,7 +29,7 @@ class InnovationMean {
 
  private:
   static constexpr std::size_t kSeconds = 60;
-  /// The mean of so many independent innovations of two degrees of freedom is 1 +- 0.1.
+  /// The mean of this many independent innovations of two degrees of freedom is 1 +- 0.1.
   static constexpr std::uint64_t kMinCount = 100;
   /// 5 sigma: exceeded with probability below 10^-6, so the limit does not change the mean of a
   /// true covariance.

@@ -16,7 +16,7 @@ constexpr double kMaxVoteSigmas = 3.0;
 /// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
 constexpr double kPlaceRadiusM = 3.0;
 
-/// Number of votes whose target is not near that of an earlier vote.
+/// Number of targets with a vote that are not near a target of an earlier vote.
 template <typename Votes>
 std::size_t count_places(const TargetSet& targets, const Votes& votes) {
   std::size_t places = 0;

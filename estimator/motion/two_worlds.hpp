@@ -12,10 +12,10 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, and that they cannot be told apart. The previous motion decides if it can continue at
-/// only one of the two speeds. Without a previous motion, the estimated speed needs more places
-/// than a truck has if at least two places contradict it. The doubt ends after ten scans without a
-/// rival; a smaller rival maintains it.
+/// along, which cannot be distinguished. The previous motion decides if it can continue at only one
+/// of the two speeds. Without a previous motion, the estimated speed needs more places than a truck
+/// has if at least two places contradict it. The doubt ends after ten scans without a rival; a
+/// smaller rival maintains it.
 class TwoWorlds {
  public:
   explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}

@@ -21,15 +21,15 @@ constexpr double kSameStartRad = 0.005;
 /// less than 0.62; of pairs of scans from different places 0.1 % have more.
 constexpr double kRestartMatchedShare = 0.5;
 /// With a smaller share after all searches the matches are chance neighbours. Of pairs from
-/// different places 5 to 26 % have more; the test for a rival rejects those.
+/// different places 5 to 26 % have more and are left to the test for a rival.
 constexpr double kMinMatchedShare = 0.3;
 /// Yaw of the repeated searches, relative to the first start. The spacing is 2 sigma of the first
 /// stage's widened azimuth (5 times 0.0157 rad).
 constexpr std::array<double, 4> kRestartYawRad{-0.15, 0.15, -0.3, 0.3};
 /// Another motion is a rival if its squared distance in standard deviations is larger than this (5
 /// sigma; the same minimum found twice differs by at most 0.3 sigma, kMaxStuckSquaredStep), and its
-/// cost is higher by less than this: a likelihood ratio of 20, so that of two motions at most 5 %
-/// of those accepted are the wrong one.
+/// cost is higher by less than this: a likelihood ratio of 20, so that at most 5 % of the motions
+/// without a rival are the wrong one of two.
 constexpr double kMinRivalSquaredDistance = 25.0;
 constexpr double kMaxRivalLogRatio = 3.0;
 

@@ -18,8 +18,8 @@ enum class Likelihood : std::uint8_t {
 struct RegistrationOptions {
   int degrees_of_freedom = 2;  ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
   double start_scale = 5.0;    ///< Factor on standard deviations in the first stage; 1: no stage.
-  /// Further factor on those of Doppler in the first stage. In the paper 2 for sensors, 1 in
-  /// simulation.
+  /// Further factor on standard deviations of Doppler in the first stage. In the paper 2 for
+  /// sensors, 1 in simulation.
   double start_doppler_scale = 2.0;
   int max_iterations = 100;  ///< Gauss-Newton steps of the second stage.
   /// The second stage ends at a step whose squared length in standard deviations (step' J'J step)

@@ -27,7 +27,7 @@ struct Target {
   double doppler_std_mps = 0.0;
 };
 
-/// Numbers of detections used, and of those left out by reason.
+/// Numbers of detections used and left out, by reason.
 struct SelectionCounters {
   std::uint64_t used = 0;
   std::uint64_t no_noise = 0;

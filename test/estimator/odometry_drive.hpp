@@ -25,8 +25,8 @@ class OdometryDrive {
   static constexpr std::int64_t kPeriodUs = 75000;
 
   struct Radar {
-    Pose2 mount;  ///< True mount,
-    Pose2 told;   ///< and the one in the filter's configuration.
+    Pose2 mount;       ///< True mount,
+    Pose2 configured;  ///< and the one in the filter's configuration.
     /// Velocity along x of all targets of this radar. At the vehicle's own speed it measures no
     /// motion.
     double world_mps = 0.0;
@@ -100,7 +100,7 @@ class OdometryDrive {
       }
     }
     perturb(detections, random_);
-    return targets(detections, radar.told);
+    return targets(detections, radar.configured);
   }
 
   [[nodiscard]] std::int64_t stamp_us() const { return stamp_us_; }

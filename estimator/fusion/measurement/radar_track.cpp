@@ -23,8 +23,8 @@ constexpr double kMaxLearningShare = 0.1;
 constexpr double kMinDopplerStdMps = 0.05;
 constexpr double kMaxDopplerStdMps = 0.6;
 
-/// A registration that needs more steps from a prediction is not reliable: with those the yaw error
-/// doubled on a real drive with turns (nuScenes 0061).
+/// A registration that needs more steps from a prediction is unreliable: using such registrations
+/// doubled the yaw error on a real drive with turns (nuScenes 0061).
 constexpr int kMaxIterations = 5;
 constexpr double kStepTolerance = 1e-3;  // 3 % of a standard deviation.
 

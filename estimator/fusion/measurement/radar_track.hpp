@@ -20,8 +20,8 @@ namespace cremed {
 /// The sensor's velocity by a scan's Doppler.
 struct ScanVelocity {
   DopplerVelocity velocity;
-  /// More than half of the targets are static at this velocity. Otherwise it may be that of moving
-  /// targets.
+  /// More than half of the targets are static at this velocity. Otherwise the targets that agree
+  /// may be moving.
   bool is_clear = false;
 };
 

@@ -12,7 +12,7 @@ namespace cremed {
 
 /// Validity of an Odometry. The numbers are those of odometry_t and never change meaning.
 enum class OdometryStatus : std::uint8_t {
-  ok = 0,              ///< None of what follows.
+  ok = 0,              ///< None of the following.
   standing_still = 1,  ///< ok; speed <= standstill_mps and its sigma too, |yaw rate| <= 3 sigma.
   initialising = 2,    ///< Since the start sigma of speed or yaw rate > settled_*, or fewer than
                        ///< settled_scans scans used.

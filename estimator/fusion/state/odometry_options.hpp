@@ -12,9 +12,9 @@ struct OrnsteinUhlenbeck {
   double time_s = 1.0;  ///< Correlation time.
 };
 
-/// Priors and limits of the odometry filter. Those that a user may know are keys of [odometry] in
-/// the configuration. Source of the defaults, unless stated otherwise: five ARS408 of a car on two
-/// real drives (nuScenes 0061, 0103).
+/// Priors and limits of the odometry filter. Some are keys of [odometry] in the configuration.
+/// Source of the defaults, unless stated otherwise: five ARS408 of a car on two real drives
+/// (nuScenes 0061, 0103).
 struct OdometryOptions {
   // Process noise of a road vehicle.
   OrnsteinUhlenbeck acceleration{1.5, 1.0};      ///< m/s^2, along x.
@@ -74,7 +74,7 @@ struct OdometryOptions {
   int keyframe_period = 5;          ///< Scans of a radar between keyframes.
   int min_lag = 4;                  ///< Scans from keyframe to current: with less, biased.
   int min_targets = 20;             ///< With fewer, chance neighbours match.
-  double min_matched_share = 0.35;  ///< Of matched targets.
+  double min_matched_share = 0.35;  ///< Least share of matched targets.
   double scan_noise_share = 0.45;   ///< Part of a registration's covariance from each scan.
   double pair_noise_factor = 3.0;   ///< Rest: factor (start + per_lag * lag) covariance.
   double pair_noise_start = 0.3;

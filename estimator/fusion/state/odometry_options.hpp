@@ -72,7 +72,7 @@ struct OdometryOptions {
 
   // Positions.
   int keyframe_period = 5;          ///< Scans of a radar between keyframes.
-  int min_lag = 4;                  ///< Scans from keyframe to current: with less, biased.
+  int min_lag = 4;                  ///< Scans from keyframe to current; a smaller lag biases.
   int min_targets = 20;             ///< With fewer, chance neighbours match.
   double min_matched_share = 0.35;  ///< Least share of matched targets.
   double scan_noise_share = 0.45;   ///< Part of a registration's covariance from each scan.

@@ -23,11 +23,11 @@ constexpr double kMaxMeanInnovation = 5.0;
 /// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
 constexpr double kMaxSpeedSigmas = 3.0;
 
-/// Targets beside the way pass too fast to be matched four scans later. With registrations of
+/// Targets beside the vehicle pass too fast to be matched four scans later. With registrations of
 /// sideways radars the yaw error after 10 s on scenes 0061 and 0103 is 0.48 and 0.20 degrees,
 /// without them 0.34 and 0.18.
 bool looks_across(const Pose2& mount) {
-  constexpr double kMaxSine = 0.7;  // 45 degrees off the way
+  constexpr double kMaxSine = 0.7;  // 45 degrees off the direction of travel
   return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 /// Bounds the work. An ARS408 sends its nearest targets first, which are the most precise.
 constexpr std::size_t kMaxTargets = 96;
-/// Bounds the gate across the way to kGateSigmas times this, 1.2 m: less than half a lane, so that
-/// targets in the next lane do not vote.
+/// Bounds the lateral gate to kGateSigmas times this, 1.2 m: less than half a lane, so that targets
+/// in the next lane do not vote.
 constexpr double kMaxSideStdM = 0.6;
 /// Half of this step moves a target at 40 m by 0.6 m in 0.3 s.
 constexpr double kYawRateStepRadps = 0.1;

@@ -54,8 +54,8 @@ class RivalSpeed {
   std::array<double, kMaxDetections> near_mps_;
 };
 
-/// Smallest |cos_bearing| of a target that observes the speed along x: 60 degrees off the way,
-/// where the noise of Doppler is doubled.
+/// Smallest |cos_bearing| of a target that observes the speed along x: 60 degrees off the direction
+/// of travel, where the noise of Doppler is doubled.
 inline constexpr double kMinForwardCosine = 0.5;
 
 /// Speed along x by the Doppler of a static target, if the vehicle moves with `velocity` otherwise.

@@ -10,8 +10,8 @@
 namespace cremed {
 namespace {
 
-/// A third of PositionSpeed::kStepMps. Radars that look across the way have a larger sigma and are
-/// not checked.
+/// A third of PositionSpeed::kStepMps. Radars that look sideways have a larger sigma and are not
+/// checked.
 constexpr double kMaxSpeedStdMps = 0.3;
 /// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;

@@ -207,9 +207,9 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
 
 /// A radar in doubt has no say while there is one that is not.
 bool Pipeline::is_believed(const RadarChannel& radar) const {
-  return radar.self_check.is_believable() ||
+  return radar.self_check.is_trusted() ||
          std::none_of(radars_.begin(), radars_.end(),
-                      [](const auto& other) { return other->self_check.is_believable(); });
+                      [](const auto& other) { return other->self_check.is_trusted(); });
 }
 
 /// Every scan with usable targets, whether or not it could be registered with the one before.

@@ -8,14 +8,14 @@
 namespace cremed {
 namespace {
 
-/// Beyond it a pair is certain: 1 - p = 1e-12, of which a double still has four digits.
+/// A pair with this ratio is certain: 1 - p = 1e-12, which a double resolves to four digits.
 constexpr double kMaxRatio = 1e12;
 
-/// The root of f^2 + f s = 1 in [0, 1].
+/// The root of f^2 + f s = 1 in [0, 1]; see (5) of the README.
 double factor_of(double sum) { return 2.0 / (sum + std::sqrt(sum * sum + 4.0)); }
 
-/// Sum of the logarithms of the first `count`, each between 1e-6 (kMaxRatio) and 1: one logarithm
-/// for many of them.
+/// Sum of the logarithms of the first `count` factors, each between 1e-6 (kMaxRatio) and 1. Takes
+/// one logarithm of a product of many factors.
 double sum_of_logs(const std::array<double, kMaxDetections>& factors, std::size_t count) {
   double sum = 0.0;
   double product = 1.0;
@@ -55,7 +55,7 @@ bool Association::add(std::size_t column, double ratio, const Eigen::Vector3d& g
   return true;
 }
 
-/// Exact where pairs have no competitors and in square blocks of equals.
+/// Exact for pairs without competitors and for square blocks of equal ratios.
 void Association::start() {
   std::fill_n(sum_.begin(), columns_, 0.0);
   for (std::size_t k = 0; k < size_; ++k) {
@@ -72,7 +72,7 @@ double Association::scale(bool over_relaxed) {
     const double exact = factor_of(sum);
     return over_relaxed ? std::min(exact * std::sqrt(exact / factor), 1.0) : exact;
   };
-  // Step by step for all rows: the compiler then takes several roots at once.
+  // In separate loops over all rows, which the compiler can vectorise.
   for (std::size_t i = 0; i < rows_; ++i) {
     double sum = 0.0;
     for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
@@ -106,7 +106,7 @@ int Association::solve(int max_rounds) {
   }
   is_solved_ = rounds < max_rounds || max_rounds >= kMaxRounds;
   if (rounds > kPlainRounds) {
-    scale(false);  // no column has more than one partner
+    scale(false);  // after a plain round no column has more than one partner
   }
   for (std::size_t i = 0; i < rows_; ++i) {
     for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
@@ -120,7 +120,7 @@ double Association::cost() const {
   return sum_of_logs(row_factor_, rows_) + sum_of_logs(column_factor_, columns_);
 }
 
-/// The gradients of the rows' factors from those of the columns'.
+/// Updates a of all rows from b of the columns; see (7) of the README.
 void Association::scale_row_gradients() {
   for (std::size_t i = 0; i < rows_; ++i) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -133,7 +133,7 @@ void Association::scale_row_gradients() {
   }
 }
 
-/// The same the other way; returns the largest change.
+/// Updates b of all columns from a of the rows; returns the largest change.
 double Association::scale_column_gradients(const Eigen::Vector3d& unit) {
   std::fill_n(column_sum_.begin(), columns_, Eigen::Vector3d::Zero());
   for (std::size_t j = 0; j < columns_; ++j) {
@@ -154,7 +154,7 @@ double Association::scale_column_gradients(const Eigen::Vector3d& unit) {
   return change;
 }
 
-/// Gauss-Seidel, which ends with the rows: for given columns they make the sum least, but never
+/// Gauss-Seidel. It ends with the rows, which minimise (7) for given columns: the result is never
 /// negative.
 Eigen::Matrix3d Association::missing_information(const Eigen::Vector3d& unit) {
   std::fill_n(column_gradient_.begin(), columns_, Eigen::Vector3d::Zero());

@@ -12,62 +12,62 @@
 
 namespace cremed {
 
-/// Probabilities of pairs of a target of the current scan ("row") and one of the previous scan
-/// ("column"), if a target has at most one partner in the other scan. psi_ij is a pair's likelihood
-/// over that of both standing alone. Of the sum over all such assignments, entropy's approximation
-/// is taken: the p_ij that minimise
+/// Probabilities p_ij of pairs of a target i of the current scan ("row") and a target j of the
+/// previous scan ("column"), if each target has at most one partner in the other scan. psi_ij is
+/// the likelihood of the pair over the likelihood that both have no partner. The sum over all such
+/// assignments is approximated by the minimum of a free energy over p_ij, (4) of the README:
 ///
 ///     sum_ij p_ij log(p_ij / psi_ij) + 1/2 sum_i p_i0 log p_i0 + 1/2 sum_j p_0j log p_0j
 ///
-/// where p_i0 = 1 - sum_j p_ij and p_0j = 1 - sum_i p_ij are the probabilities of having none. It
-/// is convex, exact for a pair without competitors, and for a block of equals whose ratios are far
-/// from 1; it is solved by scaling
-/// rows and columns in turn (Sinkhorn; with slack: Gold et al., "New algorithms for 2D and 3D point
-/// matching", Pattern Recognition 1998):
+/// where p_i0 = 1 - sum_j p_ij and p_0j = 1 - sum_i p_ij are the probabilities of having no
+/// partner. It is convex, and exact for a pair without competitors and for a block of equal ratios
+/// far from 1. It is solved by scaling rows and columns in turn (Sinkhorn; with slack: Gold et al.,
+/// "New algorithms for 2D and 3D point matching", Pattern Recognition 1998):
 ///
-///     p_ij = psi_ij u_i v_j,   p_i0 = u_i^2,   p_0j = v_j^2,
-///     u_i = 2 / (S_i + sqrt(S_i^2 + 4)) with S_i = sum_j psi_ij v_j, and so v_j.
+///     p_ij = psi_ij f_i h_j,   p_i0 = f_i^2,   p_0j = h_j^2,
+///     f_i = 2 / (Z_i + sqrt(Z_i^2 + 4)) with Z_i = sum_j psi_ij h_j, and h_j likewise; (5).
 ///
-/// (Belief propagation, the usual way, takes the better of two assignments for certain where two
-/// targets compete for two.) All storage is inside the object.
+/// (Belief propagation, the usual method, gives the better of two assignments a probability of 1 if
+/// two targets compete for two.) All storage is inside the object.
 class Association {
  public:
   /// 16 partners for each of 256 targets.
   static constexpr std::size_t kMaxPairs = 4096;
-  /// Bounds the work of clusters, where probabilities then are off by about kTolerance still.
+  /// Bounds the work on clusters. Their probabilities may then still be off by about kTolerance.
   static constexpr int kMaxRounds = 32;
-  /// Scaling converges slowly where some of a cluster are hidden: after so many rounds, which solve
-  /// all other cases, it is over-relaxed (factor 1.5 in the logarithm).
+  /// Rounds before over-relaxation (factor 1.5 in the logarithm). They suffice unless a part of a
+  /// cluster is hidden, where scaling converges slowly.
   static constexpr int kPlainRounds = 4;
-  /// Scaling ends when no column's probability of having a partner changes by more: 0.2 % of a
-  /// target's weight.
+  /// Scaling ends when no column's probability of having a partner changes by more than this: 0.2 %
+  /// of a target's weight.
   static constexpr double kTolerance = 2e-3;
-  /// The same for the gradients of log u, log v, in units of the states.
+  /// The same for the gradients of log f, log h, in units of the states.
   static constexpr double kGradientTolerance = 1e-2;
 
-  /// Forgets all pairs; columns to come are below this number (<= kMaxDetections). Factors stay.
+  /// Removes all pairs and sets the number of columns (<= kMaxDetections). Factors are kept.
   void clear(std::size_t columns);
-  /// The pairs that are added next belong to the next row (<= kMaxDetections in all).
+  /// Begins the next row (<= kMaxDetections in all), to which pairs are added from now on.
   void begin_row();
   /// Adds a pair with its psi and g = -d log psi / d state. false: full, the pair is left out.
   bool add(std::size_t column, double ratio, const Eigen::Vector3d& gradient);
 
-  /// Sets the factors without regard to earlier ones.
+  /// Sets the factors to start values that do not depend on earlier ones.
   void start();
-  /// Computes the probabilities from the factors so far; returns the rounds it took. Where
-  /// `max_rounds` were too few the next call goes on from there.
+  /// Computes the probabilities, starting from the present factors; returns the number of rounds.
+  /// If `max_rounds` is too small, the next call continues.
   int solve(int max_rounds = kMaxRounds);
-  /// Whether the last call took all the rounds it needed, or kMaxRounds.
+  /// Whether the last call converged or used kMaxRounds.
   [[nodiscard]] bool is_solved() const { return is_solved_; }
-  /// Value of the minimum, an approximation of -log of the sum over all assignments.
+  /// The minimum of (4), an approximation of -log of the sum over all assignments.
   [[nodiscard]] double cost() const;
-  /// -sum_ij g_ij (d p_ij / d state)' at the last solution. With a = d log u, b = d log v,
+  /// The missing information -sum_ij g_ij (d p_ij / d state)' at the last solution, the minimum of
+  /// (7) of the README. With a = d log f, b = d log h,
   ///
   ///     (sum_j p_ij + 2 p_i0) a_i + sum_j p_ij b_j = sum_j p_ij g_ij, and so for columns,
   ///     missing = sum_ij p_ij g_ij (g_ij - a_i - b_j)'
   ///
-  /// is positive semidefinite; few rounds leave it too large, never too small. `unit`: what counts
-  /// as a small change of each state.
+  /// is positive semi-definite. If rounds end early it is too large, never too small. `unit`: the
+  /// unit of each state for kGradientTolerance.
   Eigen::Matrix3d missing_information(const Eigen::Vector3d& unit);
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -87,7 +87,7 @@ class Association {
   void scale_row_gradients();
   double scale_column_gradients(const Eigen::Vector3d& unit);
 
-  // Not set to zero: most are never touched.
+  // Not initialised: most elements are never used.
   std::array<double, kMaxPairs> ratio_;
   std::array<double, kMaxPairs> probability_;
   std::array<std::uint16_t, kMaxPairs> column_of_;
@@ -97,9 +97,9 @@ class Association {
   std::size_t rows_ = 0;
   std::size_t columns_ = 0;
   bool is_solved_ = false;
-  Factors row_factor_;     // u
-  Factors column_factor_;  // v
-  Factors row_sum_;        // scratch, as what follows
+  Factors row_factor_;     // f
+  Factors column_factor_;  // h
+  Factors row_sum_;        // scratch, like the next two
   Factors sum_;
   Factors change_;
   Gradients row_gradient_;     // a

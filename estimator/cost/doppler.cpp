@@ -18,7 +18,7 @@ struct Component {
   }
 };
 
-/// Whether the first component is the better one by far, which needs no logarithm to tell.
+/// Whether the first component is clearly the better one. Sufficient test without a logarithm.
 bool is_clear(const Component& first, const Component& second, double squared_error_m2) {
   constexpr double kSquaredError = 8.0;
   constexpr double kRatio = 2981.0;  // exp(8)

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cremed/estimator/cost/unseen_errors.hpp"
+#include "cremed/estimator/cost/consider_parameters.hpp"
 
 namespace cremed {
 
@@ -27,19 +27,20 @@ void ExclusiveCost::set_scans(const TargetSet& previous, const TargetSet& curren
 
 void ExclusiveCost::start() {
   settle_ = false;
-  moved_ = std::numeric_limits<double>::infinity();
+  moved_sigmas_ = std::numeric_limits<double>::infinity();
   positions_ = doppler_ = NormalEquations();
 }
 
 void ExclusiveCost::update_list(const Eigen::Vector3d& motion) {
   const Eigen::Vector3d step = motion - motion_;
   const double squared_step = step.dot((positions_.information + doppler_.information) * step);
-  // That is the sum over all targets: the one found again moves by its root mean square.
-  moved_ += std::sqrt(squared_step / std::max(likelihood_.matched(), 1.0));
+  // `squared_step` sums over all targets; the distance is the root mean square over the matched
+  // ones.
+  moved_sigmas_ += std::sqrt(squared_step / std::max(likelihood_.matched(), 1.0));
   motion_ = motion;
-  if (!(moved_ <= 0.5 * ExclusiveLikelihood::kListReach)) {
+  if (!(moved_sigmas_ <= 0.5 * ExclusiveLikelihood::kListMarginSigmas)) {
     is_complete_ = likelihood_.list_pairs(*previous_, *current_, motion);
-    moved_ = 0.0;
+    moved_sigmas_ = 0.0;
   }
 }
 
@@ -66,7 +67,8 @@ std::optional<Eigen::Matrix3d> ExclusiveCost::covariance(const Unknowns& at,
   auto covariance = invert_information(
       equations.information - likelihood_.missing_information(sigma), degrees_of_freedom_);
   if (covariance) {
-    add_unseen_errors(errors_, at.motion, dt_s_, has_doppler_, degrees_of_freedom_, *covariance);
+    add_consider_covariance(errors_, at.motion, dt_s_, has_doppler_, degrees_of_freedom_,
+                            *covariance);
   }
   return covariance;
 }

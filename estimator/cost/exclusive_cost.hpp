@@ -17,46 +17,47 @@
 
 namespace cremed {
 
-/// Positions by ExclusiveLikelihood and Doppler by SharedDoppler. For given probabilities of the
-/// pairs, -log L of the positions is a sum of squares that touches their cost from above: a
-/// Gauss-Newton step, which goes to its minimum, is one of EM. All storage is inside the object.
+/// Positions by ExclusiveLikelihood and Doppler by SharedDoppler. For fixed probabilities of the
+/// pairs, the cost of the positions is bounded from above by a sum of squares that touches it. A
+/// Gauss-Newton step goes to the minimum of that sum, so it is an EM step. All storage is inside
+/// the object.
 class ExclusiveCost {
  public:
   ExclusiveCost(int degrees_of_freedom, const DopplerOptions& doppler,
                 const SharedErrorOptions& errors, const Pose2& vehicle_from_radar);
 
-  /// Two scans, none of them empty, which are used until the next.
+  /// Sets two scans, none of them empty. They must outlive their use.
   void set_scans(const TargetSet& previous, const TargetSet& current, double dt_s,
                  const OutlierRay& ray);
-  /// Begins a search: nothing is taken over from the one before.
+  /// Begins a search, independent of the one before.
   void start();
-  /// As of MixtureCost: less is asked of the first stage, as EM's steps find the way from farther.
+  /// See MixtureCost. Larger here, because EM steps converge from farther away.
   static constexpr double kStartTolerance = 0.1;
 
   NormalEquations linearise(const Unknowns& at);
-  /// Steps of the positions never raise their cost (EM, see above). With Doppler the costs of two
-  /// motions cannot be compared: which targets count as moving is judged by the shared errors of
-  /// the motion before.
+  /// A step never raises the cost of the positions (EM, see above). With Doppler the costs of two
+  /// motions cannot be compared: targets are classified as moving with the shared errors of the
+  /// previous motion.
   static constexpr bool kHasStepControl = false;
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] bool is_settled() const { return likelihood_.is_settled(); }
   void settle() { settle_ = true; }
   [[nodiscard]] std::int64_t evaluations() const { return likelihood_.evaluations(); }
 
-  // Of the last linearisation, at `at`:
+  // At the last linearisation, `at`:
 
-  /// Inverse of the curvature of -log L, and the errors that no measurement shows.
+  /// Inverse of the curvature of -log L, plus the consider parameters' part.
   [[nodiscard]] std::optional<Eigen::Matrix3d> covariance(const Unknowns& at,
                                                           const NormalEquations& equations);
   /// Expected number of targets found again.
   [[nodiscard]] double matched() const { return likelihood_.matched(); }
-  /// RegistrationResult::doppler_innovation. With positions p and Doppler d, at a motion where
-  /// their gradients g_p and g_d cancel: each by itself would go H^-1 g away from it, and the
-  /// covariance of that difference is H_p^-1 + H_d^-1.
+  /// RegistrationResult::doppler_innovation. At the solution the gradients g_p of the positions and
+  /// g_d of the Doppler cancel. The solution of either alone lies H^-1 g away; the covariance of
+  /// their difference is H_p^-1 + H_d^-1.
   [[nodiscard]] double doppler_innovation() const;
 
  private:
-  /// Lists the pairs again if targets may have moved out of the last list's reach.
+  /// Lists the pairs again if targets may have moved beyond the margin of the last list.
   void update_list(const Eigen::Vector3d& motion);
 
   int degrees_of_freedom_;
@@ -69,8 +70,8 @@ class ExclusiveCost {
   double dt_s_ = 0.0;
   bool settle_ = false;
   bool is_complete_ = true;
-  /// How far targets have moved since pairs were listed, in standard deviations.
-  double moved_ = 0.0;
+  /// RMS distance that targets have moved since pairs were listed, in standard deviations.
+  double moved_sigmas_ = 0.0;
   // The last linearisation.
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
   NormalEquations positions_;

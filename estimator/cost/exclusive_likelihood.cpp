@@ -10,21 +10,22 @@
 namespace cremed {
 namespace {
 
-/// Pairs of a smaller psi are left out. p <= psi, so that each takes less than 0.1 % of a target's
-/// weight with it.
+/// Pairs with a smaller psi are left out. As p <= psi, each of them has less than 0.1 % of a
+/// target's weight.
 constexpr double kMinRatio = 1e-3;
-/// P at most: of 20 targets one is hidden, or too weak, in the next scan even if nothing moves.
+/// Upper bound of P_d: one of 20 targets is hidden or too weak in the next scan even if nothing
+/// moves.
 constexpr double kMaxDetectionProbability = 0.95;
-/// Density of new targets where there is no outlier ray, per square metre and target, times 2 pi:
-/// as if they were drawn from 6 km^2, 20 times what a radar of 300 m sees all around. A pair is
-/// then taken for new only beyond 5 sigma and more.
+/// Density of new targets without an outlier ray, per square metre and target, times 2 pi: uniform
+/// over 6 km^2, 20 times the area within 300 m. A target then counts as new only if it is more than
+/// 5 sigma from all others.
 constexpr double kClutterPerM2 = 1e-6;
 
-/// Rounds of the association for a step of the search that others follow. To the end it takes 13 on
-/// average and often 32 (nuScenes 0103): a fifth of a registration's time, for the same motions.
+/// Rounds of the association in steps before the last. Convergence takes 13 rounds on average and
+/// often 32 (nuScenes 0103), a fifth of a registration's time, and gives the same motions.
 constexpr int kRoundsPerStep = 8;
 
-/// Work of evaluating a pair, in evaluations of a mixture's component, which come by the vector.
+/// Work to evaluate a pair, in evaluations of a mixture component, which are vectorised.
 constexpr std::int64_t kPairWork = 4;
 
 /// 2 pi N(e; C), given C^-1.
@@ -43,8 +44,7 @@ double new_target_density(const Target& target, const OutlierRay& ray) {
   return density;
 }
 
-/// The target as seen in the frame of the previous scan; its point without the translation goes
-/// to `lever_m`.
+/// The target in the frame of the previous scan. `lever_m`: its point without the translation.
 Target move(const Target& target, const Rotation& rotation, const Eigen::Vector3d& motion,
             Eigen::Vector2d& lever_m) {
   lever_m = rotation * Eigen::Vector2d(target.x_m, target.y_m);
@@ -80,13 +80,13 @@ void ExclusiveLikelihood::assign(const TargetSet& previous, const TargetSet& cur
   evaluations_ = static_cast<std::int64_t>(current.size() * ray.size());
 }
 
-/// A squared Mahalanobis distance is at least e'e / trace(C), which is quick to tell.
+/// Prefilters by e'e / trace(C), a lower bound of the squared Mahalanobis distance.
 bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, const Target& moved) {
   const double x_m = moved.x_m;
   const double y_m = moved.y_m;
   const double variance_m2 = moved.covariance_m2.trace();
-  const double reach = std::sqrt(max_squared_distance_[i]) + kListReach;
-  const double max_squared_distance = reach * reach;
+  const double max_distance = std::sqrt(max_squared_distance_[i]) + kListMarginSigmas;
+  const double max_squared_distance = max_distance * max_distance;
   const std::size_t size = previous.size();
   for (std::size_t j = 0; j < size; ++j) {
     const double ex = x_m - x_m_[j];

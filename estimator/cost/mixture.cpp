@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// Keeps the argument of the second residual's root positive (RA-L 2021; value of the reference).
+/// Keeps the radicand of the second residual positive (RA-L 2021; value of the reference).
 constexpr double kDamping = 10.0;
 
 }  // namespace
@@ -43,7 +43,7 @@ void Mixture::assign(const TargetSet& targets, const OutlierRay& ray) {
   bound_rounding();
 }
 
-/// Copies of the last component without weight: never nearer than any other, never the best.
+/// Pads with copies of the last component of weight 0, which are never the nearest or the best.
 void Mixture::pad() {
   MixtureComponents& c = components_;
   const std::size_t size = c.size;
@@ -62,7 +62,7 @@ void Mixture::pad() {
 
 void Mixture::copy_rough(std::size_t j) {
   MixtureComponents& c = components_;
-  // The exponent's bias, which log det read off the bits contains.
+  // Bias of the exponent, contained in the log det that find_keys() reads from the bits.
   constexpr double kBias = 127.0 * 0.6931471805599453;
   c.rough.x_m[j] = static_cast<float>(c.exact.x_m[j]);
   c.rough.y_m[j] = static_cast<float>(c.exact.y_m[j]);
@@ -75,14 +75,15 @@ void Mixture::copy_rough(std::size_t j) {
 void Mixture::bound_rounding() {
   MixtureComponents& c = components_;
   c.max_eccentricity = 0.0;
-  c.reach_m = 0.0;
+  c.max_coordinate_m = 0.0;
   double min_variance = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < c.size; ++j) {
     const double trace = c.exact.xx[j] + c.exact.yy[j];
     const double det = c.exact.xx[j] * c.exact.yy[j] - c.exact.xy[j] * c.exact.xy[j];
     c.max_eccentricity = std::max(c.max_eccentricity, trace * trace / det);
     min_variance = std::min(min_variance, det / trace);
-    c.reach_m = std::max({c.reach_m, std::abs(c.exact.x_m[j]), std::abs(c.exact.y_m[j])});
+    c.max_coordinate_m =
+        std::max({c.max_coordinate_m, std::abs(c.exact.x_m[j]), std::abs(c.exact.y_m[j])});
   }
   c.min_std_m = std::sqrt(min_variance);
 }

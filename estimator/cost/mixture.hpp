@@ -13,21 +13,22 @@
 
 namespace cremed {
 
-/// The previous scan as a Gaussian mixture: one component a target, and the outlier ray.
+/// The previous scan as a Gaussian mixture, (1) of the README: one component for each target, and
+/// the outlier ray.
 class Mixture {
  public:
   static constexpr std::size_t kMaxComponents = MixtureComponents::kCapacity;
 
-  /// Uses the kernel that is fastest on this machine.
+  /// Uses the fastest kernel of this machine.
   Mixture() : Mixture(mixture_kernels().front().kernel) {}
   explicit Mixture(MixtureKernel kernel) : kernel_(kernel) {}
 
-  /// Weight (1 - w_o) / F for each of the F targets, w_o in all for the ray.
+  /// Weight (1 - w_o) / F for each of the F targets, w_o in total for the ray.
   void assign(const TargetSet& targets, const OutlierRay& ray);
 
-  /// Residuals of points, one each, in the mixture's frame. The Jacobian holds the covariances
-  /// fixed. The mixture must not be empty. Uses scratch space of the object. Many points at once
-  /// take much less time than one by one, with the same result.
+  /// One residual for each point, in the mixture's frame. Covariances are held fixed in the
+  /// Jacobian. The mixture must not be empty. Uses scratch space of the object. A batch is much
+  /// faster than single points, with the same result.
   void evaluate(std::span<const MixturePoint> points, std::span<MixtureResidual> residuals);
 
   /// The same for one point.

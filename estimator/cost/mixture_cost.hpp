@@ -18,19 +18,19 @@
 
 namespace cremed {
 
-/// The paper's cost (RA-L 2022): each target of the current scan against the Max-Sum-Mixture of the
-/// previous one, and its Doppler as a max mixture of a static and a moving target. Its covariance
-/// is (J'J)^-1. All storage is inside the object.
+/// The paper's cost (RA-L 2022), (1) and (2) of the README: each current target against the
+/// Max-Sum-Mixture of the previous scan, and its Doppler as a max mixture of a static and a moving
+/// target. Its covariance is (J'J)^-1. All storage is inside the object.
 class MixtureCost {
  public:
   MixtureCost(int degrees_of_freedom, const DopplerOptions& doppler,
               const Pose2& vehicle_from_radar);
 
-  /// At least one target.
+  /// Sets the previous scan, at least one target.
   void set_previous(const TargetSet& targets, const OutlierRay& ray) {
     mixture_.assign(targets, ray);
   }
-  /// `current` is used by linearise().
+  /// Sets the current scan, which must outlive the calls of linearise().
   void set_current(const TargetSet& current, double dt_s);
   /// Factors on the standard deviations of the current scan's positions and Doppler.
   void set_scales(double positions, double doppler);
@@ -43,12 +43,12 @@ class MixtureCost {
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 
   static constexpr void start() {}
-  /// The first stage ends at a step shorter than this, squared, in standard deviations: it only has
-  /// to end near enough for the second.
+  /// The first stage ends at a step whose squared length in standard deviations is smaller than
+  /// this. It only provides the start of the second.
   static constexpr double kStartTolerance = 1e-2;
   [[nodiscard]] std::optional<Eigen::Matrix3d> covariance(const Unknowns& at,
                                                           const NormalEquations& equations) const;
-  /// This likelihood does not tell.
+  /// Not available with this likelihood.
   [[nodiscard]] static constexpr double matched() { return 0.0; }
   [[nodiscard]] static constexpr double doppler_innovation() {
     return std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ class MixtureCost {
   double scale_ = 1.0;
   double doppler_scale_ = 1.0;
   std::int64_t evaluations_ = 0;
-  // Scratch, of each current target.
+  // Scratch for each current target.
   std::array<Eigen::Vector2d, kMaxDetections> lever_m_;  // R(yaw) m_i
   std::array<MixturePoint, kMaxDetections> points_;
   std::array<MixtureResidual, kMaxDetections> residuals_;

@@ -12,8 +12,8 @@
 #include "cremed/estimator/cost/mixture_kernel.hpp"
 #include "cremed/estimator/cost/vector_math.hpp"
 
-/// First step of a mixture kernel: which components matter to a point, found out in single
-/// precision.
+/// First step of a mixture kernel: finds the components that are not negligible for a point, in
+/// single precision.
 namespace cremed::mixture_gate {
 
 using vector_math::bit_cast;
@@ -26,15 +26,14 @@ inline constexpr std::size_t kBlock = MixtureScratch::kBlock;
 inline constexpr std::size_t kPadding = MixtureComponents::kPadding;
 static_assert(kPadding == 2 * kBlock);
 
-/// A component is left out if its q is less than 1e-11 of the greatest: 2 log(1e11).
+/// A component is negligible if its q is less than 1e-11 of the greatest: 2 log(1e11).
 inline constexpr double kNegligible = 50.7;
 
-/// With no more blocks it is quicker not to ask which of them matter.
-inline constexpr std::size_t kFewBlocks = 4;
+/// Up to this many blocks, evaluating all of them is faster than the gate.
+inline constexpr std::size_t kMaxUngatedBlocks = 4;
 
-/// Keys of all components, -2 log q up to a constant in single precision, and the least of them.
-/// The logarithm of det is read off its bits: the exponent, and in between a straight line, at most
-/// 0.06 too low.
+/// Keys of all components, -2 log q up to a constant in single precision, and the smallest key. The
+/// logarithm of det is read from its bits (exponent, linear in between), at most 0.06 too low.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void find_keys(const MixtureComponents& components, const MixturePoint& point,
                                     ComponentColumns<float>::Column& keys, float& least_key) {
@@ -68,13 +67,13 @@ CREMED_ALWAYS_INLINE void find_keys(const MixtureComponents& components, const M
   least_key = reduce(low, Least());
 }
 
-/// A component that is not negligible has no greater key. Where rounding cannot be told from
-/// distance, all are kept.
+/// Upper bound of the keys of components that are not negligible; infinite if rounding errors are
+/// too large to bound it.
 CREMED_ALWAYS_INLINE float greatest_key(const MixtureComponents& components,
                                         const MixturePoint& point, float least_key) {
-  constexpr double kUnit = 0x1p-24;         // rounding of a float
-  constexpr double kLogError = 0.07;        // of log det
-  constexpr double kKeyToDistance = 200.0;  // a squared distance exceeds its key by less
+  constexpr double kUnit = 0x1p-24;               // rounding of a float
+  constexpr double kLogError = 0.07;              // of log det
+  constexpr double kMaxDistanceMinusKey = 200.0;  // a squared distance exceeds its key by less
   const Symmetric2& own = point.covariance_m2;
   const double trace = own.xx + own.yy;
   const double det = own.xx * own.yy - own.xy * own.xy;
@@ -82,16 +81,19 @@ CREMED_ALWAYS_INLINE float greatest_key(const MixtureComponents& components,
   const double eccentricity = components.max_eccentricity > own_eccentricity
                                   ? components.max_eccentricity
                                   : own_eccentricity;
-  const double reach_m = components.reach_m + std::abs(point.x_m) + std::abs(point.y_m);
-  const double error = kUnit * (16.0 * eccentricity + 4.0 * reach_m / components.min_std_m);
+  const double max_coordinate_m =
+      components.max_coordinate_m + std::abs(point.x_m) + std::abs(point.y_m);
+  const double error =
+      kUnit * (16.0 * eccentricity + 4.0 * max_coordinate_m / components.min_std_m);
   if (!(error < 0.02)) {
     return std::numeric_limits<float>::infinity();
   }
   const auto key = static_cast<double>(least_key);
-  return static_cast<float>(key + kNegligible + kLogError + 2.0 * error * (key + kKeyToDistance));
+  return static_cast<float>(key + kNegligible + kLogError +
+                            2.0 * error * (key + kMaxDistanceMinusKey));
 }
 
-/// For each of the two blocks in 16 keys whether one is not greater: not 0.
+/// `found` is not 0 for each of the two blocks of 16 keys that has a key not greater than `key`.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void find_not_greater(const float* keys, float key,
                                            std::array<std::uint64_t, 2>& found) {
@@ -110,8 +112,8 @@ CREMED_ALWAYS_INLINE void find_not_greater(const float* keys, float key,
   }
 }
 
-/// Lists the blocks with a component whose key is not greater. Without a branch: which blocks
-/// matter is as good as random.
+/// Lists the blocks that have a key not greater than `key`. Branch-free, because branches would be
+/// unpredictable.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void list_blocks(std::size_t size, float key,
                                       const ComponentColumns<float>::Column& keys,
@@ -135,13 +137,13 @@ CREMED_ALWAYS_INLINE void list_all_blocks(std::size_t size, MixtureScratch::Term
   }
 }
 
-/// Lists the blocks that matter to each point.
+/// Lists the blocks that are not negligible for each point.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void list_blocks_of_points(const MixtureComponents& components,
                                                 std::span<const MixturePoint> points,
                                                 MixtureScratch& scratch) {
   const std::size_t size = components.size;
-  if (size <= kFewBlocks * kBlock) {
+  if (size <= kMaxUngatedBlocks * kBlock) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       list_all_blocks(size, scratch.terms[i]);
     }

@@ -15,7 +15,7 @@ using mixture_gate::kBlock;
 
 constexpr std::size_t kBatch = MixtureScratch::kBatch;
 
-/// Everything about the listed components but the exponential.
+/// Everything but the exponential, for the listed components.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void find_distances(const MixtureComponents& components,
                                          const MixturePoint& point, MixtureScratch::Terms& terms) {
@@ -50,7 +50,7 @@ CREMED_ALWAYS_INLINE void find_distances(const MixtureComponents& components,
   terms.least_squared_distance = reduce(low, Least());
 }
 
-/// Sums over the listed components, and the best of each lane.
+/// Sums over the listed components, and the best component of each lane.
 template <typename Pack>
 struct LaneSums {
   static constexpr std::size_t kParts = kBlock / Pack::kDoubles;
@@ -64,7 +64,7 @@ struct LaneSums {
   std::array<Index, kParts> best;
 };
 
-/// Exponents are taken relative to the nearest component: nothing under- or overflows.
+/// Exponents are relative to the nearest component, which avoids underflow and overflow.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void add_blocks(const MixtureScratch::Terms& terms, LaneSums<Pack>& sums) {
   using Double = typename Pack::Double;
@@ -101,7 +101,7 @@ CREMED_ALWAYS_INLINE void add_blocks(const MixtureScratch::Terms& terms, LaneSum
   }
 }
 
-/// Of equals the first is the best.
+/// Of equally good components the first is taken.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void sum_up(const MixtureScratch::Terms& terms, std::size_t point,
                                  MixtureScratch::Sums& sums) {
@@ -120,7 +120,7 @@ CREMED_ALWAYS_INLINE void sum_up(const MixtureScratch::Terms& terms, std::size_t
   sums.best[point] = static_cast<std::size_t>(reduce(lanes.best, Least()));
 }
 
-/// What the residuals are made of and what they are, a column a number.
+/// Inputs and results of the residuals, one column for each quantity.
 struct Tail {
   using Lanes = std::array<double, kBatch>;
   alignas(64) Lanes ex;
@@ -166,7 +166,8 @@ CREMED_ALWAYS_INLINE void gather(const MixtureComponents& components,
   }
 }
 
-/// L'L = C^-1 with L upper triangular, of the best component; the rest of the mixture.
+/// Residuals of the best component, whitened by L with L'L = C^-1 (L upper triangular), and of the
+/// rest of the mixture.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void finish(double log_damped_size, Tail& tail) {
   using Double = typename Pack::Double;
@@ -221,7 +222,7 @@ CREMED_ALWAYS_INLINE void scatter(const Tail& tail, const MixtureScratch::Sums& 
   }
 }
 
-/// Step by step for all points, because the steps of one point wait for each other.
+/// Each step is done for all points, because the steps of one point depend on each other.
 template <typename Pack>
 CREMED_ALWAYS_INLINE void evaluate(const MixtureComponents& components,
                                    std::span<const MixturePoint> points, MixtureScratch& scratch,

@@ -20,8 +20,8 @@ namespace cremed {
 struct MixtureResidual {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();  ///< (whitened error x, y; rest of the sum)
   Eigen::Matrix<double, 3, 2> jacobian = Eigen::Matrix<double, 3, 2>::Zero();  ///< d / d point
-  double cost = 0.0;          ///< -log of the mixture at the point, up to a constant of the point.
-  std::size_t component = 0;  ///< The component that explains the point best.
+  double cost = 0.0;          ///< -log of the mixture at the point, up to a constant.
+  std::size_t component = 0;  ///< The most likely component.
 };
 
 /// A point of the current scan, moved into the mixture's frame.
@@ -31,8 +31,8 @@ struct MixturePoint {
   Symmetric2 covariance_m2;
 };
 
-/// Means and covariances of the components, one column a number. The capacity is a whole number of
-/// the widest vectors; what is left of the last one is filled with components of weight 0.
+/// Means and covariances of the components, one column for each quantity. The capacity is a
+/// multiple of the widest vector; the last vector is filled with components of weight 0.
 template <typename Scalar>
 struct ComponentColumns {
   static constexpr std::size_t kCapacity = kMaxDetections + kMaxRayComponents;
@@ -54,24 +54,24 @@ struct MixtureComponents {
   double log_damped_size = 0.0;  ///< log(size + damping)
   ComponentColumns<double> exact;
   alignas(64) ComponentColumns<double>::Column weight{};
-  /// In half the space, to find out which components matter.
+  /// Single-precision copy for the gate.
   ComponentColumns<float> rough;
   alignas(64) ComponentColumns<float>::Column rough_offset{};  ///< -2 log weight + constant
-  // What bounds the error of the rough distances.
+  // Bounds of the rounding error of the rough distances.
   double max_eccentricity = 0.0;  ///< Greatest trace^2 / det of a covariance.
   double min_std_m = 0.0;         ///< Lower bound of any standard deviation.
-  double reach_m = 0.0;           ///< Greatest coordinate.
+  double max_coordinate_m = 0.0;  ///< Greatest coordinate.
 };
 
 /// Working space of a kernel.
 struct MixtureScratch {
-  /// Components are evaluated in blocks of so many.
+  /// Components in a block.
   static constexpr std::size_t kBlock = 8;
-  /// Points are evaluated together, so that the processor need not wait for any of them.
+  /// Points evaluated together, which hides the latency of single operations.
   static constexpr std::size_t kBatch = 8;
   static constexpr std::size_t kMaxBlocks = MixtureComponents::kCapacity / kBlock;
 
-  /// What a block adds to the sums, but for the exponential.
+  /// Terms of the components of a block, without the exponential.
   struct Block {
     using Lanes = std::array<double, kBlock>;
     alignas(64) Lanes squared_distance;  // e' C^-1 e
@@ -79,17 +79,17 @@ struct MixtureScratch {
     alignas(64) Lanes gx;                // g = C^-1 e
     alignas(64) Lanes gy;
   };
-  /// Of one point: numbers of the blocks that matter to it, and their components' terms.
+  /// Of one point: indices of the blocks that are not negligible, and their terms.
   struct Terms {
     std::size_t block_count = 0;
     std::array<std::uint32_t, kMaxBlocks + 1> blocks{};
     double least_squared_distance = 0.0;
     std::array<Block, kMaxBlocks> of_block{};
   };
-  /// Of all points: what the residuals are made of.
+  /// Of all points: sums from which the residuals are computed.
   struct Sums {
     std::array<std::size_t, kBatch> best{};  // j* = argmax q
-    std::array<double, kBatch> best_q{};     // q over exp(-1/2 least squared distance)
+    std::array<double, kBatch> best_q{};     // q / exp(-1/2 least squared distance)
     std::array<double, kBatch> sum_q{};
     std::array<double, kBatch> sum_qgx{};
     std::array<double, kBatch> sum_qgy{};
@@ -101,7 +101,7 @@ struct MixtureScratch {
   Sums sums;
 };
 
-/// Residuals of at most MixtureScratch::kBatch points, not none, against at least one component.
+/// Residuals of 1 to MixtureScratch::kBatch points against at least one component.
 using MixtureKernel = void (*)(const MixtureComponents& components,
                                std::span<const MixturePoint> points, MixtureScratch& scratch,
                                std::span<MixtureResidual> residuals);
@@ -112,7 +112,7 @@ struct NamedMixtureKernel {
   MixtureKernel kernel;
 };
 
-/// Those that this machine can run, the fastest first. All give the same result to the last bit.
+/// The kernels that this machine can run, the fastest first. All give bit-identical results.
 std::span<const NamedMixtureKernel> mixture_kernels();
 
 }  // namespace cremed

@@ -16,7 +16,7 @@ std::optional<Eigen::Matrix<double, States, States>> invert(
   }
   const Eigen::Matrix<double, States, States> inverse =
       factor.solve(Eigen::Matrix<double, States, States>::Identity());
-  // Rounding makes it asymmetric in the last digit, which others' checks would refuse.
+  // Removes asymmetry by rounding, which strict checks of users would reject.
   return 0.5 * (inverse + inverse.transpose());
 }
 

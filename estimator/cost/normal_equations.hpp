@@ -15,33 +15,33 @@ inline Eigen::Vector3d along_states(const Eigen::Vector2d& v, const Eigen::Vecto
   return {v.x(), v.y(), lever_m.x() * v.y() - lever_m.y() * v.x()};
 }
 
-/// Errors that all targets of a scan share, which are nuisance parameters: see SharedDoppler.
+/// Systematic errors of all targets of a scan, estimated as nuisance parameters: see SharedDoppler.
 using SharedErrors = Eigen::Matrix<double, 5, 1>;
 
-/// What a search moves.
+/// The unknowns of a search.
 struct Unknowns {
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
   SharedErrors shared = SharedErrors::Zero();
 };
 
-/// Gauss-Newton's normal equations of the motion, all three states, the shared errors eliminated.
+/// Gauss-Newton normal equations of the motion (three states), with the shared errors eliminated.
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< J'J
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();     ///< J'r
   double cost = 0.0;                                      ///< Negative log likelihood + constant.
-  /// The best shared errors for this motion, about which to linearise next.
+  /// The best shared errors for this motion, where the next linearisation takes place.
   SharedErrors shared = SharedErrors::Zero();
 
-  /// Adds J' M J and J' v of a moved point with the lever R m.
+  /// Adds J' M J and J' v of a point with the lever R m.
   void add_point(const Symmetric2& m, const Eigen::Vector2d& v, const Eigen::Vector2d& lever_m);
 };
 
-/// Least reciprocal condition number that still counts as positive definite: of the 16 digits of a
-/// double two are left.
+/// Smallest reciprocal condition number that counts as positive definite: two of the 16 digits of a
+/// double are left.
 inline constexpr double kMinReciprocalCondition = 1e-14;
 
-/// Inverse of the information of the free states, (x, yaw) or (x, y, yaw), zeros elsewhere; nothing
-/// if it is not positive definite.
+/// Inverse of the information of the free states, (x, yaw) or (x, y, yaw), and zeros elsewhere;
+/// none if it is not positive definite.
 std::optional<Eigen::Matrix3d> invert_information(const Eigen::Matrix3d& information,
                                                   int degrees_of_freedom);
 

@@ -10,7 +10,7 @@ std::size_t ray_component_count(const OutlierRayOptions& options) {
   const double span =
       (1.0 - kRayRatio) / (1.0 + kRayRatio) * options.max_range_m / options.min_range_m;
   const double needed = 1.0 + std::ceil(std::log(span) / std::log(kRayGrowth));
-  // fmax, unlike clamp, also ends NaN: the logarithm of impossible options.
+  // fmax, unlike clamp, also replaces NaN, the logarithm of invalid options.
   return static_cast<std::size_t>(
       std::fmin(std::fmax(needed, 1.0), static_cast<double>(kMaxRayComponents)));
 }
@@ -31,7 +31,7 @@ OutlierRay::OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_fr
     component.y_m = vehicle_from_radar.y_m + range_m * std::sin(vehicle_from_radar.yaw_rad);
     component.covariance_m2 =
         polar_covariance(range_m, vehicle_from_radar.yaw_rad, range_std_m, azimuth_std_rad);
-    // sqrt(det) of a polar covariance: every place of the ray is then equally likely.
+    // sqrt(det) of a polar covariance, so that the density is uniform along the ray.
     component.weight = range_std_m * range_m * azimuth_std_rad;
     total_weight += component.weight;
   }

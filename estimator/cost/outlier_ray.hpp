@@ -11,11 +11,11 @@
 
 namespace cremed {
 
-/// a: standard deviation over range of a component; b: range of a component over that of the one
-/// before. Source: the paper (RA-L 2022), which has no other in any of its tables.
+/// a: standard deviation over range of a component. b: range of a component over that of the
+/// previous one. Source: the paper (RA-L 2022), all tables.
 inline constexpr double kRayRatio = 0.7;
 inline constexpr double kRayGrowth = 1.8;
-/// A ray from 1 cm to 1 km takes 18.
+/// A ray from 1 cm to 1 km needs 18.
 inline constexpr std::size_t kMaxRayComponents = 32;
 
 /// One Gaussian of the outlier model, in the vehicle frame.
@@ -28,8 +28,8 @@ struct RayComponent {
 
 /// The outlier model: Gaussians along the radar's axis that together cover its field of view out to
 /// r_max (Sola 2007, section 3.2: rho_1 = r_min / (1 - a), rho_k = b rho_{k-1}, std_k = a rho_k).
-/// Their weights add up to `options.weight`; no component if that is 0. More components than
-/// kMaxRayComponents are cut off at the far end.
+/// Their weights add up to `options.weight`; there is no component if that is 0. Components beyond
+/// kMaxRayComponents are left out at the far end.
 class OutlierRay {
  public:
   OutlierRay(const OutlierRayOptions& options, const Pose2& vehicle_from_radar);

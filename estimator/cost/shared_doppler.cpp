@@ -14,13 +14,13 @@ namespace cremed {
 
 namespace {
 
-/// In place of a deviation of zero, in m/s, rad, m/s^2 or rad/s^2: the error is fixed at zero, and
-/// its information still a finite number.
+/// Replaces a standard deviation of 0, in m/s, rad, m/s^2 or rad/s^2. The error is then fixed at 0,
+/// and its information stays finite.
 constexpr double kMinStd = 1e-9;
 
 double information_of(double deviation) { return 1.0 / squared(std::max(deviation, kMinStd)); }
 
-/// Turns the translation of a motion by half its yaw, back to the frame half way; `by_motion` is
+/// Turns the translation of a motion by minus half its yaw, into the frame half way. `by_motion`:
 /// the derivative.
 void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
   const Eigen::Matrix2d back = Eigen::Rotation2Dd(-0.5 * motion.z()).toRotationMatrix();
@@ -32,9 +32,9 @@ void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
 
 }  // namespace
 
-double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
+double driving_share(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
   const double distance_m = motion.head<2>().norm() - noise_m;
-  return std::clamp(distance_m / (dt_s * kRollingMps), 0.0, 1.0);
+  return std::clamp(distance_m / (dt_s * kDrivingMps), 0.0, 1.0);
 }
 
 SharedDoppler::SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,
@@ -44,11 +44,11 @@ SharedDoppler::SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppl
       errors_(errors),
       vehicle_from_radar_(vehicle_from_radar) {}
 
-SharedErrors SharedDoppler::prior_information(double rolling) const {
+SharedErrors SharedDoppler::prior_information(double driving) const {
   const double sideways_std_mps2 = degrees_of_freedom_ == 3 ? errors_.acceleration_std_mps2 : 0.0;
   SharedErrors information;
-  information << information_of(rolling * errors_.doppler_offset_std_mps),
-      information_of(rolling * errors_.mount_yaw_std_rad),
+  information << information_of(driving * errors_.doppler_offset_std_mps),
+      information_of(driving * errors_.mount_yaw_std_rad),
       information_of(errors_.acceleration_std_mps2), information_of(sideways_std_mps2),
       information_of(errors_.yaw_acceleration_std_radps2);
   return information;
@@ -67,7 +67,7 @@ NormalEquations SharedDoppler::linearise(const TargetSet& previous, const Target
     add_scan(previous, half_way, dt_s, -1.0, sums);
   }
   const double noise_m = 1.0 / std::sqrt(sums.motion.information(0, 0));
-  const SharedErrors prior = prior_information(rolling_part(at.motion, noise_m, dt_s));
+  const SharedErrors prior = prior_information(driving_share(at.motion, noise_m, dt_s));
   const SharedErrors pull = prior.cwiseProduct(at.shared);
   sums.shared.diagonal() += prior;
   sums.gradient += pull;

@@ -11,32 +11,31 @@
 
 namespace cremed {
 
-/// 0 when the vehicle stands, 1 when it drives: the part of a driving vehicle's errors that shows.
-/// A distance up to its noise is none.
-double rolling_part(const Eigen::Vector3d& motion, double noise_m, double dt_s);
+/// Factor on the systematic errors of a driving vehicle: 0 at rest, 1 at kDrivingMps and above. A
+/// distance up to `noise_m` counts as 0.
+double driving_share(const Eigen::Vector3d& motion, double noise_m, double dt_s);
 
-/// The Doppler of both scans, with the errors that their targets share as nuisance parameters, each
-/// with a Gaussian prior around zero (SharedErrorOptions):
+/// The Doppler of both scans. The systematic errors of all targets are nuisance parameters with
+/// zero-mean Gaussian priors (SharedErrorOptions):
 ///
 ///     e_i = u_i(c) - v_i dt + dt b + du_i/dphi d +- dt^2/2 (du_i/dx a + du_i/dy l + du_i/dyaw w)
 ///
 /// with the residual u_i - v_i dt of DopplerResidual, the offset b of all Doppler of the radar, the
-/// error d of its mounting yaw, and the accelerations a and l along x and y and w of the yaw:
-/// Doppler tells the velocity when a scan is taken (+ current, - previous scan), in the vehicle's
-/// frame of that moment. The mean of both is what the vehicle makes of the motion m half way
-/// through the turn: c = (R(-yaw/2) (x, y), yaw), but in 2 DoF, where it never moves sideways,
-/// c = m and l = 0.
+/// error d of its mounting yaw, and the accelerations a along x, l along y and w of the yaw.
+/// Doppler measures the velocity at its scan (+ current, - previous scan), in the vehicle frame at
+/// that time. The mean of both velocities is that of the motion m in the frame half way through the
+/// turn: c = (R(-yaw/2) (x, y), yaw). In 2 DoF there is no sideways motion: c = m and l = 0.
 ///
-/// The shared errors s = (b, d, a, l, w) are eliminated (Schur complement), which leaves the
-/// equations of m alone:
+/// The shared errors s = (b, d, a, l, w) are marginalised (Schur complement), which leaves the
+/// equations of m; (8) of the README:
 ///
 ///     H = H_mm - H_ms (H_ss + P^-1)^-1 H_sm       g = g_m - H_ms (H_ss + P^-1)^-1 g_s
 ///
-/// As e_i is linear in s, its value matters for one thing only: which targets count as moving.
-/// NormalEquations::shared is s - (H_ss + P^-1)^-1 g_s, the best for this m.
+/// As e_i is linear in s, its value only affects which targets count as moving.
+/// NormalEquations::shared is s - (H_ss + P^-1)^-1 g_s, the best s for this m.
 ///
-/// b and d are errors of a vehicle that drives: their deviations are those of SharedErrorOptions
-/// times rolling_part(m), the noise of m by Doppler taken alone.
+/// b and d vanish at rest: their standard deviations in SharedErrorOptions are multiplied by
+/// driving_share(m), with the noise of m by Doppler alone.
 class SharedDoppler {
  public:
   SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,
@@ -49,7 +48,7 @@ class SharedDoppler {
   static constexpr int kShared = SharedErrors::RowsAtCompileTime;
   using SharedMatrix = Eigen::Matrix<double, kShared, kShared>;
 
-  /// Normal equations of motion and shared errors together.
+  /// Joint normal equations of motion and shared errors.
   struct Sums {
     NormalEquations motion;
     Eigen::Matrix<double, 3, kShared> cross = Eigen::Matrix<double, 3, kShared>::Zero();
@@ -60,7 +59,7 @@ class SharedDoppler {
   void add_scan(const TargetSet& targets, const Unknowns& half_way, double dt_s, double side,
                 Sums& sums) const;
   /// P^-1, which is diagonal.
-  [[nodiscard]] SharedErrors prior_information(double rolling) const;
+  [[nodiscard]] SharedErrors prior_information(double driving) const;
 
   int degrees_of_freedom_;
   DopplerOptions options_;

@@ -8,15 +8,15 @@
 #include <cstring>
 #include <utility>
 
-/// Arithmetic on several numbers at once with GCC's vector extensions, for any instruction set:
-/// functions are inlined into callers compiled for one (attribute target). Only operations that
-/// IEEE 754 rounds the same way everywhere are used, so results are the same bits on every machine
-/// if the file is compiled with -ffp-contract=off.
+/// Vector arithmetic with GCC's vector extensions, for any instruction set: functions are inlined
+/// into callers that are compiled for one (attribute target). All operations are rounded as IEEE
+/// 754 defines, so results are bit-identical on every machine if the file is compiled with
+/// -ffp-contract=off.
 namespace cremed::vector_math {
 
 #define CREMED_ALWAYS_INLINE [[gnu::always_inline]] inline
 
-/// `Width` doubles, and in the same space twice as many floats.
+/// `Width` doubles, or twice as many floats in the same space.
 template <std::size_t Width>
 struct Pack {
   static constexpr std::size_t kDoubles = Width;
@@ -53,8 +53,8 @@ CREMED_ALWAYS_INLINE Vector rotate(const Vector& v, std::index_sequence<Lane...>
   return __builtin_shufflevector(v, v, static_cast<int>((Lane + Step) % sizeof...(Lane))...);
 }
 
-/// One number of all lanes of several vectors. Lane k meets lane k + half first, so that the order
-/// does not depend on the width of a vector.
+/// Reduces all lanes of several vectors to one number. Lane k is combined with lane k + half first,
+/// so that the order does not depend on the vector width.
 template <typename Vector, std::size_t Count, typename Combine>
 CREMED_ALWAYS_INLINE auto reduce(std::array<Vector, Count>& v, const Combine& combine) {
   for (std::size_t half = Count / 2; half > 0; half /= 2) {
@@ -98,8 +98,8 @@ struct Greatest {
   }
 };
 
-/// 1 / sqrt(x) of a positive normal number, to a unit in the last place or two: Newton's method,
-/// whose start (Lomont 2003) is good to 3.4 %; faster than dividing and taking the root.
+/// 1 / sqrt(x) of a positive normal number, to one or two units in the last place. Newton's method
+/// from a start that is accurate to 3.4 % (Lomont 2003); faster than division and root.
 template <typename Pack>
 CREMED_ALWAYS_INLINE typename Pack::Double inverse_root(const typename Pack::Double& x) {
   using Bits = typename Pack::Bits;
@@ -112,12 +112,12 @@ CREMED_ALWAYS_INLINE typename Pack::Double inverse_root(const typename Pack::Dou
   return y * (1.5 - half * y * y);
 }
 
-/// exp(x) of x <= 0, to a few units in the last place; below -600 that of -600.
+/// exp(x) of x <= 0, to a few units in the last place; exp(-600) below -600.
 template <typename Pack>
 CREMED_ALWAYS_INLINE typename Pack::Double exponential(const typename Pack::Double& x) {
   using Bits = typename Pack::Bits;
   using Double = typename Pack::Double;
-  constexpr double kRound = 0x1.8p52;  // after adding it the last bits hold the rounded number
+  constexpr double kRound = 0x1.8p52;  // after adding it, the last bits hold the rounded integer
   const Double low = Double{} - 600.0;
   const Double t = low > x ? low : x;
   const Double shifted = t * 1.4426950408889634 + kRound;
@@ -136,7 +136,8 @@ CREMED_ALWAYS_INLINE typename Pack::Double exponential(const typename Pack::Doub
   return bit_cast<Double>(bit_cast<Bits>(y) + (bit_cast<Bits>(shifted) << 52U));
 }
 
-/// log(x) of a positive normal number, to a unit in the last place or two; NaN of NaN and infinity.
+/// log(x) of a positive normal number, to one or two units in the last place; NaN for NaN and
+/// infinity.
 template <typename Pack>
 CREMED_ALWAYS_INLINE typename Pack::Double logarithm(const typename Pack::Double& x) {
   using Bits = typename Pack::Bits;
@@ -149,7 +150,7 @@ CREMED_ALWAYS_INLINE typename Pack::Double logarithm(const typename Pack::Double
   const Double m = bit_cast<Double>(bits - ((biased - kBias) << 52U));
   const Double n =
       bit_cast<Double>(biased | 0x4330000000000000U) - (0x1p52 + static_cast<double>(kBias));
-  // log m = 2 artanh s; minimax polynomial of its series in s^2, error 2e-17 of it.
+  // log m = 2 artanh s; minimax polynomial of its series in s^2, relative error 2e-17.
   const Double s = (m - 1.0) / (m + 1.0);
   const Double z = s * s;
   const Double z2 = z * z;

@@ -17,17 +17,17 @@ namespace {
 
 using namespace state_layout;
 
-/// Time-averaged NIS of a radar in doubt above which it contradicts the others: if all of its error
-/// stayed the same for a minute, chance would still exceed 5.4 once in 1000 only.
+/// A radar in doubt contradicts the filter if its time-averaged NIS is above this. Even if its
+/// error is constant for a minute, 5.4 is exceeded by chance in 1 of 1000 cases only.
 constexpr double kMaxMeanInnovation = 5.0;
-/// Between a speed and the one that is expected, where chance must not decide: once in 370.
-constexpr double kReachSigmas = 3.0;
+/// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
+constexpr double kMaxSpeedSigmas = 3.0;
 
-/// Targets beside the way pass by too fast to be found again four scans later: what registers then
-/// turned the yaw of scenes 0061 and 0103 after 10 s by 0.48 and 0.20 degrees, without it 0.34 and
-/// 0.18.
+/// Targets beside the vehicle pass too fast to be matched four scans later. With registrations of
+/// sideways radars the yaw error after 10 s on scenes 0061 and 0103 is 0.48 and 0.20 degrees,
+/// without them 0.34 and 0.18.
 bool looks_across(const Pose2& mount) {
-  constexpr double kMaxSine = 0.7;  // 45 degrees off the way
+  constexpr double kMaxSine = 0.7;  // 45 degrees off the direction of travel
   return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
 }
 
@@ -63,17 +63,17 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
 }
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
-                                bool is_believed) {
-  begin_if_needed(stamp_us, is_believed);
+                                bool is_trusted) {
+  begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     output_.advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
-    believe(radar, is_believed);
+    set_trusted(radar, is_trusted);
     if (use_doppler(radar, targets, stamp_us)) {
       use_positions(radar, targets, seconds_between(stamp_us, state_.time_us()));
     }
   }
-  // The condition is that of the state that is published, before a new anchor.
+  // The condition is that of the returned output, from before a renewal of the anchor.
   return with_condition(output_.next());
 }
 
@@ -99,13 +99,13 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 // Start.
 
-void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_believed) {
+void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   if (!has_started_) {
     start(stamp_us);
     return;
   }
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  if (gap_s > state_.options().max_gap_s || (condition_.is_lost() && is_believed)) {
+  if (gap_s > state_.options().max_gap_s || (condition_.is_lost() && is_trusted)) {
     output_.bridge(seconds_between(condition_.used_us(), stamp_us));
     start(stamp_us);
   }
@@ -128,16 +128,15 @@ bool OdometryFilter::is_usable(std::size_t radar, const TargetSet& targets,
          tracks_[radar]->is_in_order(stamp_us) && targets.is_finite();
 }
 
-/// What a radar taught that is believed no longer is forgotten as far as possible: it may have
-/// turned the slip, and its own mount, until it agreed.
-void OdometryFilter::believe(std::size_t radar, bool is_believed) {
+/// Resets what a radar that is no longer trusted may have corrupted: its own errors, and the slip.
+void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   RadarTrust& trust = consensus_[radar];
-  if (trust.is_believed && !is_believed) {
+  if (trust.is_trusted && !is_trusted) {
     state_.start_errors(radar);
     state_.start_slip();
     trust.doppler_noise.clear();
   }
-  trust.is_believed = is_believed;
+  trust.is_trusted = is_trusted;
 }
 
 // Doppler.
@@ -152,9 +151,9 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
-  if (condition_.is_speed_unknown() && consensus_[radar].is_believed &&
+  if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
       !condition_.has_used_scans()) {
-    // The way since the start cannot be had from a speed that was not known at all.
+    // The speed, and so the distance, was unknown since the start: restart here.
     output_.bridge(0.0);
     state_.start(state_.time_us());
     output_.restart_anchor();
@@ -163,7 +162,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   return take_doppler(radar, *scan, stamp_us);
 }
 
-/// Of the sensor, by the state; none if it is not known.
+/// Velocity of the sensor by the state; none if the speed is unknown.
 std::optional<Eigen::Vector2d> OdometryFilter::expected_velocity(std::size_t radar) const {
   if (condition_.is_speed_unknown()) {
     return std::nullopt;
@@ -173,8 +172,8 @@ std::optional<Eigen::Vector2d> OdometryFilter::expected_velocity(std::size_t rad
   return Eigen::Vector2d(state_.gaussian.mean(kSpeed) - w * mount.y_m, w * mount.x_m);
 }
 
-/// Whether the radar may have followed a world that drives as we do: by its own Doppler, and by
-/// what the state says that the vehicle can do.
+/// Whether the radar may have fitted a world that moves along with the vehicle, by its Doppler and
+/// by the speeds that the vehicle can reach from the state.
 bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets,
                                      const ScanVelocity& scan, std::int64_t stamp_us) {
   const Pose2& mount = state_.mount(radar);
@@ -183,12 +182,12 @@ bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets
   const Eigen::Vector3d velocity(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m, w);
   const double std_mps = std::sqrt(scan.velocity.covariance(0, 0));
   const double since_s = seconds_between(std::min(condition_.used_us(), stamp_us), stamp_us);
-  const double reach_mps =
-      kReachSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
+  const double max_difference_mps =
+      kMaxSpeedSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
   const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
-  return two_worlds_[radar].look(
-      targets, velocity, kReachSigmas * std_mps, is_start, [&](double speed_mps) {
-        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= reach_mps;
+  return two_worlds_[radar].check(
+      targets, velocity, kMaxSpeedSigmas * std_mps, is_start, [&](double speed_mps) {
+        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= max_difference_mps;
       });
 }
 
@@ -202,7 +201,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   const bool is_expected = nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
-  const bool is_used = !trust.is_left_out && trust.is_believed;
+  const bool is_used = !trust.is_left_out && trust.is_trusted;
   if (is_used) {
     trust.doppler_noise.add(0.5 * nis);
   }
@@ -218,8 +217,8 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   return is_used;
 }
 
-/// If most radars contradict the filter and agree with each other, its velocity begins anew with
-/// theirs. Nobody knows since when it was wrong: the pose is uncertain by as much.
+/// If a majority of radars contradicts the filter and agrees with each other, its velocity is reset
+/// to theirs. The pose is widened by the error of the velocity over the time of the contradiction.
 void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   const auto majority = consensus_.contradicting_majority(stamp_us);
   if (!majority) {
@@ -303,7 +302,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  const bool contradicts = !trust.is_believed && trust.doppler.exceeds(kMaxMeanInnovation);
+  const bool contradicts = !trust.is_trusted && trust.doppler.exceeds(kMaxMeanInnovation);
   return {trust.is_left_out || contradicts,
           trust.doppler.mean(),
           trust.lateral.mean(),

@@ -29,59 +29,58 @@ namespace cremed {
 struct OdometryRadar {
   Pose2 vehicle_from_radar;
   RegistrationOptions registration;
-  std::optional<LearnedErrors> learned = std::nullopt;  ///< In an earlier drive.
+  std::optional<LearnedErrors> learned = std::nullopt;  ///< In a previous drive.
 };
 
-/// One state of the vehicle from the scans of all its radars: an extended Kalman filter.
+/// Extended Kalman filter of the vehicle's state from the scans of all its radars.
 ///
-/// `state/`: pose and velocity of the vehicle, which move on as VehicleMotion says, errors of each
-/// radar that change slowly, and clones of the pose (Roumeliotis and Burdick, "Stochastic cloning",
-/// ICRA 2002): at a few keyframes of each radar, at its current scan and at the last output.
+/// `state/`: pose and velocity of the vehicle, propagated by MotionStep; slowly varying errors of
+/// each radar; and clones of the pose (Roumeliotis and Burdick, "Stochastic cloning", ICRA 2002) at
+/// keyframes of each radar, at its current scan and at the last output.
 ///
-/// `measurement/`: a scan gives one measurement of velocity by its Doppler (DopplerMeasurement) and
-/// up to kKeyframes of the motion since a keyframe by positions (PositionMeasurement). A clone of a
-/// scan carries the noise of that scan's positions as a part of its pose, so that this noise counts
-/// once in however many pairs the scan takes part.
+/// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and up
+/// to kKeyframes measurements of the motion since a keyframe by positions (PositionMeasurement).
+/// The clone of a scan includes the noise of that scan's positions, so that this noise counts only
+/// once in all pairs of the scan.
 ///
-/// `gate/`: a measurement whose innovation fails its chi-square gate is not used. A radar whose
-/// scans go on failing it is left out until it agrees again. If most radars contradict the filter
-/// and agree with each other, the velocity begins anew with theirs.
+/// `gate/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly fails
+/// it is left out until it agrees again. If a majority of radars contradicts the filter and agrees
+/// with each other, the velocity is reset to theirs.
 ///
 /// `output/`: poses relative to an anchor and since the start, and predictions between scans.
 ///
-/// A scan may be older than one that came before it: it is then used as a measurement of what the
-/// state says of that time. Work is bounded, and nothing allocates after construction.
+/// A scan may be older than the state; it is then used as a measurement of the state at its time.
+/// Work is bounded, and nothing allocates after construction.
 class OdometryFilter {
  public:
   OdometryFilter(const OdometryOptions& options, std::span<const OdometryRadar> radars);
   OdometryFilter(const OdometryFilter&) = delete;
   OdometryFilter& operator=(const OdometryFilter&) = delete;
 
-  /// Takes the usable targets of a scan; where the vehicle is at the latest stamp so far. A radar
-  /// that is not believed (SelfCheck) is compared with the others, but not used.
+  /// Updates with the usable targets of a scan. Returns the odometry at the latest stamp so far. A
+  /// radar that is not trusted (SelfCheck) is compared with the filter, but not used.
   Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
-                  bool is_believed = true);
+                  bool is_trusted = true);
 
-  /// With options.rate_hz: the next output due by `now_us`, which the state is predicted to;
-  /// nothing if there is none, before the first scan, and once the last is max_gap_s ago.
-  /// Predictions come in order, once each; the next may be earlier than the time of a scan that
-  /// comes later.
+  /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
+  /// first scan, or more than max_gap_s after the last. Each prediction is returned once, in order;
+  /// it may be later than a scan that arrives after it.
   std::optional<Odometry> predict_next(std::int64_t now_us);
 
-  /// The clock of the stamps was set: begins anew, but for the pose since the start.
+  /// To be called when the clock of the stamps was set: restarts all but the pose since the start.
   void forget();
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
-  /// What a next drive may begin with, by radar: nothing of one that is left out. Allocates.
+  /// Learned errors for the next drive, by radar; none for a radar that is left out. Allocates.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
-  void begin_if_needed(std::int64_t stamp_us, bool is_believed);
+  void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
   void start(std::int64_t stamp_us);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
-  void believe(std::size_t radar, bool is_believed);
+  void set_trusted(std::size_t radar, bool is_trusted);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,

@@ -14,27 +14,29 @@
 namespace cremed {
 namespace {
 
-/// Tukey's biweight: 95 % efficient on Gaussian residuals, nothing beyond so many sigma.
-constexpr double kTukey = 4.685;
-/// Offset of all Doppler while weights are found: as wide as it takes not to matter, for what is
-/// measured is 0.01 to 0.07 m/s (SharedErrorOptions, OdometryOptions).
+/// Tukey's biweight: 95 % efficient for Gaussian residuals; zero weight beyond this many sigma.
+constexpr double kTukeySigmas = 4.685;
+/// Prior of the offset of all Doppler while weights are computed. Wide enough to have no effect:
+/// measured offsets are 0.01 to 0.07 m/s (SharedErrorOptions, OdometryOptions).
 constexpr double kOffsetPriorMps = 0.2;
-/// Residuals are judged by this scale first, twice the grid of an ARS408, and then by 0.6 of it and
-/// so on down to their own: three steps to 0.13 m/s.
+/// Scale of the weights in the first iteration, twice the grid of an ARS408. It shrinks by 0.6 in
+/// each iteration down to the noise of Doppler: three iterations to 0.13 m/s.
 constexpr double kStartScaleMps = 0.5;
-constexpr double kNarrowing = 0.6;
+constexpr double kScaleShrinkage = 0.6;
 constexpr int kMaxIterations = 12;
-/// A hundredth of the best covariance that OdometryOptions allows (velocity_floor_x_mps), and less.
+/// At most a hundredth of the smallest standard deviation in OdometryOptions
+/// (velocity_floor_x_mps).
 constexpr double kConvergedMps = 1e-4;
-/// Two directions and one more, to have a residual at all.
+/// Three unknowns and one more target for a residual.
 constexpr int kMinTargets = 4;
 /// Median of |residual| over sigma, for a Gaussian.
 constexpr double kMedianPerStd = 0.6745;
 
-/// Pairs of targets that search() asks. If half of the targets stand still, none of 64 pairs is of
-/// two such once in 10^8 (0.75^64).
+/// Pairs of targets that search() tries. If half of the targets are static, all 64 pairs have a
+/// moving target with probability 10^-8 (0.75^64).
 constexpr std::size_t kTrials = 64;
-/// Between the lines of sight of a pair: nearer than 9 degrees noise counts for more than 6 times.
+/// Sine of the angle between the lines of sight of a pair. Below 9 degrees noise is amplified more
+/// than 6 times.
 constexpr double kMinSine = 0.15;
 
 double residual(const Target& target, const Eigen::Vector3d& solution) {
@@ -43,7 +45,7 @@ double residual(const Target& target, const Eigen::Vector3d& solution) {
 }
 
 double weight(double residual, double scale) {
-  const double u = residual / (kTukey * scale);
+  const double u = residual / (kTukeySigmas * scale);
   const double inside = 1.0 - u * u;
   return inside > 0.0 ? inside * inside : 0.0;
 }
@@ -68,7 +70,7 @@ Sums sum_up(const TargetSet& targets, const Eigen::Vector3d& solution, double sc
   return sums;
 }
 
-/// Sum of squared residuals, each limited.
+/// Truncated sum of squared residuals.
 double search_cost(const TargetSet& targets, const Eigen::Vector2d& velocity) {
   const Eigen::Vector3d solution(velocity.x(), velocity.y(), 0.0);
   double cost = 0.0;
@@ -124,10 +126,11 @@ std::optional<DopplerVelocity> DopplerVelocityEstimator::fit(const TargetSet& ta
     if (scale <= std_mps && change < kConvergedMps) {
       break;
     }
-    scale = std::max(std_mps, kNarrowing * scale);
+    scale = std::max(std_mps, kScaleShrinkage * scale);
   }
   DopplerVelocity result;
-  result.residual_std_mps = median_residual(targets, solution, kTukey * std_mps) / kMedianPerStd;
+  result.residual_std_mps =
+      median_residual(targets, solution, kTukeySigmas * std_mps) / kMedianPerStd;
   const Eigen::Matrix2d inverse = sums.information.topLeftCorner<2, 2>().inverse();
   result.velocity_mps = inverse * sums.weighted.head<2>();
   result.per_offset = inverse * sums.information.topRightCorner<2, 1>();
@@ -137,11 +140,12 @@ std::optional<DopplerVelocity> DopplerVelocityEstimator::fit(const TargetSet& ta
 }
 
 double DopplerVelocityEstimator::median_residual(const TargetSet& targets,
-                                                 const Eigen::Vector3d& solution, double most) {
+                                                 const Eigen::Vector3d& solution,
+                                                 double max_residual_mps) {
   auto* last = scratch_.data();
   for (const Target& target : targets) {
     const double size = std::abs(residual(target, solution));
-    if (size < most) {
+    if (size < max_residual_mps) {
       *last++ = size;
     }
   }

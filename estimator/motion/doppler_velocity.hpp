@@ -11,17 +11,17 @@
 
 namespace cremed {
 
-/// Standard deviation of one target's Doppler, an ARS408's on real drives (nuScenes 0061, 0103).
+/// Standard deviation of one target's Doppler. Source: ARS408 on real drives (nuScenes 0061, 0103).
 inline constexpr double kArs408DopplerStdMps = 0.13;
 
-/// The sensor's velocity over ground, from the Doppler of one scan, in the axes of the vehicle.
+/// The sensor's velocity over ground from the Doppler of one scan, in the axes of the vehicle.
 struct DopplerVelocity {
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  /// What an offset of all Doppler adds to it, for 1 m/s.
+  /// Derivative of the velocity by an offset of all Doppler.
   Eigen::Vector2d per_offset = Eigen::Vector2d::Zero();
-  double residual_std_mps = 0.0;  ///< Of the targets that stand still, by their median.
-  int targets = 0;                ///< That stand still.
+  double residual_std_mps = 0.0;  ///< Of the static targets, by their median.
+  int targets = 0;                ///< Number of static targets.
 };
 
 /// Robust least squares of a static world's Doppler (Kellner et al., ITSC 2013; here all targets
@@ -29,19 +29,20 @@ struct DopplerVelocity {
 ///
 ///     doppler_i = -cos(phi_i) V_x - sin(phi_i) V_y + offset,   V = (A'WA)^-1 A'W doppler
 ///
-/// The offset is an unknown (prior 0.2 m/s) while weights are found, so that it makes no target an
-/// outlier, and left out of the result: per_offset = (A'WA)^-1 A'W 1 tells what it does there.
+/// While weights are computed the offset is an unknown (prior 0.2 m/s), so that it makes no target
+/// an outlier. It is not in the result; its effect there is per_offset = (A'WA)^-1 A'W 1.
 class DopplerVelocityEstimator {
  public:
-  /// The velocity nearest to `start`, if targets within 2.3 m/s of it (4.685 times 0.5) agree on
-  /// one. `std_mps`: standard deviation of a target's Doppler.
+  /// The velocity nearest to `start`, if targets with residuals up to 2.3 m/s (4.685 times 0.5)
+  /// agree on one. `std_mps`: standard deviation of a target's Doppler.
   std::optional<DopplerVelocity> fit(const TargetSet& targets, const Eigen::Vector2d& start,
                                      double std_mps);
-  /// The velocity that explains most targets, roughly: a start for fit(). Zero without any.
+  /// The velocity that explains most targets, roughly: a start for fit(). Zero for an empty set.
   static Eigen::Vector2d search(const TargetSet& targets);
 
  private:
-  double median_residual(const TargetSet& targets, const Eigen::Vector3d& solution, double most);
+  double median_residual(const TargetSet& targets, const Eigen::Vector3d& solution,
+                         double max_residual_mps);
 
   std::array<double, kMaxDetections> scratch_;
 };

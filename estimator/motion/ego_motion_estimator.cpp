@@ -12,8 +12,8 @@
 namespace cremed {
 namespace {
 
-/// Beyond what a difference's own covariance explains: by chance once in 370.
-constexpr double kSigmas = 3.0;
+/// Bound of a difference in its standard deviations. False-alarm rate: 1 in 370.
+constexpr double kMaxSigmas = 3.0;
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void EgoMotionEstimator::forget_reference() {
   has_reference_ = has_velocity_ = has_started_ = false;
 }
 
-/// Selects the targets; ok if the scan can be one end of an estimate.
+/// Selects the targets; ok if the scan is usable.
 MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
   targets_.clear();
   if (scan.status == ScanStatus::conflicting_parts || scan.status == ScanStatus::over_capacity) {
@@ -71,7 +71,7 @@ MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
   if (!targets_.is_finite()) {
     return MotionStatus::non_finite;
   }
-  // A mixture needs at least one component, whatever the options say.
+  // A mixture needs at least one component.
   const int needed = std::max(options_.min_targets, 1);
   return static_cast<int>(targets_.size()) < needed ? MotionStatus::too_few_targets
                                                     : MotionStatus::ok;
@@ -128,41 +128,42 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
-/// Whether the vehicle could have got from the last estimate to this one. A match of chance
-/// neighbours is anywhere in the range of the search, and hardly ever there.
+/// Whether a vehicle can accelerate from the last estimate to this one. A match of chance
+/// neighbours can be anywhere in the search range and rarely fulfils this.
 bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
   const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
   const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
                                  kMaxYawAccelerationRadps2);
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return has_velocity_ && sigma.x() > 0.0 &&
-         (departure.array() <= (possible * dt_s * dt_s + kSigmas * sigma).array()).all();
+         (departure.array() <= (possible * dt_s * dt_s + kMaxSigmas * sigma).array()).all();
 }
 
-/// Asks Doppler even where it takes no part in the estimate.
+/// Uses Doppler even if the estimate does not.
 bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, double dt_s) {
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
-  return two_worlds_.look(targets_, result.motion / dt_s,
-                          0.5 * kMaxAccelerationMps2 * dt_s + kSigmas * noise_mps, !has_started_,
-                          [&](double speed_mps) {
-                            other.motion.x() = speed_mps * dt_s;
-                            return continues(other, dt_s);
-                          });
+  return two_worlds_.check(targets_, result.motion / dt_s,
+                           0.5 * kMaxAccelerationMps2 * dt_s + kMaxSigmas * noise_mps,
+                           !has_started_, [&](double speed_mps) {
+                             other.motion.x() = speed_mps * dt_s;
+                             return continues(other, dt_s);
+                           });
 }
 
-/// Doppler alone does not tell: a radar that looks sideways, or one in the centre of a turn, sees
-/// none while the vehicle moves. A small estimate alone does not either, if it could as well be a
-/// large one.
+/// Doppler alone is not sufficient: a radar that looks sideways, or is in the centre of a turn,
+/// measures none while the vehicle moves. A small estimate alone is not sufficient if its sigma is
+/// large.
 bool EgoMotionEstimator::is_standing(const RegistrationResult& result, double dt_s) {
   const double limit_m = options_.standstill_mps * dt_s;
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return result.motion.head<2>().norm() <= limit_m && sigma.head<2>().maxCoeff() <= limit_m &&
-         std::abs(result.motion.z()) <= kSigmas * sigma.z() && median_normalised_doppler() <= 1.0;
+         std::abs(result.motion.z()) <= kMaxSigmas * sigma.z() &&
+         median_normalised_doppler() <= 1.0;
 }
 
-/// 0.67 of pure Gaussian noise: up to 1 is then noise, even if its deviation is 1.5 times as
-/// stated.
+/// 0.67 for Gaussian noise. A value up to 1 counts as noise, which allows a standard deviation 1.5
+/// times as large as stated.
 double EgoMotionEstimator::median_normalised_doppler() {
   const auto last =
       std::transform(targets_.begin(), targets_.end(), scratch_.begin(),
@@ -170,8 +171,8 @@ double EgoMotionEstimator::median_normalised_doppler() {
   return median_or(0.0, scratch_.begin(), last);
 }
 
-/// Speed along x that most targets agree on if they stand still and the vehicle turns as before.
-/// Targets abeam say nothing about it.
+/// Median speed along x by the Doppler of all targets, if they are static and the yaw rate is
+/// unchanged. Targets abeam do not observe it.
 double EgoMotionEstimator::doppler_speed_mps() {
   const Eigen::Vector3d turning(0.0, 0.0, has_velocity_ ? last_velocity_.z() : 0.0);
   auto last = scratch_.begin();

@@ -17,23 +17,24 @@
 
 namespace cremed {
 
-/// What an EgoMotion holds. The numbers are those of ego_motion_t; they never change meaning.
+/// Whether an EgoMotion holds an estimate, or why not. The numbers are those of ego_motion_t and
+/// never change meaning.
 enum class MotionStatus : std::uint8_t {
   ok = 0,               ///< An estimate.
   standing_still = 1,   ///< An estimate; speed, and sigma of x and y over dt, <= standstill_mps,
                         ///< |yaw| <= 3 sigma, median |Doppler| / sigma <= 1.
-  no_reference = 2,     ///< The first usable scan: there is no earlier one to compare with.
+  no_reference = 2,     ///< The first usable scan.
   incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status).
   gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.
   too_few_targets = 5,  ///< Usable targets < min_targets.
   degenerate = 6,       ///< J'J not positive definite, or a sigma > max_std_m, max_std_rad.
-  no_convergence = 7,   ///< A limit on iterations or work cut in before the end.
+  no_convergence = 7,   ///< A limit on iterations or work was reached.
   non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
-  ambiguous = 10,       ///< Too few targets found again, or another motion fits nearly as well or
-                        ///< has the Doppler of many targets, and only one motion can be the
-                        ///< continuation of the scan before: not this one, or both. Or it fits
-                        ///< but contradicts the odometry (fusion/output/motion_witness.hpp).
+  ambiguous = 10,       ///< Too few targets matched; or another motion fits nearly as well or
+                        ///< explains the Doppler of many targets, unless only this motion
+                        ///< continues the one before; or the motion
+                        ///< contradicts the odometry (fusion/output/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 
@@ -42,37 +43,37 @@ std::string_view to_string(MotionStatus status);
 
 /// Ego-motion between two scans of one radar: pose of the vehicle at `utime_us` in its frame at
 /// `utime_start_us`, order (x_m, y_m, yaw_rad), covariance in the same order. NaN unless
-/// has_estimate(): nobody can use by mistake what is not there.
+/// has_estimate().
 struct EgoMotion {
   std::int64_t utime_start_us = 0;
   std::int64_t utime_us = 0;
   MotionStatus status = MotionStatus::no_reference;
-  Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNothing);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNothing);
-  bool incomplete = false;  ///< The current scan lacks parts; it serves with the targets it has.
-  int targets = 0;          ///< Usable targets in the current scan.
-  int iterations = 0;       ///< Gauss-Newton steps.
-  double doppler_innovation = kNothing;  ///< Of RegistrationResult, for SelfCheck.
+  Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNan);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNan);
+  bool incomplete = false;           ///< Parts of the current scan are missing.
+  int targets = 0;                   ///< Usable targets in the current scan.
+  int iterations = 0;                ///< Gauss-Newton steps.
+  double doppler_innovation = kNan;  ///< See RegistrationResult.
 
-  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {
     return status == MotionStatus::ok || status == MotionStatus::standing_still;
   }
 };
 
-/// Estimates the motion from each scan to the next of one radar. A scan that cannot serve
-/// (contradictory, too few targets, not finite) is skipped: the next estimate then starts at the
-/// last scan that could, as long as max_gap_s allows. Never allocates, throws or logs.
+/// Estimates the motion between successive scans of one radar. An unusable scan (contradictory, too
+/// few targets, not finite) is skipped: the next estimate then starts at the last usable scan, up
+/// to max_gap_s before. Never allocates, throws or logs.
 class EgoMotionEstimator {
  public:
   explicit EgoMotionEstimator(const EgoMotionOptions& options);
 
   EgoMotion update(const RadarScan& scan);
 
-  /// The clock of the stamps was set: the next scan has no reference.
+  /// To be called when the clock of the stamps was set: the next scan has no reference.
   void forget_reference();
 
-  /// The usable targets of the last scan, whatever came of it; none if it was not whole.
+  /// The usable targets of the last scan, whatever its status; none with incomplete_scan.
   [[nodiscard]] const TargetSet& targets() const { return targets_; }
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
@@ -95,8 +96,8 @@ class EgoMotionEstimator {
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  // (m/s, m/s, rad/s)
   std::int64_t reference_stamp_us_ = 0;
   bool has_reference_ = false;
-  bool has_velocity_ = false;  // last_velocity_ is that of the scan before
-  bool has_started_ = false;   // there was an estimate since the last gap
+  bool has_velocity_ = false;  // last_velocity_ is of the previous scan
+  bool has_started_ = false;   // there was an estimate after the last gap
 };
 
 }  // namespace cremed

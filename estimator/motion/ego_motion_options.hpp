@@ -16,7 +16,7 @@ struct EgoMotionOptions {
   RegistrationOptions registration;
   int min_targets = 5;              ///< Fewer usable targets in a scan: too_few_targets.
   double max_gap_s = 0.5;           ///< Longer time between two scans: gap_too_long.
-  double standstill_mps = 0.1;      ///< Speed up to it, and known as well as that: standing still.
+  double standstill_mps = 0.1;      ///< Largest speed, and sigma of it, of standing_still.
   double max_speed_mps = 70.0;      ///< Faster estimates are implausible.
   double max_yaw_rate_radps = 3.0;  ///< Faster turns are implausible.
   double max_std_m = 1.0;           ///< Larger standard deviation of x or y: degenerate.

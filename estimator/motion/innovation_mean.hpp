@@ -8,30 +8,31 @@
 
 namespace cremed {
 
-/// Time-averaged NIS: mean of normalised innovations squared, a degree of freedom, over the last
-/// minute. 1 where the covariances of the two estimates that are compared are true, above 1 where
-/// they are too small. One innovation counts as kMaxInnovation at most: a few wild ones say nothing
-/// about all others.
+/// Time-averaged NIS: mean of the normalised innovations squared per degree of freedom over the
+/// last minute. It is 1 if the covariances of the two compared estimates are true, above 1 if they
+/// are too small. Each innovation is limited to kMaxInnovation, so that a few outliers do not
+/// dominate the mean.
 class InnovationMean {
  public:
-  /// `utime_us` may go back, which begins anew.
+  /// If `utime_us` goes back, the mean is cleared.
   void add(std::int64_t utime_us, double innovation);
   void clear();
-  /// Time passes: forgets what is older than a minute then.
+  /// Removes innovations that are older than a minute at `utime_us`.
   void pass(std::int64_t utime_us);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// 0 without any.
+  /// 0 without innovations.
   [[nodiscard]] double mean() const;
-  /// Whether there are enough of them to judge by.
+  /// Whether there are enough innovations for a judgement.
   [[nodiscard]] bool is_enough() const { return count_ >= kMinCount; }
   [[nodiscard]] bool exceeds(double limit) const { return is_enough() && mean() > limit; }
 
  private:
   static constexpr std::size_t kSeconds = 60;
-  /// The mean of so many independent ones, of two degrees of freedom each, is 1 +- 0.1.
+  /// The mean of this many independent innovations of two degrees of freedom is 1 +- 0.1.
   static constexpr std::uint64_t kMinCount = 100;
-  /// 5 sigma: less likely than 10^-6, so that a true covariance is judged by all of them.
+  /// 5 sigma: exceeded with probability below 10^-6, so the limit does not change the mean of a
+  /// true covariance.
   static constexpr double kMaxInnovation = 25.0;
   struct Second {
     std::uint64_t count = 0;
@@ -39,7 +40,7 @@ class InnovationMean {
   };
 
   std::array<Second, kSeconds> seconds_{};
-  std::int64_t second_ = 0;  // The newest; of utime.
+  std::int64_t second_ = 0;  // The newest second.
   std::uint64_t count_ = 0;
 };
 

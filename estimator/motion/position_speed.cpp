@@ -11,20 +11,20 @@
 namespace cremed {
 namespace {
 
-/// Bounds the work: a scan's first targets are an ARS408's nearest, which are known best.
+/// Bounds the work. An ARS408 sends its nearest targets first, which are the most precise.
 constexpr std::size_t kMaxTargets = 96;
-/// A pair is straight ahead within kGateSigmas of this, 1.2 m: less than half a lane, so that what
-/// stands in the next one does not vote.
+/// Bounds the lateral gate to kGateSigmas times this, 1.2 m: less than half a lane, so that targets
+/// in the next lane do not vote.
 constexpr double kMaxSideStdM = 0.6;
-/// Half of the step between yaw rates turns a target at 40 m by 0.6 m in 0.3 s.
+/// Half of this step moves a target at 40 m by 0.6 m in 0.3 s.
 constexpr double kYawRateStepRadps = 0.1;
-/// 5 % of true pairs are outside.
+/// The gate rejects 5 % of true pairs.
 constexpr double kGateSigmas = 2.0;
-/// Of votes by chance, one more than expected. Exceeded in 1 % of pairs of scans that have nothing
-/// in common (Poisson, 0.3 to 0.5 votes expected at each of 448 places).
-constexpr double kStandsOutSigmas = 4.0;
+/// In standard deviations of the expected number of chance votes plus one. False-alarm rate: 1 % of
+/// pairs of unrelated scans (Poisson, 0.3 to 0.5 votes expected in each of 448 cells).
+constexpr double kChanceSigmas = 4.0;
 
-/// Of a speed and its neighbours, which scatter of positions and acceleration reach.
+/// Votes of a speed and its two neighbours, which allows for noise of positions and acceleration.
 template <typename Votes>
 double votes_around(const Votes& votes, std::size_t step) {
   const std::size_t first = step == 0 ? 0 : step - 1;
@@ -48,7 +48,7 @@ void PositionSpeed::count(const TargetSet& previous, const TargetSet& current, d
     const double y_m = s * target.x_m + c * target.y_m;
     for (std::size_t j = 0; j < n; ++j) {
       const double variance = target.covariance_m2.yy + previous[j].covariance_m2.yy;
-      const double step = (previous[j].x_m - x_m) * steps_per_m - kLeastMps / kStepMps + 0.5;
+      const double step = (previous[j].x_m - x_m) * steps_per_m - kMinSpeedMps / kStepMps + 0.5;
       if (variance <= squared(kMaxSideStdM) && step >= 0.0 && step < static_cast<double>(kSteps) &&
           squared(previous[j].y_m - y_m) <= squared(kGateSigmas) * variance) {
         ++votes[static_cast<std::size_t>(step)];
@@ -61,44 +61,44 @@ SpeedSupport PositionSpeed::sum_up() const {
   SpeedSupport support;
   double chance = 0.0;
   for (std::size_t k = 0; k < kYawRates; ++k) {
-    double asked = 0.0;
+    double given = 0.0;
     for (const Pair& pair : pairs_) {
-      asked += votes_around(pair.votes[k], pair.asked);
+      given += votes_around(pair.votes[k], pair.given_step);
     }
-    support.asked = std::max(support.asked, asked);
+    support.given_votes = std::max(support.given_votes, given);
     for (std::size_t step = 0; step < kSteps; ++step) {
       double votes = 0.0;
       for (const Pair& pair : pairs_) {
         votes += votes_around(pair.votes[k], step);
       }
       chance += votes / static_cast<double>(kSteps * kYawRates);
-      if (votes > support.best) {
-        support.best = votes;
-        support.best_mps = kLeastMps + static_cast<double>(step) * kStepMps;
+      if (votes > support.best_votes) {
+        support.best_votes = votes;
+        support.best_mps = kMinSpeedMps + static_cast<double>(step) * kStepMps;
       }
     }
   }
-  support.by_chance = chance + kStandsOutSigmas * std::sqrt(chance + 1.0);
+  support.max_chance_votes = chance + kChanceSigmas * std::sqrt(chance + 1.0);
   return support;
 }
 
 std::optional<SpeedSupport> PositionSpeed::compare(const TargetSet& previous,
                                                    const TargetSet& current, double dt_s,
-                                                   double asked_mps) {
-  const double asked_step = std::round((asked_mps - kLeastMps) / kStepMps);
-  if (!(asked_step >= 0.0 && asked_step < static_cast<double>(kSteps))) {
+                                                   double given_mps) {
+  const double given_step = std::round((given_mps - kMinSpeedMps) / kStepMps);
+  if (!(given_step >= 0.0 && given_step < static_cast<double>(kSteps))) {
     return std::nullopt;
   }
   newest_ = (newest_ + 1) % kPairs;
   Pair& pair = pairs_[newest_];
-  pair.asked = static_cast<std::size_t>(asked_step);
+  pair.given_step = static_cast<std::size_t>(given_step);
   for (std::size_t k = 0; k < kYawRates; ++k) {
     constexpr std::size_t kMiddle = kYawRates / 2;
     const double steps = static_cast<double>(k) - static_cast<double>(kMiddle);
     count(previous, current, dt_s, steps * kYawRateStepRadps, pair.votes[k]);
   }
   const SpeedSupport support = sum_up();
-  return support.best > support.by_chance ? std::optional(support) : std::nullopt;
+  return support.best_votes > support.max_chance_votes ? std::optional(support) : std::nullopt;
 }
 
 }  // namespace cremed

@@ -10,44 +10,44 @@
 
 namespace cremed {
 
-/// How often the targets of a scan are found again at a speed.
+/// Votes for speeds by the positions of targets.
 struct SpeedSupport {
-  double best_mps = 0.0;   ///< The speed with most votes, to kStepMps.
-  double best = 0.0;       ///< Its votes.
-  double asked = 0.0;      ///< Those of the speed that was asked about.
-  double by_chance = 0.0;  ///< What chance alone hardly exceeds anywhere.
+  double best_mps = 0.0;          ///< The speed with most votes, to kStepMps.
+  double best_votes = 0.0;        ///< Its votes.
+  double given_votes = 0.0;       ///< Votes of the given speed.
+  double max_chance_votes = 0.0;  ///< Bound that chance votes rarely exceed.
 };
 
-/// The forward speed that positions of scans tell by themselves, roughly but without any start: no
-/// Doppler, no partners. Two scans are compared: each pair of a target and one of the earlier scan
-/// that lies straight ahead of or behind it, once the vehicle has turned at one of a few yaw rates,
-/// votes for the speed that leads from one to the other. Static targets agree on one speed (a Hough
-/// transform); what drives, and chance, spreads over all. The votes of the last kPairs such
-/// comparisons are added up: speed and yaw rate of a vehicle change by about a step meanwhile.
+/// Coarse forward speed by the positions of targets alone, without Doppler, association or start
+/// value: a Hough transform over speed and yaw rate. Two scans are compared. For each yaw rate,
+/// each pair of a target and an earlier target straight ahead of or behind it votes for the speed
+/// between them. Votes of static targets add up at one speed; votes of moving targets and chance
+/// pairs spread over all speeds. The votes of the last kPairs comparisons are added; speed and yaw
+/// rate change by about one step meanwhile.
 class PositionSpeed {
  public:
   static constexpr double kStepMps = 1.0;
-  /// Between two scans that are compared: long enough that a target moves by more than its position
-  /// is uncertain (0.2 m in 0.2 s at kStepMps), short enough that it is still seen.
+  /// Interval between compared scans: long enough for a motion above the noise of positions (0.2 m
+  /// in 0.2 s at kStepMps), short enough for targets to stay in view.
   static constexpr double kMinIntervalS = 0.2;
   static constexpr double kMaxIntervalS = 1.0;
 
-  /// Positions in `current`, `dt_s` after `previous`; `asked_mps` is what Doppler says. Nothing
-  /// where no speed stands out from chance: there is nothing to compare with.
+  /// Compares two scans, `current` taken `dt_s` after `previous`, with the speed `given_mps` (by
+  /// Doppler). None if no speed has more votes than chance.
   std::optional<SpeedSupport> compare(const TargetSet& previous, const TargetSet& current,
-                                      double dt_s, double asked_mps);
-  /// What was compared so far says nothing of what comes.
+                                      double dt_s, double given_mps);
+  /// Removes all votes.
   void clear() { pairs_.fill({}); }
 
  private:
-  static constexpr double kLeastMps = -12.0;
+  static constexpr double kMinSpeedMps = -12.0;
   static constexpr std::size_t kSteps = 64;
-  static constexpr std::size_t kYawRates = 13;  ///< An odd number of them.
+  static constexpr std::size_t kYawRates = 13;  ///< Odd: zero is the middle one.
   static constexpr std::size_t kPairs = 3;
   using Votes = std::array<int, kSteps>;
   struct Pair {
     std::array<Votes, kYawRates> votes{};
-    std::size_t asked = 0;  ///< Step of the speed that was asked about.
+    std::size_t given_step = 0;  ///< Step of the given speed.
   };
 
   static void count(const TargetSet& previous, const TargetSet& current, double dt_s,

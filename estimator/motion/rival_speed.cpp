@@ -11,13 +11,12 @@
 namespace cremed {
 namespace {
 
-/// A vote counts for a speed that it differs from by no more standard deviations: by chance one in
-/// 370 of its own does not.
+/// Gate of a vote for a speed, in its standard deviations. It rejects 1 in 370 true votes.
 constexpr double kMaxVoteSigmas = 3.0;
-/// Targets nearer than this are one place: a car (2 by 4.5 m) is one or two.
-constexpr double kPlaceM = 3.0;
+/// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
+constexpr double kPlaceRadiusM = 3.0;
 
-/// Targets that have none of those before them near.
+/// Number of targets with a vote that are not near a target of an earlier vote.
 template <typename Votes>
 std::size_t count_places(const TargetSet& targets, const Votes& votes) {
   std::size_t places = 0;
@@ -27,7 +26,7 @@ std::size_t count_places(const TargetSet& targets, const Votes& votes) {
       const Target& there = targets[other.target];
       const double dx_m = here.x_m - there.x_m;
       const double dy_m = here.y_m - there.y_m;
-      return dx_m * dx_m + dy_m * dy_m < kPlaceM * kPlaceM;
+      return dx_m * dx_m + dy_m * dy_m < kPlaceRadiusM * kPlaceRadiusM;
     });
   }
   return places;

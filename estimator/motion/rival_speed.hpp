@@ -14,25 +14,25 @@
 
 namespace cremed {
 
-/// In how many places the Doppler of a scan agrees with a motion, and in how many with the other
-/// speed that most of the rest agree on. Targets near each other are one place: a car is one or
-/// two, however many targets it shows.
+/// Number of places where the Doppler of a scan agrees with a motion (`own`), and where it agrees
+/// with the most frequent other speed (`rival`). Targets near each other are one place: a car is
+/// one or two places.
 struct SpeedVotes {
   std::size_t own = 0;
   std::size_t rival = 0;
   double rival_mps = 0.0;
-  std::size_t abeam = 0;  ///< Targets, not places, that have no vote.
+  std::size_t abeam = 0;  ///< Targets (not places) without a vote.
 };
 
-/// In a jam most targets may be on cars that drive as we do. The radar then sees two worlds, each
-/// at rest in itself, and nothing in one scan says which of them is the road. This counts both. All
-/// storage is inside the object.
+/// Counts the votes of two speeds. In a traffic jam most targets may be on cars of nearly the same
+/// speed as the vehicle. The radar then sees two rigid worlds, and a single scan cannot show which
+/// of them is the road. All storage is inside the object.
 class RivalSpeed {
  public:
   explicit RivalSpeed(const Pose2& vehicle_from_radar) : vehicle_from_radar_(vehicle_from_radar) {}
 
-  /// `velocity`: along x, along y, of the yaw; the mean of a time at whose end the speed along x
-  /// may be another by `change_mps`. Targets abeam have no vote.
+  /// `velocity` (m/s along x, m/s along y, rad/s): a mean over time. `change_mps`: bound of the
+  /// change of speed from then to the scan. Targets abeam have no vote.
   SpeedVotes count(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps);
 
  private:
@@ -44,9 +44,9 @@ class RivalSpeed {
   using Votes = std::span<Vote>;
 
   Votes collect(const TargetSet& targets, const Eigen::Vector3d& velocity);
-  /// The speed at the moment of the scan.
+  /// Median of the votes near `speed_mps`: the speed at the scan.
   double median_near(Votes votes, double speed_mps, double change_mps);
-  /// The most of these votes that agree with each other. Sorts them.
+  /// The largest group of votes that agree with each other. Sorts the votes.
   static Votes largest_group(Votes votes);
 
   Pose2 vehicle_from_radar_;
@@ -54,11 +54,11 @@ class RivalSpeed {
   std::array<double, kMaxDetections> near_mps_;
 };
 
-/// Least |cos_bearing| of a target that tells the speed along x: 60 degrees off the way, where the
-/// noise of Doppler counts twice.
+/// Smallest |cos_bearing| of a target that observes the speed along x: 60 degrees off the direction
+/// of travel, where the noise of Doppler is doubled.
 inline constexpr double kMinForwardCosine = 0.5;
 
-/// Speed along x that a target speaks for if it stands.
+/// Speed along x by the Doppler of a static target, if the vehicle moves with `velocity` otherwise.
 double speed_along_x_mps(const Target& target, const Eigen::Vector3d& velocity,
                          const Pose2& vehicle_from_radar);
 

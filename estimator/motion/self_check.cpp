@@ -11,13 +11,13 @@
 namespace cremed {
 namespace {
 
-/// Time-averaged NIS above which a covariance is too small: errors are then 1.7 times as large as
-/// it says. Chance alone does not get there: 100 innovations, of which four in a row share their
-/// error (0.3 s), have a mean of 1 +- 0.28.
+/// A time-averaged NIS above this shows too small a covariance: errors are 1.7 times as large as
+/// stated. Of a true covariance it is 1 +- 0.28 (100 innovations, each error shared by four in a
+/// row, 0.3 s).
 constexpr double kMaxMeanInnovation = 3.0;
-/// A covariance is too large where both means are below these. Healthy drives have 0.4 and 0.2 at
-/// least: the priors of shared errors bound the first from below, and the second is small where a
-/// vehicle accelerates less than its prior. Errors of half the stated size make them 0.25 and 0.05.
+/// A covariance is too large if both means are below these. Healthy drives have at least 0.4 and
+/// 0.2: the priors of shared errors bound the first from below, and the second is small if a
+/// vehicle accelerates less than its prior. Errors of half the stated size give 0.25 and 0.05.
 constexpr double kMinMeanByDoppler = 0.35;
 constexpr double kMinMeanByNext = 0.12;
 

@@ -10,40 +10,40 @@
 
 namespace cremed {
 
-/// Why a radar's covariance is not to be believed; bits.
+/// Reasons to doubt a radar's covariance, as bits.
 enum Doubt : std::uint32_t {
-  registration_contradicts_doppler = 1U << 0U,  ///< Mount, sign of Doppler or noise is wrong.
-  motions_contradict_each_other = 1U << 1U,     ///< It jumps more than a vehicle can.
-  other_radars_contradict = 1U << 2U,           ///< OdometryFilter leaves it out.
-  covariance_too_large = 1U << 3U,              ///< Noise is set far too high.
-  positions_contradict_speed = 1U << 4U,        ///< Doppler or the stamps' pace is wrong.
+  registration_contradicts_doppler = 1U << 0U,  ///< Wrong mount, Doppler sign or noise.
+  motions_contradict_each_other = 1U << 1U,     ///< Changes beyond a vehicle's limits.
+  other_radars_contradict = 1U << 2U,           ///< OdometryFilter leaves the radar out.
+  covariance_too_large = 1U << 3U,              ///< Configured noise is far too high.
+  positions_contradict_speed = 1U << 4U,        ///< Wrong Doppler or rate of the stamps.
 };
 
-/// Compares, while driving, what a radar says with what it says itself in another way. No truth is
-/// needed: if covariances are right, the difference of two independent estimates over its own
-/// covariance is 1 on average, whatever the drive.
+/// Compares independent estimates of one radar while driving. No ground truth is needed: if
+/// covariances are true, the NIS of the difference of two independent estimates is 1 per degree of
+/// freedom on average on any drive.
 class SelfCheck {
  public:
   explicit SelfCheck(const RegistrationOptions& options) : options_(options) {}
 
   /// A motion, and the targets of the scan at its end.
   void add(const EgoMotion& motion, const TargetSet& targets);
-  /// The clock of the stamps was set.
+  /// To be called when the clock of the stamps was set.
   void forget();
 
-  /// The targets found again against their Doppler (EgoMotion::doppler_innovation).
+  /// NIS of positions against Doppler (EgoMotion::doppler_innovation).
   [[nodiscard]] const InnovationMean& doppler() const { return doppler_; }
-  /// A motion's velocity against that of the one before it, which differ by what the vehicle may
-  /// accelerate (SharedErrorOptions) as well.
+  /// NIS of a motion's velocity against that of the previous motion, with the accelerations of
+  /// SharedErrorOptions.
   [[nodiscard]] const InnovationMean& next() const { return next_; }
 
-  /// Its Doppler against the speed by its positions.
+  /// Check of the Doppler speed by positions.
   [[nodiscard]] const SpeedCheck& speed() const { return speed_; }
 
-  /// Doubts in this radar by itself.
+  /// Doubts by this radar's own estimates.
   [[nodiscard]] std::uint32_t doubts() const;
-  /// Whether none of them says that its errors are greater than its covariance.
-  [[nodiscard]] bool is_believable() const { return (doubts() & ~covariance_too_large) == 0; }
+  /// Whether there is no doubt but covariance_too_large.
+  [[nodiscard]] bool is_trusted() const { return (doubts() & ~covariance_too_large) == 0; }
 
  private:
   void compare_with_last(const EgoMotion& motion);

@@ -10,13 +10,13 @@
 namespace cremed {
 namespace {
 
-/// A third of the step between the speeds that are compared. Radars that look across the way know
-/// their forward speed less well, and are not checked.
+/// A third of PositionSpeed::kStepMps. Radars that look sideways have a larger sigma and are not
+/// checked.
 constexpr double kMaxSpeedStdMps = 0.3;
-/// Less is within the steps of 1 m/s, and what a vehicle may accelerate in 0.2 s (10 m/s^2).
+/// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
-/// Of a difference between two numbers of votes (Poisson). Chance alone exceeds it in 2 % of all
-/// comparisons; how many do in fact is told by SpeedCheck.
+/// Bound of a difference between two numbers of votes (Poisson). False-alarm rate: 2 %; see
+/// SpeedCheck for the measured one.
 constexpr double kMinSigmas = 2.0;
 
 }  // namespace
@@ -26,7 +26,7 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   if (has_reference_ && dt_s >= 0.0 && dt_s < PositionSpeed::kMinIntervalS) {
     return;
   }
-  has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kCheckedS;
+  has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = doppler_mps(targets);
   if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
     const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);
@@ -58,10 +58,10 @@ std::optional<double> SpeedCheck::doppler_mps(const TargetSet& targets) {
 
 void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
   const bool is_other = std::abs(support.best_mps - doppler_mps) > kMinDifferenceMps;
-  const double excess = support.best - support.asked;
+  const double excess = support.best_votes - support.given_votes;
   const bool contradicts =
-      is_other && excess > kMinSigmas * std::sqrt(support.best + support.asked);
-  const bool agrees = !contradicts && (!is_other || support.asked > support.by_chance);
+      is_other && excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes);
+  const bool agrees = !contradicts && (!is_other || support.given_votes > support.max_chance_votes);
   contradictions_ =
       std::clamp(contradictions_ + (contradicts ? 1 : 0) - (agrees ? 1 : 0), 0, kMaxContradictions);
   if (contradictions_ == 0 || contradictions_ == kMaxContradictions) {

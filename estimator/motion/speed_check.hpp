@@ -11,27 +11,28 @@
 
 namespace cremed {
 
-/// Whether a radar's Doppler and its positions tell one speed: not where Doppler is stuck or over
-/// ground instead of relative to the sensor, nor where stamps run at another pace than time.
+/// Checks a radar's Doppler speed against the speed by its positions. It detects Doppler that is
+/// stuck or over ground instead of relative to the sensor, and stamps that do not run at the rate
+/// of time.
 ///
-/// Every 0.2 s another speed contradicts that has more votes than Doppler's by 2 sigma and is more
-/// than 2 m/s off: none of 3457 times did one on the healthy drives of test_faults and nuScenes.
-/// kMaxContradictions more of them than of those that agree are a doubt, which ends when all are
-/// taken off again: it takes 1 s of driving to show.
+/// Compares every 0.2 s. A contradiction is another speed, more than 2 m/s from Doppler's, that has
+/// more votes by 2 sigma: none in 3457 comparisons on the healthy drives of test_faults and
+/// nuScenes. Contradictions count up, agreements count down; the doubt begins at kMaxContradictions
+/// and ends at 0. Detection takes 1 s of driving.
 class SpeedCheck {
  public:
-  /// The targets of the next scan.
+  /// Adds the targets of the next scan.
   void add(const TargetSet& targets, std::int64_t stamp_us);
-  /// The clock of the stamps was set.
+  /// To be called when the clock of the stamps was set.
   void forget() { has_reference_ = false; }
 
   [[nodiscard]] bool is_contradicted() const { return is_contradicted_; }
-  /// Whether there was something to compare with in the last kCheckedS.
+  /// Whether a comparison was possible in the last kVerdictValidS.
   [[nodiscard]] bool is_checked() const { return has_verdict_; }
 
  private:
   static constexpr int kMaxContradictions = 2;
-  static constexpr double kCheckedS = 5.0;
+  static constexpr double kVerdictValidS = 5.0;
 
   [[nodiscard]] std::optional<double> doppler_mps(const TargetSet& targets);
   void judge(const SpeedSupport& support, double doppler_mps);

@@ -7,21 +7,21 @@
 namespace cremed {
 namespace {
 
-/// Another speed is a rival in at least so many places and so large a share of those that fit.
+/// Least number of places of a rival speed, and its least ratio to the places that fit.
 struct RivalLimits {
   std::size_t places;
   double share;
 };
-/// More than one truck has (three to five places), and more than the movers that are among the
-/// targets of any drive (5 %: DopplerOptions::moving_weight).
-constexpr RivalLimits kRival{5, 0.25};
-/// What is left of that where a half of it is hidden for a scan: the doubt does not flicker.
-constexpr RivalLimits kRivalInDoubt{3, 0.1};
+/// More than the places of one truck (three to five), and more than the usual share of moving
+/// targets (5 %: DopplerOptions::moving_weight).
+constexpr RivalLimits kRivalLimits{5, 0.25};
+/// Lower limits while in doubt (hysteresis), for a rival that is half hidden in a scan.
+constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
 
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
-  const RivalLimits& limits = is_in_doubt() ? kRivalInDoubt : kRival;
+  const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
   return votes.rival >= limits.places &&
          static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
 }

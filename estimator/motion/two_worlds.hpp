@@ -11,20 +11,21 @@
 
 namespace cremed {
 
-/// Whether the Doppler of one radar's scans shows two worlds, the road and what drives as we do,
-/// and nothing tells which is which. The motion before tells, if it leads to one speed and not to
-/// the other. Without one, what seems to be the road must be in more places than a truck, if two
-/// places speak against it. Once in doubt, a smaller rival keeps it up, and it takes ten scans
-/// without any to end it.
+/// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
+/// along, which cannot be distinguished. The previous motion decides if it can continue at only one
+/// of the two speeds. Without a previous motion, the estimated speed needs more places than a truck
+/// has if at least two places contradict it. The doubt ends after ten scans without a rival; a
+/// smaller rival maintains it.
 class TwoWorlds {
  public:
   explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}
 
-  /// Looks at a scan. `velocity`, `change_mps`: see RivalSpeed::count. `continues(speed_mps)`:
-  /// whether the vehicle may drive so, given its motion before. `is_start`: nothing is known of it.
+  /// Checks a scan; true if in doubt. `velocity`, `change_mps`: see RivalSpeed::count.
+  /// `continues(speed_mps)`: whether the vehicle can have this speed after its previous motion.
+  /// `is_start`: there is no previous motion.
   template <typename Continues>
-  bool look(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
-            bool is_start, Continues continues) {
+  bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
+             bool is_start, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_open =
         (is_start && votes.own + votes.abeam < kMinRoadPlaces && votes.rival >= kMinRivalPlaces) ||

@@ -4,8 +4,8 @@
 
 namespace cremed {
 
-/// What a road vehicle does not exceed: tyres hold 1 g, and a yaw rate of 0.6 rad/s (a tight turn)
-/// is reached in 0.3 s at best.
+/// Limits of a road vehicle: tyres hold 1 g, and a yaw rate of 0.6 rad/s (a tight turn) takes at
+/// least 0.3 s.
 inline constexpr double kMaxAccelerationMps2 = 10.0;
 inline constexpr double kMaxYawAccelerationRadps2 = 2.0;
 

@@ -13,34 +13,33 @@
 
 namespace cremed {
 
-/// A negative log likelihood of the motion between two scans. MixtureCost and ExclusiveCost are
-/// two; a third one is one file in cost/ and a line in Registration::solve.
+/// A negative log likelihood of the motion between two scans, such as MixtureCost and
+/// ExclusiveCost. A new one takes a file in cost/ and a line in Registration::solve.
 template <typename Cost>
 concept RegistrationCost = requires(Cost cost, const Unknowns& at, Eigen::Vector3d motion) {
-  /// Cost, gradient and information at `at`, and nothing else: what the cost keeps between calls
-  /// are caches (lists of pairs, warm starts).
+  /// Cost, gradient and information, which depend on `at` only. State between calls is a cache
+  /// (lists of pairs, warm starts).
   { cost.linearise(at) } -> std::same_as<NormalEquations>;
-  /// Whether the last linearisation took all pairs into account that matter: there is room for so
-  /// many only.
+  /// Whether the last linearisation had capacity for all relevant pairs.
   { cost.is_complete() } -> std::same_as<bool>;
-  /// Whether the last linearisation is as exact as it gets. If not, settle() asks for that from now
-  /// on: on the way to the minimum a rough one does.
+  /// Whether the inner iterations of the last linearisation converged. settle() requires this from
+  /// now on; steps before the minimum do not need it.
   { cost.is_settled() } -> std::same_as<bool>;
   {cost.settle()};
-  /// Whether a step is halved until it does not raise the cost.
+  /// Whether steps that raise the cost are halved.
   { Cost::kHasStepControl } -> std::convertible_to<bool>;
   /// Work since the two scans were set, in evaluations of a mixture component.
   { cost.evaluations() } -> std::same_as<std::int64_t>;
 };
 
-/// A step is halved so often at most, to 1 / 2048.
+/// Number of step lengths tried: 1 to 1 / 2048.
 inline constexpr int kMaxHalvings = 12;
 
-/// Where rounding of the cost hides what a step gains, its squared length in standard deviations is
-/// no more than this: 0.3 sigma.
-inline constexpr double kMaxStuckStep = 0.1;
+/// Largest squared length, in standard deviations, of a step whose gain rounding of the cost may
+/// hide: 0.3 sigma.
+inline constexpr double kMaxStuckSquaredStep = 0.1;
 
-/// When a descent ends.
+/// Limits that end a descent.
 struct StoppingRule {
   int degrees_of_freedom;
   double step_tolerance;  ///< Squared length of a step, in standard deviations: s' H s.
@@ -48,14 +47,14 @@ struct StoppingRule {
   std::int64_t max_evaluations;
 };
 
-/// Where a descent is.
+/// The present point of a descent.
 struct Descent {
   Unknowns at;
   NormalEquations equations;  ///< At `at`.
   int iterations = 0;
 };
 
-/// Takes `step`, or half of it and so on, until the cost is no higher; false if none is.
+/// Takes the longest of `step`, `step` / 2, ... that does not raise the cost; false if all do.
 template <RegistrationCost Cost>
 bool take_step(Cost& cost, Eigen::Vector3d step, const StoppingRule& rule, Descent& descent) {
   for (int i = 0; i < kMaxHalvings && cost.evaluations() < rule.max_evaluations; ++i, step *= 0.5) {
@@ -69,7 +68,7 @@ bool take_step(Cost& cost, Eigen::Vector3d step, const StoppingRule& rule, Desce
   return false;
 }
 
-/// Gauss-Newton with step halving, from where `descent` has been linearised.
+/// Gauss-Newton with step halving, from the linearisation in `descent`.
 template <RegistrationCost Cost>
 RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descent) {
   for (const int last = descent.iterations + rule.max_iterations;;) {
@@ -97,8 +96,8 @@ RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descen
       return RegistrationStatus::no_convergence;
     } else if (!take_step(cost, step, rule, descent)) {
       const bool is_spent = cost.evaluations() >= rule.max_evaluations;
-      return is_spent || squared_step > kMaxStuckStep ? RegistrationStatus::no_convergence
-                                                      : RegistrationStatus::converged;
+      return is_spent || squared_step > kMaxStuckSquaredStep ? RegistrationStatus::no_convergence
+                                                             : RegistrationStatus::converged;
     }
   }
 }

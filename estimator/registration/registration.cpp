@@ -11,27 +11,27 @@
 namespace cremed {
 namespace {
 
-/// Starts nearer than this to each other lead to the same minimum: it is within what a registration
-/// errs by (0.01 m, 0.001 rad), or what the first stage's widened deviations do not resolve.
+/// Starts nearer than this to each other lead to the same minimum: the distance is within the
+/// errors of a registration (0.01 m, 0.001 rad) or the widened noise of the first stage.
 constexpr double kSameStartM = 0.01;
 constexpr double kSameStartRad = 0.005;
 
-/// With a smaller share of the targets found again the search may have ended in a local minimum: of
-/// 1032 pairs of successive scans (nuScenes, front radar) none has less, and 1 % less than 0.62; of
-/// pairs of scans from different places 0.1 % have more.
-constexpr double kSuspiciousShare = 0.5;
-/// With a smaller one, after all searches, chance neighbours pass for correspondences: of such
-/// pairs from different places 5 to 26 % have more, and are left to the test for a rival.
+/// With a smaller share of matched targets the search may have ended in a local minimum and is
+/// repeated. Of 1032 pairs of successive scans (nuScenes, front radar) none has less, and 1 % have
+/// less than 0.62; of pairs of scans from different places 0.1 % have more.
+constexpr double kRestartMatchedShare = 0.5;
+/// With a smaller share after all searches the matches are chance neighbours. Of pairs from
+/// different places 5 to 26 % have more and are left to the test for a rival.
 constexpr double kMinMatchedShare = 0.3;
-/// Where to search again, relative to the first start: the first stage's widened azimuth (5 times
-/// 0.0157 rad, 2 sigma) reaches from one to the next.
+/// Yaw of the repeated searches, relative to the first start. The spacing is 2 sigma of the first
+/// stage's widened azimuth (5 times 0.0157 rad).
 constexpr std::array<double, 4> kRestartYawRad{-0.15, 0.15, -0.3, 0.3};
-/// Another motion is a rival if it is farther away than this, squared and in standard deviations
-/// (5 sigma: the same minimum found twice differs by 0.3 sigma at most, kMaxStuckStep), and its
-/// likelihood smaller by no more than a factor of this logarithm: 20, so that of the motions
-/// without a rival 5 % at most are the wrong one of two.
-constexpr double kRivalSquaredDistance = 25.0;
-constexpr double kRivalLogRatio = 3.0;
+/// Another motion is a rival if its squared distance in standard deviations is larger than this (5
+/// sigma; the same minimum found twice differs by at most 0.3 sigma, kMaxStuckSquaredStep), and its
+/// cost is higher by less than this: a likelihood ratio of 20, so that at most 5 % of the motions
+/// without a rival are the wrong one of two.
+constexpr double kMinRivalSquaredDistance = 25.0;
+constexpr double kMaxRivalLogRatio = 3.0;
 
 bool is_same_start(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a - b).head<2>().norm() < kSameStartM && std::abs(a.z() - b.z()) < kSameStartRad;
@@ -45,7 +45,7 @@ bool is_other_motion(const Eigen::Vector3d& motion, const RegistrationResult& re
                      int degrees_of_freedom) {
   const auto information = invert_information(result.covariance, degrees_of_freedom);
   const Eigen::Vector3d difference = motion - result.motion;
-  return !information || difference.dot(*information * difference) > kRivalSquaredDistance;
+  return !information || difference.dot(*information * difference) > kMinRivalSquaredDistance;
 }
 
 }  // namespace
@@ -83,14 +83,15 @@ RegistrationResult Registration::solve(const TargetSet& current, double dt_s, St
 RegistrationResult Registration::solve_exclusive(const TargetSet& current, double dt_s,
                                                  Starts starts) {
   exclusive_.set_scans(previous_, current, dt_s, ray_);
-  const auto most = static_cast<double>(std::min(current.size(), previous_.size()));
+  const auto possible = static_cast<double>(std::min(current.size(), previous_.size()));
   RegistrationResult result = search(exclusive_, starts);
   const bool has_ended = result.status == RegistrationStatus::converged ||
                          result.status == RegistrationStatus::degenerate;
-  if (options_.restarts && has_ended && result.matched / most < kSuspiciousShare) {
+  if (options_.restarts && has_ended && result.matched / possible < kRestartMatchedShare) {
     result = search_again(starts.front(), result);
   }
-  if (result.status == RegistrationStatus::converged && result.matched / most < kMinMatchedShare) {
+  if (result.status == RegistrationStatus::converged &&
+      result.matched / possible < kMinMatchedShare) {
     result.status = RegistrationStatus::ambiguous;
   }
   return result;
@@ -181,7 +182,7 @@ RegistrationResult Registration::search_again(const Eigen::Vector3d& start,
       rival_cost = std::min(rival_cost, result.cost);
     }
   }
-  if (best.has_motion() && rival_cost < best.cost + kRivalLogRatio) {
+  if (best.has_motion() && rival_cost < best.cost + kMaxRivalLogRatio) {
     best.status = RegistrationStatus::ambiguous;
   }
   best.iterations = iterations;

@@ -18,10 +18,10 @@
 
 namespace cremed {
 
-/// Registration of two scans with Doppler (RA-L 2022), Gauss-Newton in two stages: the paper's cost
-/// with wide standard deviations, then the likelihood of RegistrationOptions. Where few targets are
-/// found again the search is repeated from other yaw angles. All storage is inside the object:
-/// solving never allocates.
+/// Registration of two scans with Doppler (RA-L 2022) by Gauss-Newton in two stages: the paper's
+/// cost with widened standard deviations, then the likelihood of RegistrationOptions. If few
+/// targets are matched the search is repeated from other yaw angles. All storage is inside the
+/// object; solving never allocates.
 ///
 ///     Registration registration(options, vehicle_from_radar);
 ///     registration.set_previous(previous_targets);
@@ -33,10 +33,10 @@ class Registration {
 
   Registration(const RegistrationOptions& options, const Pose2& vehicle_from_radar);
 
-  /// The scan that the motion starts at; must hold at least one target.
+  /// Sets the scan at the start of the motion. It must hold at least one target.
   void set_previous(const TargetSet& targets);
 
-  /// The motion to the current scan, `dt_s` later; starts at zero as the paper does.
+  /// The motion to the current scan, `dt_s` later. The search starts at zero as in the paper.
   RegistrationResult solve(const TargetSet& current, double dt_s);
 
   /// The same, started where the cost of the first stage is lowest among `starts` (not empty).
@@ -46,7 +46,7 @@ class Registration {
  private:
   using Starts = std::span<const Eigen::Vector3d>;
 
-  /// Both stages, with `exact` as the cost of the second.
+  /// Both stages. `exact`: the cost of the second.
   template <typename Cost>
   RegistrationResult search(Cost& exact, Starts starts);
   Descent first_stage(Starts starts, double step_tolerance);

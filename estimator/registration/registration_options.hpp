@@ -8,7 +8,7 @@
 
 namespace cremed {
 
-/// The likelihood that is maximised, which also says how certain the estimate is.
+/// The likelihood that is maximised and that gives the covariance.
 enum class Likelihood : std::uint8_t {
   exclusive,        ///< All one-to-one assignments of targets: see ExclusiveCost.
   max_sum_mixture,  ///< The paper's: see MixtureCost. Over-confident where targets cluster.
@@ -17,16 +17,16 @@ enum class Likelihood : std::uint8_t {
 /// Settings of one registration. Source: shared settings table of the paper (RA-L 2022).
 struct RegistrationOptions {
   int degrees_of_freedom = 2;  ///< 2: x and yaw (car-like, y = 0). 3: x, y, yaw.
-  double start_scale = 5.0;    ///< Factor on standard deviations in the first stage; 1: none.
-  /// Further factor on the Doppler ones in the first stage. The paper has 2 for sensors, 1 in its
-  /// simulation.
+  double start_scale = 5.0;    ///< Factor on standard deviations in the first stage; 1: no stage.
+  /// Further factor on standard deviations of Doppler in the first stage. In the paper 2 for
+  /// sensors, 1 in simulation.
   double start_doppler_scale = 2.0;
   int max_iterations = 100;  ///< Gauss-Newton steps of the second stage.
-  /// The second stage ends at a step shorter than this, squared, in standard deviations (step' J'J
-  /// step).
+  /// The second stage ends at a step whose squared length in standard deviations (step' J'J step)
+  /// is smaller than this.
   double step_tolerance = 1e-5;
-  /// Where few targets are found again, search from other yaw angles. Of use where the start is a
-  /// guess, not where it is a prediction.
+  /// If few targets are matched, search from other yaw angles. Useful if the start is a guess, not
+  /// if it is a prediction.
   bool restarts = true;
   /// Limit on the work of one registration, in evaluations of a mixture component.
   std::int64_t max_component_evaluations = 800'000;

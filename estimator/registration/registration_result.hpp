@@ -10,20 +10,20 @@
 namespace cremed {
 
 /// How a registration ended. With the next step s, the information H of the free states, the
-/// expected number m of targets found again, n current and F previous targets:
+/// expected number m of matched targets, n current and F previous targets:
 enum class RegistrationStatus : std::uint8_t {
   /// s' H s < step_tolerance; or the cost is higher at s, s / 2, s / 4 .. s / 2048, and
-  /// s' H s <= kMaxStuckStep.
+  /// s' H s <= kMaxStuckSquaredStep.
   converged,
-  /// 1 / cond(H) <= kMinReciprocalCondition, or H is not positive definite: the targets do not fix
-  /// all free states.
+  /// 1 / cond(H) <= kMinReciprocalCondition, or H is not positive definite: not all free states are
+  /// observable.
   degenerate,
-  /// m < kMinMatchedShare min(n, F); or there are more than Association::kMaxPairs pairs; or a
-  /// search from another yaw angle ended at a distance d with d' C^-1 d > kRivalSquaredDistance and
-  /// a cost higher by less than kRivalLogRatio.
+  /// m < kMinMatchedShare min(n, F); or more than Association::kMaxPairs pairs; or a search from
+  /// another yaw angle ended at a distance d with d' C^-1 d > kMinRivalSquaredDistance and a cost
+  /// higher by less than kMaxRivalLogRatio.
   ambiguous,
   /// Steps >= max_iterations or component evaluations >= max_component_evaluations before the end;
-  /// or the cost is higher at s .. s / 2048, and s' H s > kMaxStuckStep.
+  /// or the cost is higher at s .. s / 2048, and s' H s > kMaxStuckSquaredStep.
   no_convergence,
   /// A number of a target, or the cost, is NaN or infinite.
   non_finite,
@@ -35,17 +35,17 @@ struct RegistrationResult {
   RegistrationStatus status = RegistrationStatus::non_finite;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< y row and column 0 in 2 DoF.
-  /// Normalised innovation squared, a degree of freedom, of the motion by the positions against
-  /// that by the Doppler alone: 1 on average. NaN if one of them does not fix it, or with
-  /// max_sum_mixture.
+  /// Normalised innovation squared (NIS) per degree of freedom of the motion by positions alone
+  /// against that by Doppler alone: 1 on average. NaN if one of them does not observe all free
+  /// states, or with max_sum_mixture.
   double doppler_innovation = std::numeric_limits<double>::quiet_NaN();
   double cost = 0.0;     ///< Negative log likelihood + constant of the likelihood.
-  double matched = 0.0;  ///< Expected number of targets found again; 0 with max_sum_mixture.
+  double matched = 0.0;  ///< Expected number of matched targets; 0 with max_sum_mixture.
   int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
-  int starts = 1;        ///< Searches made; more than one if the first fitted badly.
+  int starts = 1;        ///< Searches; more than one if the first matched few targets.
   std::int64_t component_evaluations = 0;
 
-  /// Whether `motion` is the end of a search, maybe one that a limit cut short.
+  /// Whether `motion` is the end of a search, possibly ended by a limit.
   [[nodiscard]] bool has_motion() const {
     return status == RegistrationStatus::converged || status == RegistrationStatus::no_convergence;
   }

@@ -6,7 +6,7 @@
 
 namespace cremed {
 
-// Degrees are for people and for two protocols; everything in between is in radians.
+// Only users and two protocols see degrees. All other code uses radians.
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 

@@ -4,7 +4,7 @@
 
 namespace cremed {
 
-/// Which detections of a radar are used at all; bounds inclusive, in the radar's frame.
+/// Limits of the detections that are used: inclusive, in the radar's frame.
 struct DetectionLimits {
   double min_range_m = 0.2;
   double max_range_m = 300.0;
@@ -12,14 +12,14 @@ struct DetectionLimits {
   double min_rcs_dbm2 = -100.0;
 };
 
-/// What a radar's detections are put right by before they are used, as calibration finds it.
+/// Corrections, found by calibration, that are applied to a radar's detections before use.
 struct DetectionCorrection {
-  /// Positions are turned ahead by so much of the yaw rate the sensor is told: see
+  /// Positions are turned ahead by this time times the yaw rate that the sensor is sent: see
   /// rotation_lead.hpp.
   double rotation_lead_s = 0.0;
-  double doppler_offset_mps = 0.0;  ///< Systematic error of all Doppler, subtracted.
-  double doppler_scale = 1.0;       ///< Factor on Doppler, once that is taken off.
-  /// Factors on what the sensor reports.
+  double doppler_offset_mps = 0.0;  ///< Subtracted from all Doppler.
+  double doppler_scale = 1.0;       ///< Factor on Doppler after that.
+  /// Factors on the standard deviations that the sensor reports.
   double range_std_factor = 1.0;
   double azimuth_std_factor = 1.0;
   double doppler_std_factor = 1.0;

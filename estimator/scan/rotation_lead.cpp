@@ -13,17 +13,16 @@
 namespace cremed {
 namespace {
 
-/// Noise of the velocity across: 0.085 m/s RMS around the fit on four drives, that of the sensor's
-/// grid of 0.25 m/s.
+/// Noise of the velocity across the line of sight: 0.085 m/s RMS around the fit on four drives,
+/// from the sensor's grid of 0.25 m/s.
 constexpr double kAcrossStdMps = 0.1;
-/// What is known of sensor velocity and yaw rate beforehand: nothing that a vehicle does is far
-/// beyond.
-constexpr double kSpeedStdMps = 30.0;
-constexpr double kYawRateStdRadps = 1.0;
-/// Targets whose velocity across is not that of a static world, about 1 % on the drives, weigh
-/// little beyond this many deviations (Geman-McClure).
+/// Prior of sensor velocity and yaw rate. It covers the motion of road vehicles.
+constexpr double kPriorSpeedStdMps = 30.0;
+constexpr double kPriorYawRateStdRadps = 1.0;
+/// Scale of the Geman-McClure weight, in standard deviations. It suppresses targets that are not
+/// static, about 1 % on the drives.
 constexpr double kOutlierDeviations = 3.0;
-/// The first is plain least squares; the weights change no more after the third.
+/// The first iteration is plain least squares. The weights no longer change after the third.
 constexpr int kIterations = 4;
 
 /// One row: A = (sin phi, -cos phi, -r) (v_x, v_y, w).
@@ -54,8 +53,9 @@ double reported_yaw_rate_radps(const RadarScan& scan) {
   const auto prior_information = [](double std) {
     return kAcrossStdMps * kAcrossStdMps / (std * std);
   };
-  const Eigen::Vector3d prior(prior_information(kSpeedStdMps), prior_information(kSpeedStdMps),
-                              prior_information(kYawRateStdRadps));
+  const Eigen::Vector3d prior(prior_information(kPriorSpeedStdMps),
+                              prior_information(kPriorSpeedStdMps),
+                              prior_information(kPriorYawRateStdRadps));
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Eigen::Matrix3d information = prior.asDiagonal();

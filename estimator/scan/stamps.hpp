@@ -6,8 +6,8 @@
 
 namespace cremed {
 
-/// Time from one stamp to another. In double, where no stamp overflows; stamps of this age of the
-/// world are exact in it.
+/// Time from one stamp to another. Computed in double so that it cannot overflow; stamps of
+/// present-day clocks are exact in double.
 inline double seconds_between(std::int64_t from_us, std::int64_t to_us) {
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
 }

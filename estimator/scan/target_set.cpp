@@ -11,7 +11,7 @@
 namespace cremed {
 namespace {
 
-/// Adds one to the counter that says why the detection is left out; true if it is used.
+/// Counts the detection as used or under the reason it is left out; true if it is used.
 bool is_selected(const Detection& detection, const DetectionLimits& limits,
                  SelectionCounters& counters) {
   switch (detection.validity) {
@@ -34,7 +34,7 @@ bool is_selected(const Detection& detection, const DetectionLimits& limits,
       ++counters.no_position;
       return false;
   }
-  // Written so that a NaN passes on to the estimator's own check instead of vanishing here.
+  // NaN passes these comparisons, so that the estimator's own check sees it.
   if (detection.range_m < limits.min_range_m || detection.range_m > limits.max_range_m ||
       std::abs(detection.azimuth_rad) > limits.max_abs_azimuth_rad ||
       detection.rcs_dbm2 < limits.min_rcs_dbm2) {
@@ -45,8 +45,8 @@ bool is_selected(const Detection& detection, const DetectionLimits& limits,
   return true;
 }
 
-/// How large rounding errors may make det(C) relative to xx yy where it should be 0.
-constexpr double kRoundedDeterminant = 1e-12;
+/// Rounding can make det(C) of a singular C as large as this, relative to xx yy.
+constexpr double kMinRelativeDeterminant = 1e-12;
 
 bool is_finite_target(const Target& t) {
   const Symmetric2& c = t.covariance_m2;
@@ -55,7 +55,7 @@ bool is_finite_target(const Target& t) {
          std::isfinite(t.doppler_mps) && std::isfinite(t.bearing_std_rad) &&
          std::isfinite(t.doppler_std_mps) && std::isfinite(determinant) &&
          t.bearing_std_rad > 0.0 && t.doppler_std_mps > 0.0 &&
-         determinant > kRoundedDeterminant * c.xx * c.yy;
+         determinant > kMinRelativeDeterminant * c.xx * c.yy;
 }
 
 }  // namespace
@@ -100,7 +100,8 @@ void TargetSet::add(const Detection& detection, const Pose2& vehicle_from_radar)
   target.covariance_m2 = polar_covariance(detection.range_m, bearing_rad, detection.range_std_m,
                                           detection.azimuth_std_rad);
   if (!(detection.range_std_m > 0.0)) {
-    target.covariance_m2.xx = std::numeric_limits<double>::quiet_NaN();  // its square hides it
+    target.covariance_m2.xx =
+        std::numeric_limits<double>::quiet_NaN();  // the square would hide the error
   }
   target.bearing_std_rad = detection.azimuth_std_rad;
   target.doppler_mps = detection.doppler_mps;

@@ -13,8 +13,8 @@
 
 namespace cremed {
 
-/// One target as the registration uses it: a point in the vehicle frame with its covariance, and a
-/// Doppler along a line of sight.
+/// One target of a registration: a point in the vehicle frame with its covariance, and the Doppler
+/// along its line of sight.
 struct Target {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -27,7 +27,7 @@ struct Target {
   double doppler_std_mps = 0.0;
 };
 
-/// Why detections were left out of a set.
+/// Numbers of detections used and left out, by reason.
 struct SelectionCounters {
   std::uint64_t used = 0;
   std::uint64_t no_noise = 0;
@@ -38,20 +38,20 @@ struct SelectionCounters {
   std::uint64_t outside_limits = 0;
 };
 
-/// The usable targets of one scan, capacity fixed.
+/// The usable targets of one scan. The capacity is fixed.
 class TargetSet {
  public:
   TargetSet() = default;
   TargetSet(const TargetSet& other) { *this = other; }
-  /// Copies the targets, not the room for more.
+  /// Copies the targets, not the unused capacity.
   TargetSet& operator=(const TargetSet& other);
   ~TargetSet() = default;
 
   void clear() { size_ = 0; }
-  /// Adds the target a detection stands for, seen by a radar at `vehicle_from_radar`. A full set
-  /// ignores it: a scan never holds more detections than the set has room for.
+  /// Adds the target of a detection by a radar at `vehicle_from_radar`. A full set ignores it. A
+  /// scan never holds more detections than the capacity.
   void add(const Detection& detection, const Pose2& vehicle_from_radar);
-  /// Replaces the content by the usable detections of a scan, corrected.
+  /// Replaces the content by the corrected usable detections of a scan.
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
               SelectionCounters& counters, const DetectionCorrection& correction = {});
 
@@ -67,12 +67,12 @@ class TargetSet {
   std::size_t size_ = 0;
 };
 
-/// The detection without Doppler's systematic errors, with the standard deviations that its errors
-/// have; the rotation lead is a matter of the whole scan.
+/// The detection with Doppler and standard deviations corrected. The rotation lead is not corrected
+/// here: its yaw rate is estimated from the whole scan.
 Detection corrected(const Detection& detection, const DetectionCorrection& correction);
 
-/// Covariance of a point given in polar coordinates: J diag(range^2, azimuth^2) J' with J at the
-/// measurement, in the frame in which `bearing_rad` is counted.
+/// Covariance of a point given in polar coordinates: J diag(range_std^2, azimuth_std^2) J' with J
+/// at the measurement, in the frame of `bearing_rad`.
 Symmetric2 polar_covariance(double range_m, double bearing_rad, double range_std_m,
                             double azimuth_std_rad);
 

@@ -81,7 +81,7 @@ std::string text_of(const RadarConfiguration& radar) {
   return out.str();
 }
 
-std::ostream& operator<<(std::ostream& out, const ForgettingNoise& noise) {
+std::ostream& operator<<(std::ostream& out, const OrnsteinUhlenbeck& noise) {
   const auto& [std, time_s] = noise;
   return out << std << ' ' << time_s;
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Counts every allocation of the process while a guard lives. Include it in one source file of an
-// executable only: it replaces malloc and its relatives, which operator new calls as well. Under a
-// sanitizer, which replaces them itself, the sanitizer's own hook counts instead.
+// Counts every allocation of the process during the life of a guard. Include it in one source file
+// of an executable only: it replaces malloc and related functions, which operator new calls. A
+// sanitizer replaces them itself; then its hook counts.
 
 #include <cstddef>
 #include <cstdlib>
@@ -25,7 +25,7 @@
 
 namespace cremed {
 
-/// ThreadSanitizer calls its hook for malloc, calloc and new alone.
+/// ThreadSanitizer calls its hook only for malloc, calloc and new.
 #ifdef CREMED_HAS_THREAD_SANITIZER
 inline constexpr bool kGuardSeesAll = false;
 #else
@@ -46,7 +46,7 @@ class AllocationGuard {
   AllocationGuard(const AllocationGuard&) = delete;
   AllocationGuard& operator=(const AllocationGuard&) = delete;
 
-  /// Stops counting; returns how many there were.
+  /// Stops counting and returns the count.
   static long stop() {
     is_counting_allocations = false;
     return allocation_count;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motions of several radars of one vehicle, drawn from what their covariances say.
+// Simulated motions of several radars of one vehicle, drawn from their covariances.
 
 #include <algorithm>
 #include <cmath>
@@ -46,22 +46,22 @@ inline Eigen::Vector3d true_motion(const Course& course, std::int64_t start_us,
   return pose;
 }
 
-/// One radar, and how well it sees.
+/// One radar and its noise.
 struct DrawnRadar {
   std::int64_t period_us = 75'000;
   std::int64_t phase_us = 0;                ///< First scan.
-  Eigen::Vector3d std{0.006, 0.02, 0.003};  ///< Of a motion, its own and independent: m, m, rad.
+  Eigen::Vector3d std{0.006, 0.02, 0.003};  ///< Independent noise of a motion: m, m, rad.
 };
 
-/// A scan of one of the radars, and what it says.
+/// A scan of one of the radars with its motion.
 struct DrawnMotion {
   std::size_t radar = 0;
   EgoMotion motion;
   Eigen::Vector3d truth = Eigen::Vector3d::Zero();
 };
 
-/// A vehicle that drives a course. Its motions err by what each radar says of itself, by the
-/// velocity of the body, and by the angle of each mount.
+/// A vehicle that drives a course. The errors of its motions are each radar's noise, the velocity
+/// of the body, and the yaw error of each mount.
 class DrawnVehicle {
  public:
   DrawnVehicle(Course course, std::vector<DrawnRadar> radars, const EgoMotionOptions& options,
@@ -110,24 +110,24 @@ class DrawnVehicle {
     const SharedErrorOptions& errors = options_.registration.shared_errors;
     const double dt_s =
         seconds_since_start(motion.utime_us) - seconds_since_start(motion.utime_start_us);
-    const double rolling = rolling_part(drawn.truth, 0.0, dt_s);
+    const double driving = driving_share(drawn.truth, 0.0, dt_s);
     const double lateral_m = drawn.truth.x() * errors.mount_yaw_std_rad;
     Eigen::Matrix3d covariance = radars_[drawn.radar].std.cwiseAbs2().asDiagonal();
     covariance(0, 2) = covariance(2, 0) = 0.3 * std::sqrt(covariance(0, 0) * covariance(2, 2));
     const Eigen::Matrix3d root = covariance.llt().matrixL();
     Eigen::Vector3d seen = drawn.truth + root * Eigen::Vector3d(normal(), normal(), normal());
     seen.y() += mounts_rad_[drawn.radar] * drawn.truth.x();
-    seen.x() += rolling * body_error_mps(motion) * dt_s;
+    seen.x() += driving * body_error_mps(motion) * dt_s;
     covariance(1, 1) += lateral_m * lateral_m;
     say(seen, covariance, motion);
-    motion.covariance(0, 0) += std::pow(rolling * errors.velocity_std_mps * dt_s, 2);
+    motion.covariance(0, 0) += std::pow(driving * errors.velocity_std_mps * dt_s, 2);
     motion.status = drawn.truth.head<2>().norm() < options_.standstill_mps * dt_s
                         ? MotionStatus::standing_still
                         : MotionStatus::ok;
     motion.targets = 40;
   }
 
-  /// As a registration says it: with two degrees of freedom the best motion with y = 0.
+  /// As by a registration: with two degrees of freedom the best motion with y = 0.
   void say(const Eigen::Vector3d& seen, const Eigen::Matrix3d& covariance,
            EgoMotion& motion) const {
     motion.motion = seen;
@@ -146,10 +146,10 @@ class DrawnVehicle {
     }
   }
 
-  /// Of all radars together, for some 0.3 s at a time.
+  /// Velocity of the body, common to all radars, with a correlation time of 0.3 s.
   double body_error_mps(const EgoMotion& motion) {
     constexpr double kStepS = 0.01;
-    constexpr double kKept = 0.967;  // exp(-kStepS / 0.3 s)
+    constexpr double kCorrelationPerStep = 0.967;  // exp(-kStepS / 0.3 s)
     const double std_mps = options_.registration.shared_errors.velocity_std_mps;
     const auto index = [](std::int64_t utime_us) {
       return static_cast<std::size_t>(seconds_since_start(utime_us) / kStepS);
@@ -158,9 +158,10 @@ class DrawnVehicle {
     const std::size_t last = index(motion.utime_us);
     while (body_mps_.size() <= last) {
       const double fresh = std_mps * normal();
-      body_mps_.push_back(body_mps_.empty()
-                              ? fresh
-                              : kKept * body_mps_.back() + std::sqrt(1 - kKept * kKept) * fresh);
+      body_mps_.push_back(
+          body_mps_.empty() ? fresh
+                            : kCorrelationPerStep * body_mps_.back() +
+                                  std::sqrt(1 - kCorrelationPerStep * kCorrelationPerStep) * fresh);
     }
     double sum_mps = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
@@ -187,7 +188,7 @@ inline EgoMotionOptions drawn_options(int degrees_of_freedom) {
   return options;
 }
 
-/// Up to five radars whose scans hardly ever come together.
+/// Up to five radars whose scans rarely coincide.
 inline std::vector<DrawnRadar> drawn_radars(std::size_t count) {
   std::vector<DrawnRadar> radars = {{75'000, 0, {0.006, 0.02, 0.003}},
                                     {66'000, 41'000, {0.008, 0.015, 0.004}},

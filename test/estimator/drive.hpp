@@ -12,8 +12,8 @@
 
 namespace cremed::simulation {
 
-/// A radar that is driven at constant velocity, or straight on at constant acceleration, through
-/// points that stand around it.
+/// A radar that drives at constant velocity, or straight on at constant acceleration, through
+/// static points.
 class Drive {
  public:
   static constexpr std::int64_t kPeriodUs = 100000;
@@ -24,14 +24,14 @@ class Drive {
     points_ = scatter(random_, point_count, 4.0, 60.0, numeric::radians(180.0), 1.0);
   }
 
-  /// The vehicle's velocity from here on: (m/s forward, m/s left, rad/s).
+  /// Sets the vehicle's velocity: (m/s forward, m/s left, rad/s).
   void set_velocity(const Eigen::Vector3d& velocity) { velocity_ = velocity; }
-  /// Along x, and the velocity changes accordingly.
+  /// Sets the acceleration along x.
   void set_acceleration(double acceleration_mps2) { acceleration_mps2_ = acceleration_mps2; }
   void set_noise(const Noise& noise) { noise_ = noise; }
   void set_half_view(double half_view_rad) { half_view_rad_ = half_view_rad; }
 
-  /// Moves a share of the points to other places.
+  /// Moves a share of the points to random places.
   void renew(double share) {
     for (Eigen::Vector2d& point : points_) {
       if (uniform(random_, 0.0, 1.0) < share) {
@@ -52,7 +52,7 @@ class Drive {
     }
   }
 
-  /// What is in view from here, with noise; then drives on for a period.
+  /// Returns a noisy scan, then drives on for a period.
   RadarScan next() {
     Detections detections;
     for (const Eigen::Vector2d& point : points_) {

@@ -45,8 +45,8 @@ inline Eigen::Vector3d inverse(const Eigen::Vector3d& motion) {
   return {origin.x(), origin.y(), -motion.z()};
 }
 
-/// What an ideal radar says about a standing point of the vehicle frame, while the vehicle moves
-/// with `velocity` = (m/s forward, m/s left, rad/s) in its own frame.
+/// Detection of a static point of the vehicle frame by an ideal radar, while the vehicle moves with
+/// `velocity` = (m/s forward, m/s left, rad/s) in its own frame.
 inline Detection observe(const Eigen::Vector2d& point, const Eigen::Vector3d& velocity,
                          const Pose2& mount, const Noise& noise) {
   const Eigen::Vector2d local = seen_from(as_vector(mount), point);
@@ -64,7 +64,7 @@ inline Detection observe(const Eigen::Vector2d& point, const Eigen::Vector3d& ve
   return detection;
 }
 
-/// All points as seen after `motion`, which took `dt_s` at constant speed.
+/// All points as seen after `motion`, of duration `dt_s` at constant speed.
 inline Detections observe_all(const Points& points, const Eigen::Vector3d& motion, double dt_s,
                               const Pose2& mount, const Noise& noise) {
   Detections detections;
@@ -74,7 +74,7 @@ inline Detections observe_all(const Points& points, const Eigen::Vector3d& motio
   return detections;
 }
 
-/// Adds the noise that a detection's standard deviations announce.
+/// Adds noise with the detection's standard deviations.
 inline void perturb(Detections& detections, Random& random) {
   std::normal_distribution<double> normal;
   for (Detection& detection : detections) {
@@ -122,7 +122,7 @@ inline Points scatter(Random& random, std::size_t count, double min_range_m, dou
   return points;
 }
 
-/// Every target errs on its own.
+/// No systematic errors: the noise of targets is independent.
 inline SharedErrorOptions no_shared_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 /// Settings with which the paper's simulated problem is solved (Doppler of the current scan, 2
@@ -138,7 +138,7 @@ inline RegistrationOptions paper_options() {
   return options;
 }
 
-/// The paper's cost of two scans, with the standard deviations of the current one times `scale`.
+/// The paper's cost of two scans, with the standard deviations of the current scan times `scale`.
 inline std::unique_ptr<MixtureCost> mixture_cost(const RegistrationOptions& options,
                                                  const Pose2& mount, const TargetSet& previous,
                                                  const TargetSet& current, double dt_s,

@@ -20,9 +20,9 @@ using simulation::Random;
 using simulation::uniform;
 
 using Ratios = Eigen::MatrixXd;         // 0: no such pair
-using Probabilities = Eigen::MatrixXd;  // 0 likewise
+using Probabilities = Eigen::MatrixXd;  // 0: no such pair
 
-/// The sum over all one-to-one assignments, pair by pair.
+/// The sum over all one-to-one assignments, computed recursively.
 struct Enumeration {
   double total = 0.0;
   Probabilities probabilities;
@@ -114,7 +114,7 @@ TEST_CASE("a pair without competitors is exact") {
   CHECK(association->cost() == Approx(cost));
 }
 
-TEST_CASE("in a block of equals nobody is preferred") {
+TEST_CASE("in a block of equal ratios all pairs are equally likely") {
   const auto association = make_association();
   for (const Eigen::Index n : {1, 2, 3, 4}) {
     for (const double ratio : {1e-3, 1.0, 1e3, 1e6, 1e11}) {
@@ -123,14 +123,14 @@ TEST_CASE("in a block of equals nobody is preferred") {
       const Probabilities actual = solve(*association, ratios);
       const double expected = ratio / (1.0 + static_cast<double>(n) * ratio);
       CHECK((actual.array() - expected).abs().maxCoeff() < 1e-9);
-      if (ratio != 1.0) {  // where it is as likely to be alone, nothing but an approximation
+      if (ratio != 1.0) {  // at 1 it is an approximation only
         CHECK((actual - enumerate(ratios).probabilities).cwiseAbs().maxCoeff() < 3e-4);
       }
     }
   }
 }
 
-TEST_CASE("probabilities are those of the sum over all assignments, roughly") {
+TEST_CASE("probabilities approximate those of the sum over all assignments") {
   struct Row {
     std::string what;
     Eigen::Index rows, columns;
@@ -170,10 +170,10 @@ TEST_CASE("probabilities are those of the sum over all assignments, roughly") {
   }
 }
 
-TEST_CASE("two that compete for two share them, as a mixture's rows do not") {
+TEST_CASE("two targets that compete for two share them, unlike a mixture's rows") {
   const auto association = make_association();
   Ratios ratios(2, 2);
-  ratios << 1000.0, 100.0, 1000.0, 100.0;  // both nearer to the first
+  ratios << 1000.0, 100.0, 1000.0, 100.0;  // both rows are nearer to the first
   const Probabilities exact = enumerate(ratios).probabilities;
   const Probabilities actual = solve(*association, ratios);
   CHECK((actual - exact).cwiseAbs().maxCoeff() < 0.03);
@@ -196,13 +196,13 @@ Eigen::Vector2d largest_sums(double decades, Eigen::Index max_size, int runs) {
   return largest;
 }
 
-TEST_CASE("nobody has more than one partner") {
+TEST_CASE("no target has more than one partner") {
   const Eigen::Vector2d sums = largest_sums(2.0, 8, 2000);
   CHECK(sums.x() <= 1.015);
   CHECK(sums.y() <= 1.0 + 1e-12);
 }
 
-TEST_CASE("nobody has more than one partner in a cluster some of which is hidden") {
+TEST_CASE("no target has more than one partner in a partly hidden cluster") {
   const auto association = make_association();
   double largest = 0.0;
   for (const auto& [rows, columns] : {std::pair{2, 3}, {3, 4}, {4, 6}, {3, 2}, {1, 5}, {5, 2}}) {
@@ -215,13 +215,13 @@ TEST_CASE("nobody has more than one partner in a cluster some of which is hidden
   CHECK(largest <= 1.015);
 }
 
-TEST_CASE("wherever the factors start, they end at the same place") {
+TEST_CASE("the solution does not depend on the start of the factors") {
   const auto association = make_association();
   Random random(3);
   for (int run = 0; run < 300; ++run) {
     const Ratios ratios = random_ratios(random, 5, 5, 1.5);
     const Probabilities cold = solve(*association, ratios);
-    // Warm: the factors are left by other ratios, small ones and large ones.
+    // Warm start: factors of other ratios, small and large.
     for (const double decades : {-4.0, 4.0}) {
       fill(*association, ratios * std::pow(10.0, decades));
       association->solve();
@@ -236,7 +236,7 @@ TEST_CASE("wherever the factors start, they end at the same place") {
   }
 }
 
-TEST_CASE("a full association leaves out what is added, and works on") {
+TEST_CASE("a full association leaves out further pairs and remains usable") {
   const auto association = make_association();
   association->clear(kMaxDetections);
   std::size_t added = 0;
@@ -254,14 +254,14 @@ TEST_CASE("a full association leaves out what is added, and works on") {
   association->solve();
   CHECK(std::isfinite(association->cost()));
   CHECK(association->missing_information(Eigen::Vector3d::Ones()).allFinite());
-  // Nothing of it is left.
+  // clear() removes all pairs.
   Ratios one = Ratios::Zero(2, 2);
   one(1, 0) = 3.0;
   CHECK(solve(*association, one)(1, 0) == Approx(0.75));
   CHECK(association->cost() == Approx(-std::log(4.0)));
 }
 
-TEST_CASE("without pairs there is nothing to know and nothing missing") {
+TEST_CASE("without pairs cost and missing information are zero") {
   const auto association = make_association();
   for (const std::size_t size : {std::size_t{0}, kMaxDetections}) {
     association->clear(size);
@@ -275,7 +275,7 @@ TEST_CASE("without pairs there is nothing to know and nothing missing") {
   }
 }
 
-TEST_CASE("a ratio that is no number shows in the cost, an infinite one is certain") {
+TEST_CASE("a NaN ratio makes the cost NaN, an infinite one is certain") {
   const auto association = make_association();
   Ratios ratios = Ratios::Constant(3, 3, 2.0);
   ratios(1, 2) = numeric::kNan;
@@ -283,7 +283,7 @@ TEST_CASE("a ratio that is no number shows in the cost, an infinite one is certa
   association->start();
   CHECK(association->solve() <= Association::kMaxRounds);
   CHECK(std::isnan(association->cost()));
-  association->missing_information(Eigen::Vector3d::Ones());  // ends
+  association->missing_information(Eigen::Vector3d::Ones());  // terminates
 
   const Probabilities certain = solve(*association, Ratios::Constant(1, 1, numeric::kInfinity));
   CHECK(certain(0, 0) == Approx(1.0).epsilon(1e-9));

@@ -93,7 +93,7 @@ Eigen::Matrix3d complete_information(const Association& association) {
   return sum;
 }
 
-TEST_CASE("missing information is how the gradient changes with the probabilities") {
+TEST_CASE("missing information is the gradient's derivative by the probabilities") {
   const auto association = make_association();
   Random random(4);
   for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 3}, {3, 1}, {2, 2}, {3, 3}, {2, 4}}) {
@@ -128,11 +128,11 @@ double smallest_eigenvalue(double decades) {
   return smallest;
 }
 
-TEST_CASE("what is missing is symmetric and not negative") {
+TEST_CASE("missing information is symmetric and positive semi-definite") {
   CHECK(smallest_eigenvalue(1.5) > -2e-3);
 }
 
-TEST_CASE("what is missing is not negative whatever the ratios") {
+TEST_CASE("missing information is positive semi-definite for extreme ratios") {
   CHECK(smallest_eigenvalue(6.0) > -2e-3);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What Gauss-Newton relies on: see RegistrationCost.
+// The requirements of Gauss-Newton on a cost: see RegistrationCost.
 
 #include <memory>
 
@@ -81,7 +81,7 @@ TEST_CASE("the mixture's equations depend on their argument alone") {
   }
 }
 
-TEST_CASE("so do those of the exclusive likelihood, as far as its association is solved") {
+TEST_CASE("the exclusive likelihood's equations depend on their argument alone, if settled") {
   Random random(3);
   const Scene scene(4);
   const Unknowns at = random_unknowns(random);
@@ -99,12 +99,12 @@ TEST_CASE("so do those of the exclusive likelihood, as far as its association is
     CAPTURE(difference.transpose(), equations.cost - first.cost);
     CHECK(difference.cwiseAbs().maxCoeff() < 0.02);
     CHECK(equations.cost == Approx(first.cost).margin(0.01));
-    // Doppler has no memory at all.
+    // Doppler has no warm start.
     CHECK(equations.shared == first.shared);
   }
 }
 
-TEST_CASE("the shared errors are where the next linearisation begins, and no more than that") {
+TEST_CASE("the returned shared errors are only the next point of linearisation") {
   const Scene scene(5);
   DopplerOptions no_movers;
   no_movers.moving_weight = 0.0;
@@ -112,7 +112,7 @@ TEST_CASE("the shared errors are where the next linearisation begins, and no mor
   const NormalEquations first = cost->linearise({kMotion});
   CHECK(first.shared.norm() > 0.0);
   const NormalEquations again = cost->linearise({kMotion, first.shared});
-  // They are the best there; the motion's equations are the same, as e is linear in them.
+  // They are the minimum there; the motion's equations do not change, because e is linear in them.
   CHECK((again.shared - first.shared).norm() < 1e-9);
   CHECK((again.gradient - first.gradient).norm() < 1e-6 * first.information.norm());
 }
@@ -132,7 +132,7 @@ TEST_CASE("by positions a step never raises the cost of the exclusive likelihood
       at = {at.motion - *inverse * equations.gradient, equations.shared};
       const NormalEquations next = cost->linearise(at);
       CAPTURE(seed, i, next.cost - equations.cost);
-      CHECK(next.cost <= equations.cost + 0.01);  // as far as the association is solved
+      CHECK(next.cost <= equations.cost + 0.01);  // tolerance of the association
       equations = next;
     }
   }
@@ -156,7 +156,7 @@ TEST_CASE("a step that raises the cost is halved until it does not") {
   const double share = (descent.at.motion - kMotion).norm() / far.norm();
   CHECK(share < 0.51);
   CHECK(share > 1e-4);
-  // Uphill there is no step.
+  // In the direction of the gradient no step is taken.
   Descent uphill{{kMotion}, cost->linearise({kMotion})};
   CHECK_FALSE(take_step(*cost, -far, rule, uphill));
   CHECK(uphill.at.motion == kMotion);

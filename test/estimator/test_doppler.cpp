@@ -31,7 +31,7 @@ const std::vector<NamedMount> kMounts = {
     {"rear", {-0.6, 0.3, radians(175.0)}},
 };
 
-/// No movers, no error of time stamps.
+/// No component for moving targets, no error of time stamps.
 DopplerOptions plain_options() {
   DopplerOptions options;
   options.stamp_std_s = 0.0;
@@ -139,7 +139,7 @@ TEST_CASE("the Jacobian is the derivative of the residual with its variance held
   }
 }
 
-TEST_CASE("each source of error has its part in the variance") {
+TEST_CASE("each source of error contributes to the variance") {
   const Eigen::Vector3d motion(1.5, 0.1, 0.05);
   const Pose2 mount{2.4, 0.8, 1.0};
   const double bearing_rad = 1.3;
@@ -163,12 +163,12 @@ TEST_CASE("each source of error has its part in the variance") {
   REQUIRE(bearing_m > 0.01);
   CHECK(deviation_m(target, motion, mount, options, 1.0) ==
         Approx(std::hypot(doppler_m, stamp_m, bearing_m)).epsilon(1e-6));
-  // The scale is one on the measured deviation, not on what else is uncertain.
+  // The scale applies to the measured standard deviation only.
   CHECK(deviation_m(target, motion, mount, options, 6.0) ==
         Approx(std::hypot(6.0 * doppler_m, stamp_m, bearing_m)).epsilon(1e-6));
 }
 
-TEST_CASE("a mover is explained by the wide component") {
+TEST_CASE("a moving target is explained by the wide component") {
   const Eigen::Vector3d motion(1.0, 0.0, 0.0);
   DopplerOptions options;
   options.stamp_std_s = 0.0;
@@ -183,10 +183,10 @@ TEST_CASE("a mover is explained by the wide component") {
     CHECK(mover.residual == Approx((-10.0 - mover_mps) / 100.0));
     CHECK(mover.jacobian.x() == Approx(-1.0 / (100.0 * kDt)));
   }
-  // Scaled up, the static component reaches farther.
+  // A scaled-up static component covers larger errors.
   CHECK(residual_of(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
   CHECK_FALSE(residual(-8.0).is_static);
-  // The component for movers does not grow with it.
+  // The component for moving targets is not scaled.
   const auto scaled = residual_of(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
   CHECK_FALSE(scaled.is_static);
   CHECK(scaled.residual == Approx(-50.0 / 100.0));
@@ -222,7 +222,7 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
   CHECK(movers < 250);
 }
 
-TEST_CASE("the cost is continuous where a target turns into a mover") {
+TEST_CASE("the cost is continuous at the switch to the moving component") {
   const auto at = [](double speed_mps) {
     return residual_of(target_at(0.0, -10.0), {speed_mps * kDt, 0.0, 0.0}, {}, kDt, {}, 1.0);
   };
@@ -238,7 +238,7 @@ TEST_CASE("the cost is continuous where a target turns into a mover") {
   CHECK(std::abs(at(is_static).residual) > 10.0 * std::abs(at(is_moving).residual));
 }
 
-TEST_CASE("without weight for movers none is taken for one") {
+TEST_CASE("with moving weight 0 every target is static") {
   const auto actual =
       residual_of(target_at(0.0, 50.0), {1.0, 0.0, 0.0}, {}, kDt, plain_options(), 1.0);
   CHECK(actual.is_static);

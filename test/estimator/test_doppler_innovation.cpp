@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a registration says beside the motion: positions against Doppler.
+// The NIS of positions against Doppler in a registration's result.
 
 #include <cmath>
 #include <random>
@@ -22,7 +22,7 @@ using simulation::Random;
 constexpr double kDt = 0.1;
 const Pose2 kMount{3.4, 0.5, 0.3};
 
-/// Errors that all targets share, as SharedDoppler has them.
+/// The systematic errors of SharedDoppler.
 struct Shared {
   double offset_mps = 0.0;
   double mount_rad = 0.0;
@@ -58,7 +58,7 @@ RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool wit
   options.doppler.both_scans = both_scans;
   if (with_shared) {
     options.shared_errors = SharedErrorOptions();
-    options.shared_errors.velocity_std_mps = 0.0;  // No measurement shows these.
+    options.shared_errors.velocity_std_mps = 0.0;  // Not observable.
     options.shared_errors.doppler_scale_std = 0.0;
   }
   return options;
@@ -69,14 +69,14 @@ struct Pair {
   RegistrationResult result;
 };
 
-/// With two degrees of freedom y = 0, or that of an arc.
+/// With two degrees of freedom y = 0, or the y of an arc.
 Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc = false) {
   const bool is_car = options.degrees_of_freedom == 2;
   const simulation::Noise noise{0.13, 0.0157, 0.1};
   Eigen::Vector3d motion(simulation::uniform(random, 0.5, 1.5),
                          is_car ? 0.0 : simulation::uniform(random, -0.2, 0.2),
                          simulation::uniform(random, -0.05, 0.05));
-  Eigen::Vector3d half_way = motion;  // In the frame half way through the turn.
+  Eigen::Vector3d half_way = motion;  // Frame half way through the turn.
   if (is_arc) {
     motion.y() = 0.5 * motion.x() * motion.z();
   }
@@ -97,7 +97,7 @@ Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc 
   return {motion, registration.solve(simulation::targets(current, kMount), kDt)};
 }
 
-TEST_CASE("registration: positions and Doppler differ by what their covariances say") {
+TEST_CASE("registration: positions and Doppler differ as their covariances state") {
   const bool both_scans = GENERATE(false, true);
   const bool with_shared = GENERATE(false, true);
   const RegistrationOptions options = options_of(2, both_scans, with_shared);
@@ -118,14 +118,14 @@ TEST_CASE("registration: positions and Doppler differ by what their covariances 
   CHECK(sum / count < 1.2);
 }
 
-TEST_CASE("registration: without Doppler, or by Gauss-Newton, there is nothing to compare") {
+TEST_CASE("registration: without Doppler, or with max_sum_mixture, there is no innovation") {
   Random random(5);
   RegistrationOptions options = options_of(2, true, false);
   options.doppler.enabled = false;
   CHECK(std::isnan(solve_pair(options, random).result.doppler_innovation));
   options = options_of(2, false, false);
   CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_innovation));
-  // One radar's Doppler tells two of three states.
+  // One radar's Doppler observes two of three states.
   CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_innovation));
   options.likelihood = Likelihood::max_sum_mixture;
   const RegistrationResult result = solve_pair(options, random).result;

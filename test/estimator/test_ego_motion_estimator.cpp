@@ -33,7 +33,7 @@ std::unique_ptr<EgoMotionEstimator> make_estimator(const Pose2& mount,
   return std::make_unique<EgoMotionEstimator>(options);
 }
 
-/// What every motion must fulfil: numbers if and only if there is an estimate.
+/// Invariants of every motion: numbers if and only if there is an estimate.
 void check_consistent(const EgoMotion& motion) {
   const bool has_estimate =
       motion.status == MotionStatus::ok || motion.status == MotionStatus::standing_still;
@@ -70,7 +70,7 @@ TEST_CASE("a status has the name of the CSV and the number of the message") {
   check_consistent(EgoMotion());
 }
 
-TEST_CASE("each scan after the first gives the motion since the one before") {
+TEST_CASE("each scan after the first gives the motion since the previous one") {
   Drive drive({8.0, 0.0, 0.1}, kFront);
   const auto estimator = make_estimator(kFront);
   const RadarScan first = drive.next();
@@ -93,8 +93,7 @@ TEST_CASE("each scan after the first gives the motion since the one before") {
   }
 }
 
-TEST_CASE(
-    "a scan that cannot serve is skipped, and the next motion starts at the last that could") {
+TEST_CASE("an unusable scan is skipped, and the next motion starts at the last usable one") {
   struct Row {
     std::string what;
     void (*spoil)(RadarScan&);
@@ -143,7 +142,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
         CAPTURE(acceleration_mps2, mount.x_m, periods);
         Drive drive({14.0, 0.0, 0.2}, mount, 3, 120);
         const auto estimator = make_estimator(mount);
-        // Turning is told from speed once there is an estimate.
+        // The yaw rate is known once there is an estimate.
         estimator->update(drive.next());
         estimator->update(drive.next());
         drive.set_acceleration(acceleration_mps2);
@@ -154,7 +153,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
         const double span_s = 0.1 * periods;
         const Eigen::Vector3d truth(14.0 * span_s + 0.5 * acceleration_mps2 * span_s * span_s, 0.0,
                                     0.2 * span_s);
-        // Taken for the mean, Doppler alone would be 15 or 135 mm off.
+        // If taken for the mean, Doppler would err by 15 or 135 mm.
         CHECK(std::abs(motion.motion.x() - truth.x()) < 0.005 * periods);
         CHECK(numeric::normalised_error(motion.motion - truth, motion.covariance, 2) < 25.0);
       }
@@ -162,7 +161,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
   }
 }
 
-TEST_CASE("a scan whose frames were lost serves with the targets that came, and says so") {
+TEST_CASE("an incomplete scan is used with the targets it has, and flagged") {
   const ScanStatus why = GENERATE(ScanStatus::missing_parts, ScanStatus::dropped_frames);
   Drive drive({8.0, 0.0, 0.1}, kFront);
   const auto estimator = make_estimator(kFront);
@@ -180,7 +179,7 @@ TEST_CASE("a scan whose frames were lost serves with the targets that came, and 
   CHECK_FALSE(next.incomplete);
 }
 
-TEST_CASE("a scan that cannot serve is no reference either") {
+TEST_CASE("an unusable scan is no reference") {
   Drive drive({8.0, 0.0, 0.0}, kFront);
   const auto estimator = make_estimator(kFront);
   RadarScan incomplete = drive.next();
@@ -190,7 +189,7 @@ TEST_CASE("a scan that cannot serve is no reference either") {
   CHECK(estimator->update(drive.next()).status == MotionStatus::ok);
 }
 
-TEST_CASE("after a gap, or when time does not run forward, the motion starts anew") {
+TEST_CASE("after a gap or a step back in time the motion restarts") {
   struct Row {
     std::int64_t step_us;
     MotionStatus status;
@@ -226,7 +225,7 @@ TEST_CASE("after a gap, or when time does not run forward, the motion starts ane
   }
 }
 
-TEST_CASE("stamps at the ends of time are gaps, not motions") {
+TEST_CASE("extreme stamps are gaps, not motions") {
   constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
   constexpr std::int64_t kBegin = std::numeric_limits<std::int64_t>::min();
   const std::vector<std::array<std::int64_t, 2>> rows = {
@@ -244,7 +243,7 @@ TEST_CASE("stamps at the ends of time are gaps, not motions") {
   }
 }
 
-TEST_CASE("selection counts the detections of scans that serve") {
+TEST_CASE("selection counts the detections of usable scans") {
   Drive drive({8.0, 0.0, 0.0}, kFront);
   const auto estimator = make_estimator(kFront);
   RadarScan scan = drive.next();

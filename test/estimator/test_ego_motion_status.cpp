@@ -27,7 +27,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// What the estimator says about the second of two scans.
+/// The motion that the estimator returns for the second of two scans.
 EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
   const auto estimator = std::make_unique<EgoMotionEstimator>(options);
   estimator->update(drive.next());
@@ -37,7 +37,7 @@ EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
   return motion;
 }
 
-TEST_CASE("what is asked for decides between an estimate and its refusal") {
+TEST_CASE("each option's limit separates an estimate from its status") {
   struct Row {
     std::string what;
     Eigen::Vector3d velocity;
@@ -46,7 +46,7 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
   };
   const Eigen::Vector3d driving(10.0, 0.0, 0.2);
   const std::vector<Row> rows = {
-      {"as it comes", driving, [](EgoMotionOptions&) {}, MotionStatus::ok},
+      {"default options", driving, [](EgoMotionOptions&) {}, MotionStatus::ok},
       {"slow enough", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 10.5; },
        MotionStatus::ok},
       {"too fast", driving, [](EgoMotionOptions& o) { o.max_speed_mps = 9.5; },
@@ -87,14 +87,14 @@ TEST_CASE("what is asked for decides between an estimate and its refusal") {
   }
 }
 
-TEST_CASE("an empty scan is never enough") {
+TEST_CASE("an empty scan always has too few targets") {
   EgoMotionOptions options = options_at(kFront);
   options.min_targets = 0;
   options.limits.min_range_m = 299.0;
   CHECK(estimate(options, Drive({1.0, 0.0, 0.0}, kFront)).status == MotionStatus::too_few_targets);
 }
 
-TEST_CASE("one place in sight is degenerate in three states") {
+TEST_CASE("targets in one place are degenerate in three states") {
   EgoMotionOptions options = options_at({});
   options.registration.degrees_of_freedom = 3;
   options.registration.outlier_ray.weight = 0.0;
@@ -108,7 +108,7 @@ TEST_CASE("one place in sight is degenerate in three states") {
   }
 }
 
-TEST_CASE("numbers out of any range are refused, and the estimator recovers") {
+TEST_CASE("numbers out of range are rejected, and the estimator recovers") {
   EgoMotionOptions options = options_at(kFront);
   options.limits.max_range_m = 1e300;
   const auto estimator = std::make_unique<EgoMotionEstimator>(options);
@@ -121,7 +121,7 @@ TEST_CASE("numbers out of any range are refused, and the estimator recovers") {
   CHECK(estimator->update(drive.next()).status == MotionStatus::ok);
 }
 
-TEST_CASE("another place is no motion, and from there on it goes on") {
+TEST_CASE("a jump to another place is no motion, and the next scan has one") {
   int ambiguous = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(kFront));
@@ -140,7 +140,7 @@ TEST_CASE("another place is no motion, and from there on it goes on") {
   CHECK(ambiguous > 25);
 }
 
-TEST_CASE("a refused motion is left behind: the next one starts at its scan") {
+TEST_CASE("after a rejected motion the next one starts at its scan") {
   EgoMotionOptions options = options_at(kFront);
   options.max_speed_mps = 12.0;
   const auto estimator = std::make_unique<EgoMotionEstimator>(options);
@@ -157,7 +157,7 @@ TEST_CASE("a refused motion is left behind: the next one starts at its scan") {
   CHECK(motion.motion.x() == Approx(0.5).margin(0.05));
 }
 
-TEST_CASE("every speed of a road vehicle is found at once, after lost scans as well") {
+TEST_CASE("every speed of a road vehicle is found at once, also after lost scans") {
   const std::vector<Pose2> mounts = {
       kFront, {2.4, 0.8, radians(60.0)}, {-0.8, 0.6, radians(150.0)}};
   for (const Pose2& mount : mounts) {
@@ -179,7 +179,7 @@ TEST_CASE("every speed of a road vehicle is found at once, after lost scans as w
   }
 }
 
-TEST_CASE("after a gap nothing is left of what was before") {
+TEST_CASE("after a gap no earlier motion is used") {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Drive drive({10.0, 0.0, 0.1}, kFront, seed, 150);
     const auto used = std::make_unique<EgoMotionEstimator>(options_at(kFront));
@@ -198,7 +198,7 @@ TEST_CASE("after a gap nothing is left of what was before") {
   }
 }
 
-TEST_CASE("after lost scans a radar that looks abeam is found going on as before") {
+TEST_CASE("after lost scans a sideways radar continues its motion") {
   const Pose2 left{2.4, 0.8, radians(90.0)};
   EgoMotionOptions options = options_at(left);
   options.registration.doppler.enabled = false;
@@ -215,7 +215,7 @@ TEST_CASE("after lost scans a radar that looks abeam is found going on as before
   CHECK(motion.motion.x() == Approx(4.0).margin(0.1));
 }
 
-TEST_CASE("a slow car is known as precisely as Doppler tells") {
+TEST_CASE("a slow car's motion is as precise as Doppler") {
   EgoMotionOptions options = options_at(kFront);
   options.registration.start_scale = 2.0;
   options.registration.shared_errors = simulation::no_shared_errors();
@@ -232,8 +232,8 @@ TEST_CASE("a slow car is known as precisely as Doppler tells") {
   CHECK(vague == 0);
 }
 
-TEST_CASE("what was estimated before does not change what comes after") {
-  // A drive that changes its speed abruptly: the last velocity is a start among others, no prior.
+TEST_CASE("earlier estimates do not change later ones") {
+  // The speed changes abruptly: the last velocity is one of several starts, not a prior.
   Drive drive({20.0, 0.0, 0.3}, kFront, 5, 120);
   const auto used = std::make_unique<EgoMotionEstimator>(options_at(kFront));
   for (int i = 0; i < 3; ++i) {
@@ -253,7 +253,7 @@ TEST_CASE("what was estimated before does not change what comes after") {
   }
 }
 
-TEST_CASE("few targets found again are enough for a motion that continues the one before") {
+TEST_CASE("few matched targets are enough for a motion that continues the previous one") {
   int continued = 0;
   int at_first = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -276,10 +276,9 @@ TEST_CASE("few targets found again are enough for a motion that continues the on
   CHECK(at_first <= 20);
 }
 
-TEST_CASE("a departure that no vehicle can make is no continuation") {
+TEST_CASE("a change beyond a vehicle's limits is no continuation") {
   EgoMotionOptions options = options_at(kFront);
-  options.registration.doppler.enabled =
-      false;  // It would tell that the vehicle goes on as before.
+  options.registration.doppler.enabled = false;  // Doppler would show the continuation.
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Drive drive({8.0, 0.0, 0.3}, kFront, seed, 120);

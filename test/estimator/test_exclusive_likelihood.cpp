@@ -26,8 +26,8 @@ using simulation::uniform;
 constexpr double kDt = 0.2;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-/// Points as a radar at the vehicle's origin sees them, as precisely in every direction: then
-/// nothing but the points depends on yaw.
+/// Points as seen by a radar at the vehicle's origin, with isotropic noise: covariances then do not
+/// depend on yaw.
 TargetSet see(const Points& points, const Eigen::Vector3d& motion, double std_m) {
   Detections detections = simulation::observe_all(points, motion, kDt, {}, {});
   for (Detection& detection : detections) {
@@ -51,7 +51,7 @@ class Scene {
     likelihood_->assign(previous_, current_, ray);
   }
 
-  /// With probabilities from as many rounds as they need.
+  /// With converged probabilities.
   NormalEquations linearise(const Eigen::Vector3d& motion) {
     REQUIRE(likelihood_->list_pairs(previous_, current_, motion));
     NormalEquations equations;
@@ -94,7 +94,7 @@ TEST_CASE("the gradient is the derivative of the cost where covariances do not t
       const Eigen::Vector3d expected = numeric::central_differences(
           at, 1e-5, [&](const Eigen::Vector3d& m) { return scene.linearise(m).cost; });
       CAPTURE(weight, run, equations.gradient.transpose(), expected.transpose());
-      // Relative to what a deviation of each state would be worth.
+      // Relative to the change for one sigma of each state.
       const Eigen::Vector3d sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
       const Eigen::Vector3d error = (equations.gradient - expected).cwiseProduct(sigma);
       CHECK(error.norm() < 0.01 * (1.0 + expected.cwiseProduct(sigma).norm()));
@@ -108,7 +108,7 @@ TEST_CASE("complete less missing information is the curvature of the cost") {
   for (const double weight : {0.0, 0.2, 0.5}) {
     for (int run = 0; run < 20; ++run) {
       const Points points = clustered(random);
-      const Points some(points.begin(), points.end() - 3);  // of two clusters a part is hidden
+      const Points some(points.begin(), points.end() - 3);  // two clusters are partly hidden
       const Eigen::Vector3d motion(0.3, 0.1, 0.05);
       Scene scene(see(points, kStill, 0.2), see(some, motion, 0.2), ray_of(weight));
       const Eigen::Matrix3d slope = numeric::central_differences(
@@ -124,7 +124,7 @@ TEST_CASE("complete less missing information is the curvature of the cost") {
       total_missing += in_sigmas(missing).trace() / 60.0;
     }
   }
-  CHECK(total_missing > 0.003);  // who is who in a cluster is not known
+  CHECK(total_missing > 0.003);  // the assignment in a cluster is unknown
 }
 
 /// Three targets about 0.1 m apart, seen with 0.2 m of noise.
@@ -145,7 +145,7 @@ struct Cluster {
   Points current;
 };
 
-TEST_CASE("a cluster is where its centre is, and known as well as three targets are") {
+TEST_CASE("a cluster's motion is that of its centre, as precise as of three targets") {
   constexpr double kVarianceM2 = 2.0 * Cluster::kStdM * Cluster::kStdM / 3.0;  // of the centre
   RegistrationOptions options = simulation::paper_options();
   options.doppler.enabled = false;
@@ -165,7 +165,7 @@ TEST_CASE("a cluster is where its centre is, and known as well as three targets 
     const Eigen::Vector3d sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::Matrix2d information =
         (equations.information - (*scene).missing_information(sigma)).topLeftCorner<2, 2>();
-    // All assignments have the same mean error, so none of them says more about the translation.
+    // All assignments have the same mean error and so the same translation.
     CHECK((information * kVarianceM2 - Eigen::Matrix2d::Identity()).norm() < 0.05);
     squared_step_m2 +=
         (kVarianceM2 * equations.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
@@ -175,12 +175,12 @@ TEST_CASE("a cluster is where its centre is, and known as well as three targets 
     squared_mixture_step_m2 +=
         (kVarianceM2 * nearest.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
   }
-  // In variances of the estimate: the nearest neighbours pull the mixture away.
+  // In variances of the estimate: the mixture is biased towards nearest neighbours.
   CHECK(squared_step_m2 < 0.001);
   CHECK(squared_mixture_step_m2 > 0.02);
 }
 
-TEST_CASE("what a pair is worth against being new follows from density and share") {
+TEST_CASE("a pair's ratio follows from the density and share of new targets") {
   struct Row {
     double weight;
     std::size_t previous, current;  // targets of each scan, far apart, the first at the same place
@@ -218,7 +218,7 @@ TEST_CASE("what a pair is worth against being new follows from density and share
   }
 }
 
-TEST_CASE("a target far from everything is new, and says nothing about the motion") {
+TEST_CASE("a target far from all others is new and adds no information") {
   const Points near = {{10.0, 3.0}, {30.0, -8.0}, {18.0, 15.0}};
   Points more = near;
   more.emplace_back(25.0, 4.0);
@@ -236,7 +236,7 @@ TEST_CASE("a target far from everything is new, and says nothing about the motio
   CHECK((*strange).matched() == 0.0);
 }
 
-TEST_CASE("scans of equal size are worth the same from either side") {
+TEST_CASE("with scans of equal size the likelihood is symmetric") {
   Random random(5);
   for (int run = 0; run < 20; ++run) {
     const Points points = clustered(random);
@@ -244,7 +244,7 @@ TEST_CASE("scans of equal size are worth the same from either side") {
     for (Eigen::Vector2d& point : noisy) {
       point += Eigen::Vector2d(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2));
     }
-    // Without a ray, and without a turn: the density of new targets is then the same everywhere.
+    // Without a ray and without a turn the density of new targets is uniform.
     const TargetSet a = see(points, kStill, 0.2);
     const TargetSet b = see(noisy, kStill, 0.2);
     const Eigen::Vector3d motion(0.1, -0.05, 0.0);
@@ -259,7 +259,7 @@ TEST_CASE("scans of equal size are worth the same from either side") {
   }
 }
 
-TEST_CASE("more possible partners than there is room for are ambiguous") {
+TEST_CASE("more possible pairs than the capacity are ambiguous") {
   const Points crowd(kMaxDetections, Eigen::Vector2d(10.0, 1.0));
   const TargetSet targets = see(crowd, kStill, 0.1);
   const auto likelihood = std::make_unique<ExclusiveLikelihood>();
@@ -278,7 +278,7 @@ TEST_CASE("more possible partners than there is room for are ambiguous") {
   }
 }
 
-TEST_CASE("as many pairs as there is room for are listed") {
+TEST_CASE("pairs are listed up to the capacity") {
   // 32 places of eight: 64 pairs each.
   Points places;
   for (int i = 0; i < 256; ++i) {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// So many a second from `begin_s` on.
+/// Adds a number of innovations per second from `begin_s` on.
 void fill(InnovationMean& mean, double innovation, std::int64_t begin_s, std::int64_t end_s,
           int rate_hz = 10) {
   for (std::int64_t us = begin_s * kSecondUs; us < end_s * kSecondUs; us += kSecondUs / rate_hz) {
@@ -21,7 +21,7 @@ void fill(InnovationMean& mean, double innovation, std::int64_t begin_s, std::in
   }
 }
 
-TEST_CASE("innovation mean: nothing yet is no judgement") {
+TEST_CASE("innovation mean: without innovations there is no judgement") {
   InnovationMean mean;
   CHECK(mean.count() == 0);
   CHECK(mean.mean() == 0.0);
@@ -37,7 +37,7 @@ TEST_CASE("innovation mean: nothing yet is no judgement") {
   CHECK(mean.count() == 0);
 }
 
-TEST_CASE("innovation mean: the window is a minute, whatever the rate") {
+TEST_CASE("innovation mean: the window is a minute at any rate") {
   const int rate_hz = GENERATE(1, 10, 50);
   InnovationMean mean;
   fill(mean, 4.0, 0, 100, rate_hz);
@@ -50,7 +50,7 @@ TEST_CASE("innovation mean: the window is a minute, whatever the rate") {
   CHECK(mean.count() == 60U * static_cast<unsigned>(rate_hz));
 }
 
-TEST_CASE("innovation mean: a few wild ones say little") {
+TEST_CASE("innovation mean: a few outliers have little effect") {
   InnovationMean mean;
   fill(mean, 1.0, 0, 59);
   mean.add(kStartUs + 59 * kSecondUs, 1e12);
@@ -58,11 +58,11 @@ TEST_CASE("innovation mean: a few wild ones say little") {
   CHECK(mean.mean() == Approx((590.0 + 2 * 25.0) / 592.0));
 }
 
-TEST_CASE("innovation mean: pauses are part of the minute") {
+TEST_CASE("innovation mean: the window includes pauses") {
   InnovationMean mean;
   fill(mean, 9.0, 0, 30);
   fill(mean, 1.0, 75, 80);
-  CHECK(mean.count() == 100 + 50);  // Of the first 30 s the last ten.
+  CHECK(mean.count() == 100 + 50);  // The last 10 of the first 30 s.
   mean.pass(kStartUs + 120 * kSecondUs);
   CHECK(mean.count() == 50);
   CHECK(mean.mean() == Approx(1.0));
@@ -71,7 +71,7 @@ TEST_CASE("innovation mean: pauses are part of the minute") {
   CHECK(mean.mean() == 0.0);
 }
 
-TEST_CASE("innovation mean: time that goes back begins anew, whatever the times are") {
+TEST_CASE("innovation mean: a step back in time clears it, at any time") {
   InnovationMean mean;
   fill(mean, 9.0, 100, 130);
   mean.add(kStartUs + 50 * kSecondUs, 2.0);

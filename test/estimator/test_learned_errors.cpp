@@ -17,7 +17,7 @@ using Learned = std::vector<std::optional<LearnedErrors>>;
 
 const std::vector<Pose2> kMounts{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}};
 
-/// True yaw of the mounts less what the filter was told: 1 sigma.
+/// True minus configured yaw of the mounts: 1 sigma.
 const std::vector<double> kYawErrorsRad{0.0075, -0.0060, 0.0030};
 
 OdometryDrive a_drive(std::uint64_t seed, const Learned& learned = {}) {
@@ -29,7 +29,7 @@ OdometryDrive a_drive(std::uint64_t seed, const Learned& learned = {}) {
   return drive;
 }
 
-/// Of the front mount's yaw less the mean of the rear ones', which no slip can pass for.
+/// Front mount's yaw minus the mean of the rear ones, which slip does not affect.
 struct Difference {
   double error_rad = 0.0;
   double std_rad = 0.0;
@@ -48,12 +48,13 @@ Difference difference(const OdometryFilter& filter) {
 
 }  // namespace
 
-TEST_CASE("What all radars err by in common is as unknown at a restart as it was before") {
+TEST_CASE("The common error of all radars is as uncertain at a restart as before") {
   const std::vector<LearnedError> unlearned(4, {0.0, 0.01});
   const SharedPrior prior = prior_after({LearnedError{0.004, 0.002}, LearnedError{0.006, 0.001},
                                          std::nullopt, LearnedError{0.011, 0.02}},
                                         unlearned, 0.001);
-  // Mean taken off; sigma with what may change, at least a quarter, at most the unlearned.
+  // The mean is subtracted; sigma includes restart_std, at least a quarter and at most the
+  // unlearned.
   CHECK(prior.own[0].value == Approx(-0.003));
   CHECK(prior.own[1].value == Approx(-0.001));
   CHECK(prior.own[3].value == Approx(0.004));
@@ -61,14 +62,14 @@ TEST_CASE("What all radars err by in common is as unknown at a restart as it was
   CHECK(prior.own[1].std == Approx(0.0025));
   CHECK(prior.own[3].std == Approx(0.01));
   CHECK(prior.common_variance == Approx(0.01 * 0.01 / 3.0));
-  // Nothing is known of the one that is new.
+  // The new radar has the unlearned prior.
   CHECK_FALSE(prior.own[2].is_learned);
   CHECK(prior.own[2].value == 0.0);
   CHECK(prior.own[2].std == 0.01);
 }
 
-TEST_CASE("Differences are those to the weighted mean, with their own sigma") {
-  // Both known but for what they share.
+TEST_CASE("Differences are relative to the weighted mean, with their own sigma") {
+  // Both known except for the common error.
   Eigen::Matrix2d covariance;
   covariance << 1.01e-4, 1e-4, 1e-4, 1.01e-4;
   const auto same =
@@ -85,7 +86,7 @@ TEST_CASE("Differences are those to the weighted mean, with their own sigma") {
             .empty());
 }
 
-TEST_CASE("A sigma taken over is never smaller than that learned and what may change meanwhile") {
+TEST_CASE("A sigma taken over includes the learned one and the change between drives") {
   const double learned_std = GENERATE(1e-5, 0.001, 0.003, 0.006, 0.01);
   const SharedPrior prior = prior_after({LearnedError{0.0, learned_std}, LearnedError{0.0, 0.001}},
                                         {{0.0, 0.01}, {0.0, 0.01}}, 0.001);
@@ -93,21 +94,21 @@ TEST_CASE("A sigma taken over is never smaller than that learned and what may ch
   CHECK(prior.own[0].std <= 0.01);
 }
 
-TEST_CASE("One radar alone has learned nothing that can be told from slip and speed") {
+TEST_CASE("A single radar's errors cannot be separated from slip and speed") {
   const SharedPrior prior = prior_after({LearnedError{0.004, 0.001}}, {{0.0, 0.01}}, 0.001);
   CHECK_FALSE(prior.own[0].is_learned);
   CHECK(prior.own[0].value == 0.0);
   CHECK(prior.own[0].std == 0.01);
 }
 
-TEST_CASE("A prior of no width stays what it is") {
+TEST_CASE("A prior of zero width does not change") {
   const SharedPrior prior = prior_after({LearnedError{0.0, 0.0}, LearnedError{0.0, 0.0}},
                                         {{0.0, 0.0}, {0.0, 0.0}}, 0.001);
   CHECK(prior.own[0].std == 0.0);
   CHECK(prior.common_variance == 0.0);
 }
 
-TEST_CASE("With what a drive before learned the filter converges faster, and stays credible") {
+TEST_CASE("With learned errors the filter converges faster and stays credible") {
   OdometryDrive before = a_drive(1);
   before.drive(20.0);
   const Learned learned = before.filter().learned();
@@ -135,7 +136,7 @@ TEST_CASE("With what a drive before learned the filter converges faster, and sta
   CHECK(yaw_rate_nees / drives < 2.5);
 }
 
-TEST_CASE("Restart after restart nothing is counted twice: common errors stay as unknown") {
+TEST_CASE("Over many restarts no prior counts twice: common errors stay as uncertain") {
   Learned learned;
   double first_std_rad = 0.0;
   for (std::uint64_t seed = 21; seed < 27; ++seed) {
@@ -153,14 +154,14 @@ TEST_CASE("Restart after restart nothing is counted twice: common errors stay as
   }
 }
 
-TEST_CASE("A lie in what was learned is overcome, or the radar is in doubt") {
+TEST_CASE("A wrong learned error is corrected, or the radar is in doubt") {
   const double sigmas = GENERATE(5.0, -5.0);
   const std::size_t liar = GENERATE(0, 1);
   CAPTURE(sigmas, liar);
   OdometryDrive before = a_drive(2);
   before.drive(20.0);
   Learned learned = before.filter().learned();
-  // Five of the sigma that the file states, and of that which is taken over.
+  // 5 sigma of the file, and 5 sigma of the value taken over.
   const double lie_rad = sigmas * std::max(learned[liar]->mount_yaw_rad.std, 0.0075 / 4.0);
   learned[liar]->mount_yaw_rad.value += lie_rad;
   OdometryDrive drive = a_drive(31, learned);

@@ -74,7 +74,7 @@ Eigen::Vector2d random_point(Random& random, const TargetSet& targets, int regim
   return {uniform(random, -reach_m, reach_m), uniform(random, -reach_m, reach_m)};
 }
 
-/// The mixture written down as its definition says, in a wider type.
+/// The mixture by its definition, in a wider type.
 struct Definition {
   long double sum = 0.0L;
   long double best_scale = 0.0L;  // s of the best component
@@ -142,7 +142,7 @@ TEST_CASE("the cost is the negative logarithm of the mixture, also where its ter
       [&](const Problem& problem, const Eigen::Vector2d& point, const Symmetric2& own) {
         const Definition definition = define(problem, point, own);
         if (definition.sum < 1e-4900L) {
-          return;  // out of reach of the definition itself
+          return;  // the definition itself underflows
         }
         ++compared;
         underflows += definition.sum < 1e-320L ? 1 : 0;
@@ -154,7 +154,7 @@ TEST_CASE("the cost is the negative logarithm of the mixture, also where its ter
   CHECK(underflows > 30);
 }
 
-TEST_CASE("the residual is that of the best component, and half its square the rest of the sum") {
+TEST_CASE("the residuals are those of the best component and of the rest of the sum") {
   for_random_points(
       [](const Problem& problem, const Eigen::Vector2d& point, const Symmetric2& own) {
         const Definition definition = define(problem, point, own);
@@ -210,7 +210,7 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost, across switche
       });
 }
 
-TEST_CASE("a point far from everything stays finite and points home") {
+TEST_CASE("a point far from all components has a finite cost and a gradient towards them") {
   Random random(4);
   for (const double weight : {0.0, 0.5}) {
     const Problem problem(random_detections(random, 30), weight);
@@ -226,7 +226,7 @@ TEST_CASE("a point far from everything stays finite and points home") {
   }
 }
 
-TEST_CASE("one component alone is a plain least squares problem") {
+TEST_CASE("a single component is a plain least squares problem") {
   Random random(5);
   const Problem problem(random_detections(random, 1), 0.0);
   const Target& target = problem.targets[0];
@@ -259,7 +259,7 @@ TEST_CASE("the order of the targets does not matter") {
   }
 }
 
-TEST_CASE("a ray of little weight explains only what no target does better") {
+TEST_CASE("a ray of small weight explains only points far from all targets") {
   Random random(8);
   const Problem problem(random_detections(random, 20), 1e-9);
   int wrong = 0;
@@ -275,7 +275,7 @@ TEST_CASE("a ray of little weight explains only what no target does better") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("components that are left out do not show, however wide, sharp or far the others are") {
+TEST_CASE("gated components do not change the result, for wide, sharp and far ones") {
   struct Case {
     const char* name;
     double range_std_m;
@@ -311,7 +311,7 @@ TEST_CASE("components that are left out do not show, however wide, sharp or far 
   }
 }
 
-TEST_CASE("points evaluated together have the same residuals as one by one") {
+TEST_CASE("a batch of points has the same residuals as single points") {
   Random random(10);
   for (const std::size_t components : {3U, 40U, 250U}) {
     const Problem problem(random_detections(random, components), 0.2);
@@ -336,7 +336,7 @@ TEST_CASE("points evaluated together have the same residuals as one by one") {
   }
 }
 
-TEST_CASE("a point or covariance that is no number shows in its own cost only") {
+TEST_CASE("a point or covariance that is NaN makes only its own cost NaN") {
   Random random(11);
   const Problem problem(random_detections(random, 60), 0.2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -353,7 +353,7 @@ TEST_CASE("a point or covariance that is no number shows in its own cost only") 
   CHECK(residuals[3].cost == residuals[4].cost);
 }
 
-TEST_CASE("assigning anew forgets the mixture before") {
+TEST_CASE("assigning replaces the previous mixture") {
   Random random(7);
   const Problem before(random_detections(random, kMaxDetections), 0.5);
   const Problem fresh(random_detections(random, 4), 0.0);

@@ -55,7 +55,7 @@ std::vector<std::uint64_t> bits(const std::vector<MixtureResidual>& residuals) {
   return result;
 }
 
-TEST_CASE("all kernels give the same bits") {
+TEST_CASE("all kernels give bit-identical results") {
   const auto kernels = mixture_kernels();
   REQUIRE(kernels.back().name == "plain");
   OutlierRayOptions options;
@@ -80,7 +80,7 @@ TEST_CASE("all kernels give the same bits") {
   }
 }
 
-TEST_CASE("of components that explain a point equally well the first is named") {
+TEST_CASE("of equally good components the first is returned") {
   TargetSet targets;
   Detection detection;
   detection.range_std_m = 0.2;

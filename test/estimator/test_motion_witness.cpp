@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// At 10 m/s in a turn, told 50 ms before the motion ends.
+/// Odometry at 10 m/s in a turn, 50 ms before the motion ends.
 Odometry known() {
   Odometry odometry;
   odometry.utime_us = 1'000'000;
@@ -30,7 +30,7 @@ EgoMotion motion_at(double speed_mps, double yaw_rate_radps) {
   return motion;
 }
 
-TEST_CASE("what a vehicle can do contradicts nothing, more does") {
+TEST_CASE("changes within a vehicle's limits are no contradiction, larger ones are") {
   // 5 sigma of both are 0.30 m/s and 0.071 rad/s; the mean distance of the interval's moments from
   // the odometry's is 25 ms, which 10 m/s^2 and 2 rad/s^2 make 0.25 m/s and 0.05 rad/s.
   CHECK_FALSE(contradicts(known(), motion_at(10.0, 0.2)));
@@ -39,12 +39,12 @@ TEST_CASE("what a vehicle can do contradicts nothing, more does") {
   CHECK(contradicts(known(), motion_at(10.65, 0.2)));
   CHECK(contradicts(known(), motion_at(9.35, 0.2)));
   CHECK(contradicts(known(), motion_at(10.0, 0.35)));
-  // A world that moves along, a reversed mount.
+  // Targets that move along; a reversed mount.
   CHECK(contradicts(known(), motion_at(0.0, 0.2)));
   CHECK(contradicts(known(), motion_at(-10.0, 0.2)));
 }
 
-TEST_CASE("a motion may be another the longer ago the odometry was told, and after 0.3 s any") {
+TEST_CASE("older odometry allows larger changes, and after 0.3 s any") {
   EgoMotion later = motion_at(11.0, 0.2);
   CHECK(contradicts(known(), later));
   later.utime_start_us += 100'000;
@@ -56,7 +56,7 @@ TEST_CASE("a motion may be another the longer ago the odometry was told, and aft
   CHECK_FALSE(contradicts(known(), much_later));
 }
 
-TEST_CASE("what is hardly known contradicts nothing, nor is what is no estimate") {
+TEST_CASE("uncertain odometry and motions without estimate are no contradiction") {
   Odometry unsure = known();
   unsure.status = OdometryStatus::initialising;
   unsure.twist_covariance *= 1e4;

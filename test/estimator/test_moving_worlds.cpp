@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Most of what a lone radar sees moves: nothing wrong is vouched for.
+// Most targets of a single radar move: no wrong motion has status ok.
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,8 @@ constexpr double kPeriodS = 0.075;
 constexpr double kFarM = 80.0;
 const Noise kNoise{0.1, 0.008, 0.1};
 
-/// Things in a box before the radar, which keep their places among each other. Those of the road
-/// come again at its end.
+/// Objects in a box in front of the radar, rigid relative to each other. Those of the road repeat
+/// at its end.
 struct World {
   Points points;
   double speed_mps = 0.0;
@@ -58,7 +58,7 @@ bool is_good(OdometryStatus status) {
   return status == OdometryStatus::ok || status == OdometryStatus::standing_still;
 }
 
-/// A vehicle that drives straight on, its radar and what cremed makes of it.
+/// A vehicle that drives straight on, its radar, and the estimates.
 class Stage {
  public:
   explicit Stage(std::uint64_t seed) : random_(seed) {
@@ -134,8 +134,7 @@ World truck(Stage& stage, double speed_mps) {
   return result;
 }
 
-TEST_CASE(
-    "Behind a truck from the start, with four things that stand, nothing says that we stand") {
+TEST_CASE("Behind a truck from the start, with four static objects, there is no standstill") {
   const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U);
   Stage stage(seed);
   World standing = road(stage, 4);
@@ -147,7 +146,7 @@ TEST_CASE(
   CHECK(stage.wrong == 0);
 }
 
-TEST_CASE("A truck that moves in before us does not stop us, and the road counts again after it") {
+TEST_CASE("A truck that cuts in causes no standstill, and after it the road is used again") {
   const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U);
   Stage stage(seed);
   World open = road(stage, 60);
@@ -172,7 +171,7 @@ TEST_CASE("A truck that moves in before us does not stop us, and the road counts
   CHECK(stage.wrong * 1000 <= stage.published);
 }
 
-TEST_CASE("Beside a train that starts we do not roll back") {
+TEST_CASE("A train that starts alongside causes no motion backwards") {
   const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U);
   Stage stage(seed);
   World platform = road(stage, 30);
@@ -181,8 +180,8 @@ TEST_CASE("Beside a train that starts we do not roll back") {
     stage.next({&platform, &train}, 0.0);
   }
   CHECK(stage.last == OdometryStatus::standing_still);
-  // Until its Doppler stands apart from that of the platform (0.1 m/s of noise each) nothing in the
-  // scans tells the two from one world that moves a little.
+  // Until its Doppler differs from the platform's by more than noise (0.1 m/s each), both look like
+  // one world that moves slowly.
   while (train.speed_mps < 0.6) {
     train.speed_mps += 0.8 * kPeriodS;
     stage.next({&platform, &train}, 0.0);
@@ -196,14 +195,14 @@ TEST_CASE("Beside a train that starts we do not roll back") {
   CHECK(stage.wrong == before);
 }
 
-TEST_CASE("A rival that continues nothing does not silence a radar") {
+TEST_CASE("A rival speed that is no continuation does not make a radar ambiguous") {
   Stage stage(1);
   World open = road(stage, 60);
   for (int i = 0; i < 40; ++i) {
     stage.next({&open}, 16.0);
   }
   const int before = stage.published;
-  // Oncoming traffic without end.
+  // Continuous oncoming traffic.
   World oncoming = world(stage.random(), 25, {10.0, 4.0}, {70.0, 8.0});
   for (int i = 0; i < 100; ++i) {
     oncoming.speed_mps = -14.0;

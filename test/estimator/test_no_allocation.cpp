@@ -27,7 +27,7 @@ using simulation::Random;
 
 constexpr double kDt = 0.1;
 
-/// Keeps the compiler from leaving an allocation out.
+/// Prevents the compiler from removing an allocation.
 void* volatile escaped = nullptr;
 void use(void* block) { escaped = block; }
 
@@ -38,7 +38,7 @@ long count_allocations(const Action& action) {
   return AllocationGuard::stop();
 }
 
-TEST_CASE("the guard sees every way to allocate") {
+TEST_CASE("the guard counts every kind of allocation") {
   struct Row {
     std::string what;
     void (*allocate)();
@@ -126,7 +126,7 @@ struct Scans {
   RadarScan second;
 };
 
-/// A full house: as many detections as a scan can hold, some of them movers and clutter.
+/// A full scan: as many detections as the capacity, some of them moving targets and clutter.
 Scans full_scans() {
   Random random(1);
   const simulation::Points points =
@@ -164,9 +164,9 @@ TEST_CASE("registration does not allocate") {
   }
 }
 
-TEST_CASE("searching again and pairs without end do not allocate") {
-  // Two full scans: of different places, which makes it search again, or with more possible
-  // partners than an association has room for.
+TEST_CASE("repeated searches and too many pairs do not allocate") {
+  // Two full scans: of different places, which repeats the search, or with more possible pairs than
+  // the association's capacity.
   struct Row {
     std::string what;
     double max_range_m;
@@ -176,7 +176,7 @@ TEST_CASE("searching again and pairs without end do not allocate") {
   };
   const std::vector<Row> rows = {{"another place", 60.0, 2, 0.0157, true},
                                  {"dense", 6.0, 1, 0.0157, false},
-                                 {"everything may be everything", 60.0, 2, 0.5, false}};
+                                 {"all pairs are possible", 60.0, 2, 0.5, false}};
   for (const Row& row : rows) {
     const auto targets = [&](std::uint64_t seed) {
       Random random(seed);
@@ -224,7 +224,7 @@ TEST_CASE("a full association does not allocate") {
   CHECK(association->size() == Association::kMaxPairs);
 }
 
-TEST_CASE("the estimator does not allocate, whatever comes in") {
+TEST_CASE("the estimator does not allocate with any kind of scan") {
   const Scans scans = full_scans();
   RadarScan incomplete = scans.second;
   incomplete.status = ScanStatus::conflicting_parts;
@@ -251,16 +251,16 @@ TEST_CASE("the estimator does not allocate, whatever comes in") {
   }
 }
 
-TEST_CASE("self-check does not allocate, whatever the radar says") {
+TEST_CASE("self-check does not allocate with any kind of motion") {
   const EgoMotionOptions options = simulation::drawn_options(2);
   simulation::DrawnVehicle vehicle(simulation::in_bends, simulation::drawn_radars(1), options, 1);
   const auto check = std::make_unique<SelfCheck>(options.registration);
-  const TargetSet targets;  // test_hot_path has the check of their speed.
+  const TargetSet targets;  // test_hot_path covers the speed check.
   long count = 0;
   while (vehicle.time_s() < 20.0) {
     simulation::DrawnMotion drawn = vehicle.next();
     if (drawn.motion.has_estimate() && vehicle.time_s() > 8.0) {
-      drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;  // Lies.
+      drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;  // A fault.
     }
     count += count_allocations([&] { check->add(drawn.motion, targets); });
   }
@@ -269,7 +269,7 @@ TEST_CASE("self-check does not allocate, whatever the radar says") {
   CHECK(count_allocations([&] { check->forget(); }) == 0);
 }
 
-TEST_CASE("the odometry filter does not allocate, whatever the radars say") {
+TEST_CASE("the odometry filter does not allocate with any kind of scan") {
   simulation::OdometryDrive drive(
       {{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}, {2.4, 0.8, 1.55}}, 1);
   const TargetSet nothing;
@@ -281,7 +281,7 @@ TEST_CASE("the odometry filter does not allocate, whatever the radars say") {
     registered += odometry.status == OdometryStatus::ok ? 1 : 0;
   };
   for (int i = 0; i < 200; ++i) {
-    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A lie.
+    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A fault.
     drive.radar(1).world_mps = drive.radar(2).world_mps = i > 150 ? 3.0 : 0.0;
     drive.pass(19000);
     const auto radar = static_cast<std::size_t>(i) % 4;

@@ -24,7 +24,7 @@ bool is_good(const Odometry& odometry) {
   return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
 }
 
-/// Largest error of speed and yaw rate in standard deviations, where the odometry vouches for it.
+/// Largest error of speed and yaw rate in standard deviations, if the status is ok.
 double twist_error(const Odometry& odometry, const OdometryDrive& drive) {
   const Eigen::Vector3d error =
       odometry.twist - Eigen::Vector3d(drive.speed_mps(), 0.0, drive.yaw_rate_radps());
@@ -34,7 +34,8 @@ double twist_error(const Odometry& odometry, const OdometryDrive& drive) {
              : 0.0;
 }
 
-TEST_CASE("straight on and in a turn the pose since the anchor is known, with one radar or three") {
+TEST_CASE(
+    "the pose since the anchor is credible straight on and in a turn, with one radar or three") {
   const auto mounts =
       GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft, kRearRight});
   const double yaw_rate_radps = GENERATE(0.0, 0.3);
@@ -62,7 +63,7 @@ TEST_CASE("straight on and in a turn the pose since the anchor is known, with on
   CHECK(most > 0.01);
 }
 
-TEST_CASE("motions since the output before lead to the pose since the start") {
+TEST_CASE("motions between outputs compose to the pose since the start") {
   OdometryDrive drive({kFront, kRearLeft}, 2);
   drive.set_motion(9.0, 0.2);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -81,7 +82,7 @@ TEST_CASE("motions since the output before lead to the pose since the start") {
   }
 }
 
-TEST_CASE("the row at a new anchor's time still refers to the old one") {
+TEST_CASE("the output at a new anchor's time still refers to the old one") {
   OdometryDrive drive({kFront}, 3);
   Odometry before = drive.next();
   int renewed = 0;
@@ -98,7 +99,7 @@ TEST_CASE("the row at a new anchor's time still refers to the old one") {
   CHECK(renewed == 3);
 }
 
-TEST_CASE("standing is told as such, and driving off too") {
+TEST_CASE("standing still is detected, and so is driving off") {
   OdometryDrive drive({kFront, kRearLeft}, 4);
   drive.set_motion(0.0, 0.0);
   CHECK(drive.drive(1.5).status == OdometryStatus::standing_still);
@@ -112,7 +113,7 @@ TEST_CASE("standing is told as such, and driving off too") {
   CHECK(drive.drive(0.5).status == OdometryStatus::ok);
 }
 
-TEST_CASE("a radar that lies is left out and named, and back within a second of agreeing again") {
+TEST_CASE("a faulty radar is left out and reported, and used again within a second of agreeing") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 5);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
   drive.radar(0).world_mps = GENERATE(2.0, 8.0);
@@ -134,9 +135,9 @@ TEST_CASE("a radar that lies is left out and named, and back within a second of 
   CHECK(radars == 7U);
 }
 
-TEST_CASE("most radars win over the one that the filter followed") {
+TEST_CASE("a majority of radars overrules the one that the filter followed") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 6);
-  // The one that lies speaks alone at first.
+  // The faulty radar is alone at first.
   drive.radar(0).world_mps = 5.0;
   drive.radar(1).is_silent = true;
   drive.radar(2).is_silent = true;
@@ -152,7 +153,7 @@ TEST_CASE("most radars win over the one that the filter followed") {
   }
 }
 
-TEST_CASE("of two radars that contradict each other from the start none is believed") {
+TEST_CASE("of two radars that contradict each other from the start none is trusted") {
   OdometryDrive drive({kFront, kRearLeft}, 7);
   drive.radar(GENERATE(std::size_t{0}, std::size_t{1})).world_mps = 4.0;
   for (int i = 0; i < 100; ++i) {
@@ -164,10 +165,10 @@ TEST_CASE("of two radars that contradict each other from the start none is belie
   CHECK(is_good(drive.next()));
 }
 
-TEST_CASE("a lone radar that changes its mind is not followed at once") {
+TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   OdometryDrive drive({kFront}, 8);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
-  drive.radar(0).world_mps = 8.0;  // It drives behind something large.
+  drive.radar(0).world_mps = 8.0;  // It drives behind a large vehicle.
   double variance = 0.0;
   for (int i = 0; i < 12; ++i) {
     const Odometry odometry = drive.next();
@@ -181,7 +182,7 @@ TEST_CASE("a lone radar that changes its mind is not followed at once") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
-TEST_CASE("a gap in time is bridged, a long one begins anew") {
+TEST_CASE("a short gap in time is bridged, a long one restarts the filter") {
   OdometryDrive drive({kFront, kRearLeft}, 9);
   drive.drive(3.0);
   drive.pass(1'500'000);
@@ -194,7 +195,7 @@ TEST_CASE("a gap in time is bridged, a long one begins anew") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
-TEST_CASE("the pose since the start stands still over a gap, and says that it may be wrong") {
+TEST_CASE("the pose since the start is constant over a gap, and its covariance grows") {
   OdometryDrive drive({kFront}, 9);
   const Odometry before = drive.drive(3.0);
   const bool is_set = GENERATE(false, true);
@@ -212,7 +213,7 @@ TEST_CASE("the pose since the start stands still over a gap, and says that it ma
   CHECK(error.cwiseAbs2().cwiseQuotient(after.odom_covariance.diagonal()).maxCoeff() < 9.0);
 }
 
-TEST_CASE("what was driven before any scan told the speed is in no pose") {
+TEST_CASE("distance before the first known speed is in no pose") {
   OdometryDrive drive({kFront, kRearLeft}, 12);
   Odometry blind;
   for (int i = 0; i < 3; ++i) {
@@ -234,8 +235,8 @@ TEST_CASE("what was driven before any scan told the speed is in no pose") {
   }
 }
 
-TEST_CASE("scans that come late are used") {
-  // All scans of the rear radar come after those of the front that were taken 50 ms later.
+TEST_CASE("late scans are used") {
+  // All scans of the rear radar arrive after front scans that were taken 50 ms later.
   OdometryOptions options;
   OdometryDrive drive({kFront}, 10, options);
   drive.set_motion(9.0, 0.3);
@@ -265,7 +266,7 @@ TEST_CASE("scans that come late are used") {
   CHECK(filter.report(1).doppler_innovation > 0.05);
 }
 
-TEST_CASE("a mount that is off is learned") {
+TEST_CASE("the yaw error of a mount is learned") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
   drive.radar(0).mount.yaw_rad += 0.015;
   for (int i = 0; i < 12; ++i) {
@@ -274,7 +275,7 @@ TEST_CASE("a mount that is off is learned") {
   }
   const RadarReport front = drive.filter().report(0);
   const RadarReport rear = drive.filter().report(1);
-  // Slip takes a part of what all have in common.
+  // Slip explains a part of the common error.
   CHECK(front.mount_yaw_rad - rear.mount_yaw_rad == Approx(0.015).margin(0.004));
   CHECK(front.mount_yaw_std_rad < 0.9 * OdometryOptions().mount_yaw_std_rad);
 }

@@ -50,7 +50,7 @@ OdometryState busy_state(const OdometryOptions& options) {
   return state;
 }
 
-/// The derivatives of h that a measurement gives, against differences of its residual.
+/// Compares the Jacobian of a measurement with differences of its residual.
 template <typename Measure>
 void check_jacobian(OdometryState& state, const Measure& measure) {
   constexpr double kStep = 1e-6;
@@ -73,7 +73,7 @@ void check_jacobian(OdometryState& state, const Measure& measure) {
   }
 }
 
-TEST_CASE("derivatives of the measured Doppler are those of its residual") {
+TEST_CASE("the Jacobian of the Doppler measurement is the derivative of its residual") {
   const OdometryOptions options;
   OdometryState state = busy_state(options);
   DopplerVelocity velocity;
@@ -81,13 +81,13 @@ TEST_CASE("derivatives of the measured Doppler are those of its residual") {
   velocity.per_offset = {-1.1, 0.3};
   const double age_s = GENERATE(0.0, 0.05);
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
-  // Slower than 1 m/s the share of a driving vehicle's errors changes, which derivatives leave out.
+  // Below 1 m/s the factor on a driving vehicle's errors changes, which the Jacobian neglects.
   check_jacobian(state, [&] {
     return DopplerMeasurement{state, radar, age_s}.linearise(velocity);
   });
 }
 
-TEST_CASE("derivatives of a registered pair are those of its residual") {
+TEST_CASE("the Jacobian of the position measurement is the derivative of its residual") {
   const OdometryOptions options;
   OdometryState state = busy_state(options);
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
@@ -96,7 +96,7 @@ TEST_CASE("derivatives of a registered pair are those of its residual") {
   });
 }
 
-TEST_CASE("a registration's start is what the measurement expects") {
+TEST_CASE("a registration starts at the motion that the measurement expects") {
   const OdometryOptions options;
   const OdometryState state = busy_state(options);
   const Eigen::Vector3d scan = state.gaussian.mean().segment<3>(state.scan(1));
@@ -104,7 +104,7 @@ TEST_CASE("a registration's start is what the measurement expects") {
   CHECK(measurement.linearise(measurement.expected_motion(scan)).residual.norm() < 1e-12);
 }
 
-TEST_CASE("derivatives of the motion are those of the motion, forward and back") {
+TEST_CASE("the Jacobian of the motion model is its derivative, forward and back in time") {
   const OdometryOptions options;
   const OdometryState state = busy_state(options);
   const MotionStep::Vector at = state.gaussian.mean().head<kMotionStates>();
@@ -115,7 +115,7 @@ TEST_CASE("derivatives of the motion are those of the motion, forward and back")
   CHECK((step.jacobian - expected).cwiseAbs().maxCoeff() < 1e-7);
 }
 
-TEST_CASE("the motion is that of a vehicle on a circle") {
+TEST_CASE("the motion model follows a circle at constant yaw rate") {
   OdometryOptions options;
   MotionStep::Vector state = MotionStep::Vector::Zero();
   state(kSpeed) = 10.0;
@@ -128,7 +128,7 @@ TEST_CASE("the motion is that of a vehicle on a circle") {
   CHECK(state(kY) == Approx(20.0 * (1.0 - std::cos(0.5))).epsilon(1e-5));
 }
 
-TEST_CASE("noise of the motion does not depend on how time is cut") {
+TEST_CASE("process noise does not depend on the step length") {
   const OdometryOptions options;
   const MotionStep::Vector at = MotionStep::Vector::Unit(kSpeed) * 8.0;
   const MotionStep whole = moved(at, 0.1, options);
@@ -144,7 +144,7 @@ TEST_CASE("noise of the motion does not depend on how time is cut") {
   }
 }
 
-TEST_CASE("derivatives of a relative pose are those of the pose") {
+TEST_CASE("the Jacobian of a relative pose is its derivative") {
   using Poses = Eigen::Matrix<double, 6, 1>;
   const Poses at = (Poses() << 1.0, -2.0, 0.8, 4.0, 1.0, 1.1).finished();
   const Eigen::Vector3d relative = relative_pose(at.head<3>(), at.tail<3>());
@@ -155,7 +155,7 @@ TEST_CASE("derivatives of a relative pose are those of the pose") {
   CHECK((composed_pose(at.head<3>(), relative) - at.tail<3>()).norm() < 1e-12);
 }
 
-TEST_CASE("a new anchor changes no pose relative to another, nor what is known of it") {
+TEST_CASE("a new anchor changes no relative pose and no covariance of one") {
   const OdometryOptions options;
   OdometryState state(options, kMounts);
   state.start();

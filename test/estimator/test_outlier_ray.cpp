@@ -40,8 +40,8 @@ TEST_CASE("the number of components follows the formula") {
       {make_options(0.5, 200.0), 9},     // 1 + ceil(7.24)
       {make_options(1.0, 10.0), 2},      // 1 + ceil(0.97)
       {make_options(1.0, 11.0), 3},      // 1 + ceil(1.13)
-      {make_options(0.01, 1000.0), 18},  // 1 + ceil(16.6): the widest that a configuration has
-      {make_options(1.0, 2.9), 1},       // the first one reaches as far
+      {make_options(0.01, 1000.0), 18},  // 1 + ceil(16.6): the widest of a configuration
+      {make_options(1.0, 2.9), 1},       // the first one covers it
       {make_options(50.0, 0.5), 1},
   };
   for (const Row& row : rows) {
@@ -51,7 +51,7 @@ TEST_CASE("the number of components follows the formula") {
   }
 }
 
-TEST_CASE("the components cover the ray from r_min to r_max, and not one is to spare") {
+TEST_CASE("the components cover the ray from r_min to r_max, and none is redundant") {
   for (const auto& options :
        {make_options(0.5, 50.0), make_options(1.0, 100.0), make_options(0.2, 250.0)}) {
     const OutlierRay ray(options, {});
@@ -128,7 +128,7 @@ TEST_CASE("without weight there is no ray") {
   }
 }
 
-TEST_CASE("extreme options stay within the capacity, whole and finite") {
+TEST_CASE("with extreme options the ray stays finite and within the capacity") {
   for (const auto& options :
        {make_options(1e-9, 50.0), make_options(1e-9, 1e9), make_options(0.5, 1e9)}) {
     const OutlierRay ray(options, {});
@@ -142,7 +142,7 @@ TEST_CASE("extreme options stay within the capacity, whole and finite") {
   }
 }
 
-TEST_CASE("impossible options give a possible number of components") {
+TEST_CASE("invalid options give a valid number of components") {
   for (const auto& options :
        {make_options(0.0, 50.0), make_options(0.5, kInfinity), make_options(kNan, 50.0),
         make_options(0.5, kNan), make_options(-1.0, 50.0)}) {

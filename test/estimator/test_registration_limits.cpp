@@ -49,7 +49,7 @@ Detections see(const Points& points, const Eigen::Vector3d& motion) {
 
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-TEST_CASE("one place cannot fix three states") {
+TEST_CASE("targets in one place do not observe three states") {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const Points one = simulation::scatter(random, 1, 2.0, 100.0, radians(60.0), 0.0);
@@ -61,7 +61,7 @@ TEST_CASE("one place cannot fix three states") {
         const RegistrationResult result =
             solve(options, see(many, kStill), see(many, {0.1, 0.0, 0.01}));
         CAPTURE(one[0].transpose(), many.size(), weight, model);
-        // With a ray every component bends the cost a little in all directions.
+        // With a ray every component adds a little curvature in all directions.
         const bool is_honest = result.status == RegistrationStatus::degenerate ||
                                (weight > 0.0 && result.covariance.trace() > 1.0);
         CHECK(is_honest);
@@ -70,20 +70,20 @@ TEST_CASE("one place cannot fix three states") {
   }
 }
 
-TEST_CASE("no target fixes nothing") {
+TEST_CASE("without targets nothing is observable") {
   const Points some = {{10.0, 1.0}, {20.0, -4.0}};
   for (const Likelihood model : kModels) {
     for (const int degrees_of_freedom : {2, 3}) {
       RegistrationOptions options = options_of(degrees_of_freedom, true, model);
       CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
-      // Not even looked at: no convergence is as true.
+      // Not evaluated: no_convergence is also correct.
       options.max_iterations = 0;
       CHECK(solve(options, see(some, kStill), {}).status != RegistrationStatus::converged);
     }
   }
 }
 
-TEST_CASE("few targets and targets in a line are solved as well as their covariance says") {
+TEST_CASE("few targets and targets in a line are solved within their covariance") {
   Random random(2);
   struct Row {
     int degrees_of_freedom;
@@ -123,7 +123,7 @@ TEST_CASE("few targets and targets in a line are solved as well as their covaria
 }
 
 /// Squared length of the next step at the end of a registration without Doppler, in standard
-/// deviations; 0 unless it says that it has converged.
+/// deviations; 0 unless it has converged.
 double step_left(const RegistrationOptions& options, const TargetSet& previous,
                  const TargetSet& current) {
   Registration registration(options, {});
@@ -144,7 +144,7 @@ double step_left(const RegistrationOptions& options, const TargetSet& previous,
   return gradient.dot(result.covariance * gradient);
 }
 
-TEST_CASE("converged means that no step of note is left") {
+TEST_CASE("converged means that the next step is within the tolerance") {
   for (const Likelihood model : kModels) {
     for (const double weight : {0.0, 0.2}) {
       Random random(5);
@@ -153,7 +153,7 @@ TEST_CASE("converged means that no step of note is left") {
       double largest = 0.0;
       for (int i = 0; i < 200; ++i) {
         const Points here = simulation::scatter(random, 12, 2.5, 37.5, radians(40.0), 0.0);
-        // Another place, or the same.
+        // The same place or another.
         const Points there =
             i % 2 == 0 ? here : simulation::scatter(random, 12, 2.5, 37.5, radians(40.0), 0.0);
         const TargetSet previous = simulation::targets(see(here, kStill), {});
@@ -170,7 +170,7 @@ constexpr std::array kFields = {&Detection::range_m,         &Detection::azimuth
                                 &Detection::doppler_mps,     &Detection::range_std_m,
                                 &Detection::azimuth_std_rad, &Detection::doppler_std_mps};
 
-/// How many targets that are no numbers, each alone in an otherwise good scan, go unnoticed.
+/// Number of undetected NaN targets, each alone in an otherwise valid scan.
 int count_unseen(Likelihood model, bool is_previous) {
   Random random(6);
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);
@@ -195,21 +195,21 @@ int count_unseen(Likelihood model, bool is_previous) {
   return unseen + (is_seen(huge) ? 0 : 1);
 }
 
-TEST_CASE("a target of the previous scan that is no number does not pass unseen") {
+TEST_CASE("a NaN target of the previous scan is detected") {
   for (const Likelihood model : kModels) {
     CHECK(count_unseen(model, true) == 0);
   }
 }
 
-TEST_CASE("a target of the current scan that is no number does not pass a mixture unseen") {
+TEST_CASE("a NaN target of the current scan is detected by the mixture") {
   CHECK(count_unseen(Likelihood::max_sum_mixture, false) == 0);
 }
 
-TEST_CASE("a target of the current scan that is no number does not pass unseen") {
+TEST_CASE("a NaN target of the current scan is detected") {
   CHECK(count_unseen(Likelihood::exclusive, false) == 0);
 }
 
-TEST_CASE("a time that is none ends as non_finite") {
+TEST_CASE("a NaN time ends as non_finite") {
   Random random(6);
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);
   for (const Likelihood model : kModels) {
@@ -221,7 +221,7 @@ TEST_CASE("a time that is none ends as non_finite") {
   }
 }
 
-TEST_CASE("steps that run out are no convergence, and are counted over both stages") {
+TEST_CASE("reaching the limit on steps is no convergence; steps count over both stages") {
   Random random(8);
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 3.0);
   const Detections previous = see(points, kStill);
@@ -241,7 +241,7 @@ TEST_CASE("steps that run out are no convergence, and are counted over both stag
   CHECK(free.iterations > 2);
 }
 
-TEST_CASE("of several starts the one with the lowest cost is taken, wherever it stands") {
+TEST_CASE("of several starts the one with the lowest cost is used, in any order") {
   Random random(10);
   const Points points = simulation::scatter(random, 40, 5.0, 60.0, radians(50.0), 1.0);
   const Eigen::Vector3d motion(8.0, 0.0, 0.02);
@@ -261,7 +261,7 @@ TEST_CASE("of several starts the one with the lowest cost is taken, wherever it 
   CHECK(is_found(registration.solve(current, kDt, std::array{kStill, far, near})));
 }
 
-TEST_CASE("an exact start needs no step") {
+TEST_CASE("an exact start takes no step") {
   Random random(9);
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 6.0);
   const TargetSet targets = simulation::targets(see(points, kStill), {});

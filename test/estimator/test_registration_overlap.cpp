@@ -53,7 +53,7 @@ struct Strangers {
   Points far;
 };
 
-TEST_CASE("in a mixture Doppler needs no common place to tell the speed") {
+TEST_CASE("with max_sum_mixture Doppler gives the speed without a common place") {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const Strangers scans(random);
@@ -66,7 +66,7 @@ TEST_CASE("in a mixture Doppler needs no common place to tell the speed") {
   }
 }
 
-TEST_CASE("without a common place there is no motion, whatever Doppler says") {
+TEST_CASE("without a common place there is no motion, even with Doppler") {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const Strangers scans(random);
@@ -75,7 +75,7 @@ TEST_CASE("without a common place there is no motion, whatever Doppler says") {
       const RegistrationResult result =
           solve(options_of(2, has_doppler), see(scans.near, kStill), see(scans.far, motion));
       CAPTURE(i, has_doppler);
-      // Without Doppler nothing keeps the first stage from jumping to the other place.
+      // Without Doppler the first stage may jump to the other place.
       const bool is_honest = result.status == RegistrationStatus::degenerate ||
                              (!has_doppler && result.status == RegistrationStatus::ambiguous);
       CHECK(is_honest);
@@ -83,7 +83,7 @@ TEST_CASE("without a common place there is no motion, whatever Doppler says") {
   }
 }
 
-TEST_CASE("the first stage widens Doppler by both of its scales") {
+TEST_CASE("the first stage widens Doppler by both scales") {
   Random random(11);
   const Strangers scans(random);
   const Eigen::Vector3d motion(1.4, 0.0, 0.0);
@@ -98,7 +98,7 @@ TEST_CASE("the first stage widens Doppler by both of its scales") {
   CHECK(is_found(5.0));
 }
 
-TEST_CASE("scans of two different places are not taken for a certain turn") {
+TEST_CASE("scans of different places do not give a confident turn") {
   struct Row {
     int degrees_of_freedom;
     bool has_doppler;
@@ -106,8 +106,7 @@ TEST_CASE("scans of two different places are not taken for a certain turn") {
     int max_wrong;
   };
   constexpr int kRuns = 300;
-  // Chance puts enough targets in the same places in a few of a hundred, most often without
-  // Doppler.
+  // By chance enough targets match in a few percent, most often without Doppler.
   const std::vector<Row> rows = {{2, true, 0.5, 3},
                                  {2, true, 0.2, 12},
                                  {2, false, 0.2, 15},

@@ -18,10 +18,10 @@ using simulation::Random;
 using simulation::Scenario;
 using simulation::without_doppler;
 
-/// Gross failures (wrong basin, no convergence) are counted and left out of the other figures.
+/// Gross failures (wrong minimum, no convergence) are counted and excluded from the other figures.
 struct Statistics {
   std::size_t runs = 0;
-  double gross = 0.0;  ///< Share of them.
+  double gross = 0.0;  ///< Share of gross failures.
   double rmse_m = 0.0;
   double rmse_rad = 0.0;
   double anees = 0.0;
@@ -30,8 +30,8 @@ struct Statistics {
   double bias_yaw = 0.0;
 };
 
-/// Chance throws a credible error as far as this once in 10^8.
-constexpr double kGross = 40.0;
+/// A credible error exceeds this with probability 10^-8.
+constexpr double kMinGrossError = 40.0;
 
 Statistics evaluate(const Scenario& scenario, std::size_t runs) {
   Random random(20220411);
@@ -41,7 +41,7 @@ Statistics evaluate(const Scenario& scenario, std::size_t runs) {
   for (std::size_t i = 0; i < runs; ++i) {
     const auto [error, result] = simulation::run(scenario, random);
     const double nees = numeric::normalised_error(error, result.covariance, degrees_of_freedom);
-    if (result.status != RegistrationStatus::converged || !(nees < kGross)) {
+    if (result.status != RegistrationStatus::converged || !(nees < kMinGrossError)) {
       sum.gross += 1.0;
       continue;
     }
@@ -64,9 +64,8 @@ Statistics evaluate(const Scenario& scenario, std::size_t runs) {
           sum.bias_yaw / n};
 }
 
-TEST_CASE(
-    "the paper's simulated problems come out as published, and their covariance is credible") {
-  // What the reference implementation does on 400 pairs of each.
+TEST_CASE("the paper's simulated problems give the published errors with a credible covariance") {
+  // Results of the reference implementation on 400 pairs of each.
   struct Row {
     std::string what;
     Scenario scenario;
@@ -95,8 +94,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "half a scan of clutter, or three movers in ten, cost little; without their model a lot") {
+TEST_CASE("50 % clutter or 30 % moving targets cost little; without their model a lot") {
   Scenario clean;
   clean.max_yaw_rad = radians(3.0);
   clean.options.outlier_ray.weight = 0.5;
@@ -115,7 +113,7 @@ TEST_CASE(
   }
   movers.options.doppler.moving_weight = 0.0;
   CHECK(evaluate(movers, 200).gross > 0.5);
-  // One-to-one, most of the clutter finds nobody; a mixture's finds somebody always.
+  // With one-to-one assignments most clutter has no partner; in a mixture it always has one.
   const Statistics with_ray = evaluate(clutter, 1000);
   clutter.options.outlier_ray.weight = 0.0;
   const Statistics without_ray = evaluate(clutter, 1000);
@@ -135,7 +133,7 @@ TEST_CASE("one-to-one assignments are credible on all of the paper's problems, c
   const std::vector<Row> rows = {{"PSR", point_set(), 0},       {"PSR-C", point_set(), 8},
                                  {"Sim", without_doppler(), 0}, {"Sim-C", without_doppler(), 8},
                                  {"Sim-D", Scenario(), 0},      {"Sim-C-D", Scenario(), 8}};
-  constexpr double kQuantile = 3.29;  // 99.9 %; of so many degrees of freedom chi-square is normal
+  constexpr double kQuantile = 3.29;  // 99.9 %; chi-square is nearly normal here
   for (const Row& row : rows) {
     Scenario scenario = row.scenario;
     scenario.clusters = row.clusters;

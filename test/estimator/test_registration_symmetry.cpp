@@ -26,8 +26,8 @@ struct ScanPair {
   Detections current;
 };
 
-/// As a radar at the vehicle's origin sees them; `bound` limits translation, yaw ten times that in
-/// degrees.
+/// As seen by a radar at the vehicle's origin. `bound`: largest translation in m; the largest yaw
+/// in degrees is ten times that.
 ScanPair random_pair(Random& random, double bound_m) {
   const simulation::Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 4.0);
   const Eigen::Vector3d motion{uniform(random, -bound_m, bound_m),
@@ -60,7 +60,7 @@ RegistrationResult solve(const RegistrationOptions& options, const Pose2& mount,
       ->solve(simulation::targets(pair.current, mount), kDt);
 }
 
-/// a after b.
+/// Composition: a after b.
 Eigen::Vector3d compose(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector2d t = simulation::seen_from(simulation::inverse(a), b.head<2>());
   return {t.x(), t.y(), a.z() + b.z()};
@@ -101,7 +101,7 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     CHECK((turned.motion - rotation * straight.motion).norm() < 1e-9);
-    // Partners' probabilities react to a motion hundreds of times as strongly as it differs.
+    // The probabilities of pairs amplify a difference of the motion hundreds of times.
     CHECK((turned.covariance - rotation * straight.covariance * rotation.transpose()).norm() <
           1e-5 * straight.covariance.norm());
     CHECK(turned.cost == Approx(straight.cost));
@@ -109,7 +109,7 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
   }
 }
 
-TEST_CASE("a world seen in a mirror moves as its mirror image") {
+TEST_CASE("mirrored scans give the mirrored motion") {
   Random random(3);
   const auto mirror = [](Detections detections) {
     for (Detection& detection : detections) {
@@ -132,7 +132,7 @@ TEST_CASE("a world seen in a mirror moves as its mirror image") {
   }
 }
 
-TEST_CASE("the order of the targets changes nothing but rounding") {
+TEST_CASE("the order of the targets changes rounding only") {
   Random random(4);
   for (int i = 0; i < 10; ++i) {
     ScanPair pair = random_pair(random, 0.3);
@@ -145,7 +145,7 @@ TEST_CASE("the order of the targets changes nothing but rounding") {
   }
 }
 
-TEST_CASE("the same input gives the same bits, whatever was solved in between") {
+TEST_CASE("the same input gives bit-identical results, independent of earlier calls") {
   Random random(5);
   for (int i = 0; i < 10; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
@@ -168,7 +168,7 @@ TEST_CASE("the same input gives the same bits, whatever was solved in between") 
   }
 }
 
-TEST_CASE("the solution on a mixture is where linearise says it is") {
+TEST_CASE("the solution on a mixture is a minimum of linearise") {
   Random random(6);
   for (int i = 0; i < 20; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
@@ -182,7 +182,7 @@ TEST_CASE("the solution on a mixture is where linearise says it is") {
     const NormalEquations there = cost->linearise({result.motion});
     CHECK(there.cost == result.cost);
     CHECK((there.information * result.covariance - Eigen::Matrix3d::Identity()).norm() < 1e-9);
-    // The next step, in standard deviations: below it the sum of what Gauss-Newton neglects.
+    // The next step in standard deviations. Gauss-Newton neglects terms of this size.
     CHECK(there.gradient.dot(result.covariance * there.gradient) < 0.1 * 0.1);
     CHECK(result.cost < cost->linearise({}).cost);
   }

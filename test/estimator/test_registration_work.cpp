@@ -47,7 +47,8 @@ Points scatter(std::uint64_t seed, double min_range_m, double max_range_m, doubl
   return simulation::scatter(random, kMaxDetections, min_range_m, max_range_m, half_view_rad, 0.0);
 }
 
-/// Full scans: of one place, of two, in a heap, and so blurred that everything may be everything.
+/// Full scans: of one place, of two places, in a dense cluster, and so noisy that all pairs are
+/// possible.
 std::vector<Problem> full_problems() {
   const simulation::Noise fine{0.1, 0.01, 0.1};
   const Points wide = scatter(1, 3.0, 80.0, radians(60.0));
@@ -81,13 +82,13 @@ void check_numbers(const RegistrationResult& result) {
   }
 }
 
-/// One linearisation of full scans, whichever way, with what it takes to list pairs for it.
+/// Largest work of one linearisation of full scans, including the list of pairs.
 constexpr std::int64_t kMixtureWork = 256 * (256 + kMaxRayComponents);
-constexpr std::int64_t kMostWork =
+constexpr std::int64_t kMaxLinearisationWork =
     kMixtureWork +
     (4 + Association::kMaxRounds) * static_cast<std::int64_t>(Association::kMaxPairs);
 
-TEST_CASE("full scans of any kind stay within the work allowed and are numbers") {
+TEST_CASE("full scans of any kind stay within the limit on work and are finite") {
   for (const Problem& problem : full_problems()) {
     for (const Likelihood model : kModels) {
       for (const int degrees_of_freedom : {2, 3}) {
@@ -97,14 +98,15 @@ TEST_CASE("full scans of any kind stay within the work allowed and are numbers")
         const RegistrationResult result = registration.solve(problem.current, kDt);
         CAPTURE(problem.what, model, degrees_of_freedom, result.component_evaluations);
         check_numbers(result);
-        CHECK(result.component_evaluations <= options.max_component_evaluations + kMostWork);
+        CHECK(result.component_evaluations <=
+              options.max_component_evaluations + kMaxLinearisationWork);
         CHECK(result.component_evaluations > 0);
       }
     }
   }
 }
 
-TEST_CASE("work that runs out is no convergence, and ends soon after") {
+TEST_CASE("reaching the limit on work is no convergence, and ends soon after") {
   const Points points = scatter(1, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", points, points, {0.1, 0.01, 0.1}, 2);
   for (const Likelihood model : kModels) {
@@ -113,12 +115,12 @@ TEST_CASE("work that runs out is no convergence, and ends soon after") {
       Registration free(options, {});
       free.set_previous(problem.previous);
       const RegistrationResult whole = free.solve(problem.current, kDt);
-      // Gauss-Newton's steps may come to nothing in scans as dense as these.
+      // Gauss-Newton may not converge on scans as dense as these.
       if (model == Likelihood::exclusive) {
         REQUIRE(whole.status == RegistrationStatus::converged);
       }
-      // Up to a linearisation less than what is needed.
-      for (std::int64_t limit = 0; limit < whole.component_evaluations - kMostWork;
+      // Less than needed by up to one linearisation.
+      for (std::int64_t limit = 0; limit < whole.component_evaluations - kMaxLinearisationWork;
            limit += whole.component_evaluations / 20) {
         options.max_component_evaluations = limit;
         Registration registration(options, {});
@@ -127,14 +129,14 @@ TEST_CASE("work that runs out is no convergence, and ends soon after") {
         CAPTURE(model, degrees_of_freedom, limit, whole.component_evaluations);
         CHECK(result.status == RegistrationStatus::no_convergence);
         CHECK(result.component_evaluations >= limit);
-        CHECK(result.component_evaluations <= limit + kMostWork);
+        CHECK(result.component_evaluations <= limit + kMaxLinearisationWork);
         check_numbers(result);
       }
     }
   }
 }
 
-TEST_CASE("work that runs out while searching again is no convergence") {
+TEST_CASE("reaching the limit on work in a repeated search is no convergence") {
   const Points here = scatter(1, 3.0, 80.0, radians(60.0));
   const Points there = scatter(2, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", here, there, {0.1, 0.01, 0.1}, 3);
@@ -155,11 +157,11 @@ TEST_CASE("work that runs out while searching again is no convergence") {
     CAPTURE(share, result.starts, whole.component_evaluations);
     CHECK(result.starts <= whole.starts);
     CHECK(result.status != RegistrationStatus::converged);
-    CHECK(result.component_evaluations <= limit + kMostWork);
+    CHECK(result.component_evaluations <= limit + kMaxLinearisationWork);
   }
 }
 
-TEST_CASE("work is counted anew for every registration") {
+TEST_CASE("work is counted for each registration") {
   const Points points = scatter(1, 3.0, 80.0, radians(60.0));
   const Problem problem = make_problem("", points, points, {0.1, 0.01, 0.1}, 2);
   for (const Likelihood model : kModels) {
@@ -173,7 +175,7 @@ TEST_CASE("work is counted anew for every registration") {
   }
 }
 
-TEST_CASE("where work runs out nothing shows of what was solved before") {
+TEST_CASE("a registration that reaches the limit on work is independent of earlier ones") {
   Random random(1);
   const Points few = simulation::scatter(random, 10, 3.0, 30.0, radians(60.0), 3.0);
   const Points many = scatter(2, 3.0, 80.0, radians(60.0));

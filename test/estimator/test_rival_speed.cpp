@@ -13,8 +13,8 @@ namespace {
 const Pose2 kMount{3.4, 0.5, 0.0};
 constexpr double kDopplerStdMps = 0.1;
 
-/// Adds `count` targets on an arc ahead, `spacing_m` apart, which the vehicle would see at rest if
-/// its velocity were `velocity`.
+/// Adds `count` targets on an arc ahead, `spacing_m` apart, that are static if the vehicle's
+/// velocity is `velocity`.
 void add_targets(TargetSet& targets, int count, double range_m, double spacing_m,
                  const Eigen::Vector3d& velocity, double first_azimuth_rad = -0.8) {
   for (int i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ void add_targets(TargetSet& targets, int count, double range_m, double spacing_m
 
 }  // namespace
 
-TEST_CASE("A target at rest speaks for the vehicle's speed, whatever else the vehicle does") {
+TEST_CASE("A static target gives the vehicle's speed also in turns and skids") {
   for (const Eigen::Vector3d& velocity :
        {Eigen::Vector3d(8.0, 0.0, 0.0), Eigen::Vector3d(-3.0, 0.0, 0.4),
         Eigen::Vector3d(10.0, -2.0, -0.3)}) {
@@ -47,19 +47,19 @@ TEST_CASE("A target at rest speaks for the vehicle's speed, whatever else the ve
   }
 }
 
-TEST_CASE("Two worlds are counted by their places, with the other's speed") {
+TEST_CASE("Two worlds are counted by their places, with the rival's speed") {
   struct Row {
     const char* what;
     int own;
     int others;
-    double spacing_m;  ///< Of the others.
+    double spacing_m;  ///< Of the rival's targets.
     std::size_t rival;
   };
   const std::vector<Row> rows = {
       {"one world", 20, 0, 4.0, 0},
       {"a few at another speed", 20, 4, 4.0, 4},
       {"a car shows many targets and is one place", 20, 6, 0.5, 1},
-      {"more of the other world", 5, 12, 4.0, 12},
+      {"more of the rival's world", 5, 12, 4.0, 12},
   };
   const Eigen::Vector3d own(2.0, 0.0, 0.2);
   const Eigen::Vector3d other(6.0, 0.0, 0.2);
@@ -78,7 +78,7 @@ TEST_CASE("Two worlds are counted by their places, with the other's speed") {
   }
 }
 
-TEST_CASE("A vehicle that brakes is no rival of its own mean speed") {
+TEST_CASE("Braking does not make a rival of the vehicle's mean speed") {
   TargetSet targets;
   add_targets(targets, 12, 60.0, 4.0, {9.0, 0.0, 0.0}, -0.35);
   RivalSpeed rival_speed(kMount);

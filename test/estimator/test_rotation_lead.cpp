@@ -29,8 +29,8 @@ Eigen::Vector2d direction(double azimuth_rad) {
   return {std::cos(azimuth_rad), std::sin(azimuth_rad)};
 }
 
-/// A static target as an ARS408 reports it that is told its motion: the whole relative velocity,
-/// the position turned ahead.
+/// A static target as reported by an ARS408 that receives its motion: the full relative velocity,
+/// and the position turned ahead.
 Detection told_detection(const SensorMotion& motion, double range_m, double azimuth_rad,
                          double grid_mps) {
   const Eigen::Vector2d position = range_m * direction(azimuth_rad);
@@ -62,7 +62,7 @@ RadarScan told_scan(Random& random, const SensorMotion& motion, int targets,
   return scan;
 }
 
-/// What no sensor reports across the line of sight is 0.
+/// As reported by a sensor without velocities across the line of sight: they are 0.
 void forget_across(RadarScan& scan) {
   for (std::size_t i = 0; i < scan.count; ++i) {
     scan.detections[i].across_mps = 0.0;
@@ -75,7 +75,7 @@ SensorMotion random_motion(Random& random) {
 
 }  // namespace
 
-TEST_CASE("The yaw rate a sensor is told shows in the velocities across the line of sight") {
+TEST_CASE("The yaw rate sent to a sensor is found from velocities across the line of sight") {
   Random random(1);
   for (int run = 0; run < 200; ++run) {
     const SensorMotion motion = random_motion(random);
@@ -83,12 +83,12 @@ TEST_CASE("The yaw rate a sensor is told shows in the velocities across the line
     CAPTURE(run, targets, motion.yaw_rate_radps);
     const double error_radps =
         reported_yaw_rate_radps(told_scan(random, motion, targets)) - motion.yaw_rate_radps;
-    // The grid leaves 0.07 m/s a target over ranges that spread by 20 m.
+    // The grid gives 0.07 m/s for each target, over ranges that spread by 20 m.
     CHECK(std::abs(error_radps) < 6.0 * 0.1 / (20.0 * std::sqrt(targets)));
   }
 }
 
-TEST_CASE("Targets that move by themselves do not change the yaw rate found") {
+TEST_CASE("Moving targets do not change the estimated yaw rate") {
   Random random(2);
   const SensorMotion motion{{12.0, 0.2}, 0.3};
   RadarScan scan = told_scan(random, motion, 100);
@@ -98,7 +98,7 @@ TEST_CASE("Targets that move by themselves do not change the yaw rate found") {
   CHECK(reported_yaw_rate_radps(scan) == Approx(0.3).margin(0.01));
 }
 
-TEST_CASE("A sensor that is told nothing, or a scan that cannot tell, turns nothing") {
+TEST_CASE("Without a received or observable yaw rate nothing is turned") {
   Random random(3);
   RadarScan scan = told_scan(random, {{12.0, 0.2}, 0.3}, 100);
   forget_across(scan);
@@ -114,7 +114,7 @@ TEST_CASE("A sensor that is told nothing, or a scan that cannot tell, turns noth
   CHECK(reported_yaw_rate_radps(unusable) == 0.0);
 }
 
-TEST_CASE("Turned back, positions and Doppler are those of the stamp") {
+TEST_CASE("Positions and Doppler turned back refer to the stamp") {
   Random random(4);
   for (int run = 0; run < 100; ++run) {
     const SensorMotion motion = random_motion(random);
@@ -127,7 +127,7 @@ TEST_CASE("Turned back, positions and Doppler are those of the stamp") {
     CHECK(at_stamp.doppler_mps ==
           Approx(-motion.velocity_mps.dot(direction(azimuth_rad))).margin(1e-9));
 
-    // Left as reported, Doppler is off by tau w^2 r from what a model at the reported sight says.
+    // As reported, Doppler differs by tau w^2 r from a model at the reported line of sight.
     const double bias_mps =
         reported.doppler_mps + motion.velocity_mps.dot(direction(reported.azimuth_rad));
     const double squared = motion.yaw_rate_radps * motion.yaw_rate_radps;
@@ -135,7 +135,7 @@ TEST_CASE("Turned back, positions and Doppler are those of the stamp") {
   }
 }
 
-TEST_CASE("A target set is of the stamp's time, whether the sensor was told its motion or not") {
+TEST_CASE("A target set refers to the stamp, with and without motion sent to the sensor") {
   Random random(5);
   const bool is_told = GENERATE(true, false);
   const double yaw_rate_radps = GENERATE(-0.5, -0.1, 0.0, 0.2, 0.5);
@@ -159,11 +159,11 @@ TEST_CASE("A target set is of the stamp's time, whether the sensor was told its 
     CHECK(targets[i].bearing_rad == Approx(azimuth_rad).margin(0.01 * kLeadS));
     bias_mps += targets[i].doppler_mps + motion.velocity_mps.dot(direction(azimuth_rad));
   }
-  // Of 80 roundings to 0.25 m/s.
+  // Mean of 80 roundings to 0.25 m/s.
   CHECK(std::abs(bias_mps / static_cast<double>(targets.size())) < 0.04);
 }
 
-TEST_CASE("A velocity that is not finite is not hidden") {
+TEST_CASE("A velocity that is not finite is detected") {
   RadarScan scan;
   scan.count = 1;
   scan.detections[0] = told_detection({{5.0, 0.0}, 0.1}, 10.0, 0.1, 0.0);

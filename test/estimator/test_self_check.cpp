@@ -18,7 +18,7 @@ using simulation::DrawnVehicle;
 
 constexpr double kDurationS = 70.0;
 
-/// A drive of one radar in bends, changed on its way to the check.
+/// A drive of one radar in bends, with motions modified before the check.
 SelfCheck checked(int degrees_of_freedom,
                   const std::function<void(double time_s, EgoMotion& motion)>& alter,
                   double duration_s = kDurationS) {
@@ -34,7 +34,7 @@ SelfCheck checked(int degrees_of_freedom,
   return check;
 }
 
-TEST_CASE("self-check: motions as their covariances say raise no doubt") {
+TEST_CASE("self-check: motions with true covariances raise no doubt") {
   const int degrees_of_freedom = GENERATE(2, 3);
   const SelfCheck check = checked(degrees_of_freedom, [](double, EgoMotion&) {});
   CHECK(check.doubts() == 0);
@@ -44,7 +44,7 @@ TEST_CASE("self-check: motions as their covariances say raise no doubt") {
   CHECK(check.doppler().count() == check.next().count());
 }
 
-TEST_CASE("self-check: each doubt has its cause, and goes when that is over") {
+TEST_CASE("self-check: each doubt begins and ends with its cause") {
   struct Row {
     const char* name;
     std::function<void(EgoMotion&)> alter;
@@ -53,11 +53,11 @@ TEST_CASE("self-check: each doubt has its cause, and goes when that is over") {
   const auto row = GENERATE(
       Row{"positions against Doppler", [](EgoMotion& m) { m.doppler_innovation = 4.0; },
           registration_contradicts_doppler},
-      Row{"just not enough", [](EgoMotion& m) { m.doppler_innovation = 2.9; }, 0},
+      Row{"below the limit", [](EgoMotion& m) { m.doppler_innovation = 2.9; }, 0},
       Row{"jumps",
           [](EgoMotion& m) { m.motion.x() += m.utime_us / 75'000 % 2 == 0 ? 0.08 : -0.08; },
           motions_contradict_each_other},
-      Row{"far too wide",
+      Row{"covariance far too large",
           [](EgoMotion& m) {
             m.doppler_innovation = 0.3;
             m.covariance *= 25.0;
@@ -75,7 +75,7 @@ TEST_CASE("self-check: each doubt has its cause, and goes when that is over") {
   CHECK(past.doubts() == 0);
 }
 
-TEST_CASE("self-check: only estimates of a driving vehicle that join are compared") {
+TEST_CASE("self-check: only successive estimates of a driving vehicle are compared") {
   const auto count_next = [](const std::function<void(EgoMotion&)>& alter) {
     return checked(2, [&](double, EgoMotion& motion) { alter(motion); }).next().count();
   };
@@ -85,7 +85,7 @@ TEST_CASE("self-check: only estimates of a driving vehicle that join are compare
   CHECK(count_next([](EgoMotion& m) { m.utime_start_us += 1; }) == 0);
 }
 
-TEST_CASE("self-check: what was before the clock was set is not compared with what is after") {
+TEST_CASE("self-check: motions before and after the clock was set are not compared") {
   const EgoMotionOptions options = drawn_options(2);
   DrawnVehicle vehicle(simulation::in_bends, drawn_radars(1), options, 3);
   SelfCheck check(options.registration);

@@ -36,8 +36,8 @@ SharedDoppler shared_doppler(const DopplerOptions& doppler, const SharedErrorOpt
   return {degrees_of_freedom, doppler, errors, mount};
 }
 
-/// What the radar sees of static targets while the vehicle moves with `velocity`; each Doppler is
-/// off by `noise_mps` times a number between -1 and 1.
+/// Static targets while the vehicle moves with `velocity`. Each Doppler has an error of `noise_mps`
+/// times a number between -1 and 1.
 TargetSet seen(const Eigen::Vector3d& velocity, const Pose2& mount, int count, double noise_mps,
                std::uint64_t seed, double half_view_rad = radians(50.0)) {
   Random random(seed);
@@ -78,7 +78,7 @@ Solution solve(const SharedDoppler& doppler, const TargetSet& previous, const Ta
   return solution;
 }
 
-TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gives") {
+TEST_CASE("Marginalising the shared errors gives the same as solving for all unknowns") {
   // All seven unknowns at once, by numeric derivatives of the residuals that the header states.
   const SharedErrorOptions errors{0.05, 0.01, 0.0, 0.0, 2.0, 0.5};
   const Eigen::Vector3d motion(0.6, 0.0, 0.01);
@@ -114,7 +114,7 @@ TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gi
       gradient += weight * error_m(target, side, start) * jacobian;
     }
   }
-  // y and yaw are nearly the same to a radar in front: x and yaw alone.
+  // A radar in front cannot separate y from yaw: x and yaw only.
   const std::vector<int> free{0, 2, 3, 4, 5, 6};
   const Eigen::Matrix<double, 6, 6> covariance = information(free, free).inverse();
   const Eigen::Matrix<double, 6, 1> step = -covariance * gradient(free);
@@ -142,16 +142,16 @@ TEST_CASE("The gradient is the derivative of the cost") {
   const Eigen::Vector3d motion(0.62, 0.0, 0.012);
   const Eigen::Vector3d expected = numeric::central_differences(
       motion, 1e-6, [&](const Eigen::Vector3d& at) { return equations_at(at).cost; });
-  // The weight's own dependence on the motion, by the bearing's deviation, is left out.
+  // The gradient neglects the weight's dependence on the motion by the bearing's noise.
   CHECK((equations_at(motion).gradient - expected).norm() < 1e-3 * expected.norm());
 }
 
-TEST_CASE("An offset that all targets share does not average out") {
+TEST_CASE("A common offset of all targets does not average out") {
   SharedErrorOptions errors = no_errors();
   errors.doppler_offset_std_mps = 0.05;
   const SharedDoppler with = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
   const SharedDoppler without = shared_doppler(no_movers(), no_errors(), {3.4, 0.0, 0.0});
-  const double narrow_rad = radians(10.0);  // Wide apart, the targets would tell offset from speed.
+  const double narrow_rad = radians(10.0);  // A wide view would separate offset from speed.
   for (const int count : {10, 50, 250}) {
     CAPTURE(count);
     const TargetSet scan = seen({8.0, 0.0, 0.0}, {3.4, 0.0, 0.0}, count, 0.1, 5, narrow_rad);
@@ -170,8 +170,7 @@ TEST_CASE("While the vehicle stands there is no offset") {
   CHECK(equations.information(0, 0) > 0.9 * 200.0 / std::pow(0.1 * kDt, 2));
 }
 
-TEST_CASE(
-    "An accelerating vehicle: both scans give the mean speed, one gives its own and says so") {
+TEST_CASE("An accelerating vehicle: both scans give the mean speed, one a wider covariance") {
   SharedErrorOptions errors = no_errors();
   errors.acceleration_std_mps2 = 3.0;
   errors.yaw_acceleration_std_radps2 = 0.5;
@@ -198,7 +197,7 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
   SharedErrorOptions errors = no_errors();
   errors.acceleration_std_mps2 = 5.0;
   errors.yaw_acceleration_std_radps2 = 0.5;
-  // Yaw and side are the same to one radar; told the yaw, it finds the side.
+  // One radar cannot separate yaw from y; with the yaw given, it finds y.
   const TargetSet previous = seen({10.0, -1.9, 0.5}, kMount, 60, 0.0, 10);
   const TargetSet current = seen({10.0, -2.1, 0.5}, kMount, 90, 0.0, 11);
   const double turn_rad = 0.5 * kDt;
@@ -218,19 +217,19 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
   CHECK((at.motion - expected).norm() < 5e-4);
 }
 
-TEST_CASE("A vehicle rolls as far as its motion is beyond noise") {
+TEST_CASE("The driving share is the speed beyond noise") {
   const Eigen::Vector3d forward(0.01, 0.0, 0.0);
-  CHECK(rolling_part(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
-  CHECK(rolling_part(forward, 0.02, 0.1) == 0.0);
-  CHECK(rolling_part(forward, 0.0, 0.1) == Approx(0.1));
-  CHECK(rolling_part(-forward, 0.005, 0.1) == Approx(0.05));
-  CHECK(rolling_part(100.0 * forward, 0.005, 0.1) == 1.0);
+  CHECK(driving_share(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
+  CHECK(driving_share(forward, 0.02, 0.1) == 0.0);
+  CHECK(driving_share(forward, 0.0, 0.1) == Approx(0.1));
+  CHECK(driving_share(-forward, 0.005, 0.1) == Approx(0.05));
+  CHECK(driving_share(100.0 * forward, 0.005, 0.1) == 1.0);
 }
 
-TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
+TEST_CASE("A small yaw error of the mount biases yaw within its covariance") {
   SharedErrorOptions errors = no_errors();
   errors.mount_yaw_std_rad = 0.01;
-  const Pose2 believed{3.4, 0.0, 0.0};
+  const Pose2 configured{3.4, 0.0, 0.0};
   const Pose2 true_mount{3.4, 0.0, 0.01};
   TargetSet scan;
   Random random(9);
@@ -242,10 +241,10 @@ TEST_CASE("A mount that is turned a little costs yaw, not confidence") {
     detection.range_std_m = 0.2;
     detection.azimuth_std_rad = 1e-4;
     detection.doppler_std_mps = 0.1;
-    scan.add(detection, believed);
+    scan.add(detection, configured);
   }
-  const SharedDoppler naive = shared_doppler(no_movers(), no_errors(), believed);
-  const SharedDoppler aware = shared_doppler(no_movers(), errors, believed);
+  const SharedDoppler naive = shared_doppler(no_movers(), no_errors(), configured);
+  const SharedDoppler aware = shared_doppler(no_movers(), errors, configured);
   const Solution wrong = solve(naive, scan, scan);
   const Solution right = solve(aware, scan, scan);
   CHECK(std::abs(wrong.motion.z()) > 5.0 * std::sqrt(wrong.covariance(2, 2)));

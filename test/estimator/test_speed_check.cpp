@@ -18,17 +18,17 @@ namespace {
 constexpr double kPeriodS = 0.075;
 constexpr double kWorldM = 400.0;
 
-/// A radar in front of a car that drives on a circle among things that stand.
+/// A front radar of a car that drives on a circle among static objects.
 struct CircleDrive {
   double speed_mps = 10.0;
   double yaw_rate_radps = 0.0;
-  double doppler_factor = 1.0;  ///< What is reported of it: 0 if stuck.
-  double pace = 1.0;            ///< Of the stamps.
-  int things = 2000;            ///< On kWorldM x kWorldM.
-  double kept = 0.8;            ///< Share that is seen in a scan.
+  double doppler_factor = 1.0;  ///< Factor on Doppler: 0 if stuck.
+  double pace = 1.0;            ///< Rate of the stamps over time.
+  int things = 2000;            ///< Objects on kWorldM x kWorldM.
+  double kept = 0.8;            ///< Share of objects seen in a scan.
 };
 
-/// A check after some seconds of it.
+/// The check after some seconds of the drive.
 class CheckedDrive {
  public:
   void go_on(const CircleDrive& drive, double duration_s) {
@@ -57,7 +57,7 @@ class CheckedDrive {
     return result;
   }
 
-  /// The world begins again where it ends.
+  /// The world is periodic.
   static Eigen::Vector2d wrapped(const Eigen::Vector2d& way) {
     return {std::remainder(way.x(), kWorldM), std::remainder(way.y(), kWorldM)};
   }
@@ -93,7 +93,7 @@ class CheckedDrive {
 
 }  // namespace
 
-TEST_CASE("Speed check: what is true is checked and not doubted, at any speed") {
+TEST_CASE("Speed check: correct data are checked and raise no doubt at any speed") {
   const double speed_mps = GENERATE(-5.0, 0.0, 1.0, 5.0, 12.0, 25.0, 35.0);
   const double yaw_rate_radps = GENERATE(-0.3, 0.0, 0.15);
   CAPTURE(speed_mps, yaw_rate_radps);
@@ -105,7 +105,7 @@ TEST_CASE("Speed check: what is true is checked and not doubted, at any speed") 
   CHECK(drive.check.is_checked());
 }
 
-TEST_CASE("Speed check: Doppler that is stuck shows within 1.5 s of driving, and its end too") {
+TEST_CASE("Speed check: stuck Doppler and its end are detected within 1.5 s of driving") {
   const double speed_mps = GENERATE(-5.0, 4.0, 10.0, 25.0);
   const double yaw_rate_radps = GENERATE(-0.3, 0.0, 0.15);
   CAPTURE(speed_mps, yaw_rate_radps);
@@ -120,7 +120,7 @@ TEST_CASE("Speed check: Doppler that is stuck shows within 1.5 s of driving, and
   CHECK_FALSE(drive.check.is_contradicted());
 }
 
-TEST_CASE("Speed check: stamps at half or twice the pace of time show within 2 s") {
+TEST_CASE("Speed check: stamps at half or twice the rate of time are detected within 2 s") {
   const double pace = GENERATE(0.5, 2.0);
   const double speed_mps = GENERATE(5.0, 12.0);
   CAPTURE(pace, speed_mps);
@@ -129,7 +129,7 @@ TEST_CASE("Speed check: stamps at half or twice the pace of time show within 2 s
   CHECK(drive.check.is_contradicted());
 }
 
-TEST_CASE("Speed check: where nothing is found again, nothing is checked, and nothing doubted") {
+TEST_CASE("Speed check: without matches there is no verdict and no doubt") {
   const auto drive =
       GENERATE(CircleDrive{.things = 0}, CircleDrive{.things = 60}, CircleDrive{.kept = 0.02});
   CheckedDrive checked;
@@ -138,7 +138,7 @@ TEST_CASE("Speed check: where nothing is found again, nothing is checked, and no
   CHECK_FALSE(checked.check.is_checked());
 }
 
-TEST_CASE("Speed check: a silence, stamps that go back and a clock that is set are no speed") {
+TEST_CASE("Speed check: pauses, stamps that go back and a set clock give no verdict") {
   CheckedDrive drive;
   drive.go_on({}, 3.0);
   drive.go_on({.pace = 40.0}, 0.3);

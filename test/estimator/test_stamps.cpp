@@ -8,7 +8,7 @@
 
 using namespace cremed;
 
-TEST_CASE("the next multiple of a period comes after the stamp, rounded up, and none is left out") {
+TEST_CASE("the next multiple of a period is after the stamp, rounded up, and none is skipped") {
   CHECK(next_multiple_us(0, 50) == 20'000);
   CHECK(next_multiple_us(19'999, 50) == 20'000);
   CHECK(next_multiple_us(20'000, 50) == 40'000);

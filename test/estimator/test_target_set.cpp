@@ -70,14 +70,14 @@ TEST_CASE("a detection becomes a point in the vehicle frame") {
   }
 }
 
-TEST_CASE("Doppler and the standard deviations of the line of sight are those of the radar") {
+TEST_CASE("a target has the Doppler and the line-of-sight noise of its detection") {
   const Target target = simulation::targets({usable_detection()}, {3.0, 0.5, 1.0})[0];
   CHECK(target.doppler_mps == -3.0);
   CHECK(target.doppler_std_mps == 0.1);
   CHECK(target.bearing_std_rad == 0.01);
 }
 
-TEST_CASE("the covariance is the first-order one of polar noise, whatever the mount") {
+TEST_CASE("the covariance is that of polar noise to first order, for every mount") {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const Pose2 mount = random_mount(random);
@@ -96,7 +96,7 @@ TEST_CASE("the covariance is the first-order one of polar noise, whatever the mo
   }
 }
 
-TEST_CASE("the covariance is the one a sample of noisy detections has") {
+TEST_CASE("the covariance is that of a sample of noisy detections") {
   constexpr int kSamples = 40000;
   Random random(2);
   const Pose2 mount{1.0, -0.5, 2.0};
@@ -122,7 +122,7 @@ TEST_CASE("the covariance is the one a sample of noisy detections has") {
   CHECK(std::abs(sample(0, 1) - c.xy) < 4.0 * std::sqrt(c.xx * c.yy + c.xy * c.xy) / root);
 }
 
-TEST_CASE("each detection left out is counted under its reason") {
+TEST_CASE("each rejected detection is counted under its reason") {
   struct Row {
     std::string what;
     void (*change)(Detection&);
@@ -187,7 +187,7 @@ TEST_CASE("assigning a scan replaces the targets and adds to the counters") {
   CHECK(set.begin() == set.end());
 }
 
-TEST_CASE("targets are corrected as they are taken") {
+TEST_CASE("assigning corrects the targets") {
   TargetSet set;
   SelectionCounters counters;
   const DetectionCorrection correction{.doppler_offset_mps = 0.5,
@@ -204,7 +204,7 @@ TEST_CASE("targets are corrected as they are taken") {
   CHECK(set[0].covariance_m2.yy == Approx(0.09));
 }
 
-TEST_CASE("a full set ignores what is added") {
+TEST_CASE("a full set ignores further targets") {
   TargetSet set;
   for (std::size_t i = 0; i < kMaxDetections; ++i) {
     set.add(usable_detection(1.0 + static_cast<double>(i), 0.0), {});
@@ -215,7 +215,7 @@ TEST_CASE("a full set ignores what is added") {
   CHECK(set[kMaxDetections - 1].x_m == Approx(256.0));
 }
 
-TEST_CASE("a count beyond the detections of a scan is not believed") {
+TEST_CASE("a count beyond the capacity of a scan is limited") {
   RadarScan scan;
   scan.detections.fill(usable_detection());
   scan.count = 65535;
@@ -231,7 +231,7 @@ constexpr std::array kMeasurements = {&Detection::range_m, &Detection::azimuth_r
 constexpr std::array kDeviations = {&Detection::range_std_m, &Detection::azimuth_std_rad,
                                     &Detection::doppler_std_mps};
 
-/// Is a set finite, of which one target in the middle has `field` = value?
+/// Whether a set is finite in which one target has `field` = value.
 bool is_finite_with(double Detection::*field, double value, double azimuth_rad = 0.3) {
   Detection changed = usable_detection(20.0, azimuth_rad);
   changed.*field = value;
@@ -239,7 +239,7 @@ bool is_finite_with(double Detection::*field, double value, double azimuth_rad =
       .is_finite();
 }
 
-TEST_CASE("is_finite finds a number that is none in every field") {
+TEST_CASE("is_finite detects NaN and infinity in every field") {
   CHECK(TargetSet().is_finite());
   CHECK(is_finite_with(&Detection::range_m, 21.0));
   for (const double value : {kNan, kInfinity, -kInfinity}) {
@@ -252,17 +252,17 @@ TEST_CASE("is_finite finds a number that is none in every field") {
   }
 }
 
-TEST_CASE("is_finite finds a Doppler deviation that is not greater than zero") {
+TEST_CASE("is_finite detects a Doppler deviation that is not greater than zero") {
   CHECK_FALSE(is_finite_with(&Detection::doppler_std_mps, 0.0));
   CHECK_FALSE(is_finite_with(&Detection::doppler_std_mps, -0.1));
 }
 
-TEST_CASE("is_finite finds a covariance without extent across or along the axis") {
+TEST_CASE("is_finite detects a singular covariance along or across the axis") {
   CHECK_FALSE(is_finite_with(&Detection::range_std_m, 0.0, -0.1));  // bearing 0 in that mount
   CHECK_FALSE(is_finite_with(&Detection::azimuth_std_rad, 0.0, -0.1));
 }
 
-TEST_CASE("is_finite finds a range or azimuth deviation that is not greater than zero") {
+TEST_CASE("is_finite detects a range or azimuth deviation that is not greater than zero") {
   int missed = 0;
   for (int i = -30; i <= 30; ++i) {
     const double azimuth_rad = 0.1 * i;

@@ -23,7 +23,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// One radar, two worlds: each sees its own of two drives.
+/// One radar that sees the targets of two drives.
 RadarScan both(RadarScan scan, const RadarScan& other) {
   for (std::size_t i = 0; i < other.count; ++i) {
     scan.detections[scan.count++] = other.detections[i];
@@ -31,17 +31,17 @@ RadarScan both(RadarScan scan, const RadarScan& other) {
   return scan;
 }
 
-TEST_CASE("two worlds are ambiguous, until one is gone or if the last motion tells") {
+TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion decides") {
   struct Row {
     std::string what;
     Eigen::Vector3d road;
-    int scans_before;  // of the road alone
+    int scans_before;  // of the road only
     MotionStatus status;
   };
   const std::vector<Row> rows = {
       {"from the start", {8.0, 0.0, 0.0}, 0, MotionStatus::ambiguous},
-      {"the last motion tells", {8.0, 0.0, 0.0}, 2, MotionStatus::ok},
-      {"near each other, it does not", {0.8, 0.0, 0.0}, 2, MotionStatus::ambiguous},
+      {"the last motion decides", {8.0, 0.0, 0.0}, 2, MotionStatus::ok},
+      {"similar speeds, it does not", {0.8, 0.0, 0.0}, 2, MotionStatus::ambiguous},
   };
   for (const Row& row : rows) {
     CAPTURE(row.what);

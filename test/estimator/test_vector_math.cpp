@@ -66,7 +66,7 @@ TEST_CASE("the inverse root is exact to two units in the last place") {
   }
 }
 
-TEST_CASE("reducing meets every lane of every vector") {
+TEST_CASE("reducing combines every lane of every vector") {
   for (std::size_t lane = 0; lane < 8; ++lane) {
     std::array<Double, 4> v{both(3.0), both(3.0), both(3.0), both(3.0)};
     v[lane / 2][lane % 2] = 1.0;

@@ -11,12 +11,12 @@ namespace {
 
 using namespace state_layout;
 
-/// Above it a scan's Doppler is not gated but gives the speed: max_doppler_nis would let pass 4 m/s
-/// and more, which other cars differ from us by.
+/// Above this sigma a scan's Doppler sets the speed without a gate: max_doppler_nis would accept
+/// errors of 4 m/s and more, a usual speed of other cars relative to the vehicle.
 constexpr double kUnknownSpeedStdMps = 1.0;
-/// Longer than kVerdictS: no doubt yet.
+/// Longer than kScanVerdictValidS: no scan in doubt yet.
 constexpr std::int64_t kLongAgoUs = 1'000'000;
-/// Of a yaw rate that is taken for zero: chance exceeds it once in 370.
+/// Bound of a yaw rate that counts as zero. False-alarm rate: 1 in 370.
 constexpr double kStandstillSigmas = 3.0;
 
 bool stands(const Odometry& odometry, double standstill_mps) {
@@ -61,7 +61,7 @@ OdometryStatus FilterCondition::status(const Odometry& odometry) const {
   const OdometryOptions& options = state_.options();
   const double unused_s = seconds_between(used_us_, odometry.utime_us);
   const bool is_predicted = unused_s > options.predicted_s;
-  const bool is_doubtful = seconds_between(doubt_us_, odometry.utime_us) <= kVerdictS;
+  const bool is_doubtful = seconds_between(doubt_us_, odometry.utime_us) <= kScanVerdictValidS;
   if (is_doubtful && (!is_settled_ || is_predicted)) {
     return OdometryStatus::ambiguous;
   }

@@ -10,28 +10,28 @@
 
 namespace cremed {
 
-/// What the filter's output is worth: how much of its state rests on measurements, and how recent
-/// they are.
+/// Validity of the filter's output: how well the state is observed, and how recent its measurements
+/// are.
 class FilterCondition {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this object.
   FilterCondition(const OdometryState& state, const RadarConsensus& consensus)
       : state_(state), consensus_(consensus) {}
 
   void start();
-  /// A scan's Doppler was used; `is_clear`: most of its targets are at rest.
+  /// Records that a scan's Doppler was used. `is_clear`: most of its targets are static.
   void use_scan(bool is_clear);
-  /// A scan showed two worlds (TwoWorlds).
+  /// Records a scan that showed two worlds (TwoWorlds).
   void doubt() { doubt_us_ = state_.time_us(); }
 
   [[nodiscard]] bool has_used_scans() const { return used_scans_ > 0; }
   [[nodiscard]] std::int64_t used_us() const { return used_us_; }
-  /// The start is over: the prior no longer shows.
+  /// The start is over: the state no longer depends on the prior.
   [[nodiscard]] bool is_settled() const { return is_settled_; }
-  /// The speed is so uncertain that a gate on Doppler would pass any.
+  /// The speed is so uncertain that the gate on Doppler would accept wrong speeds.
   [[nodiscard]] bool is_speed_unknown() const;
   [[nodiscard]] bool is_lost() const;
-  /// By the definitions of OdometryStatus.
+  /// As defined by OdometryStatus.
   [[nodiscard]] OdometryStatus status(const Odometry& odometry) const;
 
  private:
@@ -42,7 +42,7 @@ class FilterCondition {
   bool is_settled_ = false;
   int used_scans_ = 0;
   std::int64_t used_us_ = 0;   // Last scan used.
-  std::int64_t clear_us_ = 0;  // Last one that was clear.
+  std::int64_t clear_us_ = 0;  // Last clear scan used.
   std::int64_t doubt_us_ = 0;  // Last scan that showed two worlds.
 };
 

@@ -37,7 +37,7 @@ Eigen::Vector2d JointVelocity::value() const { return information_.inverse() * w
 Eigen::Matrix2d JointVelocity::covariance() const { return information_.inverse(); }
 
 double JointVelocity::disagreement() const {
-  // Two numbers a radar and one known before, two unknowns.
+  // Two measurements for each radar and one prior, less two unknowns.
   const double freedom = 2.0 * radars_ - 1.0;
   return std::max(squares_ - weighted_.dot(value()), 0.0) / freedom;
 }

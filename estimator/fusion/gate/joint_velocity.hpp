@@ -10,9 +10,9 @@
 
 namespace cremed {
 
-/// Speed and yaw rate that the velocities of several radars, mounted at (l_x, l_y), have in common:
-/// least squares of V_x = v - w l_y, V_y = w l_x, with the errors of mounts and what a vehicle may
-/// change between their scans in the noise.
+/// Joint speed v and yaw rate w of several radars mounted at (l_x, l_y): least squares of V_x = v -
+/// w l_y, V_y = w l_x. The noise includes errors of mounts and the vehicle's acceleration between
+/// the scans.
 class JointVelocity {
  public:
   explicit JointVelocity(const OdometryOptions& options);
@@ -22,7 +22,8 @@ class JointVelocity {
   /// (v, w)
   [[nodiscard]] Eigen::Vector2d value() const;
   [[nodiscard]] Eigen::Matrix2d covariance() const;
-  /// Squared residuals, a degree of freedom: 1 if all see the same motion.
+  /// Squared normalised residuals per degree of freedom: 1 on average if all radars see the same
+  /// motion.
   [[nodiscard]] double disagreement() const;
   [[nodiscard]] int radars() const { return radars_; }
 

@@ -9,10 +9,10 @@
 namespace cremed {
 namespace {
 
-/// Of a slow radar: how long a contradiction may have lasted.
+/// Scan period of a slow radar: bounds the duration of a contradiction.
 constexpr double kScanPeriodS = 0.1;
-/// Radars agree on a velocity up to this mean square, in standard deviations: two that do exceed it
-/// once in 135 (chi^2 of three degrees of freedom above 12), more of them less often.
+/// Bound of the disagreement of radars that agree on a velocity. False-alarm rate with two radars:
+/// 1 in 135 (chi-square of three degrees of freedom above 12); lower with more.
 constexpr double kMaxDisagreement = 4.0;
 
 }  // namespace

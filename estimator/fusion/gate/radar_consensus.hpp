@@ -13,25 +13,27 @@
 
 namespace cremed {
 
-/// Which radars agree with the filter, by their last scans, and which contradict it: a majority of
-/// radars that contradict it and agree with each other shows that the filter is wrong.
+/// Majority vote of the radars: which of them agree with the filter by their last scans, and which
+/// contradict it. If a majority contradicts the filter and agrees with each other, the filter is
+/// wrong.
 class RadarConsensus {
  public:
-  /// Options and mounts are those of the state, which must outlive this.
+  /// Uses options and mounts of `state`, which must outlive this object.
   explicit RadarConsensus(const OdometryState& state);
 
   void clear();
   [[nodiscard]] RadarTrust& operator[](std::size_t radar) { return trusts_[radar]; }
   [[nodiscard]] const RadarTrust& operator[](std::size_t radar) const { return trusts_[radar]; }
 
-  // Radars that are believed, by their scans of the last 0.3 s.
+  // Numbers of trusted radars, by their scans of the last 0.3 s.
   [[nodiscard]] int agreeing(std::int64_t time_us) const { return count(time_us, true); }
   [[nodiscard]] int contradicting(std::int64_t time_us) const { return count(time_us, false); }
-  /// Velocity of those that contradict, if they are the majority, two or more, and agree.
+  /// Joint velocity of the contradicting radars, if they are two or more, the majority, and agree
+  /// with each other.
   [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
-  /// For how long a radar has contradicted, at most.
+  /// Longest time for which a radar has contradicted.
   [[nodiscard]] double longest_contradiction_s() const;
-  /// Radars as a bit set.
+  /// Left-out radars as a bit set.
   [[nodiscard]] std::uint32_t left_out() const;
 
  private:

@@ -11,13 +11,13 @@ namespace cremed {
 
 void NoiseFactor::add(double innovation) {
   constexpr double kRate = 0.05;          // One over 20 measurements.
-  constexpr double kMaxInnovation = 4.0;  // Of a true covariance 2 % are larger (exp(-4)).
+  constexpr double kMaxInnovation = 4.0;  // Exceeded by 2 % with a true covariance (exp(-4)).
   const double excess = std::min(innovation, kMaxInnovation) - 1.0;
   value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMaxFactor);
 }
 
 bool RadarTrust::votes(std::int64_t time_us) const {
-  return has_verdict && is_believed && seconds_between(verdict_us, time_us) <= kVerdictS;
+  return has_verdict && is_trusted && seconds_between(verdict_us, time_us) <= kScanVerdictValidS;
 }
 
 void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {

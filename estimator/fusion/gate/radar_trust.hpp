@@ -9,54 +9,55 @@
 
 namespace cremed {
 
-/// Factor on the covariance of a radar's measurements that keeps its time-averaged NIS from
-/// exceeding 1: errors nobody stated, as where few targets are seen. It follows within some 20
+/// Factor on the covariance of a radar's measurements that keeps its time-averaged NIS at 1 or
+/// below. It accounts for unmodelled errors, for example with few targets. Its time constant is 20
 /// measurements.
 class NoiseFactor {
  public:
   [[nodiscard]] double value() const { return value_; }
-  /// `innovation`: normalised, squared, a degree of freedom, with the factor applied.
+  /// `innovation`: NIS per degree of freedom, with the factor applied.
   void add(double innovation);
   void clear() { value_ = 1.0; }
 
  private:
-  /// Five times the stated deviations: beyond, a radar is left out rather than widened.
+  /// Five times the stated standard deviations. Beyond, a radar is left out.
   static constexpr double kMaxFactor = 25.0;
 
   double value_ = 1.0;
 };
 
-/// How long the verdict on a radar's scan, or a doubt, counts: four scans of an ARS408, in which a
-/// braking vehicle changes its speed by 3 m/s.
-inline constexpr double kVerdictS = 0.3;
+/// Time for which the verdict on a radar's scan, or a doubt, is valid: four scans of an ARS408, in
+/// which a braking vehicle changes its speed by 3 m/s.
+inline constexpr double kScanVerdictValidS = 0.3;
 
-/// How far a radar is believed.
+/// How much a radar is trusted.
 struct RadarTrust {
-  /// Scans in succession, of which those that agree are taken off again, until it is left out: 0.4
-  /// s of an ARS408. By chance a scan contradicts once in 3000 (max_doppler_nis).
+  /// Contradicting minus agreeing scans at which a radar is left out: 0.4 s of an ARS408.
+  /// False-alarm rate of a scan: 1 in 3000 (max_doppler_nis).
   static constexpr int kMaxContradictions = 5;
 
-  InnovationMean doppler;  ///< Of the last minute.
+  InnovationMean doppler;  ///< NIS of the last minute.
   InnovationMean lateral;
   InnovationMean yaw;
   NoiseFactor doppler_noise;
   NoiseFactor position_noise;
   int contradictions = 0;
   bool is_left_out = false;
-  bool is_believed = true;  ///< By its self-check: it has a say.
+  bool is_trusted = true;  ///< By its self-check: it may vote.
   // Its last scan:
   bool has_verdict = false;
   bool agrees = false;
   std::int64_t verdict_us = 0;
   DopplerVelocity velocity;
 
-  /// Whether its last scan counts: of a radar that is believed, not longer ago than kVerdictS.
+  /// Whether its last scan counts: the radar is trusted and the scan not older than
+  /// kScanVerdictValidS.
   [[nodiscard]] bool votes(std::int64_t time_us) const;
-  /// Whether its last scan did, however long ago.
+  /// Whether its last scan agreed, at any age.
   [[nodiscard]] bool has_agreed() const { return has_verdict && agrees; }
-  /// Whether a scan's velocity is where the filter expects it.
+  /// Records whether a scan's velocity is as the filter expects.
   void judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected);
-  /// What it contradicted was wrong.
+  /// Clears its contradictions: the filter was wrong.
   void forgive();
 };
 

@@ -20,7 +20,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const double dt_s = -std::max(age_s, 0.0);
   const double v = x.mean(kSpeed) + dt_s * x.mean(kAcceleration);
   const double w = x.mean(kYawRate) + dt_s * x.mean(kYawAcceleration);
-  const double driving = std::min(1.0, std::abs(v) / kRollingMps);
+  const double driving = std::min(1.0, std::abs(v) / kDrivingMps);
   const double body = driving * std::exp(dt_s / options.body_velocity.time_s);
   const double lever_x = state.mount(radar).x_m + at(kLeverX);
   const double lever_y = state.mount(radar).y_m + at(kLeverY);
@@ -62,7 +62,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
 void DopplerMeasurement::add_lateness(LinearMeasurement& measurement) const {
   const OdometryOptions& options = state.options();
   const double late_s = std::max(age_s, 0.0);
-  const auto rate_variance = [late_s](const ForgettingNoise& noise) {
+  const auto rate_variance = [late_s](const OrnsteinUhlenbeck& noise) {
     return 2.0 * noise.std * noise.std / noise.time_s * late_s * late_s * late_s / 3.0;
   };
   const Eigen::Vector2d lever(-state.mount(radar).y_m, state.mount(radar).x_m);

@@ -11,16 +11,16 @@
 namespace cremed {
 
 /// The velocity of a radar, mounted at (l_x, l_y), by the Doppler of a scan that is `age_s` older
-/// than the state (<= 0: of its time); (10) of the README:
+/// than the state (<= 0: at its time); (10) of the README:
 ///
 ///     v = v - a age,   w = w - c age,   V_x = v + m - w (l_y + e_y)
 ///     z_x = V_x (1 + b + b_c) + u_x + k_x (o + o_c)
 ///     z_y = s v + w (l_x + e_x) - d V_x + u_y + k_y (o + o_c)
 ///
-/// d mount yaw, e lever arm, b Doppler scale (b_c of all radars), u errors of the velocity, o of
-/// all Doppler (o_c of all radars), k DopplerVelocity::per_offset. m, u, o are those of a vehicle
-/// that drives: times min(1, |v| / kRollingMps), held fixed in derivatives. d V_y is left out of
-/// z_x: it is small, but through it the smallest disagreement in x would turn the slip.
+/// d mount yaw, e lever arm, b Doppler scale (b_c common to all radars), u errors of the velocity,
+/// o offset of all Doppler (o_c common to all radars), k DopplerVelocity::per_offset. m, u, o
+/// vanish at rest: they are multiplied by min(1, |v| / kDrivingMps), held fixed in derivatives. d
+/// V_y is left out of z_x: it is small, but would couple small errors in x to the slip.
 struct DopplerMeasurement {
   const OdometryState& state;
   std::size_t radar;
@@ -29,7 +29,7 @@ struct DopplerMeasurement {
   [[nodiscard]] LinearMeasurement linearise(const DopplerVelocity& velocity) const;
 
  private:
-  /// What the vehicle may have done since the scan.
+  /// Adds the process noise since the scan.
   void add_lateness(LinearMeasurement& measurement) const;
 };
 

@@ -11,22 +11,21 @@
 
 namespace cremed {
 
-/// y and yaw of the motion that a radar's registration finds between a keyframe and its current
-/// scan. With (dx, dy, dpsi) the pose of the scan's clone in the frame of the keyframe's; (11) of
-/// the README:
+/// y and yaw of the registered motion between a keyframe and the current scan of a radar, with (dx,
+/// dy, dpsi) the pose of the scan's clone in the frame of the keyframe's clone; (11) of the README:
 ///
 ///     z_y = dy - d (dx - dpsi l_y) + q dx
 ///     z_psi = dpsi (1 + g + g_c) + r dx
 ///
-/// d mount yaw, q lateral error over distance, g scale of yaw (g_c of all radars), r error of yaw
-/// over distance. x is left to the Doppler, which measures it far better.
+/// d mount yaw, q lateral error over distance, g scale of yaw (g_c common to all radars), r error
+/// of yaw over distance. x is not used, because Doppler measures it far better.
 struct PositionMeasurement {
   const OdometryState& state;
   std::size_t radar;
   std::size_t keyframe;
 
   [[nodiscard]] LinearMeasurement linearise(const Eigen::Vector3d& motion) const;
-  /// The motion (x, y, yaw) that a registration is expected to find, if the scan is at `scan_pose`.
+  /// The expected result (x, y, yaw) of a registration, if the scan is at `scan_pose`.
   [[nodiscard]] Eigen::Vector3d expected_motion(const Eigen::Vector3d& scan_pose) const;
 
  private:

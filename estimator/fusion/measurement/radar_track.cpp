@@ -11,25 +11,25 @@
 namespace cremed {
 namespace {
 
-/// Of a scan until its radar's first registration: 0.1 m, 0.005 rad.
-const Eigen::Vector3d kScanVariance(0.1 * 0.1, 0.1 * 0.1, 0.005 * 0.005);
+/// Initial scan_covariance(), before the first registration: 0.1 m, 0.005 rad.
+const Eigen::Vector3d kInitialScanVariance(0.1 * 0.1, 0.1 * 0.1, 0.005 * 0.005);
 
-/// Doppler residuals are learned over so many targets, five to ten scans; one scan counts for a
-/// tenth at most.
+/// Number of targets over which residuals are averaged, five to ten scans, and the largest weight
+/// of one scan.
 constexpr double kLearningTargets = 500.0;
 constexpr double kMaxLearningShare = 0.1;
-/// Bounds of what is learned: the grid of an ARS408 alone makes it 0.25 / sqrt(12) = 0.07 m/s;
-/// above 0.6 m/s Tukey's weights reach over 2.8 m/s and no longer tell movers.
+/// Bounds of the adapted value. The grid of an ARS408 alone gives 0.25 / sqrt(12) = 0.07 m/s; above
+/// 0.6 m/s Tukey's weights extend beyond 2.8 m/s and no longer reject moving targets.
 constexpr double kMinDopplerStdMps = 0.05;
 constexpr double kMaxDopplerStdMps = 0.6;
 
-/// A registration that needs more steps from a prediction does not know where to go: on a real
-/// drive with turns (nuScenes 0061) those that took longer doubled the error of yaw.
+/// A registration that needs more steps from a prediction is unreliable: using such registrations
+/// doubled the yaw error on a real drive with turns (nuScenes 0061).
 constexpr int kMaxIterations = 5;
 constexpr double kStepTolerance = 1e-3;  // 3 % of a standard deviation.
 
-/// Of positions against a prediction: no coarse stage, no search from elsewhere, no Doppler, and
-/// no errors but the targets' own: the filter has states for the others.
+/// Options for positions with a predicted start: no first stage, no restarts, no Doppler, and no
+/// systematic errors, for which the filter has states.
 RegistrationOptions positions_only(RegistrationOptions options) {
   options.degrees_of_freedom = 3;
   options.start_scale = 1.0;
@@ -60,7 +60,7 @@ void RadarTrack::clear() {
   }
   has_stamp_ = false;
   doppler_std_mps_ = options_.doppler_std_mps;
-  scan_covariance_ = kScanVariance.asDiagonal();
+  scan_covariance_ = kInitialScanVariance.asDiagonal();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {

@@ -17,19 +17,20 @@
 
 namespace cremed {
 
-/// The velocity that a scan's Doppler tells.
+/// The sensor's velocity by a scan's Doppler.
 struct ScanVelocity {
   DopplerVelocity velocity;
-  /// More than half of the targets stand still then. Otherwise what moves along may be the world.
+  /// More than half of the targets are static at this velocity. Otherwise the targets that agree
+  /// may be moving.
   bool is_clear = false;
 };
 
-/// What the odometry filter keeps of one radar besides its states.
+/// Data of one radar in the odometry filter, besides its states.
 class RadarTrack {
  public:
   struct Keyframe {
     bool is_set = false;
-    int lag = 0;  ///< Scans since.
+    int lag = 0;  ///< Scans since it was set.
     TargetSet targets;
   };
   /// A scan registered against a keyframe.
@@ -45,23 +46,24 @@ class RadarTrack {
   [[nodiscard]] const Pose2& mount() const { return mount_; }
   void clear();
 
-  /// Begins a scan; returns the time since the one before, 0 without.
+  /// Begins a scan; returns the time since the previous one, or 0.
   double begin(std::int64_t stamp_us);
   [[nodiscard]] bool is_in_order(std::int64_t stamp_us) const {
     return !has_stamp_ || stamp_us > stamp_us_;
   }
 
-  /// `expected`: velocity of the sensor; none if it is not known. Learns how large residuals are.
+  /// `expected`: velocity of the sensor, if known. Adapts the standard deviation of Doppler to the
+  /// residuals.
   std::optional<ScanVelocity> velocity(const TargetSet& targets,
                                        const std::optional<Eigen::Vector2d>& expected);
 
   [[nodiscard]] bool can_match(std::size_t keyframe, const TargetSet& targets) const;
-  /// Registers the scan against a keyframe, positions only. Learns the covariance of a scan.
+  /// Registers the scan against a keyframe by positions only. Sets scan_covariance().
   std::optional<Pair> match(std::size_t keyframe, const TargetSet& targets,
                             const Eigen::Vector3d& expected);
   [[nodiscard]] const Eigen::Matrix3d& scan_covariance() const { return scan_covariance_; }
 
-  /// Makes the scan a keyframe in place of the oldest if it is time for one; which.
+  /// Replaces the oldest keyframe by the scan if a keyframe is due; returns its index.
   std::optional<std::size_t> keep(const TargetSet& targets);
 
  private:

@@ -7,10 +7,10 @@
 
 namespace cremed {
 
-/// The motion since the output before, in the form of one radar's: an estimate where the odometry
-/// is ok or standing_still. Otherwise initialising is told as no_reference, predicted and lost as
-/// gap_too_long, ambiguous as itself. standing_still is ok if the mean speed was above
-/// `standstill_mps`: it came to a stop. `targets`: in the scan that it ends with.
+/// The motion since the previous output as an EgoMotion: an estimate if the odometry is ok or
+/// standing_still. initialising becomes no_reference, predicted and lost become gap_too_long, and
+/// ambiguous is kept. standing_still becomes ok if the mean speed was above `standstill_mps` (the
+/// vehicle stopped). `targets`: number in the scan at its end.
 EgoMotion fused_motion(const Odometry& odometry, std::size_t targets, double standstill_mps);
 
 }  // namespace cremed

@@ -11,10 +11,11 @@
 namespace cremed {
 namespace {
 
-constexpr double kSigmas = 5.0;   // By chance once in two million motions.
-constexpr double kMaxAgeS = 0.3;  // 3 m/s of braking: less tells one car from the next.
+constexpr double kMaxSigmas = 5.0;  // False-alarm rate: 1 in two million.
+constexpr double kMaxAgeS = 0.3;    // Braking changes the speed by up to 3 m/s.
 
-/// Mean time between a moment and those of an interval whose middle is `distance_s` from it.
+/// Mean time between a point in time and an interval of length `span_s` whose middle is
+/// `distance_s` away.
 double mean_distance_s(double distance_s, double span_s) {
   const double half_s = 0.5 * span_s;
   return distance_s >= half_s ? distance_s
@@ -34,16 +35,16 @@ bool contradicts(const Odometry& known, const EgoMotion& motion) {
     const double variance =
         motion.covariance(axis, axis) / (span_s * span_s) + known.twist_covariance(axis, axis);
     return std::abs(motion.motion(axis) / span_s - known.twist(axis)) >
-           possible_change * time_s + kSigmas * std::sqrt(variance);
+           possible_change * time_s + kMaxSigmas * std::sqrt(variance);
   };
   return differs(0, kMaxAccelerationMps2) || differs(2, kMaxYawAccelerationRadps2);
 }
 
 EgoMotion withdrawn(EgoMotion motion) {
   motion.status = MotionStatus::ambiguous;
-  motion.motion.setConstant(EgoMotion::kNothing);
-  motion.covariance.setConstant(EgoMotion::kNothing);
-  motion.doppler_innovation = EgoMotion::kNothing;
+  motion.motion.setConstant(EgoMotion::kNan);
+  motion.covariance.setConstant(EgoMotion::kNan);
+  motion.doppler_innovation = EgoMotion::kNan;
   return motion;
 }
 

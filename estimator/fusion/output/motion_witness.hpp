@@ -7,13 +7,13 @@
 
 namespace cremed {
 
-/// Whether no vehicle could have moved as one radar says, given what the odometry knew up to 0.3 s
-/// before: their speeds or yaw rates differ by more than 5 sigma of both and what 10 m/s^2 or
-/// 2 rad/s^2 do in between. Five sigma alone are exceeded by chance once in two million motions.
-/// Also by an odometry that is ambiguous: of two candidates none is to be published.
+/// Whether the motion of one radar contradicts the odometry of up to 0.3 s before: speeds or yaw
+/// rates differ by more than 5 sigma of both (false-alarm rate 1 in two million motions) plus the
+/// change by 10 m/s^2 or 2 rad/s^2 in between. Also applies if the odometry is ambiguous: neither
+/// of two candidates is published.
 bool contradicts(const Odometry& known, const EgoMotion& motion);
 
-/// The motion without its estimate, ambiguous: it fits its scans, and is not the vehicle's.
+/// The motion without its estimate, with status ambiguous.
 EgoMotion withdrawn(EgoMotion motion);
 
 }  // namespace cremed

@@ -14,12 +14,12 @@ namespace {
 
 using namespace state_layout;
 
-/// To the last bit, as users may expect.
+/// Exactly symmetric, as users may expect.
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
   return 0.5 * (matrix + matrix.transpose());
 }
 
-/// (v, slip v, yaw rate): the velocity of the rear axle's centre in the vehicle's axes.
+/// Adds (v, slip v, yaw rate), the velocity of the rear axle's centre in the vehicle's axes.
 void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
   const double v = vehicle.mean(kSpeed);
   const double slip = vehicle.mean(kSlip);
@@ -104,7 +104,8 @@ Odometry OdometryOutput::odometry(const VehicleEstimate& vehicle, const Anchor& 
   return result;
 }
 
-/// Since the last output, whose clone moves here; the anchor too, if it is old enough.
+/// Adds the motion since the last output and clones the pose as the new last output. Renews the
+/// anchor if it is due.
 void OdometryOutput::add_motion(Odometry& odometry) {
   const Eigen::Vector3d before = state_.gaussian.mean().segment<kPose>(kOutput);
   constexpr std::array<int, 6> kPoses{kOutput, kOutput + 1, kOutput + 2, kX, kY, kYaw};
@@ -126,9 +127,8 @@ void OdometryOutput::add_motion(Odometry& odometry) {
   }
 }
 
-/// The state stays where the last scan left it, so that one that was measured before this time
-/// still finds it there. It passes a new anchor later than the predictions that are given in its
-/// frame.
+/// The state stays at the last scan, so that a scan measured before the predicted time can still be
+/// used. It reaches a new anchor later than the predictions in that anchor's frame.
 std::optional<Odometry> OdometryOutput::predict_next(std::int64_t now_us) {
   const OdometryOptions& options = state_.options();
   const std::int64_t from_us = state_.time_us();

@@ -14,38 +14,38 @@
 
 namespace cremed {
 
-/// What is published of the state: the pose relative to an anchor and since the start, velocities,
-/// and the motion since the last output. All but status and radars left out.
+/// The published part of the state: the pose relative to an anchor and since the start, velocities,
+/// and the motion since the last output. Does not set Odometry::status and left_out.
 ///
-/// The anchor is a pose of the recent past that has no error because it is the origin. When it is
-/// renewed all poses of the state are expressed in its frame: covariances stay small, and what the
-/// state learns of the past never turns the pose since the start.
+/// The anchor is a recent pose that has no error because it is the origin. When it is renewed, all
+/// poses of the state are transformed into its frame. Covariances then stay small, and later
+/// measurements do not change the pose since the start.
 class OdometryOutput {
  public:
-  /// The state must outlive this.
+  /// The state must outlive this object.
   explicit OdometryOutput(OdometryState& state);
 
-  /// The state has begun anew at its time, in the frame of an anchor there.
+  /// Begins after a start of the state, with an anchor at its time.
   void start();
-  /// The same at once after the start, once the speed is known.
+  /// Sets the anchor and the last output to the time of the state, as a start does.
   void restart_anchor();
-  /// Before a start: the pose since the start stays what was published last; how far the vehicle
-  /// went in `gap_s` is unknown, and its covariance says so.
+  /// Called before a start of the state. The pose since the start keeps its last published value;
+  /// its covariance grows by the unknown motion in `gap_s`.
   void bridge(double gap_s);
-  /// The clock of the stamps was set.
+  /// To be called when the clock of the stamps was set.
   void forget_predictions();
 
-  /// Moves the state on, with a new anchor on the way if one is due there.
+  /// Propagates the state and renews the anchor on the way if it is due.
   void advance_to(std::int64_t stamp_us);
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 
-  /// At the time of the state.
+  /// The output at the time of the state.
   Odometry next();
   /// See OdometryFilter::predict_next.
   std::optional<Odometry> predict_next(std::int64_t now_us);
 
  private:
-  /// The pose since the start at which poses of the state begin.
+  /// Pose since the start, with covariance, of the frame of the state's poses.
   struct Anchor {
     std::int64_t utime_us = 0;
     Eigen::Vector3d pose = Eigen::Vector3d::Zero();
@@ -62,13 +62,13 @@ class OdometryOutput {
 
   OdometryState& state_;
   Anchor anchor_;
-  /// Where predictions that were published have the next anchor.
+  /// Time of the next anchor, if published predictions refer to it already.
   std::optional<std::int64_t> next_anchor_us_;
-  /// The last output, the pose since the start there, and the radars that took part since.
+  /// Of the last output: time, pose since the start, and radars used since.
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_ = 0;
-  /// The same of the last prediction.
+  /// The same for the last prediction.
   std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();
   Eigen::Vector3d predicted_odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_since_prediction_ = 0;

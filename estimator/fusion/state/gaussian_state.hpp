@@ -8,9 +8,9 @@
 
 namespace cremed {
 
-/// Mean and covariance of a state of fixed size, and what a Kalman filter does to them. Every step
-/// keeps the covariance symmetric to the last bit and costs O(n) or, an update, O(n^2). Memory is
-/// reserved by the constructor alone.
+/// Mean and covariance of a state of fixed size, with the operations of a Kalman filter. Every
+/// operation keeps the covariance exactly symmetric and costs O(n), an update O(n^2). Only the
+/// constructor allocates.
 class GaussianState {
  public:
   explicit GaussianState(int size);
@@ -23,40 +23,42 @@ class GaussianState {
   [[nodiscard]] double std(int i) const;
 
   void set_mean(int i, double value) { mean_(i) = value; }
-  /// The mean is as if x_i were `value`; covariances stay. For one that is next to unknown: what
-  /// is measured then is linearised where it is.
+  /// Sets the mean conditional on x_i = `value`; covariances stay. Used for a nearly unknown x_i,
+  /// to linearise the next measurement near its true value.
   void assume(int i, double value) {
     mean_ += (value - mean_(i)) / covariance_(i, i) * covariance_.col(i);
   }
-  /// The state becomes independent of all others.
+  /// Sets mean and variance of x_i, independent of all other states.
   void set(int i, double value, double variance);
   void add_variance(int i, double variance) { covariance_(i, i) += variance; }
   void add_covariance(int i, int j, double covariance) { covariance_(i, j) += covariance; }
   /// x_i becomes factor x_i + noise.
   void forget(int i, double factor, double noise_variance);
 
-  /// The first states become `mean`, whose derivative by them is `jacobian`, plus noise.
+  /// Replaces the first states by a function of them with value `mean` and derivative `jacobian`,
+  /// plus noise.
   template <int Size>
   void transform(const Eigen::Matrix<double, Size, 1>& mean,
                  const Eigen::Matrix<double, Size, Size>& jacobian,
                  const Eigen::Matrix<double, Size, Size>& noise);
 
-  /// Three states from `to` on become a function of the first `Size`, plus noise.
+  /// Sets three states from `to` on to a function of the first `Size`, plus noise.
   template <int Size>
   void clone(int to, const Eigen::Vector3d& mean, const Eigen::Matrix<double, 3, Size>& jacobian,
              const Eigen::Matrix3d& noise);
-  /// Three states become a copy of three others.
+  /// Copies three states to three others.
   void copy(int from, int to);
-  /// Three states from `to` on, which are a function of themselves and of the first three.
+  /// Replaces three states from `to` on by a function of themselves and of the first three.
   void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
                       const Eigen::Matrix3d& by_first);
 
-  /// Normalised innovation squared of a measurement: chi^2 of two degrees of freedom if mean and
-  /// covariance are true. Infinite if the innovation has no covariance.
+  /// Normalised innovation squared (NIS) of a measurement: chi-square of two degrees of freedom if
+  /// mean and covariance are true. Infinite if the innovation's covariance is not positive
+  /// definite.
   double innovate(const LinearMeasurement& measurement);
-  /// The same of each of its two numbers alone.
+  /// NIS of each of its two numbers alone.
   [[nodiscard]] const Eigen::Vector2d& innovations() const { return innovations_; }
-  /// Kalman update by the measurement that innovate() was last called with.
+  /// Kalman update with the measurement of the last call of innovate().
   void update();
 
  private:

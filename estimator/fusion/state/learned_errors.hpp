@@ -12,55 +12,55 @@
 
 namespace cremed {
 
-/// A constant error, as far as it is known.
+/// Estimate of a constant error.
 struct LearnedError {
   double value = 0.0;
   double std = 0.0;
 };
 
-/// What the odometry filter learned of one radar that the next drive may begin with: true yaw of
-/// the mount less the configured one (rad), and by which part its Doppler is too great.
+/// Errors of one radar that the odometry filter learned, as priors of the next drive: true minus
+/// configured yaw of the mount (rad), and relative excess of its Doppler.
 struct LearnedErrors {
   LearnedError mount_yaw_rad;
   LearnedError doppler_scale;
 };
 
-/// What is known of the same before anything was learned.
+/// Priors of the same errors before anything was learned.
 LearnedErrors unlearned_errors(const OdometryOptions& options, const Pose2& vehicle_from_radar);
 
-/// An error of all radars at the start of a drive.
+/// Prior of an error for all radars at the start of a drive.
 struct SharedPrior {
   struct Own : LearnedError {
     bool is_learned = false;
   };
-  /// By radar; each independent of the others.
+  /// By radar, independent of each other.
   std::vector<Own> own;
-  /// Variance of what those that are learned err by in common, besides.
+  /// Variance of an additional error common to all radars with learned values.
   double common_variance = 0.0;
 };
 
-// What all radars err by alike cannot be told from the slip (mount yaw) or the speed (Doppler
-// scale): a drive knows it by their priors alone, and would count these once more at each start. So
-// only differences are kept: each radar's error less the mean of all, weighted by the inverse
-// variances of what was unlearned.
+// An error common to all radars is not observable: it cannot be separated from the slip (mount yaw)
+// or the speed (Doppler scale). It is known by the priors alone, which would count again at each
+// start. Therefore only differences are kept: each radar's error minus the mean of all, weighted by
+// the inverse variances of the unlearned priors.
 
-/// That of each of several radars, of what is known of their errors; none of a lone radar, which
-/// has no difference. Errors of such differences are taken for independent: with N radars their
-/// variances are therefore N / (N - 1) of what they are.
+/// The difference of each radar, from the estimate of all errors; empty for a single radar.
+/// Differences are later treated as independent; with N radars their variances are multiplied by N
+/// / (N - 1) for this.
 std::vector<LearnedError> differences(const Eigen::VectorXd& mean,
                                       const Eigen::MatrixXd& covariance,
                                       const std::vector<LearnedError>& unlearned);
 
-/// What a drive before (`learned`, by radar; nothing of some) says of an error that was N(0,
-/// unlearned) of each radar before it.
+/// Prior of an error from a previous drive (`learned`, by radar, none for some), with the prior
+/// N(0, `unlearned`^2) of each radar before that drive.
 ///
-/// The mean of those that are taken over is taken off once more, and what they err by in common has
-/// the variance that this mean has unlearned. One radar begins as if nothing was learned.
+/// The mean of the values taken over is subtracted again. The common error has the variance of this
+/// mean under the unlearned priors. A single radar starts from the unlearned prior.
 ///
-/// A standard deviation taken over is that learned and `restart_std` (what loads, temperature and
-/// work on the vehicle change meanwhile) in squares; at least a quarter of the unlearned, so that
-/// what is wrong by five of them is as likely as 1.25 unlearned, and is soon unlearned; at most the
-/// unlearned.
+/// The standard deviation is the root sum of squares of the learned one and `restart_std` (change
+/// by load, temperature and work on the vehicle). It is at least a quarter of the unlearned one, so
+/// that a value wrong by 5 sigma is only 1.25 unlearned sigma off and is soon corrected, and at
+/// most the unlearned one.
 SharedPrior prior_after(const std::vector<std::optional<LearnedError>>& learned,
                         const std::vector<LearnedError>& unlearned, double restart_std);
 

@@ -8,8 +8,8 @@
 
 namespace cremed {
 
-/// Two numbers measured at once, linearised: residual = z - h(x), with dh/dx given for those states
-/// it depends on.
+/// A linearised measurement of two numbers: residual z - h(x), and dh/dx for the states it depends
+/// on.
 struct LinearMeasurement {
   static constexpr int kMaxStates = 20;
   using Column = Eigen::Vector2d;

@@ -10,16 +10,16 @@
 
 namespace cremed {
 
-/// What an Odometry is worth. The numbers are those of odometry_t; they never change meaning.
+/// Validity of an Odometry. The numbers are those of odometry_t and never change meaning.
 enum class OdometryStatus : std::uint8_t {
-  ok = 0,              ///< None of what follows.
+  ok = 0,              ///< None of the following.
   standing_still = 1,  ///< ok; speed <= standstill_mps and its sigma too, |yaw rate| <= 3 sigma.
   initialising = 2,    ///< Since the start sigma of speed or yaw rate > settled_*, or fewer than
                        ///< settled_scans scans used.
   predicted = 3,       ///< No measurement used for > predicted_s.
-  ambiguous = 4,       ///< No scan with most of its targets at rest for > ambiguous_s, or at the
-                       ///< start as many radars contradict as agree.
-  lost = 5,            ///< No measurement used for > lost_s; the next begins the velocity anew.
+  ambiguous = 4,       ///< No scan with mostly static targets for > ambiguous_s; at the start,
+                       ///< a radar contradicts; at the start or predicted, two worlds.
+  lost = 5,            ///< No measurement used for > lost_s; the next restarts the velocity.
 };
 
 inline constexpr std::size_t kOdometryStatusCount = 6;
@@ -27,22 +27,21 @@ inline constexpr std::size_t kOdometryStatusCount = 6;
 /// The name of a status as in the CSV, e.g. "ok".
 std::string_view to_string(OdometryStatus status);
 
-/// Where the vehicle is and how it moves, at `utime_us`: of a scan, or predicted from the last
-/// scan. Poses are (x_m, y_m, yaw_rad) of the vehicle frame (rear axle), covariances in the same
-/// order.
+/// Pose and motion of the vehicle at `utime_us`, the time of a scan or of a prediction. Poses are
+/// (x_m, y_m, yaw_rad) of the vehicle frame (rear axle), covariances in the same order.
 struct Odometry {
   std::int64_t utime_us = 0;
   OdometryStatus status = OdometryStatus::initialising;
-  bool is_new = false;  ///< utime_us is later than that of the output before.
+  bool is_new = false;  ///< utime_us is later than that of the previous output.
 
-  /// Pose in the frame of the anchor, the pose at utime_anchor_us. The covariance may be chained
-  /// from anchor to anchor as if independent.
+  /// Pose in the frame of the anchor, the pose at utime_anchor_us. Covariances may be chained from
+  /// anchor to anchor as if independent.
   std::int64_t utime_anchor_us = 0;
   Eigen::Vector3d pose = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// Pose since the start: sum of the motions below, so that it never jumps. Its covariance is the
-  /// anchors' chained.
+  /// Pose since the start: the composition of the motions below, so that it never jumps. Its
+  /// covariance is chained over the anchors.
   Eigen::Vector3d odom_pose = Eigen::Vector3d::Zero();
   Eigen::Matrix3d odom_covariance = Eigen::Matrix3d::Zero();
 
@@ -50,28 +49,28 @@ struct Odometry {
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();
 
-  /// Motion since the output before, at utime_before_us: pose in the frame of that. Not told of a
-  /// prediction; utime_before_us is then that of the prediction before.
+  /// Motion since the previous output, at utime_before_us: pose in its frame. Not set in a
+  /// prediction; utime_before_us is then that of the previous prediction.
   std::int64_t utime_before_us = 0;
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
 
-  std::uint32_t radars = 0;    ///< Bit i: radar i took part since the output before.
-  std::uint32_t left_out = 0;  ///< Bit i: radar i contradicts what the others say.
+  std::uint32_t radars = 0;    ///< Bit i: radar i was used since the previous output.
+  std::uint32_t left_out = 0;  ///< Bit i: radar i contradicts the filter.
 };
 
-/// How one radar does.
+/// Diagnostics of one radar.
 struct RadarReport {
-  bool is_left_out = false;  ///< It contradicts the others, or what was before.
-  /// Mean normalised innovations squared, a degree of freedom, of the last minute: 1 if covariances
-  /// are true. 0 without any.
+  bool is_left_out = false;  ///< It contradicts the filter.
+  /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
+  /// without measurements.
   double doppler_innovation = 0.0;
   double lateral_innovation = 0.0;
   double yaw_innovation = 0.0;
-  /// By how much the covariances of its measurements had to be widened.
+  /// Factors on the covariances of its measurements (NoiseFactor).
   double doppler_noise_factor = 1.0;
   double position_noise_factor = 1.0;
-  /// What was learned: error of the mount's yaw, of the scale of Doppler, with standard deviations.
+  /// Learned errors of mount yaw and Doppler scale, with standard deviations.
   double mount_yaw_rad = 0.0;
   double mount_yaw_std_rad = 0.0;
   double doppler_scale = 0.0;

@@ -17,12 +17,11 @@ using namespace state_layout;
 
 int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
 
-/// Part of the forward velocity that a radar sees across its axis, where azimuths tell it.
+/// Part of the forward velocity across a radar's axis, where it is measured by azimuths.
 double across_share(const Pose2& mount) { return squared(std::sin(mount.yaw_rad)); }
 
-/// What is left of a forgetting quantity after dt, and the variance it has gained, if its standard
-/// deviation is larger by `more`.
-void forget(GaussianState& state, int which, const ForgettingNoise& noise, double more,
+/// Propagates an Ornstein-Uhlenbeck process by dt, with a standard deviation larger by `more`.
+void forget(GaussianState& state, int which, const OrnsteinUhlenbeck& noise, double more,
             double dt_s) {
   const double left = std::exp(-dt_s / noise.time_s);
   state.forget(which, left, squared(noise.std + more) * (1.0 - left * left));
@@ -77,7 +76,7 @@ void OdometryState::start(std::int64_t time_us) {
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
   gaussian.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    start_passing_errors(i);
+    start_other_errors(i);
   }
   start_shared(kMountYaw, mount_yaw_);
   start_shared(kDopplerScale, doppler_scale_);
@@ -111,11 +110,11 @@ void OdometryState::start_errors(std::size_t radar) {
   doppler_scale_.own[radar] = {unlearned.doppler_scale, false};
   gaussian.set(error(radar, kMountYaw), 0.0, squared(unlearned.mount_yaw_rad.std));
   gaussian.set(error(radar, kDopplerScale), 0.0, squared(unlearned.doppler_scale.std));
-  start_passing_errors(radar);
+  start_other_errors(radar);
 }
 
-/// All but mount yaw and Doppler scale.
-void OdometryState::start_passing_errors(std::size_t radar) {
+/// Resets all errors but mount yaw and Doppler scale.
+void OdometryState::start_other_errors(std::size_t radar) {
   const int first = first_of(radar);
   const double across = across_share(mounts_[radar]);
   const auto set = [&](int which, double std, double more = 0.0) {

@@ -18,46 +18,48 @@
 
 namespace cremed {
 
-/// The state of the odometry filter and all that changes it but measurements: what is known at the
-/// start, how it goes on, clones, and the anchor in whose frame poses are given.
+/// The state of the odometry filter, and everything that changes it except measurements: priors,
+/// propagation, clones, and the anchor in whose frame poses are given.
 class OdometryState {
  public:
-  /// `learned`: in a drive before, by radar; may be shorter.
+  /// `learned`: of a previous drive, by radar; may be shorter.
   OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
 
-  /// Nothing is known but what the options say; the anchor is here.
+  /// Resets the state to its prior, with the anchor at its pose.
   void start(std::int64_t time_us = 0);
-  /// The motion alone begins anew, with (v, w) and their covariance.
+  /// Resets speed and yaw rate to `value` (v, w) with `covariance`, and the accelerations to their
+  /// prior.
   void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
-  /// So do the errors of a radar, and what a drive before learned of them counts no longer.
+  /// Resets the errors of a radar to their prior, and discards what was learned in a previous
+  /// drive.
   void start_errors(std::size_t radar);
-  /// So does the slip.
+  /// Resets the slip to its prior.
   void start_slip();
 
-  /// The vehicle moves on; not if the state is later already.
+  /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);
   [[nodiscard]] VehicleEstimate vehicle() const;
-  /// A radar's scans come in order: its errors are those of its last scan's time.
+  /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
 
-  /// Pose at a scan that is older than the state (0: of its time).
+  /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
-  /// Clones it, with the noise of the scan's positions in the axes of the vehicle.
+  /// Clones the pose at a scan, with the noise of the scan's positions in the axes of the vehicle.
   void clone_scan(std::size_t radar, double age_s, const Eigen::Matrix3d& scan_noise);
   void keep_scan(std::size_t radar, std::size_t keyframe);
   void clone_output();
-  /// The pose becomes the anchor: all poses are given in its frame from now on.
+  /// Makes the pose the anchor and transforms all poses into its frame.
   void renew_anchor();
 
-  /// What a next drive may begin with, by radar; empty if there is nothing.
+  /// Learned errors for the next drive, by radar; empty if there are none.
   [[nodiscard]] std::vector<LearnedErrors> learned() const;
 
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
   [[nodiscard]] const OdometryOptions& options() const { return options_; }
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
-  // Where it stands in `gaussian`: the clone of a radar's scan, of a keyframe, one of its errors.
+  // Index in `gaussian` of the clone of a radar's scan or keyframe, or of one of its errors.
   [[nodiscard]] int scan(std::size_t radar) const;
   [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
   [[nodiscard]] int error(std::size_t radar, int which) const;
@@ -65,7 +67,7 @@ class OdometryState {
   GaussianState gaussian;
 
  private:
-  void start_passing_errors(std::size_t radar);
+  void start_other_errors(std::size_t radar);
   void start_shared(int which, const SharedPrior& prior);
 
   OdometryOptions options_;

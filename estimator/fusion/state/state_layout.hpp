@@ -4,15 +4,14 @@
 
 namespace cremed {
 
-/// Where each quantity stands in the state of the odometry filter.
+/// Index of each quantity in the state of the odometry filter.
 namespace state_layout {
 
-// Of the vehicle: pose in the frame of the anchor, and how it moves. These nine are what
-// VehicleMotion moves on.
+// Of the vehicle: pose in the frame of the anchor, and motion. MotionStep propagates these nine.
 inline constexpr int kX = 0;                ///< m
 inline constexpr int kY = 1;                ///< m
 inline constexpr int kYaw = 2;              ///< rad
-inline constexpr int kSpeed = 3;            ///< m/s, along the way it rolls.
+inline constexpr int kSpeed = 3;            ///< m/s, in the direction of rolling.
 inline constexpr int kAcceleration = 4;     ///< m/s^2
 inline constexpr int kYawRate = 5;          ///< rad/s
 inline constexpr int kYawAcceleration = 6;  ///< rad/s^2
@@ -27,7 +26,7 @@ inline constexpr int kCommonScale = 11;     ///< 1
 inline constexpr int kOutput = 12;          ///< Clone of the pose at the last output.
 inline constexpr int kFirstRadar = 15;
 
-// Of one radar, from its first on.
+// Of one radar, relative to radar(index).
 inline constexpr int kMountYaw = 0;         ///< rad
 inline constexpr int kDopplerScale = 1;     ///< 1
 inline constexpr int kDopplerX = 2;         ///< m/s

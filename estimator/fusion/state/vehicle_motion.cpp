@@ -10,13 +10,13 @@ namespace {
 
 using namespace state_layout;
 
-/// What is left of a forgetting quantity after dt, and its integral over dt for a start at 1.
+/// Decay of an Ornstein-Uhlenbeck process from 1 after dt, and its integral over dt.
 struct Decay {
   double left;
   double integral_s;
 };
 
-Decay decay(const ForgettingNoise& noise, double dt_s) {
+Decay decay(const OrnsteinUhlenbeck& noise, double dt_s) {
   if (dt_s <= 0.0) {
     return {1.0, dt_s};
   }
@@ -24,8 +24,9 @@ Decay decay(const ForgettingNoise& noise, double dt_s) {
   return {left, noise.time_s * (1.0 - left)};
 }
 
-/// A rate and its derivative, driven by white noise on the latter.
-void add_rate_noise(const ForgettingNoise& noise, double dt_s, int rate, MotionStep::Matrix& sum) {
+/// Adds the noise of a rate and its derivative, driven by white noise on the derivative.
+void add_rate_noise(const OrnsteinUhlenbeck& noise, double dt_s, int rate,
+                    MotionStep::Matrix& sum) {
   const double density = 2.0 * noise.std * noise.std / noise.time_s;
   const double dt = std::abs(dt_s);
   const double cross = density * dt * dt_s / 2.0;
@@ -76,7 +77,7 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   add_rate_noise(options.acceleration, dt_s, kSpeed, step.noise);
   add_rate_noise(options.yaw_acceleration, dt_s, kYawRate, step.noise);
   step.noise(kSlip, kSlip) = options.slip_walk * options.slip_walk * std::abs(dt_s);
-  const ForgettingNoise& body = options.body_velocity;
+  const OrnsteinUhlenbeck& body = options.body_velocity;
   const double left = std::exp(-std::abs(dt_s) / body.time_s);
   step.state(kBodyVelocity) *= left;
   step.jacobian(kBodyVelocity, kBodyVelocity) = left;

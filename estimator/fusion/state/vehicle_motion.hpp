@@ -9,15 +9,15 @@
 
 namespace cremed {
 
-/// How a vehicle moves on, and what is not known of it:
+/// One step of the motion model, with its Jacobian and process noise; (9) of the README:
 ///
 ///     x' = v cos psi - s v sin psi     y' = v sin psi + s v cos psi     psi' = w
 ///     v' = a    a' = -a / T_a + noise    w' = c    c' = -c / T_c + noise    s' = noise
 ///     m' = -m / T_m + noise
 ///
 /// (x, y, psi) pose, v speed, a acceleration, w yaw rate, c yaw acceleration, s slip, m velocity of
-/// the body over v, in the order of state_layout. Acceleration as an Ornstein-Uhlenbeck process:
-/// Singer, IEEE Trans. Aerosp. Electron. Syst. 1970. Integrated by the midpoint rule.
+/// the body over v, in the order of state_layout. a, c and m are Ornstein-Uhlenbeck processes
+/// (Singer, IEEE Trans. Aerosp. Electron. Syst. 1970). Integrated by the midpoint rule.
 struct MotionStep {
   using Vector = Eigen::Matrix<double, state_layout::kMotionStates, 1>;
   using Matrix = Eigen::Matrix<double, state_layout::kMotionStates, state_layout::kMotionStates>;
@@ -27,20 +27,20 @@ struct MotionStep {
   Matrix noise;
 };
 
-/// `dt_s` may be negative: the state at an earlier time, accelerations held.
+/// If `dt_s` is negative, the state at an earlier time with constant accelerations.
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options);
 
-/// Accelerations are constant within so short a step.
+/// Longest step: accelerations are nearly constant in it.
 inline constexpr double kMaxMotionStepS = 0.1;
 
-/// What is known of the vehicle.
+/// Estimate of the vehicle's motion states.
 struct VehicleEstimate {
   MotionStep::Vector mean;
   MotionStep::Matrix covariance;
 
-  /// Once it has moved on.
+  /// The estimate after `dt_s`.
   [[nodiscard]] VehicleEstimate predicted(double dt_s, const OdometryOptions& options) const;
-  /// In the frame of its own pose, which is known there.
+  /// The estimate in the frame of its own pose, which is known there.
   [[nodiscard]] VehicleEstimate at_origin() const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/cost/unseen_errors.hpp"
+#include "cremed/estimator/cost/consider_parameters.hpp"
 
 #include <cmath>
 
@@ -9,21 +9,23 @@
 namespace cremed {
 namespace {
 
-/// How fast an acceleration of one deviation sets in: 10 m/s^3 for 3 m/s^2, as hard brakes do.
-/// Doppler at both ends tells how the velocity changes in between, but not when: that moves by up
-/// to jerk dt^3 / 12, 0.4 mm from scan to scan and 53 mm over a gap of 0.4 s.
+/// Jerk over one standard deviation of acceleration: 10 m/s^3 for 3 m/s^2, as in hard braking.
+/// Doppler of both scans measures the change of velocity, but not when it happens. The distance
+/// then errs by up to jerk dt^3 / 12: 0.4 mm from scan to scan, 53 mm over a gap of 0.4 s.
 constexpr double kJerkPerAcceleration = 10.0 / 3.0;
 
 }  // namespace
 
-void add_unseen_errors(const SharedErrorOptions& errors, const Eigen::Vector3d& motion, double dt_s,
-                       bool by_doppler, int degrees_of_freedom, Eigen::Matrix3d& covariance) {
+void add_consider_covariance(const SharedErrorOptions& errors, const Eigen::Vector3d& motion,
+                             double dt_s, bool by_doppler, int degrees_of_freedom,
+                             Eigen::Matrix3d& covariance) {
   if (by_doppler) {
     const Eigen::Vector2d by_scale_m = errors.doppler_scale_std * motion.head<2>();
     covariance.topLeftCorner<2, 2>() += by_scale_m * by_scale_m.transpose();
   }
   const double noise_m = std::sqrt(covariance(0, 0));
-  const double by_velocity_m = rolling_part(motion, noise_m, dt_s) * errors.velocity_std_mps * dt_s;
+  const double by_velocity_m =
+      driving_share(motion, noise_m, dt_s) * errors.velocity_std_mps * dt_s;
   const double by_jerk_m =
       by_doppler ? kJerkPerAcceleration * errors.acceleration_std_mps2 * std::pow(dt_s, 3) / 12.0
                  : 0.0;

@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-// 0.005 * 2000^(index / 30), as the sensor's maker rounds it.
+// 0.005 * 2000^(index / 30), rounded as in the manufacturer's table.
 constexpr std::array<double, 31> kRms{0.005, 0.006, 0.008, 0.011, 0.014, 0.018, 0.023, 0.029,
                                       0.038, 0.049, 0.063, 0.081, 0.105, 0.135, 0.174, 0.224,
                                       0.288, 0.371, 0.478, 0.616, 0.794, 1.023, 1.317, 1.697,

@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-/// Shorter pauses are no news: a scan may be lost.
+/// Shorter pauses, such as one lost scan, are not reported.
 constexpr int kPatienceS = 3;
 
 enum BusCondition : int {
@@ -95,7 +95,7 @@ const char* short_text(int condition) {
   return kTexts[condition];
 }
 
-/// All buses have the computer's clock: one of them tells.
+/// All buses report the same computer clock.
 void report_clock(const BusStatus& now, const BusStatus& before) {
   if (now.clock_steps != before.clock_steps) {
     spdlog::warn("the clock was set: odometry starts anew");
@@ -195,7 +195,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
 
   const int condition = condition_of(status.bus, buses_[channel.interface]);
   if (condition != good && scans == 0) {
-    // The bus is to blame, and was: the radar has its patience once frames come again.
+    // The bus is the cause; the radar's own timer starts when frames come again.
     progress.seconds_without_scan = progress.seconds_without_estimate = 0;
     return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
   }
@@ -213,8 +213,8 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
 }
 
-/// Once a radar is named, why is its own affair: here is said that all of them give no odometry,
-/// although there are scans.
+/// Radars with findings of their own are reported there; this reports missing odometry although
+/// there are scans.
 std::string LiveReporter::report_odometry() {
   const std::optional<Odometry>& odometry = pipeline_.odometry();
   const bool is_new = odometry && odometry->utime_us != odometry_us_;
@@ -227,7 +227,7 @@ std::string LiveReporter::report_odometry() {
     return "odometry: " + state;
   }
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
-  // Once: what is missing then goes on to change in the status line.
+  // Logged once; the status line shows later changes of the cause.
   log_.update("odometry", seconds_without_odometry_ < kPatienceS ? 0 : 1, [&] { return state; });
   return "odometry: " + state;
 }

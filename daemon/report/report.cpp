@@ -80,7 +80,7 @@ const Ars408Options* ars408_options(const RadarConfiguration& radar) {
   return radar.decoder.as<Ars408Options>();
 }
 
-/// The command that sets the sensor to what the configuration expects.
+/// The command that configures the sensor as expected.
 std::string configure_command(const RadarConfiguration& radar) {
   return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
 }
@@ -109,7 +109,7 @@ void add_wrong_mode(const RadarConfiguration& radar, const RadarStatus& status,
   }
 }
 
-/// A scan can be whole only with the quality message of each target.
+/// A scan is complete only with the quality message of each target.
 void add_unknown_quality(const RadarConfiguration& radar, const RadarStatus& status,
                          Findings& findings) {
   const AssemblerCounters& scans = status.assembler;
@@ -176,12 +176,12 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
         "`cremed-eval calibrate`"}});
 }
 
-/// Usable detections, but few of the whole scans gave an estimate.
+/// Usable detections, but few complete scans gave an estimate.
 void add_few_estimates(const RadarStatus& status, Findings& findings) {
-  constexpr std::uint64_t kEnoughScans = 10;
+  constexpr std::uint64_t kMinScans = 10;
   const std::uint64_t whole = status.assembler.scans - status.assembler.incomplete_scans;
   const std::uint64_t good = estimates(status);
-  if (status.selection.used != 0 && whole >= kEnoughScans && 2 * good < whole) {
+  if (status.selection.used != 0 && whole >= kMinScans && 2 * good < whole) {
     findings.push_back({good == 0 ? Severity::error : Severity::warning,
                         concat({"few scans give an estimate: ", summary(status)}),
                         std::string(remedy_of_most_motions(status))});

@@ -73,14 +73,14 @@ class Arrivals {
 /// A radar's frames come 50 to 150 ms after they were stamped, in their order.
 inline Frames with_lateness(const Frames& frames, FaultTime time, std::size_t radar) {
   constexpr double kMeanUs = 100'000.0;
-  constexpr double kMostLessMeanUs = 50'000.0;
+  constexpr double kDelayAmplitudeUs = 50'000.0;
   constexpr double kPeriodUs = 3e6;
   Arrivals arrivals;
   for (const CanFrame& frame : frames) {
     const double phase = 2.0 * std::numbers::pi *
                          static_cast<double>(frame.stamp_us - frames.front().stamp_us) / kPeriodUs;
     const bool is_late = frame.interface == radar && time.has(frame);
-    const double late_us = is_late ? kMeanUs + kMostLessMeanUs * std::sin(phase) : 0.0;
+    const double late_us = is_late ? kMeanUs + kDelayAmplitudeUs * std::sin(phase) : 0.0;
     arrivals.add(frame.stamp_us + static_cast<std::int64_t>(late_us), frame);
   }
   return arrivals.in_order();
@@ -112,7 +112,7 @@ inline Frames with_doubled_id(const Frames& frames, FaultTime time, std::size_t 
 /// Of each bus every so many frames one is overtaken by 1 to 20 others, and half of those that are
 /// get the stamp of the last of them.
 inline Frames with_reordering(const Frames& frames, FaultTime time, double share) {
-  constexpr std::size_t kMostOvertaking = 20;
+  constexpr std::size_t kMaxOvertaking = 20;
   struct Held {
     CanFrame frame;
     std::size_t overtaken_by = 0;
@@ -129,7 +129,7 @@ inline Frames with_reordering(const Frames& frames, FaultTime time, double share
   for (const CanFrame& frame : frames) {
     auto& late = held[frame.interface];
     if (!late && time.has(frame) && random.chance(share)) {
-      late = Held{frame, 1 + random.index(kMostOvertaking), random.chance(0.5)};
+      late = Held{frame, 1 + random.index(kMaxOvertaking), random.chance(0.5)};
       continue;
     }
     result.push_back(frame);

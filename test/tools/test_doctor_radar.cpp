@@ -393,7 +393,7 @@ TEST_CASE("A log of more interfaces than a vehicle has is bounded, and the rest 
     observer.add_lost("l" + std::to_string(i), 1);
   }
   const Observation observation = observer.finish();
-  CHECK(observation.buses.size() == kMostBuses);
+  CHECK(observation.buses.size() == kMaxBuses);
   CHECK(observation.frames_left_out > 199'000);
   CHECK_THAT(all_text(diagnose(configuration, observation)),
              Catch::Contains(" frames of further interfaces left out: only 64 are looked at"));

@@ -80,7 +80,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     findings.push_back({Severity::warning,
                         concat({counted(observation.frames_left_out, "frame"),
                                 " of further interfaces left out: only ",
-                                std::to_string(kMostBuses), " are looked at"}),
+                                std::to_string(kMaxBuses), " are looked at"}),
                         "is this a log of candump? Its second column names the interface"});
   }
   if (!observation.lcm_problem.empty()) {

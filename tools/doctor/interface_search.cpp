@@ -52,7 +52,7 @@ void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
     return known.interface == line.interface_name;
   });
   if (bus == buses.end()) {
-    if (buses.size() >= kMostBuses) {
+    if (buses.size() >= kMaxBuses) {
       return;
     }
     bus = buses.emplace(buses.end());

@@ -38,7 +38,7 @@ std::size_t Observer::index_of(std::string_view interface) const {
   return static_cast<std::size_t>(found - buses.begin());
 }
 
-bool Observer::is_full() const { return observation_.buses.size() >= kMostBuses; }
+bool Observer::is_full() const { return observation_.buses.size() >= kMaxBuses; }
 
 BusObservation& Observer::bus(std::string_view interface) {
   const std::size_t index = index_of(interface);

@@ -15,7 +15,7 @@
 namespace cremed {
 
 /// A vehicle has fewer; a log may name any number.
-inline constexpr std::size_t kMostBuses = 64;
+inline constexpr std::size_t kMaxBuses = 64;
 
 /// Turns frames, live or from a log, into an observation: counts what is on each bus and runs the
 /// daemon's own pipeline.

@@ -136,7 +136,7 @@ bool is_of_clock(const AssemblerCounters& scans) {
 void add_incomplete(const RadarConfiguration& radar, const RadarObservation& observation,
                     Findings& findings) {
   // More clusters with quality than this do not fit in a cycle at 500 kbit/s, whatever their bits.
-  constexpr std::uint16_t kMostThatFit = 150;
+  constexpr std::uint16_t kMaxTargetsPerCycle = 150;
   const AssemblerCounters& scans = observation.status.assembler;
   const IncompleteScans& incomplete = observation.incomplete;
   if (!are_many(scans) || is_of_clock(scans)) {
@@ -150,7 +150,7 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
               has_header ? "their headers say " + number(incomplete.announced_targets) +
                                " targets, " + number(incomplete.whole_targets) + " came whole"
                          : counted(scans.missing_parts, "frame") + " missing"});
-  if (radar.decoder.as<Ars408Options>() != nullptr && incomplete.most_announced > kMostThatFit) {
+  if (radar.decoder.as<Ars408Options>() != nullptr && incomplete.most_announced > kMaxTargetsPerCycle) {
     findings.push_back(
         {severity, what,
          concat({"up to ", number(incomplete.most_announced),

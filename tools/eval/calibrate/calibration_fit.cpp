@@ -22,10 +22,10 @@ constexpr std::int64_t kBlockUs = 4'000'000;
 constexpr double kTruthSpeedStdMps = 0.03;
 constexpr double kTruthYawRateStdRadps = 0.005;
 /// Next to nothing is known of the motion.
-constexpr double kAnySpeedMps = 100.0;
-constexpr double kAnyYawRateRadps = 10.0;
+constexpr double kPriorSpeedStdMps = 100.0;
+constexpr double kPriorYawRateStdRadps = 10.0;
 /// Blocks that the jackknife is taken to have at least: fewer have no variance to tell.
-constexpr double kFewestBlocks = 5.0;
+constexpr double kMinBlocks = 5.0;
 constexpr double kHuber = 3.0;
 constexpr std::int64_t kSlopeNodes = 5;  // To both sides.
 /// The motion may change by so much more than it does. Lever arms times yaw rate is what Doppler
@@ -107,7 +107,7 @@ void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
 }
 
 void CalibrationProblem::add_changes() {
-  const MotionNode std = {kAnySpeedMps, kAnyYawRateRadps, fit.prior_.body_velocity_std_mps};
+  const MotionNode std = {kPriorSpeedStdMps, kPriorYawRateStdRadps, fit.prior_.body_velocity_std_mps};
   for (auto& [number, node] : fit.nodes_) {
     add_prior<3>({}, std, node);
     if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
@@ -198,7 +198,7 @@ Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& resi
     const Eigen::VectorXd step = rest.solve(gradient);
     squares += step.tail(wanted).cwiseAbs2();
   }
-  const double count = std::max(static_cast<double>(blocks.size()), kFewestBlocks);
+  const double count = std::max(static_cast<double>(blocks.size()), kMinBlocks);
   const double students_t = (count - 1.0) / (count - 3.0);
   return squares * ((count - 1.0) / count) * students_t;
 }

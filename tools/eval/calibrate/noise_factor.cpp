@@ -11,8 +11,8 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kBlockUs = 2'000'000;
-constexpr std::size_t kFewestErrors = 200;
-constexpr std::size_t kFewestInBlock = 20;
+constexpr std::size_t kMinErrors = 200;
+constexpr std::size_t kMinBlockErrors = 20;
 constexpr int kSteps = 50;
 constexpr double kLeastVariance = 1e-4;
 constexpr double kLeastFactor = 0.1;
@@ -43,7 +43,7 @@ double most_likely_factor(const std::vector<ScaledError>& errors) {
 }  // namespace
 
 StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
-  if (errors.size() < kFewestErrors) {
+  if (errors.size() < kMinErrors) {
     return {};
   }
   std::map<std::int64_t, std::vector<ScaledError>> blocks;
@@ -57,7 +57,7 @@ StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
   double squares = 0.0;
   double weights = 0.0;
   for (const auto& [number, block] : blocks) {
-    if (block.size() >= kFewestInBlock) {
+    if (block.size() >= kMinBlockErrors) {
       const auto weight = static_cast<double>(block.size());
       const double difference = most_likely_factor(block) - value;
       squares += weight * weight * difference * difference;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kLongestS = 0.5;  // Between two scans that are compared.
 constexpr double kSlackMps = 0.1;
-constexpr std::size_t kFewestTargets = 12;  // In a scan whose Doppler is compared.
+constexpr std::size_t kMinTargets = 12;  // In a scan whose Doppler is compared.
 
 constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not see all kinds.
 
@@ -70,7 +70,7 @@ void add_doppler_errors(const RecordedScan& scan, const DopplerState& expected,
                         const DopplerNoise& noise, std::vector<ScaledError>& errors) {
   const double gate = noise.doppler_std_factor * kErrorGate / kGateSigma;
   const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kSlackMps);
-  if (fixed.targets.size() < kFewestTargets) {
+  if (fixed.targets.size() < kMinTargets) {
     return;
   }
   const DopplerState state = nearest_state(doppler_equations(fixed, expected, noise), expected);

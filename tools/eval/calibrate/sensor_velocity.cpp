@@ -11,7 +11,7 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kFewestTargets = 6;
+constexpr std::size_t kMinTargets = 6;
 constexpr int kTrials = 60;
 constexpr double kNarrowestRad = 0.1;  // Between two targets that shall tell a velocity.
 constexpr double kFastestMps = 100.0;
@@ -74,7 +74,7 @@ double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& stat
 }
 
 std::optional<DopplerState> agreed_velocity(std::span<const Target> targets) {
-  if (targets.size() < kFewestTargets) {
+  if (targets.size() < kMinTargets) {
     return std::nullopt;
   }
   std::minstd_rand random(1);

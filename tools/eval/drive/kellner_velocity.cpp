@@ -15,7 +15,7 @@ namespace {
 /// 10^11.
 constexpr int kSamples = 200;
 /// Some three standard deviations of an ARS408's Doppler.
-constexpr double kMostResidualMps = 0.3;
+constexpr double kMaxResidualMps = 0.3;
 constexpr std::size_t kLeastTargets = 10;
 constexpr int kRefinements = 3;
 
@@ -27,7 +27,7 @@ std::vector<std::size_t> fitting(const std::vector<SweepTarget>& targets,
                                  const Eigen::Vector3d& twist) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (std::abs(residual_mps(targets[i], twist)) <= kMostResidualMps) {
+    if (std::abs(residual_mps(targets[i], twist)) <= kMaxResidualMps) {
       result.push_back(i);
     }
   }

@@ -13,7 +13,7 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kSweeps = 10;
-constexpr int kMostSteps = 30;
+constexpr int kMaxIterations = 30;
 constexpr double kStepTolerance = 1e-5;
 
 /// Targets that stand, as seen from where the vehicle was at the sweep's time.
@@ -65,7 +65,7 @@ Match matched(const NdtMap& map, const std::vector<UncertainPoint>& points,
               const Expectation& expected) {
   Match match;
   Pose2 pose = expected.pose;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector3d off(expected.pose.x_m - pose.x_m, expected.pose.y_m - pose.y_m,
                               expected.pose.yaw_rad - pose.yaw_rad);
     match = {pose, {expected.information, expected.information * off, 0.0}};

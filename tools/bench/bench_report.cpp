@@ -16,7 +16,7 @@ struct Column {
   int digits;
 };
 
-/// Benchmarks whose names begin alike.
+/// Benchmarks whose names have a common prefix.
 struct Group {
   const char* prefix;
   const char* title;

@@ -104,7 +104,7 @@ void show_plan(const std::vector<Setting>& settings, const Ars408RadarState& now
                       : "It lasts until the sensor's power is switched off; --store keeps it.\n");
 }
 
-/// What the sensor says after the command, under its new id or, if it kept it, its old one.
+/// The sensor's state after the command, under its new or its old id.
 std::optional<Ars408RadarState> confirmed_state(const Ars408Talk& talk, std::uint8_t old_id,
                                                 const std::vector<Setting>& settings,
                                                 const Ars408RadarState& wanted) {

@@ -15,7 +15,7 @@ constexpr int kWantedBufferBytes = 1 << 20;
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
-/// Has no wires and no bit rate.
+/// A virtual interface has no wires and no bit rate.
 bool is_virtual(const BusObservation& bus) { return bus.interface.starts_with("vcan"); }
 
 std::string up_command(const BusObservation& bus) {
@@ -24,7 +24,7 @@ std::string up_command(const BusObservation& bus) {
                                    " up type can bitrate 500000 restart-ms 100`"});
 }
 
-/// A bit rate can be changed only while the interface is down.
+/// The bit rate can be changed only while the interface is down.
 std::string bit_rate_command(const BusObservation& bus) {
   return concat({"`ip link set ", bus.interface, " down; ip link set ", bus.interface,
                  " up type can bitrate 500000 restart-ms 100`"});
@@ -60,7 +60,7 @@ Finding absent(const BusObservation& bus, const Observation& observation) {
       others.empty() ? remedy : concat({remedy, ", or set interface to one there is: ", others})};
 }
 
-/// What keeps a live interface from receiving anything.
+/// Why a live interface receives nothing.
 Finding state_finding(const BusObservation& bus, const Observation& observation) {
   switch (bus.state) {
     case InterfaceState::absent:

@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// One line; what came of it, if it ends early.
+/// A line, and the status if it is incomplete.
 std::string read_line(int descriptor) {
   constexpr std::size_t kLongest = 80;
   std::string line;

@@ -134,7 +134,7 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
 }
 
 int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
-  // Live, a signal ends the listening; of a log it ends the doctor.
+  // Live, a signal ends the observation; with a log it ends the program.
   const auto* const stop = arguments.replay.empty() ? handle_stop_signals() : nullptr;
   const LocatedRadars located =
       stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
@@ -202,7 +202,7 @@ std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {
   return filters;
 }
 
-/// Opens the interface, or says why that cannot be.
+/// Opens the interface; throws with the reason if that fails.
 bool open_bus(const std::string& interface, CanSocket& socket) {
   Observation observation;
   observation.is_live = true;
@@ -221,12 +221,12 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   return false;
 }
 
-/// Where that radar is. Of the others nothing is said.
+/// Searches for that radar only.
 LocatedRadars locate_asked(const std::string& name, const Configuration& configuration) {
   if (!is_auto(ars408_named(name, configuration))) {
     return {configuration, {}};
   }
-  const volatile std::sig_atomic_t stop = 0;  // A signal ends the doctor.
+  const volatile std::sig_atomic_t stop = 0;  // A signal ends the program.
   LocatedRadars located = locate_live(configuration, &stop);
   std::erase_if(located.findings,
                 [&](const Finding& finding) { return !finding.what.starts_with(name + ": "); });

@@ -16,7 +16,7 @@
 namespace cremed {
 namespace {
 
-/// Two rounds of the search: a radar that is there is seen in the second at the latest.
+/// Two rounds of the search: the second sees every radar that is present.
 constexpr std::int64_t kListenUs = 3'000'000;
 
 Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>& sightings,
@@ -30,7 +30,7 @@ Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>&
                        sighting->place.remedy};
 }
 
-/// `found`: the configuration with the interfaces that were found.
+/// `found`: the configuration with the interfaces found.
 LocatedRadars located(const Configuration& found, const std::vector<Sighting>& sightings) {
   LocatedRadars result{found, {}};
   std::vector<RadarConfiguration>& radars = result.configuration.radars;

@@ -172,7 +172,7 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
   return command;
 }
 
-/// Of the commands that were not given, all names are empty.
+/// Commands that were not given have empty names.
 void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs,
                         const cremed::DriveFiles& drive,
                         const cremed::CalibrateArguments& calibrate) {

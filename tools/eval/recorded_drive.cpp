@@ -42,7 +42,7 @@ class RecordingSink final : public OdometrySink {
     }
   }
 
-  /// Of clusters: the velocity across of an object is measured.
+  /// Clusters only: an object's velocity across is measured.
   [[nodiscard]] double told_yaw_rate_radps(std::size_t radar, const RadarScan& scan) const {
     const auto* ars408 = configuration_.radars[radar].decoder.as<Ars408Options>();
     return ars408 != nullptr && ars408->output == Ars408Output::clusters

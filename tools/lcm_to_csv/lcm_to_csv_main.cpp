@@ -26,11 +26,11 @@ constexpr int kBadUsage = 2;
 struct Arguments {
   std::string log;
   std::string output = "-";
-  std::string odometry;  // Empty: not asked for.
+  std::string odometry;  // Empty: none.
 };
 
 cremed::LcmLogCounters convert(const Arguments& arguments) {
-  if (!std::ifstream(arguments.log)) {  // Before an output is emptied.
+  if (!std::ifstream(arguments.log)) {  // Checked before an output is truncated.
     throw std::runtime_error("cannot read " + arguments.log);
   }
   cremed::LineStream motions(arguments.output);
@@ -47,7 +47,7 @@ cremed::LcmLogCounters convert(const Arguments& arguments) {
   return counters;
 }
 
-/// Whether the log was as it should be.
+/// Whether the log had no faults.
 bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) {
   const std::string& log = arguments.log;
   const bool has_odometry = arguments.odometry.empty() || counters.odometries != 0;

@@ -56,7 +56,7 @@ CoursePlan stop_and_go_course() {
 
 CoursePlan standing_course() { return {0.0, 0.0, {{10.0, 0.0, 0.0}}}; }
 
-/// A way through a town: lights, turns at crossings, a roundabout, a jam, a road out and back in.
+/// A drive through a town: traffic lights, turns, a roundabout, a jam, a road out and back in.
 CoursePlan city_course() {
   return {0.0, 0.0, {{4.0, 0.0, 0.0},   // red light
                      {8.0, 13.0, 0.0},  // main street
@@ -77,7 +77,7 @@ CoursePlan city_course() {
                      {4.0, 0.0, 0.0}}};
 }
 
-/// Out of a parking place, backwards round corners both ways, and forwards again.
+/// Out of a parking place, backwards round corners in both directions, and forwards again.
 CoursePlan reversing_course() {
   return {0.0,
           0.0,
@@ -93,7 +93,7 @@ CoursePlan reversing_course() {
            {3.0, 0.0, 0.0}}};
 }
 
-/// As hard as tyres allow: 8.7 m/s^2 at the peak.
+/// Near the tyres' limit: 8.7 m/s^2 at the peak.
 CoursePlan braking_course() {
   return {20.0,
           0.0,
@@ -107,7 +107,7 @@ CoursePlan braking_course() {
            {12.1, 20.0, 0.0}}};
 }
 
-/// The rear breaks out in bends both ways, by up to 14 degrees, and is caught again.
+/// Oversteers in bends in both directions, up to 14 degrees, and recovers.
 CoursePlan skid_course() {
   return {10.0,
           0.0,
@@ -145,7 +145,7 @@ CoursePlan jam_course() {
            {4.0, 0.0, 0.0}}};
 }
 
-/// Once round, turning at 0.27 to 0.35 rad/s for 20 s.
+/// A full circle at 0.27 to 0.35 rad/s for 20 s.
 CoursePlan roundabout_course() {
   return {10.0,
           0.0,
@@ -180,7 +180,7 @@ CoursePlan garage_course() {
            {2.0, 0.0, 0.0}}};
 }
 
-/// U-turns both ways, each at 0.5 rad/s.
+/// U-turns in both directions, each at 0.5 rad/s.
 CoursePlan u_turn_course() {
   return {8.0,
           0.0,

@@ -11,26 +11,26 @@
 namespace cremed {
 namespace {
 
-constexpr double kMarginM = 120.0;        ///< The world goes on before and after the road.
+constexpr double kMarginM = 120.0;       ///< Length of the world before and after the road.
 constexpr double kClearanceM = 3.0;      ///< Free space on both sides of the path of the rear axle.
 constexpr double kLeftLanesM = 6.0;      ///< More free space on the left, for the traffic there.
-constexpr double kClutterReachM = 80.0;  ///< To both sides: something is to be seen in turns, too.
+constexpr double kClutterReachM = 80.0;  ///< To both sides, so that turns have targets too.
 constexpr double kRoadSpacingM = 1.0;
 constexpr double kCellM = 25.0;
 
-/// A tunnel's wall reflects at a few of very many places, at others in each scan.
+/// A tunnel's wall reflects at a few of many places, at others in each scan.
 constexpr double kTunnelSpacingM = 0.25;
 constexpr double kTunnelOffsetM = 1.5;
 constexpr double kTunnelProbability = 0.03;
 
-/// A stretch of one side of the road that is built in one way.
+/// A stretch of one side of the road of one kind.
 struct BlockKind {
   double least_length_m;
   double greatest_length_m;
   double least_offset_m;  ///< From the edge of the free space.
   double greatest_offset_m;
   double spacing_m;  ///< Of the reflectors along the road.
-  double jitter_m;   ///< Uniform, both ways: no structure is perfectly regular.
+  double jitter_m;   ///< Uniform, in both directions: no structure is perfectly regular.
   double rcs_dbm2;
   double detection_probability;
 };

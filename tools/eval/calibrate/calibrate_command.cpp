@@ -36,7 +36,7 @@ constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegPerRad, 2},
                                {kLead, "rotation lead ms", 1e3, 1},
                                {kPositionLead, "positions ahead ms", 1e3, 1}};
 
-/// What the configuration says already of a lead, which the fit is on top of.
+/// The configured part of a lead, to which the fit adds.
 double configured_part(const RadarConfiguration& radar, CalibrationState state) {
   const bool is_lead = state == kLead || state == kPositionLead;
   return is_lead ? radar.ego_motion.correction.rotation_lead_s : 0.0;
@@ -57,7 +57,7 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
     return (value + configured_part(configured, state)) * column.unit;
   };
   if (fit.prior_std[state] == 0.0 && state == kLead) {
-    return;  // Of no other type.
+    return;  // The radar's type has no such state.
   }
   std::fprintf(stderr, "  %-22s", column.label);
   if (fit.prior_std[state] == 0.0) {
@@ -117,7 +117,7 @@ Values found_values(const Configuration& configuration, const Calibration& calib
   return values;
 }
 
-/// Tables of their own: a radar's [radar.mount] may be written in ways that take no further key.
+/// Separate tables: a [radar.mount] may be in a form that accepts no further key.
 void print_toml(const Configuration& configuration, const Calibration& calibration,
                 const Values& values) {
   const FittedVehicle& vehicle = calibration.vehicle;

@@ -17,7 +17,7 @@ constexpr int kSteps = 50;
 constexpr double kLeastVariance = 1e-4;
 constexpr double kLeastFactor = 0.1;
 
-/// Expectation maximisation; each step raises the likelihood.
+/// Expectation maximisation; each step increases the likelihood.
 double most_likely_factor(const std::vector<ScaledError>& errors) {
   double variance = 1.0;
   double share = 0.9;
@@ -52,7 +52,7 @@ StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
   }
   const double value = most_likely_factor(errors);
   if (value < kLeastFactor) {
-    return {};  // Other errors explain all there is.
+    return {};  // Other errors explain the whole scatter.
   }
   double squares = 0.0;
   double weights = 0.0;
@@ -64,7 +64,7 @@ StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
       weights += weight;
     }
   }
-  // Beside it, what as many independent errors would leave.
+  // At least the standard deviation of as many independent errors.
   const double least = value / std::sqrt(2.0 * static_cast<double>(errors.size()));
   const double by_blocks = weights > 0.0 ? std::sqrt(squares) / weights : value;
   return {assumed * value, assumed * std::max(least, by_blocks)};

@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// Numbers from 0 up with commas between them, as many as that; a bad option otherwise.
+/// Exactly `count` non-negative numbers separated by commas; CLI::ValidationError otherwise.
 std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t least,
                             std::size_t most) {
   std::vector<double> values;
@@ -36,7 +36,7 @@ RelativePoseStd relative_pose_std(const std::string& text) {
   return {values[0], values[0], values[1], values.size() == 3 ? values[2] : 0.0};
 }
 
-/// A second reference, and how good both are.
+/// Options of the second reference and of the accuracy of both.
 void add_references(CLI::App& command, DriveFiles& files) {
   command.add_option("--wheels", files.wheels,
                      "CSV: utime,speed_mps,yaw_rate_radps; x and yaw against it, and the split of "

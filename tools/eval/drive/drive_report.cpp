@@ -25,12 +25,12 @@ double seconds(std::int64_t utime_us, const TrueTrajectory& truth) {
 
 std::string text(std::size_t count) { return std::to_string(count); }
 
-/// "-" where there was no segment.
+/// "-" if there is no segment.
 std::string text(double value, int decimals) {
   return std::isnan(value) ? "-" : std::string(TextLine().fixed(value, decimals).view());
 }
 
-/// A row of the table of drift: what `cell` says of each length, then of all.
+/// A row of the drift table: `cell` of each length, then of all.
 template <typename Cell>
 void print_drift_row(std::FILE* file, const SourceEvaluation& source, const char* what, Cell cell) {
   std::fprintf(file, "# %-15s %-8s", source.source.c_str(), what);

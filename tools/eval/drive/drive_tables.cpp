@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// One axis' row; `unit` turns the rates' metres or radians into what is printed.
+/// One axis' row; `unit` converts metres or radians.
 void print_axis(std::FILE* file, const std::string& source, const char* name,
                 const AxisAgainstWheels& axis, double unit) {
   std::fprintf(file, "# %-15s %-10s %6zu %9.3f %9.3f %9.3f %9.3f %9.3f %9.4f %9.4f %9.4f\n",

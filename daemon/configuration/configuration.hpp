@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "daemon/configuration/bus_options.hpp"
+#include "daemon/process/usage_error.hpp"
 
 namespace cremed {
 
@@ -87,9 +87,9 @@ struct Configuration {
 
 /// what(): "file:line: key: what is wrong; what would be right", one line per error, in the order
 /// of the file. For an unreadable file: "file: what is wrong; ...".
-class ConfigurationError : public std::runtime_error {
+class ConfigurationError : public UsageError {
  public:
-  using std::runtime_error::runtime_error;
+  using UsageError::UsageError;
 };
 
 /// Whether the motion of all radars, "fused", is published.

@@ -12,6 +12,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "daemon/process/plain_streams.hpp"
+
 namespace cremed {
 namespace {
 
@@ -29,6 +31,7 @@ void set_up_process() {
   open_if_closed(STDOUT_FILENO, O_RDONLY);  // Writing results to it then fails.
   open_if_closed(STDERR_FILENO, O_WRONLY);
   std::signal(SIGXFSZ, SIG_IGN);
+  make_standard_streams_plain();
 }
 
 int finish_process(int status) {

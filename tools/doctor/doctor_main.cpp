@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -18,11 +17,8 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/output/multicast_route.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "daemon/version.hpp"
 #include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -33,12 +29,13 @@
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/suggestion.hpp"
+#include "tools/program.hpp"
 
 namespace {
 
 using namespace cremed;
 
-enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
+enum ExitStatus : int { good = 0, failure = 1 };
 
 constexpr const char* kLive = "live";
 
@@ -253,19 +250,12 @@ int run_talk(const Arguments& arguments, const Configuration& asked) {
   return result == TalkResult::took ? good : failure;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Explains why there is no odometry: one finding a line, with what mends it",
-               "cremed-doctor"};
-  app.set_version_flag("--version", "cremed-doctor " CREMED_VERSION);
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   add_diagnosis_options(app, arguments);
   add_other_outputs(app, arguments);
   add_talk_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? good : bad_usage;
-  }
+  app.parse(argc, argv);
   if (arguments.lcm_url && !is_lcm_url(*arguments.lcm_url)) {
     throw UsageError("--lcm-url: '" + *arguments.lcm_url + "' is not " + kLcmUrlWanted);
   }
@@ -283,18 +273,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const UsageError& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return bad_usage;
-  } catch (const ConfigurationError& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return bad_usage;
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return failure;
-  }
+  return cremed::run_program("cremed-doctor",
+                             "Explains missing odometry: one finding and its remedy per line", run,
+                             argc, argv);
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cstdint>
-#include <exception>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -14,19 +13,14 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/file_aliases.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "daemon/source/candump.hpp"
-#include "daemon/version.hpp"
 #include "tools/line_stream.hpp"
+#include "tools/program.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace {
-
-constexpr int kRunTimeFailure = 1;
-constexpr int kBadUsage = 2;
 
 using cremed::UsageError;
 
@@ -130,16 +124,10 @@ void simulate(Arguments& arguments) {
   write_log(simulation, log);
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Simulates a drive as CAN frames of its radars, with truth", "cremed-simulate"};
-  app.set_version_flag("--version", "cremed-simulate " CREMED_VERSION);
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
-  }
+  app.parse(argc, argv);
   if (arguments.scenario == "list") {
     list_scenarios();
     return 0;
@@ -151,18 +139,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const UsageError& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kBadUsage;
-  } catch (const cremed::ConfigurationError& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kBadUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kRunTimeFailure;
-  }
+  return cremed::run_program("cremed-simulate",
+                             "Simulates a drive as CAN frames of its radars, with truth", run, argc,
+                             argv);
 }

@@ -31,4 +31,8 @@ std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
   return std::nullopt;
 }
 
+Likelihood likelihood_named(std::string_view name) {
+  return name == "exclusive" ? Likelihood::exclusive : Likelihood::max_sum_mixture;
+}
+
 }  // namespace cremed

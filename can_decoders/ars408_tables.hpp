@@ -70,11 +70,4 @@ std::optional<double> ars408_rms(std::uint8_t index);
 /// the index's own, a factor of 2000^(1/30), uniform in the logarithm.
 std::optional<double> ars408_std(std::uint8_t index);
 
-/// Table RA: standard deviation of an orientation; nothing for 31, "invalid", and above.
-std::optional<double> ars408_orientation_rms_rad(std::uint8_t index);
-
-/// Table P: upper bound of a probability (Pdh0: of a false alarm, ProbOfExist: of existence);
-/// nothing for 0, "invalid", and above 7.
-std::optional<double> ars408_probability(std::uint8_t code);
-
 }  // namespace cremed

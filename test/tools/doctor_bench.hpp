@@ -14,6 +14,7 @@
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/report/report.hpp"
+#include "test/tools/fake_ars408.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/observer.hpp"
@@ -26,17 +27,6 @@ struct BusFrame {
   CanFrame frame;
 };
 using Recording = std::vector<BusFrame>;
-
-/// How an ARS408 that is set as it should be reports itself, once a second.
-inline Ars408RadarState good_state(std::uint8_t sensor_id = 0) {
-  Ars408RadarState state;
-  state.nvm_read = true;
-  state.max_distance_m = 200.0;
-  state.sensor_id = sensor_id;
-  state.sends_quality = true;
-  state.output_code = 2;
-  return state;
-}
 
 /// The radars of the demo: an ARS408 in front on can0, a GPR at the rear on can1.
 inline Configuration demo_configuration() {

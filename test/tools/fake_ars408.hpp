@@ -25,11 +25,22 @@
 
 namespace cremed::test {
 
-/// How the sensor deals with a RadarCfg.
+/// The state of a sensor that is set as expected.
+inline Ars408RadarState good_state(std::uint8_t sensor_id = 0) {
+  Ars408RadarState state;
+  state.nvm_read = true;
+  state.max_distance_m = 200.0;
+  state.sensor_id = sensor_id;
+  state.sends_quality = true;
+  state.output_code = 2;
+  return state;
+}
+
+/// Reaction of the sensor to a RadarCfg.
 struct Ars408Manners {
   bool obeys = true;
-  bool keeps_range = false;   ///< A model that cannot see as far as it is told.
-  bool falls_silent = false;  ///< No 0x201 any more after a command.
+  bool keeps_range = false;   ///< A model with a shorter range than commanded.
+  bool falls_silent = false;  ///< Sends no 0x201 after a command.
 };
 
 /// Sensors at the other end of a socket that stands for a bus: each reports its state, some hundred

@@ -54,6 +54,14 @@ inline std::vector<RadarConfiguration> one_of_each_kind() {
           radar("inverted", "can3", {0.5, 0.8, 1.4}, inverted)};
 }
 
+/// Without unknown errors: mounts and Doppler scale are exact.
+inline SimulationOptions exactly_mounted(SimulationOptions options) {
+  options.mount_yaw_std_rad = 0.0;
+  options.mount_position_std_m = 0.0;
+  options.doppler_scale_std = 0.0;
+  return options;
+}
+
 /// A whole drive in memory.
 struct Drive {
   std::vector<RadarConfiguration> radars;

@@ -132,7 +132,7 @@ std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t r
     options.body_velocity_std_mps = 0.0;
     const Drive drive =
         cremed::test::drive(cremed::test::scenario(name), {cremed::test::one_of_each_kind()[radar]},
-                            cremed::exactly_mounted(options));
+                            cremed::test::exactly_mounted(options));
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));
   }
   return all;

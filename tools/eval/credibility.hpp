@@ -37,8 +37,6 @@ class Credibility {
   /// Share of errors within `sigmas` (1, 2, 3) standard deviations of `axis` (0 x, 1 y, 2 yaw);
   /// NaN for an axis that is not estimated. Gaussian: 0.683, 0.954, 0.997.
   [[nodiscard]] double coverage(int axis, int sigmas) const;
-  /// Mean of error / sigma. 0 if unbiased.
-  [[nodiscard]] double normalised_bias(int axis) const;
 
  private:
   [[nodiscard]] bool is_estimated(int axis) const { return degrees_of_freedom_ == 3 || axis != 1; }
@@ -49,7 +47,6 @@ class Credibility {
   double squared_yaw_rad2_ = 0.0;
   double nees_ = 0.0;
   std::array<std::array<std::size_t, 3>, 3> within_{};
-  std::array<double, 3> normalised_sum_{};
 };
 
 /// "n rmse_m rmse_deg anees x_1s x_2s x_3s y_1s ... yaw_3s", in columns, without line end.

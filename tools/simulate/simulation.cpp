@@ -107,13 +107,6 @@ std::vector<RadarConfiguration> default_radars() {
   return {front, rear};
 }
 
-SimulationOptions exactly_mounted(SimulationOptions options) {
-  options.mount_yaw_std_rad = 0.0;
-  options.mount_position_std_m = 0.0;
-  options.doppler_scale_std = 0.0;
-  return options;
-}
-
 Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
                        const SimulationOptions& options, const ScanObserver& observer)
     : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed,

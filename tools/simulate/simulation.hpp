@@ -42,9 +42,6 @@ struct SimulationOptions {
   bool is_told_motion = true;
 };
 
-/// Without unknown errors: mounts and Doppler scale are exact.
-SimulationOptions exactly_mounted(SimulationOptions options);
-
 /// Radars of config/demo.toml: an ARS408 in front on can0, a Bosch GPR facing backwards on can1.
 std::vector<RadarConfiguration> default_radars();
 

@@ -27,7 +27,6 @@ class TruthNoise {
   TruthNoise() = default;  ///< None.
   explicit TruthNoise(std::vector<RelativePoseStd> stds);
 
-  [[nodiscard]] bool is_zero() const { return stds_.empty(); }
   [[nodiscard]] const std::vector<RelativePoseStd>& stds() const { return stds_; }
   /// Covariance to add to that of a motion (x_m, y_m, yaw_rad) over that time.
   [[nodiscard]] Eigen::Matrix3d covariance(std::int64_t interval_us) const;

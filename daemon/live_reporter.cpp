@@ -56,7 +56,7 @@ int condition_of(const BusStatus& now, const BusStatus& before) {
 std::string text_of(int condition, const std::string& name, const BusStatus& status) {
   switch (condition) {
     case absent:
-      return "no such CAN interface; waiting for it (those there are: `ip link show type can`)";
+      return "no such CAN interface; waiting for it (list them: `ip link show type can`)";
     case down:
       return concat({"is down; set it up: `ip link set ", name,
                      " up type can bitrate 500000 restart-ms 100`"});
@@ -77,7 +77,7 @@ std::string text_of(int condition, const std::string& name, const BusStatus& sta
       return "controller is error passive: check wiring, termination (120 ohm at both ends), bit "
              "rate";
     case silent:
-      return concat({"silent: no frame of a configured radar; `cremed-doctor` tells why"});
+      return "silent: no frame of a configured radar; `cremed-doctor` finds the cause";
     default:
       return {};
   }
@@ -98,7 +98,7 @@ const char* short_text(int condition) {
 /// All buses report the same computer clock.
 void report_clock(const BusStatus& now, const BusStatus& before) {
   if (now.clock_steps != before.clock_steps) {
-    spdlog::warn("the clock was set: odometry starts anew");
+    spdlog::warn("the clock was set: odometry restarts");
   }
 }
 
@@ -166,7 +166,8 @@ void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
   });
   const int stale = now.frames_stale != before.frames_stale ? 1 : 0;
   log_.update(concat({name, " delay"}), stale, [] {
-    return "frames waited for longer than live.max_latency_s and are not used: cremed was not run";
+    return "frames waited for longer than live.max_latency_s and are dropped: cremed did not run "
+           "in time";
   });
   const int wanted = configuration_.live.socket.receive_buffer_bytes;
   const bool is_clipped = now.receive_buffer_bytes != 0 && now.receive_buffer_bytes < wanted;
@@ -235,7 +236,7 @@ std::string LiveReporter::report_odometry() {
 void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
   log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
               status.odometry.is_left_out ? 1 : 0,
-              [] { return "left out: it contradicts the other radars, or what it said before"; });
+              [] { return "excluded: it contradicts the other radars or its own past"; });
 }
 
 void LiveReporter::report_publisher() {

@@ -86,7 +86,7 @@ void LiveSession::save_learned() {
   }
   if (const auto problem = learned_writer_->problem()) {
     log_.update("state file", problem->empty() ? 0 : 1, [&] {
-      return concat({*problem, "; what was learned of the radars is not kept"});
+      return concat({*problem, "; the learned errors are not saved"});
     });
   }
 }

@@ -192,7 +192,7 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
   for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
     if (std::none_of(replay.logs().begin(), replay.logs().end(),
                      [i](const auto& log) { return log->has_frames(i); })) {
-      spdlog::error("the input has no frame of interface {}; set interface to one it has: {}",
+      spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
                     names[i], others);
     }
   }
@@ -228,7 +228,7 @@ bool report_sinks(const Sinks& sinks) {
     spdlog::error("{} results could not be written or published", failures);
   }
   if (sinks.tum != nullptr && sinks.tum->gaps() != 0) {
-    spdlog::warn("the trajectory has {} gaps, over which it stands still", sinks.tum->gaps());
+    spdlog::warn("the trajectory has {} gaps, at which it stands still", sinks.tum->gaps());
   }
   return failures == 0;
 }

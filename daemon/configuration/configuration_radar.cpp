@@ -115,7 +115,7 @@ void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
   if (!radar.decoder.rotation_lead_s()) {
     reader.refuse(std::array{kRotationLead},
                   concat({"is a key of type ", types_told_yaw_rate(),
-                          ", which is told the yaw rate; must be left out here"}));
+                          ", which receives the yaw rate; must be left out here"}));
     return;
   }
   reader.number(kRotationLead, radar.ego_motion.correction.rotation_lead_s, {-0.2, 0.2});

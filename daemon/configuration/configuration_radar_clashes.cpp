@@ -36,9 +36,9 @@ void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnost
   if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
     diagnostics.add(
         is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
-        concat({"is \"auto\", but ", later.radar.decoder.describe(), " is looked for where radars ",
-                quoted(earlier.radar.name), " and ", quoted(later.radar.name),
-                " are alike; must be the name of an interface for both"}));
+        concat({"is \"auto\", but ", later.radar.decoder.describe(),
+                " is searched for where radars ", quoted(earlier.radar.name), " and ",
+                quoted(later.radar.name), "match it; must be the name of an interface for both"}));
   }
 }
 

@@ -29,8 +29,8 @@ constexpr Range kMountYawRangeRad{-10.0, 10.0};
 constexpr double kTolerance = 1e-9;
 
 constexpr const char* kHeader =
-    "# Written by cremed: what it learned of the radars while driving, and begins with the next "
-    "time.\n# Delete it after work on the radars' mounts.\n";
+    "# Written by cremed: errors of the radars learned while driving, the prior of the next "
+    "drive.\n# Delete it after work on the radars' mounts.\n";
 
 struct Entry {
   std::string name;
@@ -147,12 +147,12 @@ std::vector<std::optional<LearnedErrors>> LearnedFile::read_and_log() const {
   const Content content = read();
   if (!content.problem.empty()) {
     spdlog::warn(
-        "{}\nwhat was learned of the radars is not used, and will be written anew; "
-        "delete the file if this comes again",
+        "{}\nthe learned errors are not used and will be overwritten; "
+        "delete the file if this happens again",
         content.problem);
   }
   for (const std::string& name : content.passed_over) {
-    spdlog::info("{}: its mount was changed: what was learned of it before is not used", name);
+    spdlog::info("{}: its mount has changed, so its learned errors are not used", name);
   }
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     if (const auto& errors = content.radars[i]) {

@@ -76,7 +76,7 @@ void LogSink::drop_when_full() {
 
 void LogSink::log(const spdlog::details::log_msg& message) {
   if (lost_ != 0 && has_room()) {
-    const std::string text = fmt::format("lines of the log that nobody took: {}", lost_);
+    const std::string text = fmt::format("log lines dropped: {}", lost_);
     lost_ = 0;
     log_text(spdlog::level::warn, text);
   }

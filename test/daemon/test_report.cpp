@@ -95,7 +95,7 @@ TEST_CASE("Each trouble is the first finding") {
              s.assembler.incomplete_scans = 100;
              s.health = {};
            },
-           Severity::error, "no scan is whole", "--configure-ars408 front"},
+           Severity::error, "no scan is complete", "--configure-ars408 front"},
       Case{"empty", [](auto& s) { s.assembler.empty_scans = 100; }, Severity::error,
            "all scans are empty", "0x202"},
       Case{"no quality", [](auto& s) { s.health.sends_quality = false; }, Severity::error,

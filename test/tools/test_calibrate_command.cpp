@@ -45,7 +45,7 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   for (const char* words :
        {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference", "Doppler offset m/s ",
         "stamp offset ms ", "rotation lead ms ", "positions ahead ms ", "range std factor ",
-        "relative to the direction the vehicle rolls in"}) {
+        "relative to the rolling direction of the vehicle"}) {
     CHECK_THAT(result.error, Catch::Contains(words));
   }
   const std::string before = text_of(wrong);
@@ -85,7 +85,7 @@ TEST_CASE("cremed-eval calibrate says what is wrong") {
       Refusal{"calibrate", 2, "LOG"}, Refusal{"calibrate /dev/null", 2, "--config"},
       Refusal{"calibrate /dev/null --config /no/such.toml", 2, "/no/such.toml"},
       Refusal{"calibrate /no/such.log --config CONFIG", 1, "/no/such.log"},
-      Refusal{"calibrate /dev/null --config CONFIG", 1, "no whole scan"},
+      Refusal{"calibrate /dev/null --config CONFIG", 1, "no complete scan"},
       Refusal{"calibrate /dev/null --config CONFIG --truth /no/such.csv", 1, "/no/such.csv"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;

@@ -54,7 +54,7 @@ TEST_CASE("cremed-doctor: findings are one a line, the status says that there ar
   const ToolRun lossy =
       doctor(folder, "--config " + kData + "lossy.toml --replay " + kData + "lossy.log");
   CHECK(lossy.status == 1);
-  CHECK_THAT(lossy.output, Catch::StartsWith("warning: front: 8 of 41 scans are not whole"));
+  CHECK_THAT(lossy.output, Catch::StartsWith("warning: front: 8 of 41 scans are incomplete"));
 }
 
 TEST_CASE("cremed-doctor: a log shows the interfaces that are to be found") {
@@ -105,10 +105,11 @@ TEST_CASE("cremed-doctor: the diagnosis as JSON") {
   const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '", " --json");
   CHECK(silent.status == 1);
   CHECK_THAT(silent.output, Catch::StartsWith("{\n  \"good\": false,"));
-  CHECK_THAT(silent.output,
-             Catch::Contains("\"severity\": \"error\",\n      \"what\": \"the log has no frame of "
-                             "interface can0\",\n      \"remedy\": \"set interface to one it has: "
-                             "can1\""));
+  CHECK_THAT(
+      silent.output,
+      Catch::Contains("\"severity\": \"error\",\n      \"what\": \"the log has no frame of "
+                      "interface can0\",\n      \"remedy\": \"set interface to one of these: "
+                      "can1\""));
 }
 
 TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is filled in") {
@@ -170,8 +171,8 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
       Refusal{config + "--configure-ars408 front --max-distance 20", 2, "--max-distance"},
       Refusal{config + "--configure-ars408 front --replay x", 2, "--replay"},
       Refusal{config + "--configure-ars408 rear", 2,
-              "'rear' is no ARS408 of the configuration; it "
-              "has front"},
+              "'rear' is not an ARS408 of the configuration, "
+              "which has front"},
       Refusal{kBends + "/no/such/log", 1, "/no/such/log"},
       Refusal{kBends + "/dev/null", 1, "no CAN frame in it; lines of `candump -L` are expected"});
   CAPTURE(row.arguments);

@@ -222,13 +222,13 @@ TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM"
 }
 
 TEST_CASE("cremed-eval drive says what is wrong") {
-  const auto row =
-      GENERATE(Refusal{"/no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
-               Refusal{"/no/such/file", 2, "TRUTH"},
-               Refusal{"a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has too few"},
-               Refusal{"a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has too few"},
-               Refusal{"a b --truth-std 1,-2", 2, "--truth-std: '-2' is no number from 0 up"},
-               Refusal{"TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
+  const auto row = GENERATE(
+      Refusal{"/no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
+      Refusal{"/no/such/file", 2, "TRUTH"},
+      Refusal{"a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has the wrong number"},
+      Refusal{"a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has the wrong number"},
+      Refusal{"a b --truth-std 1,-2", 2, "--truth-std: '-2' is not a number >= 0"},
+      Refusal{"TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   write_drive(folder, {"front"});

@@ -50,7 +50,7 @@ void register_all(const Arguments& arguments) {
 int run(CLI::App& app, int argc, char** argv) {
   app.allow_extras();
   Arguments arguments;
-  app.add_option("--pairs", arguments.pairs, "Recorded pairs to register as well (several scans)");
+  app.add_option("--pairs", arguments.pairs, "Recorded pairs to register too (several scans)");
   app.add_option("--profile", arguments.profile, "Their settings: psr, sim or nuscenes")
       ->capture_default_str()
       ->check(CLI::IsMember({"psr", "sim", "nuscenes"}));

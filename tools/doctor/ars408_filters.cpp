@@ -119,8 +119,8 @@ bool exchange(const CanFrame& frame, const std::optional<Ars408FilterState>& wan
   const bool took = !wanted || to_text(*wanted) == to_text(*answer);
   talk.out << "  " << to_text(*answer)
            << (!wanted ? ""
-               : took  ? ", took"
-                       : ", did not take: wanted " + to_text(*wanted))
+               : took  ? ", set"
+                       : ", not set: expected " + to_text(*wanted))
            << '\n';
   return took;
 }
@@ -157,7 +157,7 @@ TalkResult talk_about_filters(const Ars408Talk& talk,
   if (!met) {
     return TalkResult::not_sent;
   }
-  talk.out << (wanted.empty() ? "It tells its filters when asked; this changes nothing in it.\n"
+  talk.out << (wanted.empty() ? "It sends its filters on request; this changes no setting.\n"
                               : "The sensor keeps filters in its flash, which wears.\n");
   const std::vector<CanFrame> frames = frames_to_send(met->sensor_id, wanted);
   if (!is_agreed(talk, frames)) {

@@ -28,7 +28,7 @@ bool asks_consent(const Consent& consent, std::ostream& out) {
     return true;
   }
   if (::isatty(consent.terminal) == 0) {
-    out << "standard input is no terminal, so nobody can be asked; to agree, add --yes\n";
+    out << "standard input is no terminal; add --yes to give consent\n";
     return false;
   }
   out << "Send it? [y/N] " << std::flush;

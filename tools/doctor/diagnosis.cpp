@@ -78,8 +78,8 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   if (observation.frames_left_out != 0) {
     findings.push_back({Severity::warning,
                         concat({counted(observation.frames_left_out, "frame"),
-                                " of further interfaces left out: only ", std::to_string(kMaxBuses),
-                                " are looked at"}),
+                                " of further interfaces ignored: at most ",
+                                std::to_string(kMaxBuses), " interfaces are analysed"}),
                         "is this a log of candump? Its second column names the interface"});
   }
   if (!observation.lcm_problem.empty()) {

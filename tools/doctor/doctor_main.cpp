@@ -61,15 +61,16 @@ void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--replay", arguments.replay,
                  "Diagnose a candump log instead of the live bus; - for standard input");
   app.add_option("--lcm-url", arguments.lcm_url,
-                 "LCM URL to check, or none; overrides the configuration. A log is diagnosed "
-                 "without LCM unless it is given");
+                 "LCM URL to check, or none; overrides the configuration. With a log LCM is "
+                 "checked only if this is given");
 }
 
 void add_other_outputs(CLI::App& app, Arguments& arguments) {
   auto* json = app.add_flag("--json", arguments.is_json, "Print the diagnosis as JSON");
-  app.add_option("--suggest-config", arguments.suggested_from,
-                 "Write a first configuration from what is on the buses (live), or in this candump "
-                 "log, to standard output; where the radars are mounted is to be filled in")
+  app.add_option(
+         "--suggest-config", arguments.suggested_from,
+         "Write a first configuration of the radars on the buses (live), or in this candump "
+         "log, to standard output; the mounts must be filled in")
       ->expected(0, 1)
       ->default_str(kLive)
       ->excludes("--config")
@@ -80,26 +81,26 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
 
 void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* configure = app.add_option("--configure-ars408", arguments.ars408,
-                                   "Set the sensor of this radar to what the configuration "
+                                   "Set the sensor of this radar as the configuration "
                                    "expects; asks before it sends");
   app.add_option("--max-distance", arguments.setup.max_distance_m,
-                 "Set its range in m too (by model 196 to 260, or up to 1200)")
+                 "Also set its range in m (by model 196 to 260, or up to 1200)")
       ->check(CLI::Range(196.0, 1200.0))
       ->needs(configure);
   app.add_flag("--store", arguments.setup.store,
-               "Write its settings to its flash, so that they outlast power-off")
+               "Write its settings to its flash, to keep them after power-off")
       ->needs(configure);
   auto* filtered = app.add_option("--ars408-filters", arguments.filtered,
-                                  "Show which clusters the sensor of this radar lets pass; asks "
-                                  "before it sends what the sensor answers to");
+                                  "Show which clusters the filters of this radar's sensor pass; "
+                                  "asks before it sends the request");
   app.add_option("--filter", arguments.filters,
-                 std::string("Set a filter, and keep it in the sensor's flash; may repeat: ") +
+                 std::string("Set a filter, also in the sensor's flash; may repeat: ") +
                      kArs408FilterWanted)
       ->needs(filtered)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--sensor-id", arguments.talk.address.said_id,
-                 "The sensor id it has now, where that is not the configured one")
+                 "The sensor's present id, if it is not the configured one")
       ->check(CLI::Range(0, 7));
   app.add_flag("--yes", arguments.talk.consent.is_given, "Send without asking");
   for (const char* other : {"--replay", "--json", "--suggest-config"}) {
@@ -181,7 +182,7 @@ const RadarConfiguration& ars408_named(const std::string& name,
       names += (names.empty() ? "" : ", ") + radar.name;
     }
   }
-  throw UsageError("'" + name + "' is no ARS408 of the configuration; it has " +
+  throw UsageError("'" + name + "' is not an ARS408 of the configuration, which has " +
                    (names.empty() ? "none" : names));
 }
 

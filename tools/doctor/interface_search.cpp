@@ -24,8 +24,9 @@ Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>&
   const auto sighting = std::find_if(sightings.begin(), sightings.end(),
                                      [&](const Sighting& s) { return s.radar == index; });
   return sighting == sightings.end()
-             ? Finding{Severity::error, concat({radar.name, ": its interface was not looked for"}),
-                       "let the doctor listen to its end"}
+             ? Finding{Severity::error,
+                       concat({radar.name, ": its interface was not searched for"}),
+                       "do not interrupt the doctor"}
              : Finding{Severity::error, concat({radar.name, ": ", sighting->place.problem}),
                        sighting->place.remedy};
 }

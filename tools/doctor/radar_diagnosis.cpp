@@ -117,8 +117,8 @@ bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
 }
 
 std::string quality_off(const RadarConfiguration& radar) {
-  return concat(
-      {"the sensor sends targets without quality on ", radar.interface, ", so no scan is whole"});
+  return concat({"the sensor sends targets without quality on ", radar.interface,
+                 ", so no scan is complete"});
 }
 
 /// The first and the last scan are cut by the observation.
@@ -144,11 +144,11 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   const Severity severity =
       scans.incomplete_scans == scans.scans ? Severity::error : Severity::warning;
   const bool has_header = radar.decoder.make_decoder()->framing().has_header;
-  const std::string what =
-      concat({number(scans.incomplete_scans), " of ", number(scans.scans), " scans are not whole: ",
-              has_header ? "their headers say " + number(incomplete.announced_targets) +
-                               " targets, " + number(incomplete.whole_targets) + " came whole"
-                         : counted(scans.missing_parts, "frame") + " missing"});
+  const std::string what = concat(
+      {number(scans.incomplete_scans), " of ", number(scans.scans), " scans are incomplete: ",
+       has_header ? "their headers announce " + number(incomplete.announced_targets) +
+                        " targets, " + number(incomplete.whole_targets) + " complete"
+                  : counted(scans.missing_parts, "frame") + " missing"});
   if (radar.decoder.as<Ars408Options>() != nullptr &&
       incomplete.most_announced > kMaxTargetsPerCycle) {
     findings.push_back(
@@ -180,7 +180,7 @@ std::uint64_t lists_of(const RadarSettings& radar, const BusTraffic& bus) {
 
 std::string twin_remedy(const RadarConfiguration& radar, bool is_echo) {
   if (is_echo) {
-    return "look for a gateway that repeats frames; do not merge two logs of one bus";
+    return "find the gateway that repeats frames; do not merge two logs of one bus";
   }
   const auto* const ars408 = radar.decoder.as<Ars408Options>();
   return ars408 == nullptr
@@ -226,7 +226,7 @@ void add_pause(const RadarObservation& observed, double seconds, Findings& findi
                times.is_paused
                    ? concat({"in the last ", tenths(times.longest_pause_s)})
                    : concat({"from ", tenths(times.pause_begin_s), " to ", tenths(end_s)}),
-               " of ", tenths(seconds), " s, though it sent them ",
+               " of ", tenths(seconds), " s, although it sent scans ",
                times.pause_begin_s > 0.0 ? "before" : "after that"}),
        "check its supply and plug for loose contacts; it may have restarted"});
 }

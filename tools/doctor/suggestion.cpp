@@ -16,17 +16,14 @@ namespace cremed {
 namespace {
 
 constexpr std::string_view kHeading =
-    "# What cremed-doctor saw on the buses. Fill in where each radar is mounted, give it a name "
-    "that\n"
-    "# tells you so, and check the file: `cremed --check-config FILE`. config/cremed.toml of "
-    "cremed\n"
-    "# explains these keys and all others.\n";
+    "# Radars found by cremed-doctor. Fill in the mounts, choose names, and check the file:\n"
+    "# `cremed --check-config FILE`. config/cremed.toml of cremed explains all keys.\n";
 
 constexpr std::string_view kMount =
     "[radar.mount]  # From the middle of the rear axle.\n"
     "x_m = \"FILL IN\"      # m, forward\n"
     "y_m = \"FILL IN\"      # m, to the left\n"
-    "yaw_rad = \"FILL IN\"  # rad, where it looks to: 0 ahead, 1.5708 to the left, 3.1416 back\n";
+    "yaw_rad = \"FILL IN\"  # rad, direction of view: 0 ahead, 1.5708 to the left, 3.1416 back\n";
 
 /// A name that needs no escapes in a TOML string.
 bool is_suggestible(const std::string& interface) {

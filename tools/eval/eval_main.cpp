@@ -116,13 +116,13 @@ int run_pairs(const PairsArguments& arguments) {
 CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
   cremed::PaperTableOptions& options = arguments.options;
   CLI::App* command =
-      app.add_subcommand("table", "The paper's simulated problems: its figures beside ours");
+      app.add_subcommand("table", "The paper's simulated problems: its figures and ours");
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--runs", options.runs, "Runs with each set (as the paper: 1000, Sim 500)")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  command->add_option("--threads", options.threads, "Threads; the figures do not depend on it")
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  command->add_option("--threads", options.threads, "Number of threads; no effect on the figures")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)");
@@ -148,7 +148,7 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
       ->capture_default_str();
   command->add_option("--output", arguments.output, "Write each pair's result as CSV");
   command->add_option("--plot", arguments.plot,
-                      "Draw how many targets have a partner, by the true motion (PNG, SVG)");
+                      "Draw the number of targets with a partner by the true motion (PNG, SVG)");
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }
@@ -159,9 +159,9 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
   command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
   command->add_option("--config", arguments.config, "Configuration to start from")->required();
   command->add_option("--truth", arguments.truth,
-                      "CSV, if there is one: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
+                      "CSV: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
   command->add_flag("--write", arguments.write,
-                    "Change the configuration too: only what the drive tells better");
+                    "Also change the configuration, where the drive gives better values");
   return command;
 }
 

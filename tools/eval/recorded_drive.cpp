@@ -91,7 +91,8 @@ std::vector<RecordedRadar> record_drive(const Configuration& configuration,
   std::vector<RecordedRadar> radars = sink.take();
   if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(
-        concat({logs.front(), ": no whole scan of any radar; `cremed-doctor --replay` says why"}));
+        concat({logs.front(),
+                ": no complete scan of any radar; `cremed-doctor --replay` shows the cause"}));
   }
   return radars;
 }

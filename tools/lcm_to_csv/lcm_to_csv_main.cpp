@@ -45,14 +45,14 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
   const std::string& log = arguments.log;
   const bool has_odometry = arguments.odometry.empty() || counters.odometries != 0;
   if (counters.bad_messages != 0) {
-    std::cerr << log << ": left out " << counters.bad_messages
-              << " messages that are not of this version's type of their channel\n";
+    std::cerr << log << ": ignored " << counters.bad_messages
+              << " messages of another type than their channel's in this version\n";
   }
   if (!has_odometry) {
     std::cerr << log << ": no odometry on CREMED_ODOMETRY\n";
   }
   if (counters.ends_inside_message) {
-    std::cerr << log << ": is no LCM log or ends inside a message\n";
+    std::cerr << log << ": not an LCM log, or it ends inside a message\n";
   }
   if (counters.motions == 0) {
     std::cerr << log << ": no motion on CREMED_EGO_MOTION; record with lcm-logger\n";

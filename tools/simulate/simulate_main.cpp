@@ -34,46 +34,49 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
-  app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' names them all")
+  app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' prints all")
       ->required();
   app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
   app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
   app.add_option("--config", arguments.config,
-                 "Configuration of cremed with the radars to simulate; without it an ARS408 in "
-                 "front on can0 and a Bosch GPR at the rear on can1");
+                 "Configuration of cremed with the radars to simulate; default: an ARS408 in front "
+                 "on can0 and a Bosch GPR at the rear on can1");
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
-                 "Seconds to drive; without it as long as the scenario")
+                 "Seconds to drive; default: the scenario's")
       ->check(CLI::Range(0.5, 7200.0));
   app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
       ->capture_default_str();
-  app.add_option("--body-velocity-std", arguments.options.body_velocity_std_mps,
-                 "Standard deviation in m/s of the velocity of all radars over that of the rear "
-                 "axle while driving (pitch, suspension)")
+  app.add_option(
+         "--body-velocity-std", arguments.options.body_velocity_std_mps,
+         "Standard deviation in m/s of the velocity of all radars relative to the rear axle "
+         "while driving (pitch, suspension)")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  app.add_option("--doppler-offset-std", arguments.options.doppler_offset_std_mps,
-                 "Standard deviation in m/s of an error of all Doppler of a radar while driving, "
-                 "which no radar reports")
+  app.add_option(
+         "--doppler-offset-std", arguments.options.doppler_offset_std_mps,
+         "Standard deviation in m/s of an unreported offset of all Doppler of a radar while "
+         "driving")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
   app.add_option("--doppler-scale-std", arguments.options.doppler_scale_std,
-                 "Standard deviation of the factor on all Doppler of a radar, drawn once a drive")
+                 "Standard deviation of the factor on all Doppler of a radar, drawn once per drive")
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str();
-  app.add_option("--mount-yaw-std", arguments.options.mount_yaw_std_rad,
-                 "Standard deviation in rad of a radar's yaw from that of the configuration, drawn "
-                 "once a drive")
+  app.add_option(
+         "--mount-yaw-std", arguments.options.mount_yaw_std_rad,
+         "Standard deviation in rad of a radar's yaw from the configured one, drawn once per "
+         "drive")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   app.add_option("--mount-position-std", arguments.options.mount_position_std_m,
-                 "The same in m of x and of y of its mount")
+                 "The same for x and y of its mount, in m")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_flag("!--not-told", arguments.options.is_told_motion,
-               "ARS408s are not told the vehicle's speed and yaw rate: they take what stands for "
-               "moving, report radial velocities only and turn no positions");
+               "ARS408s do not receive the vehicle's speed and yaw rate: they take static targets "
+               "for moving, report radial velocities only and do not extrapolate positions");
 }
 
 void list_scenarios() {
@@ -85,7 +88,7 @@ void list_scenarios() {
 
 const cremed::Scenario& asked_scenario(const std::string& name) {
   if (const cremed::Scenario* scenario = cremed::find_scenario(name)) return *scenario;
-  throw UsageError("--scenario: there is no '" + name + "'; '--scenario list' names them all");
+  throw UsageError("--scenario: unknown scenario '" + name + "'; '--scenario list' prints all");
 }
 
 void write_log(cremed::Simulation& simulation, cremed::LineStream& log) {

@@ -80,7 +80,7 @@ void print_factor(const char* label, const StdFactor& factor) {
 
 void print_vehicle(const FittedVehicle& vehicle) {
   if (vehicle.prior_std[kRoll] == 0.0) {
-    std::fprintf(stderr, "mounts are relative to the direction the vehicle rolls in\n");
+    std::fprintf(stderr, "mounts are relative to the rolling direction of the vehicle\n");
   } else {
     std::fprintf(stderr,
                  "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
@@ -91,7 +91,7 @@ void print_vehicle(const FittedVehicle& vehicle) {
 }
 
 void print_table(const Configuration& configuration, const Calibration& calibration) {
-  std::fprintf(stderr, "kept: the drive does not tell better\n");
+  std::fprintf(stderr, "kept: the drive gives no better value\n");
   print_vehicle(calibration.vehicle);
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
     const RadarCalibration& radar = calibration.radars[i];
@@ -122,9 +122,10 @@ void print_toml(const Configuration& configuration, const Calibration& calibrati
                 const Values& values) {
   const FittedVehicle& vehicle = calibration.vehicle;
   std::printf(
-      "# Found by cremed-eval calibrate. Goes above or below any table, in place of older ones.\n");
+      "# Results of cremed-eval calibrate; put them before or after any table, replacing older "
+      "ones.\n");
   if (vehicle.prior_std[kRoll] == 0.0) {
-    std::printf("# yaw_rad is relative to the direction the vehicle rolls in.\n");
+    std::printf("# yaw_rad is relative to the rolling direction of the vehicle.\n");
   } else {
     std::printf(
         "# yaw_rad is in the frame of truth, in which the vehicle rolls at %.4f +- %.4f rad.\n",

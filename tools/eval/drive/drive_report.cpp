@@ -47,7 +47,7 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
   row("segments", [](const PathDrift& d) { return text(d.segments); });
   if (gaps(source) != 0) {
     row("left out", [](const PathDrift& d) { return text(d.across_gaps); });
-    std::fprintf(file, "# %-15s left out: segments across a gap without estimate; gaps: %zu\n",
+    std::fprintf(file, "# %-15s omitted: segments across a gap without estimate; gaps: %zu\n",
                  source.source.c_str(), gaps(source));
   }
 }
@@ -59,9 +59,9 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
   const std::string note = noise.note();
   std::fprintf(
       file,
-      "# n estimates against truth: RMS errors; anees: the mean of (error / sigma)^2, 1 if "
-      "the covariance is true,\n# less if errors are smaller than it says; share of errors "
-      "within 1, 2, 3 sigma, of a Gaussian 0.683, 0.954, 0.997%s%s\n",
+      "# n estimates against truth: RMS errors; anees: mean of (error / sigma)^2, 1 if the "
+      "covariance is credible,\n# less if it is too large; share of errors within 1, 2, 3 sigma, "
+      "of a Gaussian 0.683, 0.954, 0.997%s%s\n",
       note.empty() ? "" : "; ", note.c_str());
   std::fprintf(file, "%-16s %s\n", "# source", kCredibilityColumns);
   for (const SourceEvaluation& source : sources) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kNotes =
     "# RMSE counts x and y; ANEES is over the estimated states (x, yaw; PSR and ICP: x, y, yaw);\n"
-    "# low, high: 95 % of consistent estimators have their ANEES there; bound: the least squares\n"
-    "# that knows the correspondences.\n";
+    "# low, high: 95 % interval of the ANEES of consistent estimators; bound: least squares with\n"
+    "# known correspondences.\n";
 
 /// Column titles: text and, for the row of groups, the start of a group.
 std::string header() {

@@ -44,7 +44,7 @@ TEST_CASE("Rms index 31 and impossible ones have no value") {
 }
 
 TEST_CASE("Codes of tables D, I, M and of the measurement state") {
-  // The numbers are the sensor's; the masks of the configuration are written in them.
+  // The codes are the sensor's; the configuration's masks use them.
   CHECK(Ars408DynProp{0} == Ars408DynProp::moving);
   CHECK(Ars408DynProp{1} == Ars408DynProp::stationary);
   CHECK(Ars408DynProp{2} == Ars408DynProp::oncoming);

@@ -27,7 +27,7 @@ std::uint64_t& count(RadarStatus& status, MotionStatus motion) {
   return status.motions_by_status[static_cast<std::size_t>(motion)];
 }
 
-/// 100 scans of an ARS408, an estimate each.
+/// 100 scans of an ARS408 with an estimate each.
 RadarStatus healthy() {
   RadarStatus status;
   status.source.frames = 5000;

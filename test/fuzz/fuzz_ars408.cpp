@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Any frames to an ARS408 decoder of any options, every message decoder, and detections from any
-// two payloads: values stay finite and in range, and every frame is counted exactly once.
+// Arbitrary frames to an ARS408 decoder with arbitrary options, every message decoder, and
+// detections from two arbitrary payloads: values stay finite and in range, and every frame is
+// counted exactly once.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Talks with ARS408s on a bus in memory.
+// Dialogues with ARS408s on a bus in memory.
 
 #include <array>
 #include <cstdint>
@@ -49,7 +49,7 @@ class Input {
   /// Provides `typed`, then the end of the file.
   Input(Kind kind, std::string_view typed) {
     if (kind == Kind::terminal && ::openpty(&other_, &own_, nullptr, nullptr, nullptr) == 0) {
-      write(std::string(typed) + '\x04');  // End of file, as a person types it.
+      write(std::string(typed) + '\x04');  // End of file on a terminal.
     } else if (std::array<int, 2> ends{}; kind == Kind::pipe && ::pipe(ends.data()) == 0) {
       std::tie(own_, other_) = std::pair(ends[0], ends[1]);
       write(typed);

@@ -56,7 +56,7 @@ inline void remove_if(Recording& traffic, const std::function<bool(const BusFram
   traffic.erase(std::remove_if(traffic.begin(), traffic.end(), condition), traffic.end());
 }
 
-/// This 0x201 in front of everything else, and no other one.
+/// Puts this 0x201 before everything else and removes all others.
 inline void report_state(Recording& traffic, const std::string& interface,
                          const Ars408RadarState& state) {
   CanFrame frame = encode_ars408(state.sensor_id, state);
@@ -103,7 +103,7 @@ inline std::string all_text(const std::vector<Finding>& findings) {
   return text;
 }
 
-/// The first finding is this one.
+/// Checks the first finding.
 inline void check_first(const std::vector<Finding>& findings, Severity severity,
                         const std::string& what, const std::string& remedy) {
   CAPTURE(all_text(findings));

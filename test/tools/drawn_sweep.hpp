@@ -15,7 +15,7 @@
 
 namespace cremed::test {
 
-/// Points that stand, and what radars at the front and at both rear corners see of them.
+/// Static points, as seen by radars at the front and at both rear corners.
 class DrawnWorld {
  public:
   DrawnWorld(unsigned seed, int points) : random_(seed) {

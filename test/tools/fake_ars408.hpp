@@ -43,11 +43,11 @@ struct Ars408Manners {
   bool falls_silent = false;  ///< Sends no 0x201 after a command.
 };
 
-/// Sensors at the other end of a socket that stands for a bus: each reports its state, some hundred
+/// Sensors at the other end of a socket that replaces a bus: each reports its state about a hundred
 /// times as often as a real one, and obeys 0x200 + 0x10 * its own id.
 class FakeArs408s {
  public:
-  /// `traffic` of others is sent along with each report.
+  /// `traffic` of other nodes is sent with each report.
   FakeArs408s(std::vector<Ars408RadarState> states, Ars408Manners manners,
               std::vector<CanFrame> traffic)
       : states_(std::move(states)), manners_(manners), traffic_(std::move(traffic)) {
@@ -60,7 +60,7 @@ class FakeArs408s {
     if (socket_.adopt(ends[1], {}).status != CanOpenStatus::open) {
       throw std::runtime_error("adopt failed");
     }
-    report();  // However busy the computer is, there is something to hear.
+    report();  // The first report is available at once on a busy computer too.
     thread_ = std::thread([this] { live(); });
   }
   ~FakeArs408s() {
@@ -72,7 +72,7 @@ class FakeArs408s {
 
   CanSocket& socket() { return socket_; }
 
-  /// All frames that were sent to the bus; the sensors are switched off.
+  /// All frames sent to the bus; stops the sensors.
   const std::vector<CanFrame>& all_received() {
     stop();
     while (hear(0)) {
@@ -96,7 +96,7 @@ class FakeArs408s {
     }
   }
 
-  /// Takes a frame if one comes in time.
+  /// Receives a frame within the time-out.
   bool hear(int wait_ms) {
     pollfd polled{bus_, POLLIN, 0};
     can_frame raw{};
@@ -144,7 +144,7 @@ class FakeArs408s {
     }
   }
 
-  /// A filter is set if its valid bit is; what it is then is told, whatever.
+  /// Sets a filter if its valid bit is set, and always answers with the filter's state.
   void answer(const CanFrame& asked) {
     const auto filter = decode_ars408_filter_state(std::span(asked.data).first(asked.length));
     const auto index = static_cast<std::size_t>(filter->criterion);

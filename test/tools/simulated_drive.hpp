@@ -39,7 +39,7 @@ inline RadarConfiguration radar(const std::string& name, const std::string& inte
   return result;
 }
 
-/// One radar of each kind, at mounts where every sign matters.
+/// One radar of each kind, with mounts that reveal sign errors.
 inline std::vector<RadarConfiguration> one_of_each_kind() {
   Ars408Options objects;
   objects.sensor_id = 3;
@@ -67,7 +67,7 @@ struct Drive {
   std::vector<RadarConfiguration> radars;
   std::vector<CanFrame> frames;
   std::vector<ScanTruth> truths;  ///< In order of their stamps.
-  std::vector<Pose2> mounts;      ///< Where the radars really are.
+  std::vector<Pose2> mounts;      ///< True mounts.
   std::string log;                ///< The frames as candump text.
   std::string truth_csv;
 };
@@ -92,7 +92,7 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   return result;
 }
 
-/// What the daemon would make of the log for one radar.
+/// The scans that the daemon decodes from the log for one radar.
 struct DecodedRadar {
   std::vector<RadarScan> scans;
   DecoderCounters decoder;
@@ -121,7 +121,7 @@ inline DecodedRadar decode(const std::string& log, const RadarConfiguration& rad
   return result;
 }
 
-/// The truth file, read again and interpolated as cremed-eval does: linearly.
+/// The truth file, interpolated linearly as in cremed-eval.
 class TruthTable {
  public:
   explicit TruthTable(const std::string& csv) {

@@ -19,7 +19,7 @@ Eigen::Matrix3d correlated() {
   return covariance;
 }
 
-/// Estimates whose errors have `scale` times the standard deviation they claim.
+/// Estimates whose errors have `scale` times the claimed standard deviation.
 Credibility draw(int degrees_of_freedom, double scale, int count) {
   Eigen::Matrix3d covariance = correlated();
   if (degrees_of_freedom == 2) {

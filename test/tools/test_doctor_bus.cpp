@@ -16,7 +16,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// Frames in front of a healthy drive, or in place of what can0 carries.
+/// Frames before a healthy drive, or instead of those of can0.
 Observation with_errors(const Configuration& configuration, std::vector<CanFrame> errors,
                         bool only_errors) {
   Recording traffic = recording_of(configuration.radars);
@@ -49,7 +49,7 @@ TEST_CASE("What is wrong with a bus is found") {
       Case{"no CAN in the kernel", [](auto& o) { o.kernel_has_can = false; },
            "the kernel has no CAN sockets", "`modprobe can_raw`"},
       Case{"absent", [](auto& o) { front_bus(o).state = InterfaceState::absent; },
-           "there is no interface can0", "or set interface to an existing one:  can1"},
+           "there is no interface can0", "or set interface to an existing one: can1"},
       Case{"vcan absent",
            [](auto& o) {
              front_bus(o).state = InterfaceState::absent;

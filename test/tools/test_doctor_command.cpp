@@ -21,7 +21,7 @@ ToolRun doctor(const TemporaryFolder& folder, const std::string& arguments) {
   return run_tool("cremed-doctor", folder, arguments);
 }
 
-/// The log bends.log, without or with what a filter of the shell changes.
+/// The log bends.log, or the output of a shell filter on it.
 ToolRun doctor_of_filtered(const TemporaryFolder& folder, const std::string& filter,
                            const std::string& options = "") {
   const std::string log = folder.file("log");

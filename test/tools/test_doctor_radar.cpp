@@ -14,7 +14,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// A healthy drive, spoilt in one way, and the finding that must come first.
+/// A healthy drive with one change, and the finding that must come first.
 struct Case {
   std::string name;
   std::function<void(Configuration&, Recording&)> spoil;
@@ -52,7 +52,7 @@ std::function<bool(const BusFrame&)> is_between(const Recording& traffic, double
   };
 }
 
-/// A second sensor with the same id, some time later, with a counter of its own.
+/// A second sensor with the same id, delayed, with its own counter.
 void add_twin(Recording& traffic, const std::string& interface, std::int64_t later_us) {
   Recording twin;
   for (BusFrame entry : traffic) {

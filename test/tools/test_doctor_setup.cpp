@@ -23,7 +23,7 @@ struct Outcome {
   std::vector<CanFrame> sent;
 };
 
-/// What the user says on the command line, and types.
+/// The user's command line and input.
 struct Said {
   Ars408Setup setup{};
   Ars408Address address{};
@@ -179,7 +179,7 @@ TEST_CASE("Nothing is sent to what is no ARS408") {
   const Outcome among = set_up({factory_state(0)}, {}, {}, two_ars408s(), gpr);
   CHECK(among.sent.empty());
   CHECK_THAT(among.text, Catch::Contains("a Bosch GPR is on can0"));
-  // A report whose sensor id is not that of its identifier is from something else.
+  // A report whose sensor id contradicts its identifier comes from another device.
   const Outcome stranger = set_up({}, {}, {}, two_ars408s(), {hex_frame("201#4019000013F40000")});
   CHECK(stranger.sent.empty());
   CHECK_THAT(stranger.text, Catch::Contains("no 0x201 of an ARS408 with sensor id 0 on can0"));

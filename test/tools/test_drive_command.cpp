@@ -46,7 +46,8 @@ std::string write_wheels(const TemporaryFolder& folder) {
   return " --wheels " + folder.file("wheels.csv");
 }
 
-/// The same drive as the vehicle's state since two anchors, 2 % too long and 0.2 m/s too fast.
+/// The same drive as the vehicle's state relative to two anchors, 2 % too long and 0.2 m/s too
+/// fast.
 std::string write_states(const TemporaryFolder& folder) {
   std::ofstream states(folder.file("states.csv"));
   states << "utime,utime_anchor,status,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
@@ -61,7 +62,7 @@ std::string write_states(const TemporaryFolder& folder) {
   return "drive " + folder.file("states.csv") + " " + folder.file("truth.csv");
 }
 
-/// Words of the first comment that begins with that.
+/// Words of the first comment with that beginning.
 std::vector<std::string> words(const std::string& output, const std::string& begin) {
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
@@ -101,7 +102,8 @@ TEST_CASE("cremed-eval drive tells how true the motions are when they are chaine
   const TemporaryFolder folder;
   const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
   REQUIRE(result.status == 0);
-  // 1 % of the way, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as independent.
+  // 1 % of the path, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as
+  // independent.
   const auto after_10_m = words(result.output, "sideways          10 m ");
   REQUIRE(after_10_m.size() == 9);
   CHECK(after_10_m[0] == "3");
@@ -150,7 +152,7 @@ TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
   REQUIRE(rows.size() == 1);
   CHECK(rows[0][0] == "odometry");
   CHECK(rows[0][1] == "20");
-  // Chained over the anchor: 0.4 m off at a variance of 0.08 m^2, drifting 2 %.
+  // Chained over the anchor: 0.4 m error at a variance of 0.08 m^2, drift 2 %.
   CHECK(words(result.output, "odometry        %")[0] == "2.00");
   CHECK(words(result.output, "odometry          10 m ") ==
         std::vector<std::string>{"2", "0.33", "1.00", "0.00", "0.00", "0.200", "0.000", "0.000",
@@ -199,7 +201,7 @@ TEST_CASE("cremed-eval drive draws one source and many, without an estimate too"
   CHECK(result.error.find("Warning") == std::string::npos);
   const std::string svg = content(picture);
   CHECK(svg.find("</svg>") != std::string::npos);
-  // Matplotlib tells each text that it draws in a comment.
+  // Matplotlib writes each text into a comment.
   const bool has_estimates = sources.front() != "blind";
   CHECK((svg.find("error of x [m], 0.0 % outside 3 sigma") != std::string::npos) == has_estimates);
   CHECK((svg.find("ANEES 0.50 (95 % band") != std::string::npos) == has_estimates);

@@ -24,8 +24,8 @@ using namespace cremed::test;
 
 namespace {
 
-/// A drive with losses, so that there are rows of all kinds, published into an LCM log and written
-/// as CSV.
+/// A drive with losses, so that all kinds of rows occur, published into an LCM log and written as
+/// CSV.
 void record_drive(const std::string& log, const std::string& csv, const std::string& odometry) {
   const std::vector<RadarConfiguration> radars = default_radars();
   SimulationOptions options;

@@ -21,14 +21,14 @@ inline std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// How a run of one of the programs ended.
+/// Result of running a program.
 struct ToolRun {
   int status = 0;
   std::string output;
   std::string error;
 };
 
-/// Runs a program of the build; its output goes through files of the folder.
+/// Runs a program of the build; its output is stored in files of the folder.
 inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
                         const std::string& arguments) {
   const std::string command = std::string(CREMED_BINARY_DIR)

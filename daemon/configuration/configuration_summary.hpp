@@ -10,8 +10,7 @@
 namespace cremed {
 
 /// The configuration as text: a table of the radars with mounts in m and degrees, then the input
-/// and output of the odometry, and what is sent on the buses. Lines end with '
-/// '.
+/// and output of the odometry, and what is sent on the buses. Lines end with '\n'.
 std::string configuration_summary(const Configuration& configuration);
 
 /// Valid but unusual settings, one per line.

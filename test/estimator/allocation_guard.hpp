@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Counts every allocation of the process while a guard lives. Include it in one source file of an
-// executable only: it replaces malloc and its relatives, which operator new calls as well. Under a
-// sanitizer, which replaces them itself, the sanitizer's own hook counts instead.
+// Counts every allocation of the process during a guard's lifetime. Include it in one source file
+// of an executable only: it replaces malloc and related functions, which operator new calls too.
+// With a sanitizer, which replaces them itself, the sanitizer's hook counts instead.
 
 #include <cstddef>
 #include <cstdlib>
@@ -25,7 +25,7 @@
 
 namespace cremed {
 
-/// ThreadSanitizer calls its hook for malloc, calloc and new alone.
+/// ThreadSanitizer calls its hook for malloc, calloc and new only.
 #ifdef CREMED_HAS_THREAD_SANITIZER
 inline constexpr bool kGuardSeesAll = false;
 #else
@@ -35,7 +35,7 @@ inline constexpr bool kGuardSeesAll = true;
 inline volatile bool is_counting_allocations = false;
 inline long allocation_count = 0;
 
-/// Allocations since the guard was made; one guard at a time, one thread.
+/// Allocations since construction; one guard at a time, one thread.
 class AllocationGuard {
  public:
   AllocationGuard() {
@@ -46,7 +46,7 @@ class AllocationGuard {
   AllocationGuard(const AllocationGuard&) = delete;
   AllocationGuard& operator=(const AllocationGuard&) = delete;
 
-  /// Stops counting; returns how many there were.
+  /// Stops counting; returns the number.
   static long stop() {
     is_counting_allocations = false;
     return allocation_count;
@@ -73,7 +73,7 @@ inline const int kInstalledHooks = __sanitizer_install_malloc_and_free_hooks(
 
 #else
 
-// glibc's own functions under their second names.
+// glibc's functions by their alternative names.
 // NOLINTBEGIN(readability-identifier-naming,clang-diagnostic-reserved-identifier)
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;

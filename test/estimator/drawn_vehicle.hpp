@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motions of several radars of one vehicle, drawn from what their covariances say.
+// Motions of several radars of one vehicle, drawn from their covariances.
 
 #include <algorithm>
 #include <cmath>
@@ -46,22 +46,22 @@ inline Eigen::Vector3d true_motion(const Course& course, std::int64_t start_us,
   return pose;
 }
 
-/// One radar, and how well it sees.
+/// One radar and its accuracy.
 struct DrawnRadar {
   std::int64_t period_us = 75'000;
   std::int64_t phase_us = 0;                ///< First scan.
-  Eigen::Vector3d std{0.006, 0.02, 0.003};  ///< Of a motion, its own and independent: m, m, rad.
+  Eigen::Vector3d std{0.006, 0.02, 0.003};  ///< Of a motion, independent: m, m, rad.
 };
 
-/// A scan of one of the radars, and what it says.
+/// A scan of one of the radars with its motion.
 struct DrawnMotion {
   std::size_t radar = 0;
   EgoMotion motion;
   Eigen::Vector3d truth = Eigen::Vector3d::Zero();
 };
 
-/// A vehicle that drives a course. Its motions err by what each radar says of itself, by the
-/// velocity of the body, and by the angle of each mount.
+/// A vehicle that drives a course. Its motions have errors of each radar's covariance, of the
+/// body's velocity, and of the mounts' angles.
 class DrawnVehicle {
  public:
   DrawnVehicle(Course course, std::vector<DrawnRadar> radars, const EgoMotionOptions& options,
@@ -127,7 +127,7 @@ class DrawnVehicle {
     motion.targets = 40;
   }
 
-  /// As a registration says it: with two degrees of freedom the best motion with y = 0.
+  /// As from a registration: with two degrees of freedom the best motion with y = 0.
   void say(const Eigen::Vector3d& seen, const Eigen::Matrix3d& covariance,
            EgoMotion& motion) const {
     motion.motion = seen;
@@ -146,7 +146,7 @@ class DrawnVehicle {
     }
   }
 
-  /// Of all radars together, for some 0.3 s at a time.
+  /// Common to all radars, with a correlation time of about 0.3 s.
   double body_error_mps(const EgoMotion& motion) {
     constexpr double kStepS = 0.01;
     constexpr double kKept = 0.967;  // exp(-kStepS / 0.3 s)
@@ -187,7 +187,7 @@ inline EgoMotionOptions drawn_options(int degrees_of_freedom) {
   return options;
 }
 
-/// Up to five radars whose scans hardly ever come together.
+/// Up to five radars whose scans rarely coincide.
 inline std::vector<DrawnRadar> drawn_radars(std::size_t count) {
   std::vector<DrawnRadar> radars = {{75'000, 0, {0.006, 0.02, 0.003}},
                                     {66'000, 41'000, {0.008, 0.015, 0.004}},

@@ -12,8 +12,8 @@
 
 namespace cremed::simulation {
 
-/// A radar that is driven at constant velocity, or straight on at constant acceleration, through
-/// points that stand around it.
+/// A radar that moves at constant velocity, or straight at constant acceleration, through static
+/// points.
 class Drive {
  public:
   static constexpr std::int64_t kPeriodUs = 100000;
@@ -24,9 +24,9 @@ class Drive {
     points_ = scatter(random_, point_count, 4.0, 60.0, numeric::radians(180.0), 1.0);
   }
 
-  /// The vehicle's velocity from here on: (m/s forward, m/s left, rad/s).
+  /// Sets the vehicle's velocity: (m/s forward, m/s left, rad/s).
   void set_velocity(const Eigen::Vector3d& velocity) { velocity_ = velocity; }
-  /// Along x, and the velocity changes accordingly.
+  /// Along x; changes the velocity.
   void set_acceleration(double acceleration_mps2) { acceleration_mps2_ = acceleration_mps2; }
   void set_noise(const Noise& noise) { noise_ = noise; }
   void set_half_view(double half_view_rad) { half_view_rad_ = half_view_rad; }
@@ -40,7 +40,7 @@ class Drive {
     }
   }
 
-  /// Drives on without a scan.
+  /// Drives without a scan.
   void pass(std::int64_t time_us = kPeriodUs) {
     stamp_us_ += time_us;
     const double time_s = static_cast<double>(time_us) * 1e-6;
@@ -52,7 +52,7 @@ class Drive {
     }
   }
 
-  /// What is in view from here, with noise; then drives on for a period.
+  /// The scan from here, with noise; then drives for a period.
   RadarScan next() {
     Detections detections;
     for (const Eigen::Vector2d& point : points_) {

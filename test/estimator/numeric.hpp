@@ -25,7 +25,7 @@ inline Eigen::Matrix2d matrix(const Symmetric2& m) {
   return result;
 }
 
-/// Derivative of `function` at `at` in each coordinate, by central differences: one column each.
+/// Derivative of `function` at `at` by central differences: one column per coordinate.
 template <typename Vector, typename Function>
 auto central_differences(const Vector& at, double step, const Function& function) {
   using Value = decltype(function(at));
@@ -46,8 +46,8 @@ auto central_differences(const Vector& at, double step, const Function& function
   }
 }
 
-/// Squared error in standard deviations of the free states: chi-square with as many degrees of
-/// freedom, if the covariance is credible.
+/// Normalised squared error of the free states: chi-square with as many degrees of freedom if the
+/// covariance is credible.
 inline double normalised_error(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance,
                                int degrees_of_freedom) {
   if (degrees_of_freedom == 3) {

@@ -19,15 +19,16 @@
 
 namespace cremed::simulation {
 
-/// A vehicle with radars, driven through points that stand around its way; its filter.
+/// A vehicle with radars, driven through static points, and its filter.
 class OdometryDrive {
  public:
   static constexpr std::int64_t kPeriodUs = 75000;
 
   struct Radar {
-    Pose2 mount;  ///< Where it is,
-    Pose2 told;   ///< and where the filter believes it to be.
-    /// What it sees moves along x at so many m/s: at the vehicle's own speed it sees none.
+    Pose2 mount;  ///< True mount.
+    Pose2 told;   ///< Mount in the filter.
+    /// Velocity along x of everything it sees, in m/s: at the vehicle's own speed it sees no
+    /// motion.
     double world_mps = 0.0;
     bool is_silent = false;
   };
@@ -47,7 +48,7 @@ class OdometryDrive {
     points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);
   }
 
-  /// Speed and yaw rate from here on.
+  /// Sets speed and yaw rate.
   void set_motion(double speed_mps, double yaw_rate_radps) {
     speed_mps_ = speed_mps;
     yaw_rate_radps_ = yaw_rate_radps;
@@ -55,7 +56,7 @@ class OdometryDrive {
   Radar& radar(std::size_t i) { return radars_[i]; }
   [[nodiscard]] OdometryFilter& filter() { return *filter_; }
 
-  /// Drives on to the next scan of a radar that is not silent, and what the filter makes of it.
+  /// Drives to the next scan of a radar that is not silent; returns the filter's odometry.
   Odometry next() {
     do {
       pass(kPeriodUs / static_cast<std::int64_t>(radars_.size()));
@@ -64,7 +65,7 @@ class OdometryDrive {
     return filter_->update(turn_, see(turn_), stamp_us_);
   }
 
-  /// For a time; the last.
+  /// For a time; returns the last one.
   Odometry drive(double time_s) {
     Odometry odometry;
     const std::int64_t end_us = stamp_us_ + static_cast<std::int64_t>(time_s * 1e6);
@@ -85,7 +86,7 @@ class OdometryDrive {
     stamp_us_ += time_us;
   }
 
-  /// What a radar sees from here.
+  /// The scan of a radar from here.
   TargetSet see(std::size_t which) {
     const Radar& radar = radars_[which];
     const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps, 0.0, yaw_rate_radps_);

@@ -17,7 +17,7 @@ using numeric::radians;
 /// Time between the two scans of a scenario.
 inline constexpr double kScenarioPeriodS = 0.2;
 
-/// A simulated problem of the paper, and what may be added to it.
+/// A simulated problem of the paper, with optional additions.
 struct Scenario {
   RegistrationOptions options = paper_options();
   Noise noise;
@@ -26,9 +26,9 @@ struct Scenario {
   double half_spread_rad = radians(55.0);
   double half_view_rad = radians(40.0);
   double max_yaw_rad = radians(15.0);
-  double clutter = 0.0;      ///< Share of each scan that is not in the other one.
+  double clutter = 0.0;      ///< Share of each scan without a partner.
   double movers = 0.0;       ///< Share of the landmarks that move on their own.
-  std::size_t clusters = 0;  ///< As many of the landmarks have two more each beside them.
+  std::size_t clusters = 0;  ///< This many landmarks have two more beside them.
 };
 
 inline void keep_visible(Detections& detections, double half_view_rad) {
@@ -49,7 +49,7 @@ inline void add_clutter(Detections& detections, const Scenario& scenario, Random
   }
 }
 
-/// Lets the first landmarks drive away, which shows in position and Doppler.
+/// Moves the first landmarks, in position and Doppler.
 inline void move_landmarks(Detections& current, double share, Random& random) {
   const auto count = static_cast<std::size_t>(share * static_cast<double>(current.size()));
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ inline void move_landmarks(Detections& current, double share, Random& random) {
   }
 }
 
-/// 20 landmarks, some of them with two more each beside them.
+/// 20 landmarks, some of them with two more beside them.
 inline Points landmarks(const Scenario& scenario, Random& random) {
   Points points = scatter(random, 20, scenario.min_range_m, scenario.max_range_m,
                           scenario.half_spread_rad, 0.0);

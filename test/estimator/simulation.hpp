@@ -45,8 +45,8 @@ inline Eigen::Vector3d inverse(const Eigen::Vector3d& motion) {
   return {origin.x(), origin.y(), -motion.z()};
 }
 
-/// What an ideal radar says about a standing point of the vehicle frame, while the vehicle moves
-/// with `velocity` = (m/s forward, m/s left, rad/s) in its own frame.
+/// The exact detection of a static point of the vehicle frame, while the vehicle moves with
+/// `velocity` = (m/s forward, m/s left, rad/s) in its own frame.
 inline Detection observe(const Eigen::Vector2d& point, const Eigen::Vector3d& velocity,
                          const Pose2& mount, const Noise& noise) {
   const Eigen::Vector2d local = seen_from(as_vector(mount), point);
@@ -64,7 +64,7 @@ inline Detection observe(const Eigen::Vector2d& point, const Eigen::Vector3d& ve
   return detection;
 }
 
-/// All points as seen after `motion`, which took `dt_s` at constant speed.
+/// All points after `motion`, which took `dt_s` at constant speed.
 inline Detections observe_all(const Points& points, const Eigen::Vector3d& motion, double dt_s,
                               const Pose2& mount, const Noise& noise) {
   Detections detections;
@@ -74,7 +74,7 @@ inline Detections observe_all(const Points& points, const Eigen::Vector3d& motio
   return detections;
 }
 
-/// Adds the noise that a detection's standard deviations announce.
+/// Adds noise of the detection's standard deviations.
 inline void perturb(Detections& detections, Random& random) {
   std::normal_distribution<double> normal;
   for (Detection& detection : detections) {
@@ -102,8 +102,8 @@ inline RadarScan scan(const Detections& detections, std::int64_t stamp_us) {
   return result;
 }
 
-/// Points around the vehicle, at least `spacing_m` apart, as a radar with the given field of view
-/// at the vehicle's origin sees them.
+/// Points around the vehicle, at least `spacing_m` apart, in the field of view of a radar at the
+/// vehicle's origin.
 inline Points scatter(Random& random, std::size_t count, double min_range_m, double max_range_m,
                       double half_view_rad, double spacing_m) {
   Points points;
@@ -122,11 +122,10 @@ inline Points scatter(Random& random, std::size_t count, double min_range_m, dou
   return points;
 }
 
-/// Every target errs on its own.
+/// Independent errors of every target.
 inline SharedErrorOptions no_shared_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
-/// Settings with which the paper's simulated problem is solved (Doppler of the current scan, 2
-/// DoF).
+/// Options of the paper's simulated problem (Doppler of the current scan, 2 DoF).
 inline RegistrationOptions paper_options() {
   RegistrationOptions options;
   options.start_scale = 6.0;

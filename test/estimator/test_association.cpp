@@ -22,7 +22,7 @@ using simulation::uniform;
 using Ratios = Eigen::MatrixXd;         // 0: no such pair
 using Probabilities = Eigen::MatrixXd;  // 0 likewise
 
-/// The sum over all one-to-one assignments, pair by pair.
+/// The sum over all one-to-one assignments, by enumeration.
 struct Enumeration {
   double total = 0.0;
   Probabilities probabilities;
@@ -123,7 +123,8 @@ TEST_CASE("in a block of equals nobody is preferred") {
       const Probabilities actual = solve(*association, ratios);
       const double expected = ratio / (1.0 + static_cast<double>(n) * ratio);
       CHECK((actual.array() - expected).abs().maxCoeff() < 1e-9);
-      if (ratio != 1.0) {  // where it is as likely to be alone, nothing but an approximation
+      // With the same likelihood of no partner, only the approximation differs.
+      if (ratio != 1.0) {
         CHECK((actual - enumerate(ratios).probabilities).cwiseAbs().maxCoeff() < 3e-4);
       }
     }
@@ -173,7 +174,7 @@ TEST_CASE("probabilities are those of the sum over all assignments, roughly") {
 TEST_CASE("two that compete for two share them, as a mixture's rows do not") {
   const auto association = make_association();
   Ratios ratios(2, 2);
-  ratios << 1000.0, 100.0, 1000.0, 100.0;  // both nearer to the first
+  ratios << 1000.0, 100.0, 1000.0, 100.0;  // Both nearer to the first.
   const Probabilities exact = enumerate(ratios).probabilities;
   const Probabilities actual = solve(*association, ratios);
   CHECK((actual - exact).cwiseAbs().maxCoeff() < 0.03);
@@ -221,7 +222,7 @@ TEST_CASE("wherever the factors start, they end at the same place") {
   for (int run = 0; run < 300; ++run) {
     const Ratios ratios = random_ratios(random, 5, 5, 1.5);
     const Probabilities cold = solve(*association, ratios);
-    // Warm: the factors are left by other ratios, small ones and large ones.
+    // Warm start: the factors come from other ratios, small and large ones.
     for (const double decades : {-4.0, 4.0}) {
       fill(*association, ratios * std::pow(10.0, decades));
       association->solve();

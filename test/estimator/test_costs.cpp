@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What Gauss-Newton relies on: see RegistrationCost.
+// Assumptions of Gauss-Newton: see RegistrationCost.
 
 #include <memory>
 
@@ -25,7 +25,7 @@ static_assert(RegistrationCost<ExclusiveCost>);
 constexpr double kDt = 0.2;
 const Eigen::Vector3d kMotion(0.5, 0.0, 0.03);
 
-/// Two noisy scans, of which every target has neighbours within its noise; a fifth of them moves.
+/// Two noisy scans in which every target has neighbours within its noise; a fifth of them moves.
 struct Scene {
   explicit Scene(std::uint64_t seed) {
     Random random(seed);
@@ -99,7 +99,7 @@ TEST_CASE("so do those of the exclusive likelihood, as far as its association is
     CAPTURE(difference.transpose(), equations.cost - first.cost);
     CHECK(difference.cwiseAbs().maxCoeff() < 0.02);
     CHECK(equations.cost == Approx(first.cost).margin(0.01));
-    // Doppler has no memory at all.
+    // Doppler has no state.
     CHECK(equations.shared == first.shared);
   }
 }
@@ -132,7 +132,7 @@ TEST_CASE("by positions a step never raises the cost of the exclusive likelihood
       at = {at.motion - *inverse * equations.gradient, equations.shared};
       const NormalEquations next = cost->linearise(at);
       CAPTURE(seed, i, next.cost - equations.cost);
-      CHECK(next.cost <= equations.cost + 0.01);  // as far as the association is solved
+      CHECK(next.cost <= equations.cost + 0.01);  // Within the accuracy of the association.
       equations = next;
     }
   }
@@ -156,7 +156,7 @@ TEST_CASE("a step that raises the cost is halved until it does not") {
   const double share = (descent.at.motion - kMotion).norm() / far.norm();
   CHECK(share < 0.51);
   CHECK(share > 1e-4);
-  // Uphill there is no step.
+  // No step uphill.
   Descent uphill{{kMotion}, cost->linearise({kMotion})};
   CHECK_FALSE(take_step(*cost, -far, rule, uphill));
   CHECK(uphill.at.motion == kMotion);

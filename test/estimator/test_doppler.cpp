@@ -31,7 +31,7 @@ const std::vector<NamedMount> kMounts = {
     {"rear", {-0.6, 0.3, radians(175.0)}},
 };
 
-/// No movers, no error of time stamps.
+/// No moving targets, no error of time stamps.
 DopplerOptions plain_options() {
   DopplerOptions options;
   options.stamp_std_s = 0.0;
@@ -80,7 +80,7 @@ double deviation_m(const Target& target, const Eigen::Vector3d& motion, const Po
   return error_m / residual_of(target, motion, mount, kDt, options, scale).residual;
 }
 
-/// Range rate of a standing target by following the radar along the vehicle's path.
+/// Range rate of a static target by numeric motion of the radar along the vehicle's path.
 double range_rate_mps(double bearing_rad, const Eigen::Vector3d& velocity, const Pose2& mount) {
   const Eigen::Vector2d lever = simulation::as_vector(mount).head<2>();
   const Eigen::Vector2d target =
@@ -163,7 +163,7 @@ TEST_CASE("each source of error has its part in the variance") {
   REQUIRE(bearing_m > 0.01);
   CHECK(deviation_m(target, motion, mount, options, 1.0) ==
         Approx(std::hypot(doppler_m, stamp_m, bearing_m)).epsilon(1e-6));
-  // The scale is one on the measured deviation, not on what else is uncertain.
+  // The scale applies to the measured deviation only.
   CHECK(deviation_m(target, motion, mount, options, 6.0) ==
         Approx(std::hypot(6.0 * doppler_m, stamp_m, bearing_m)).epsilon(1e-6));
 }
@@ -183,10 +183,10 @@ TEST_CASE("a mover is explained by the wide component") {
     CHECK(mover.residual == Approx((-10.0 - mover_mps) / 100.0));
     CHECK(mover.jacobian.x() == Approx(-1.0 / (100.0 * kDt)));
   }
-  // Scaled up, the static component reaches farther.
+  // Scaled up, the static component is wider.
   CHECK(residual_of(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
   CHECK_FALSE(residual(-8.0).is_static);
-  // The component for movers does not grow with it.
+  // The component for moving targets is not.
   const auto scaled = residual_of(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
   CHECK_FALSE(scaled.is_static);
   CHECK(scaled.residual == Approx(-50.0 / 100.0));

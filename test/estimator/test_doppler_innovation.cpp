@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a registration says beside the motion: positions against Doppler.
+// The innovation of a registration: positions against Doppler.
 
 #include <cmath>
 #include <random>
@@ -22,7 +22,7 @@ using simulation::Random;
 constexpr double kDt = 0.1;
 const Pose2 kMount{3.4, 0.5, 0.3};
 
-/// Errors that all targets share, as SharedDoppler has them.
+/// Shared errors as in SharedDoppler.
 struct Shared {
   double offset_mps = 0.0;
   double mount_rad = 0.0;
@@ -42,7 +42,7 @@ Shared draw(const RegistrationOptions& options, Random& random) {
   return shared;
 }
 
-/// Their Doppler as the model predicts it, at a velocity in the vehicle's frame.
+/// Doppler by the model, at a velocity in the vehicle's frame.
 void set_doppler(Detections& detections, const Eigen::Vector3d& velocity, const Shared& shared) {
   for (Detection& detection : detections) {
     const double angle_rad = detection.azimuth_rad + kMount.yaw_rad + shared.mount_rad;
@@ -58,7 +58,7 @@ RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool wit
   options.doppler.both_scans = both_scans;
   if (with_shared) {
     options.shared_errors = SharedErrorOptions();
-    options.shared_errors.velocity_std_mps = 0.0;  // No measurement shows these.
+    options.shared_errors.velocity_std_mps = 0.0;  // No measurement depends on these.
     options.shared_errors.doppler_scale_std = 0.0;
   }
   return options;
@@ -76,7 +76,7 @@ Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc 
   Eigen::Vector3d motion(simulation::uniform(random, 0.5, 1.5),
                          is_car ? 0.0 : simulation::uniform(random, -0.2, 0.2),
                          simulation::uniform(random, -0.05, 0.05));
-  Eigen::Vector3d half_way = motion;  // In the frame half way through the turn.
+  Eigen::Vector3d half_way = motion;  // In the frame in the middle of the turn.
   if (is_arc) {
     motion.y() = 0.5 * motion.x() * motion.z();
   }
@@ -125,7 +125,7 @@ TEST_CASE("registration: without Doppler, or by Gauss-Newton, there is nothing t
   CHECK(std::isnan(solve_pair(options, random).result.doppler_innovation));
   options = options_of(2, false, false);
   CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_innovation));
-  // One radar's Doppler tells two of three states.
+  // One radar's Doppler determines two of three states.
   CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_innovation));
   options.likelihood = Likelihood::max_sum_mixture;
   const RegistrationResult result = solve_pair(options, random).result;

@@ -33,7 +33,7 @@ std::unique_ptr<EgoMotionEstimator> make_estimator(const Pose2& mount,
   return std::make_unique<EgoMotionEstimator>(options);
 }
 
-/// What every motion must fulfil: numbers if and only if there is an estimate.
+/// Invariant of every motion: numbers if and only if there is an estimate.
 void check_consistent(const EgoMotion& motion) {
   const bool has_estimate =
       motion.status == MotionStatus::ok || motion.status == MotionStatus::standing_still;
@@ -48,7 +48,7 @@ void check_consistent(const EgoMotion& motion) {
   }
 }
 
-/// Is the motion that of `periods` periods of the drive, within five standard deviations?
+/// Whether the motion is that of `periods` periods of the drive, within five standard deviations.
 void check_motion(const EgoMotion& motion, const Drive& drive, double periods) {
   REQUIRE(motion.has_estimate());
   CHECK(motion.utime_us - motion.utime_start_us ==
@@ -143,7 +143,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
         CAPTURE(acceleration_mps2, mount.x_m, periods);
         Drive drive({14.0, 0.0, 0.2}, mount, 3, 120);
         const auto estimator = make_estimator(mount);
-        // Turning is told from speed once there is an estimate.
+        // The status distinguishes turning from speed once there is an estimate.
         estimator->update(drive.next());
         estimator->update(drive.next());
         drive.set_acceleration(acceleration_mps2);
@@ -154,7 +154,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
         const double span_s = 0.1 * periods;
         const Eigen::Vector3d truth(14.0 * span_s + 0.5 * acceleration_mps2 * span_s * span_s, 0.0,
                                     0.2 * span_s);
-        // Taken for the mean, Doppler alone would be 15 or 135 mm off.
+        // Used as the mean, Doppler alone would be 15 or 135 mm off.
         CHECK(std::abs(motion.motion.x() - truth.x()) < 0.005 * periods);
         CHECK(numeric::normalised_error(motion.motion - truth, motion.covariance, 2) < 25.0);
       }

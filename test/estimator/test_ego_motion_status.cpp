@@ -27,7 +27,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// What the estimator says about the second of two scans.
+/// The estimator's result for the second of two scans.
 EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
   const auto estimator = std::make_unique<EgoMotionEstimator>(options);
   estimator->update(drive.next());
@@ -233,7 +233,8 @@ TEST_CASE("a slow car is known as precisely as Doppler tells") {
 }
 
 TEST_CASE("what was estimated before does not change what comes after") {
-  // A drive that changes its speed abruptly: the last velocity is a start among others, no prior.
+  // A drive that changes its speed abruptly: the last velocity is one start among others, not a
+  // prior.
   Drive drive({20.0, 0.0, 0.3}, kFront, 5, 120);
   const auto used = std::make_unique<EgoMotionEstimator>(options_at(kFront));
   for (int i = 0; i < 3; ++i) {
@@ -279,7 +280,7 @@ TEST_CASE("few targets found again are enough for a motion that continues the on
 TEST_CASE("a departure that no vehicle can make is no continuation") {
   EgoMotionOptions options = options_at(kFront);
   options.registration.doppler.enabled =
-      false;  // It would tell that the vehicle goes on as before.
+      false;  // It would predict that the vehicle continues as before.
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Drive drive({8.0, 0.0, 0.3}, kFront, seed, 120);

@@ -26,8 +26,8 @@ using simulation::uniform;
 constexpr double kDt = 0.2;
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-/// Points as a radar at the vehicle's origin sees them, as precisely in every direction: then
-/// nothing but the points depends on yaw.
+/// Points seen by a radar at the vehicle's origin with isotropic noise: then only the points depend
+/// on yaw.
 TargetSet see(const Points& points, const Eigen::Vector3d& motion, double std_m) {
   Detections detections = simulation::observe_all(points, motion, kDt, {}, {});
   for (Detection& detection : detections) {
@@ -51,7 +51,7 @@ class Scene {
     likelihood_->assign(previous_, current_, ray);
   }
 
-  /// With probabilities from as many rounds as they need.
+  /// With probabilities iterated to convergence.
   NormalEquations linearise(const Eigen::Vector3d& motion) {
     REQUIRE(likelihood_->list_pairs(previous_, current_, motion));
     NormalEquations equations;
@@ -68,7 +68,7 @@ class Scene {
   std::unique_ptr<ExclusiveLikelihood> likelihood_ = std::make_unique<ExclusiveLikelihood>();
 };
 
-/// Landmarks, every other of them with two more beside it.
+/// Landmarks, every other one with two more beside it.
 Points clustered(Random& random) {
   std::normal_distribution<double> normal(0.0, 0.1);
   Points points = simulation::scatter(random, 8, 5.0, 30.0, radians(50.0), 4.0);
@@ -94,7 +94,7 @@ TEST_CASE("the gradient is the derivative of the cost where covariances do not t
       const Eigen::Vector3d expected = numeric::central_differences(
           at, 1e-5, [&](const Eigen::Vector3d& m) { return scene.linearise(m).cost; });
       CAPTURE(weight, run, equations.gradient.transpose(), expected.transpose());
-      // Relative to what a deviation of each state would be worth.
+      // Relative to the effect of one standard deviation of each state.
       const Eigen::Vector3d sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
       const Eigen::Vector3d error = (equations.gradient - expected).cwiseProduct(sigma);
       CHECK(error.norm() < 0.01 * (1.0 + expected.cwiseProduct(sigma).norm()));
@@ -124,7 +124,7 @@ TEST_CASE("complete less missing information is the curvature of the cost") {
       total_missing += in_sigmas(missing).trace() / 60.0;
     }
   }
-  CHECK(total_missing > 0.003);  // who is who in a cluster is not known
+  CHECK(total_missing > 0.003);  // The assignment within a cluster is unknown.
 }
 
 /// Three targets about 0.1 m apart, seen with 0.2 m of noise.
@@ -165,7 +165,7 @@ TEST_CASE("a cluster is where its centre is, and known as well as three targets 
     const Eigen::Vector3d sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::Matrix2d information =
         (equations.information - (*scene).missing_information(sigma)).topLeftCorner<2, 2>();
-    // All assignments have the same mean error, so none of them says more about the translation.
+    // All assignments have the same mean error, so they give the same translation.
     CHECK((information * kVarianceM2 - Eigen::Matrix2d::Identity()).norm() < 0.05);
     squared_step_m2 +=
         (kVarianceM2 * equations.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
@@ -175,7 +175,7 @@ TEST_CASE("a cluster is where its centre is, and known as well as three targets 
     squared_mixture_step_m2 +=
         (kVarianceM2 * nearest.gradient.head<2>()).squaredNorm() / (2.0 * kRuns * kVarianceM2);
   }
-  // In variances of the estimate: the nearest neighbours pull the mixture away.
+  // In variances of the estimate: the nearest neighbours bias the mixture.
   CHECK(squared_step_m2 < 0.001);
   CHECK(squared_mixture_step_m2 > 0.02);
 }
@@ -244,7 +244,7 @@ TEST_CASE("scans of equal size are worth the same from either side") {
     for (Eigen::Vector2d& point : noisy) {
       point += Eigen::Vector2d(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2));
     }
-    // Without a ray, and without a turn: the density of new targets is then the same everywhere.
+    // Without ray and turn the density of new targets is the same everywhere.
     const TargetSet a = see(points, kStill, 0.2);
     const TargetSet b = see(noisy, kStill, 0.2);
     const Eigen::Vector3d motion(0.1, -0.05, 0.0);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// So many a second from `begin_s` on.
+/// This many per second from `begin_s` on.
 void fill(InnovationMean& mean, double innovation, std::int64_t begin_s, std::int64_t end_s,
           int rate_hz = 10) {
   for (std::int64_t us = begin_s * kSecondUs; us < end_s * kSecondUs; us += kSecondUs / rate_hz) {

@@ -17,7 +17,7 @@ using Learned = std::vector<std::optional<LearnedErrors>>;
 
 const std::vector<Pose2> kMounts{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}};
 
-/// True yaw of the mounts less what the filter was told: 1 sigma.
+/// True yaw of the mounts minus the filter's: 1 sigma.
 const std::vector<double> kYawErrorsRad{0.0075, -0.0060, 0.0030};
 
 OdometryDrive a_drive(std::uint64_t seed, const Learned& learned = {}) {
@@ -29,7 +29,7 @@ OdometryDrive a_drive(std::uint64_t seed, const Learned& learned = {}) {
   return drive;
 }
 
-/// Of the front mount's yaw less the mean of the rear ones', which no slip can pass for.
+/// Of the front mount's yaw minus the mean of the rear ones', which slip cannot explain.
 struct Difference {
   double error_rad = 0.0;
   double std_rad = 0.0;
@@ -53,7 +53,7 @@ TEST_CASE("What all radars err by in common is as unknown at a restart as it was
   const SharedPrior prior = prior_after({LearnedError{0.004, 0.002}, LearnedError{0.006, 0.001},
                                          std::nullopt, LearnedError{0.011, 0.02}},
                                         unlearned, 0.001);
-  // Mean taken off; sigma with what may change, at least a quarter, at most the unlearned.
+  // Without the mean; sigma includes possible changes, at least a quarter and at most the prior's.
   CHECK(prior.own[0].value == Approx(-0.003));
   CHECK(prior.own[1].value == Approx(-0.001));
   CHECK(prior.own[3].value == Approx(0.004));
@@ -61,14 +61,14 @@ TEST_CASE("What all radars err by in common is as unknown at a restart as it was
   CHECK(prior.own[1].std == Approx(0.0025));
   CHECK(prior.own[3].std == Approx(0.01));
   CHECK(prior.common_variance == Approx(0.01 * 0.01 / 3.0));
-  // Nothing is known of the one that is new.
+  // The new radar is unknown.
   CHECK_FALSE(prior.own[2].is_learned);
   CHECK(prior.own[2].value == 0.0);
   CHECK(prior.own[2].std == 0.01);
 }
 
 TEST_CASE("Differences are those to the weighted mean, with their own sigma") {
-  // Both known but for what they share.
+  // Both known except for the common part.
   Eigen::Matrix2d covariance;
   covariance << 1.01e-4, 1e-4, 1e-4, 1.01e-4;
   const auto same =
@@ -160,7 +160,7 @@ TEST_CASE("A lie in what was learned is overcome, or the radar is in doubt") {
   OdometryDrive before = a_drive(2);
   before.drive(20.0);
   Learned learned = before.filter().learned();
-  // Five of the sigma that the file states, and of that which is taken over.
+  // Five of the sigma in the file, and of the one that is used.
   const double lie_rad = sigmas * std::max(learned[liar]->mount_yaw_rad.std, 0.0075 / 4.0);
   learned[liar]->mount_yaw_rad.value += lie_rad;
   OdometryDrive drive = a_drive(31, learned);

@@ -74,7 +74,7 @@ Eigen::Vector2d random_point(Random& random, const TargetSet& targets, int regim
   return {uniform(random, -reach_m, reach_m), uniform(random, -reach_m, reach_m)};
 }
 
-/// The mixture written down as its definition says, in a wider type.
+/// The mixture by its definition, in a wider type.
 struct Definition {
   long double sum = 0.0L;
   long double best_scale = 0.0L;  // s of the best component
@@ -142,7 +142,7 @@ TEST_CASE("the cost is the negative logarithm of the mixture, also where its ter
       [&](const Problem& problem, const Eigen::Vector2d& point, const Symmetric2& own) {
         const Definition definition = define(problem, point, own);
         if (definition.sum < 1e-4900L) {
-          return;  // out of reach of the definition itself
+          return;  // Out of range of the definition.
         }
         ++compared;
         underflows += definition.sum < 1e-320L ? 1 : 0;

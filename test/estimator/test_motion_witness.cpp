@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// At 10 m/s in a turn, told 50 ms before the motion ends.
+/// At 10 m/s in a turn, 50 ms before the motion ends.
 Odometry known() {
   Odometry odometry;
   odometry.utime_us = 1'000'000;
@@ -39,7 +39,7 @@ TEST_CASE("what a vehicle can do contradicts nothing, more does") {
   CHECK(contradicts(known(), motion_at(10.65, 0.2)));
   CHECK(contradicts(known(), motion_at(9.35, 0.2)));
   CHECK(contradicts(known(), motion_at(10.0, 0.35)));
-  // A world that moves along, a reversed mount.
+  // A moving platform, a reversed mount.
   CHECK(contradicts(known(), motion_at(0.0, 0.2)));
   CHECK(contradicts(known(), motion_at(-10.0, 0.2)));
 }

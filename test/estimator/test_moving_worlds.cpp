@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Most of what a lone radar sees moves: nothing wrong is vouched for.
+// Most targets of a single radar move: no wrong estimate is published as good.
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,7 @@ constexpr double kPeriodS = 0.075;
 constexpr double kFarM = 80.0;
 const Noise kNoise{0.1, 0.008, 0.1};
 
-/// Things in a box before the radar, which keep their places among each other. Those of the road
-/// come again at its end.
+/// Rigid points in a box before the radar. Those of the road repeat at its end.
 struct World {
   Points points;
   double speed_mps = 0.0;
@@ -58,7 +57,7 @@ bool is_good(OdometryStatus status) {
   return status == OdometryStatus::ok || status == OdometryStatus::standing_still;
 }
 
-/// A vehicle that drives straight on, its radar and what cremed makes of it.
+/// A vehicle on a straight road, its radar and cremed's results.
 class Stage {
  public:
   explicit Stage(std::uint64_t seed) : random_(seed) {
@@ -181,8 +180,8 @@ TEST_CASE("Beside a train that starts we do not roll back") {
     stage.next({&platform, &train}, 0.0);
   }
   CHECK(stage.last == OdometryStatus::standing_still);
-  // Until its Doppler stands apart from that of the platform (0.1 m/s of noise each) nothing in the
-  // scans tells the two from one world that moves a little.
+  // Until its Doppler differs from the platform's (0.1 m/s of noise each), the scans cannot
+  // distinguish the two from one slowly moving world.
   while (train.speed_mps < 0.6) {
     train.speed_mps += 0.8 * kPeriodS;
     stage.next({&platform, &train}, 0.0);
@@ -203,7 +202,7 @@ TEST_CASE("A rival that continues nothing does not silence a radar") {
     stage.next({&open}, 16.0);
   }
   const int before = stage.published;
-  // Oncoming traffic without end.
+  // Endless oncoming traffic.
   World oncoming = world(stage.random(), 25, {10.0, 4.0}, {70.0, 8.0});
   for (int i = 0; i < 100; ++i) {
     oncoming.speed_mps = -14.0;

@@ -27,7 +27,7 @@ using simulation::Random;
 
 constexpr double kDt = 0.1;
 
-/// Keeps the compiler from leaving an allocation out.
+/// Prevents the compiler from removing an allocation.
 void* volatile escaped = nullptr;
 void use(void* block) { escaped = block; }
 
@@ -126,7 +126,7 @@ struct Scans {
   RadarScan second;
 };
 
-/// A full house: as many detections as a scan can hold, some of them movers and clutter.
+/// A full scan, with moving targets and clutter.
 Scans full_scans() {
   Random random(1);
   const simulation::Points points =
@@ -165,8 +165,8 @@ TEST_CASE("registration does not allocate") {
 }
 
 TEST_CASE("searching again and pairs without end do not allocate") {
-  // Two full scans: of different places, which makes it search again, or with more possible
-  // partners than an association has room for.
+  // Two full scans: of different places, which repeats the search, or with more possible partners
+  // than an association can hold.
   struct Row {
     std::string what;
     double max_range_m;
@@ -260,7 +260,8 @@ TEST_CASE("self-check does not allocate, whatever the radar says") {
   while (vehicle.time_s() < 20.0) {
     simulation::DrawnMotion drawn = vehicle.next();
     if (drawn.motion.has_estimate() && vehicle.time_s() > 8.0) {
-      drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;  // Lies.
+      // Wrong motions.
+      drawn.motion.motion.x() += drawn.motion.utime_us / 75'000 % 2 == 0 ? 0.5 : -0.5;
     }
     count += count_allocations([&] { check->add(drawn.motion, targets); });
   }
@@ -281,7 +282,7 @@ TEST_CASE("the odometry filter does not allocate, whatever the radars say") {
     registered += odometry.status == OdometryStatus::ok ? 1 : 0;
   };
   for (int i = 0; i < 200; ++i) {
-    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A lie.
+    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A wrong motion.
     drive.radar(1).world_mps = drive.radar(2).world_mps = i > 150 ? 3.0 : 0.0;
     drive.pass(19000);
     const auto radar = static_cast<std::size_t>(i) % 4;

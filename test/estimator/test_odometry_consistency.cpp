@@ -16,14 +16,14 @@
 #include "cremed/estimator/fusion/state/vehicle_motion.hpp"
 #include "test/estimator/numeric.hpp"
 
-// The filter's equations on a world that is as they say: are its covariances true?
+// Credibility of the filter's covariances in a world that follows its model.
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
 
-/// A vehicle with two radars, drawn from the model, and the state that is estimated of it.
+/// A vehicle with two radars, drawn from the model, and its estimated state.
 class ModelDrive {
  public:
   explicit ModelDrive(std::uint64_t seed)
@@ -33,7 +33,7 @@ class ModelDrive {
     for (int i = 0; i < truth_.gaussian.size(); ++i) {
       truth_.gaussian.set_mean(i, truth_.gaussian.std(i) * normal_(random_));
     }
-    // Speeds at which the share of a driving vehicle's errors is all of them.
+    // Speeds with the full share of a driving vehicle's errors.
     truth_.gaussian.set_mean(kSpeed, 12.0);
     const Eigen::Vector2d start(12.0 + normal_(random_),
                                 truth_.gaussian.mean(kYawRate) + 0.1 * normal_(random_));
@@ -76,7 +76,7 @@ class ModelDrive {
     state.advance_to(state.time_us() + std::llround(dt_s * 1e6));
   }
 
-  /// The truth moves as the model says, with noise drawn as large as the estimate grows by.
+  /// Propagates the truth with noise of the model's covariance.
   void move(double dt_s) {
     const MotionStep step = moved(truth_.gaussian.mean().head<kMotionStates>(), dt_s, options_);
     const MotionStep::Vector next = step.state + draw<kMotionStates>(step.noise);

@@ -24,7 +24,7 @@ bool is_good(const Odometry& odometry) {
   return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
 }
 
-/// Largest error of speed and yaw rate in standard deviations, where the odometry vouches for it.
+/// Largest error of speed and yaw rate in standard deviations, while the odometry is ok.
 double twist_error(const Odometry& odometry, const OdometryDrive& drive) {
   const Eigen::Vector3d error =
       odometry.twist - Eigen::Vector3d(drive.speed_mps(), 0.0, drive.yaw_rate_radps());
@@ -136,7 +136,7 @@ TEST_CASE("a radar that lies is left out and named, and back within a second of 
 
 TEST_CASE("most radars win over the one that the filter followed") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 6);
-  // The one that lies speaks alone at first.
+  // At first only the wrong radar has scans.
   drive.radar(0).world_mps = 5.0;
   drive.radar(1).is_silent = true;
   drive.radar(2).is_silent = true;
@@ -167,7 +167,7 @@ TEST_CASE("of two radars that contradict each other from the start none is belie
 TEST_CASE("a lone radar that changes its mind is not followed at once") {
   OdometryDrive drive({kFront}, 8);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
-  drive.radar(0).world_mps = 8.0;  // It drives behind something large.
+  drive.radar(0).world_mps = 8.0;  // It follows a large vehicle.
   double variance = 0.0;
   for (int i = 0; i < 12; ++i) {
     const Odometry odometry = drive.next();
@@ -235,7 +235,7 @@ TEST_CASE("what was driven before any scan told the speed is in no pose") {
 }
 
 TEST_CASE("scans that come late are used") {
-  // All scans of the rear radar come after those of the front that were taken 50 ms later.
+  // All scans of the rear radar arrive after those of the front radar taken 50 ms later.
   OdometryOptions options;
   OdometryDrive drive({kFront}, 10, options);
   drive.set_motion(9.0, 0.3);
@@ -274,7 +274,7 @@ TEST_CASE("a mount that is off is learned") {
   }
   const RadarReport front = drive.filter().report(0);
   const RadarReport rear = drive.filter().report(1);
-  // Slip takes a part of what all have in common.
+  // Slip explains a part of the common error.
   CHECK(front.mount_yaw_rad - rear.mount_yaw_rad == Approx(0.015).margin(0.004));
   CHECK(front.mount_yaw_std_rad < 0.9 * OdometryOptions().mount_yaw_std_rad);
 }

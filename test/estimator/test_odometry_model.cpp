@@ -22,7 +22,7 @@ using namespace state_layout;
 
 const std::vector<Pose2> kMounts{{3.4, 0.1, 0.02}, {2.4, 0.8, 1.54}};
 
-/// A state in which nothing is zero, of a vehicle in a turn.
+/// A state without zeros, of a vehicle in a turn.
 OdometryState busy_state(const OdometryOptions& options) {
   OdometryState state(options, kMounts);
   state.start();
@@ -50,7 +50,7 @@ OdometryState busy_state(const OdometryOptions& options) {
   return state;
 }
 
-/// The derivatives of h that a measurement gives, against differences of its residual.
+/// The measurement's derivatives against differences of its residual.
 template <typename Measure>
 void check_jacobian(OdometryState& state, const Measure& measure) {
   constexpr double kStep = 1e-6;
@@ -139,7 +139,7 @@ TEST_CASE("noise of the motion does not depend on how time is cut") {
   for (const int i :
        {+kSpeed, +kAcceleration, +kYawRate, +kYawAcceleration, +kSlip, +kBodyVelocity}) {
     CAPTURE(i);
-    // Accelerations fade by a tenth to a fifth in that time.
+    // Accelerations decay by a tenth to a fifth in that time.
     CHECK(noise(i, i) == Approx(whole.noise(i, i)).epsilon(0.2));
   }
 }

@@ -43,7 +43,7 @@ RegistrationResult solve(const RegistrationOptions& options, const Pose2& mount,
   return registration->solve(simulation::targets(current, mount), kDt);
 }
 
-/// The same standard deviation in every direction: then nothing but the points depends on yaw.
+/// Isotropic noise: then only the points depend on yaw.
 Detections isotropic(Detections detections, double std_m) {
   for (Detection& detection : detections) {
     detection.range_std_m = std_m;
@@ -57,7 +57,7 @@ struct Regime {
   Eigen::Vector3d motion;
 };
 
-/// Standstill, straight, pure yaw, next to nothing, and random; y only where it is estimated.
+/// Standstill, straight, pure yaw, tiny, and random; y only if it is estimated.
 std::vector<Regime> regimes(int degrees_of_freedom) {
   std::vector<Regime> result = {{"standstill", {0.0, 0.0, 0.0}},
                                 {"straight", {0.8, 0.0, 0.0}},
@@ -82,7 +82,7 @@ std::vector<Regime> regimes(int degrees_of_freedom) {
 
 const std::vector<Pose2> kMounts = {{}, {3.4, 0.5, 0.2}, {-0.6, -0.8, radians(150.0)}};
 
-/// Points that a radar at `mount` can see, well apart.
+/// Well separated points in the field of view of a radar at `mount`.
 Points landmarks(Random& random, const Pose2& mount) {
   Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 4.0);
   for (Eigen::Vector2d& point : points) {
@@ -91,8 +91,8 @@ Points landmarks(Random& random, const Pose2& mount) {
   return points;
 }
 
-/// The paper takes a motion over its time for the velocity. In fact the vehicle's frame turns on
-/// the way, and the velocity it keeps in that frame is the motion seen from half of the turn.
+/// The paper uses the motion over its time as the velocity. In fact the vehicle's frame rotates
+/// meanwhile, and the constant velocity in that frame is the motion seen from half of the turn.
 Eigen::Vector3d half_way(Eigen::Vector3d motion) {
   motion.head<2>() = Eigen::Rotation2Dd(-0.5 * motion.z()) * motion.head<2>();
   return motion;
@@ -144,7 +144,8 @@ TEST_CASE("data without noise give the motion back") {
     const RegistrationResult result = solve(options, mount, previous, current);
     REQUIRE(result.status == RegistrationStatus::converged);
     CHECK(result.iterations <= 30);
-    // A fraction of a standard deviation: what neighbouring targets pull, and the end of the steps.
+    // A fraction of a standard deviation: influence of neighbouring targets, and the step
+    // tolerance.
     const Eigen::Vector3d error = result.motion - motion;
     CHECK(std::sqrt(numeric::normalised_error(error, result.covariance,
                                               options.degrees_of_freedom)) < 0.02);
@@ -204,7 +205,7 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
   for (const bool has_doppler : {false, true}) {
     for (const Pose2& mount : kMounts) {
       const Points points = landmarks(random, mount);
-      const Noise noise{0.1, 0.0, 20.0};  // Doppler's error dwarfs that of the bearing
+      const Noise noise{0.1, 0.0, 20.0};  // Doppler's error dominates the bearing's.
       const auto observe = [&](const Eigen::Vector3d& motion) {
         return simulation::targets(
             isotropic(simulation::observe_all(points, motion, kDt, mount, noise), 0.1), mount);

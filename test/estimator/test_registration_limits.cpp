@@ -61,7 +61,7 @@ TEST_CASE("one place cannot fix three states") {
         const RegistrationResult result =
             solve(options, see(many, kStill), see(many, {0.1, 0.0, 0.01}));
         CAPTURE(one[0].transpose(), many.size(), weight, model);
-        // With a ray every component bends the cost a little in all directions.
+        // With a ray every component curves the cost slightly in all directions.
         const bool is_honest = result.status == RegistrationStatus::degenerate ||
                                (weight > 0.0 && result.covariance.trace() > 1.0);
         CHECK(is_honest);
@@ -76,7 +76,7 @@ TEST_CASE("no target fixes nothing") {
     for (const int degrees_of_freedom : {2, 3}) {
       RegistrationOptions options = options_of(degrees_of_freedom, true, model);
       CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
-      // Not even looked at: no convergence is as true.
+      // Not evaluated; no convergence is possible too.
       options.max_iterations = 0;
       CHECK(solve(options, see(some, kStill), {}).status != RegistrationStatus::converged);
     }
@@ -122,8 +122,8 @@ TEST_CASE("few targets and targets in a line are solved as well as their covaria
   }
 }
 
-/// Squared length of the next step at the end of a registration without Doppler, in standard
-/// deviations; 0 unless it says that it has converged.
+/// Squared length of the next step after a registration without Doppler, in standard deviations; 0
+/// if it has not converged.
 double step_left(const RegistrationOptions& options, const TargetSet& previous,
                  const TargetSet& current) {
   Registration registration(options, {});
@@ -153,7 +153,7 @@ TEST_CASE("converged means that no step of note is left") {
       double largest = 0.0;
       for (int i = 0; i < 200; ++i) {
         const Points here = simulation::scatter(random, 12, 2.5, 37.5, radians(40.0), 0.0);
-        // Another place, or the same.
+        // Another place, or the same one.
         const Points there =
             i % 2 == 0 ? here : simulation::scatter(random, 12, 2.5, 37.5, radians(40.0), 0.0);
         const TargetSet previous = simulation::targets(see(here, kStill), {});
@@ -170,7 +170,7 @@ constexpr std::array kFields = {&Detection::range_m,         &Detection::azimuth
                                 &Detection::doppler_mps,     &Detection::range_std_m,
                                 &Detection::azimuth_std_rad, &Detection::doppler_std_mps};
 
-/// How many targets that are no numbers, each alone in an otherwise good scan, go unnoticed.
+/// Number of non-finite targets, each alone in an otherwise good scan, that are not detected.
 int count_unseen(Likelihood model, bool is_previous) {
   Random random(6);
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);

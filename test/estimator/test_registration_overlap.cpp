@@ -43,7 +43,7 @@ Detections see(const Points& points, const Eigen::Vector3d& motion) {
 
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
-/// Two scans that have no target in common, the nearest of them 135 m apart.
+/// Two scans without a common target, the nearest ones 135 m apart.
 struct Strangers {
   explicit Strangers(Random& random)
       : near(simulation::scatter(random, 20, 5.0, 15.0, radians(40.0), 0.0)),
@@ -75,7 +75,7 @@ TEST_CASE("without a common place there is no motion, whatever Doppler says") {
       const RegistrationResult result =
           solve(options_of(2, has_doppler), see(scans.near, kStill), see(scans.far, motion));
       CAPTURE(i, has_doppler);
-      // Without Doppler nothing keeps the first stage from jumping to the other place.
+      // Without Doppler the first stage may jump to the other place.
       const bool is_honest = result.status == RegistrationStatus::degenerate ||
                              (!has_doppler && result.status == RegistrationStatus::ambiguous);
       CHECK(is_honest);
@@ -106,8 +106,7 @@ TEST_CASE("scans of two different places are not taken for a certain turn") {
     int max_wrong;
   };
   constexpr int kRuns = 300;
-  // Chance puts enough targets in the same places in a few of a hundred, most often without
-  // Doppler.
+  // By chance enough targets coincide in a few of a hundred pairs, most often without Doppler.
   const std::vector<Row> rows = {{2, true, 0.5, 3},
                                  {2, true, 0.2, 12},
                                  {2, false, 0.2, 15},

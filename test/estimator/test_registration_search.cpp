@@ -14,9 +14,9 @@ using simulation::Scenario;
 using simulation::without_doppler;
 
 struct Shares {
-  double found = 0.0;            ///< Of all runs.
-  double searched_again = 0.0;   ///< The first search fitted badly.
-  double confident_wrong = 0.0;  ///< Converged elsewhere.
+  double found = 0.0;            ///< Share of all runs.
+  double searched_again = 0.0;   ///< The first search had a poor fit.
+  double confident_wrong = 0.0;  ///< Converged to a wrong motion.
 };
 
 Shares search(Likelihood likelihood, double start_scale, double max_yaw_rad) {
@@ -52,7 +52,7 @@ TEST_CASE("a search that ends in a local minimum is noticed and made again") {
     double start_scale;
     double max_yaw_rad;
   };
-  // One search alone ends elsewhere in more than 0.2 of these runs.
+  // A single search fails in more than 0.2 of these runs.
   for (const Row& row : {Row{6.0, radians(30.0)}, Row{1.0, radians(15.0)}}) {
     CAPTURE(row.start_scale);
     const Shares once = search(Likelihood::max_sum_mixture, row.start_scale, row.max_yaw_rad);
@@ -62,7 +62,7 @@ TEST_CASE("a search that ends in a local minimum is noticed and made again") {
     CHECK(again.found > 0.99);
     CHECK(again.confident_wrong == 0.0);
   }
-  // Searches are only made again where they have to be.
+  // The search is repeated only if needed.
   CHECK(search(Likelihood::exclusive, 6.0, radians(10.0)).searched_again < 0.01);
 }
 

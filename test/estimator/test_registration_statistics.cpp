@@ -18,7 +18,7 @@ using simulation::Random;
 using simulation::Scenario;
 using simulation::without_doppler;
 
-/// Gross failures (wrong basin, no convergence) are counted and left out of the other figures.
+/// Gross failures (wrong basin, no convergence) are counted and excluded from the other figures.
 struct Statistics {
   std::size_t runs = 0;
   double gross = 0.0;  ///< Share of them.
@@ -30,7 +30,7 @@ struct Statistics {
   double bias_yaw = 0.0;
 };
 
-/// Chance throws a credible error as far as this once in 10^8.
+/// A credible error exceeds this by chance once in 10^8.
 constexpr double kGross = 40.0;
 
 Statistics evaluate(const Scenario& scenario, std::size_t runs) {
@@ -66,7 +66,7 @@ Statistics evaluate(const Scenario& scenario, std::size_t runs) {
 
 TEST_CASE(
     "the paper's simulated problems come out as published, and their covariance is credible") {
-  // What the reference implementation does on 400 pairs of each.
+  // The reference implementation's figures on 400 pairs of each.
   struct Row {
     std::string what;
     Scenario scenario;
@@ -115,7 +115,7 @@ TEST_CASE(
   }
   movers.options.doppler.moving_weight = 0.0;
   CHECK(evaluate(movers, 200).gross > 0.5);
-  // One-to-one, most of the clutter finds nobody; a mixture's finds somebody always.
+  // With one-to-one assignment most of the clutter has no partner; in a mixture it always has one.
   const Statistics with_ray = evaluate(clutter, 1000);
   clutter.options.outlier_ray.weight = 0.0;
   const Statistics without_ray = evaluate(clutter, 1000);
@@ -135,7 +135,8 @@ TEST_CASE("one-to-one assignments are credible on all of the paper's problems, c
   const std::vector<Row> rows = {{"PSR", point_set(), 0},       {"PSR-C", point_set(), 8},
                                  {"Sim", without_doppler(), 0}, {"Sim-C", without_doppler(), 8},
                                  {"Sim-D", Scenario(), 0},      {"Sim-C-D", Scenario(), 8}};
-  constexpr double kQuantile = 3.29;  // 99.9 %; of so many degrees of freedom chi-square is normal
+  // 99.9 %; with this many degrees of freedom chi-square is normal.
+  constexpr double kQuantile = 3.29;
   for (const Row& row : rows) {
     Scenario scenario = row.scenario;
     scenario.clusters = row.clusters;

@@ -26,7 +26,7 @@ struct ScanPair {
   Detections current;
 };
 
-/// As a radar at the vehicle's origin sees them; `bound` limits translation, yaw ten times that in
+/// As seen by a radar at the vehicle's origin; `bound` limits translation, yaw ten times that in
 /// degrees.
 ScanPair random_pair(Random& random, double bound_m) {
   const simulation::Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 4.0);
@@ -101,7 +101,7 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     CHECK((turned.motion - rotation * straight.motion).norm() < 1e-9);
-    // Partners' probabilities react to a motion hundreds of times as strongly as it differs.
+    // Partners' probabilities amplify a difference of the motion by hundreds.
     CHECK((turned.covariance - rotation * straight.covariance * rotation.transpose()).norm() <
           1e-5 * straight.covariance.norm());
     CHECK(turned.cost == Approx(straight.cost));
@@ -182,7 +182,7 @@ TEST_CASE("the solution on a mixture is where linearise says it is") {
     const NormalEquations there = cost->linearise({result.motion});
     CHECK(there.cost == result.cost);
     CHECK((there.information * result.covariance - Eigen::Matrix3d::Identity()).norm() < 1e-9);
-    // The next step, in standard deviations: below it the sum of what Gauss-Newton neglects.
+    // The next step, in standard deviations: smaller than the terms that Gauss-Newton neglects.
     CHECK(there.gradient.dot(result.covariance * there.gradient) < 0.1 * 0.1);
     CHECK(result.cost < cost->linearise({}).cost);
   }

@@ -47,7 +47,7 @@ Points scatter(std::uint64_t seed, double min_range_m, double max_range_m, doubl
   return simulation::scatter(random, kMaxDetections, min_range_m, max_range_m, half_view_rad, 0.0);
 }
 
-/// Full scans: of one place, of two, in a heap, and so blurred that everything may be everything.
+/// Full scans: of one place, of two, in a cluster, and so blurred that all pairs are possible.
 std::vector<Problem> full_problems() {
   const simulation::Noise fine{0.1, 0.01, 0.1};
   const Points wide = scatter(1, 3.0, 80.0, radians(60.0));
@@ -81,7 +81,7 @@ void check_numbers(const RegistrationResult& result) {
   }
 }
 
-/// One linearisation of full scans, whichever way, with what it takes to list pairs for it.
+/// One linearisation of full scans, including the lists of pairs.
 constexpr std::int64_t kMixtureWork = 256 * (256 + kMaxRayComponents);
 constexpr std::int64_t kMostWork =
     kMixtureWork +
@@ -113,11 +113,11 @@ TEST_CASE("work that runs out is no convergence, and ends soon after") {
       Registration free(options, {});
       free.set_previous(problem.previous);
       const RegistrationResult whole = free.solve(problem.current, kDt);
-      // Gauss-Newton's steps may come to nothing in scans as dense as these.
+      // Gauss-Newton may fail in scans as dense as these.
       if (model == Likelihood::exclusive) {
         REQUIRE(whole.status == RegistrationStatus::converged);
       }
-      // Up to a linearisation less than what is needed.
+      // Up to one linearisation less than needed.
       for (std::int64_t limit = 0; limit < whole.component_evaluations - kMostWork;
            limit += whole.component_evaluations / 20) {
         options.max_component_evaluations = limit;

@@ -13,8 +13,8 @@ namespace {
 const Pose2 kMount{3.4, 0.5, 0.0};
 constexpr double kDopplerStdMps = 0.1;
 
-/// Adds `count` targets on an arc ahead, `spacing_m` apart, which the vehicle would see at rest if
-/// its velocity were `velocity`.
+/// Adds `count` targets on an arc ahead, `spacing_m` apart, which are static if the vehicle's
+/// velocity is `velocity`.
 void add_targets(TargetSet& targets, int count, double range_m, double spacing_m,
                  const Eigen::Vector3d& velocity, double first_azimuth_rad = -0.8) {
   for (int i = 0; i < count; ++i) {

@@ -29,8 +29,8 @@ Eigen::Vector2d direction(double azimuth_rad) {
   return {std::cos(azimuth_rad), std::sin(azimuth_rad)};
 }
 
-/// A static target as an ARS408 reports it that is told its motion: the whole relative velocity,
-/// the position turned ahead.
+/// A static target as reported by an ARS408 that receives its motion: the whole relative velocity,
+/// the extrapolated position.
 Detection told_detection(const SensorMotion& motion, double range_m, double azimuth_rad,
                          double grid_mps) {
   const Eigen::Vector2d position = range_m * direction(azimuth_rad);
@@ -62,7 +62,7 @@ RadarScan told_scan(Random& random, const SensorMotion& motion, int targets,
   return scan;
 }
 
-/// What no sensor reports across the line of sight is 0.
+/// Sensors that report no velocity across the line of sight give 0.
 void forget_across(RadarScan& scan) {
   for (std::size_t i = 0; i < scan.count; ++i) {
     scan.detections[i].across_mps = 0.0;
@@ -83,7 +83,7 @@ TEST_CASE("The yaw rate a sensor is told shows in the velocities across the line
     CAPTURE(run, targets, motion.yaw_rate_radps);
     const double error_radps =
         reported_yaw_rate_radps(told_scan(random, motion, targets)) - motion.yaw_rate_radps;
-    // The grid leaves 0.07 m/s a target over ranges that spread by 20 m.
+    // The grid leaves 0.07 m/s per target over a range spread of 20 m.
     CHECK(std::abs(error_radps) < 6.0 * 0.1 / (20.0 * std::sqrt(targets)));
   }
 }
@@ -127,7 +127,7 @@ TEST_CASE("Turned back, positions and Doppler are those of the stamp") {
     CHECK(at_stamp.doppler_mps ==
           Approx(-motion.velocity_mps.dot(direction(azimuth_rad))).margin(1e-9));
 
-    // Left as reported, Doppler is off by tau w^2 r from what a model at the reported sight says.
+    // Uncorrected, Doppler differs by tau w^2 r from the model at the reported line of sight.
     const double bias_mps =
         reported.doppler_mps + motion.velocity_mps.dot(direction(reported.azimuth_rad));
     const double squared = motion.yaw_rate_radps * motion.yaw_rate_radps;

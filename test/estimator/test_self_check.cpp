@@ -18,7 +18,7 @@ using simulation::DrawnVehicle;
 
 constexpr double kDurationS = 70.0;
 
-/// A drive of one radar in bends, changed on its way to the check.
+/// A drive of one radar in bends, modified before the check.
 SelfCheck checked(int degrees_of_freedom,
                   const std::function<void(double time_s, EgoMotion& motion)>& alter,
                   double duration_s = kDurationS) {

@@ -36,8 +36,8 @@ SharedDoppler shared_doppler(const DopplerOptions& doppler, const SharedErrorOpt
   return {degrees_of_freedom, doppler, errors, mount};
 }
 
-/// What the radar sees of static targets while the vehicle moves with `velocity`; each Doppler is
-/// off by `noise_mps` times a number between -1 and 1.
+/// Static targets seen while the vehicle moves with `velocity`; each Doppler has an error of
+/// `noise_mps` times a number between -1 and 1.
 TargetSet seen(const Eigen::Vector3d& velocity, const Pose2& mount, int count, double noise_mps,
                std::uint64_t seed, double half_view_rad = radians(50.0)) {
   Random random(seed);
@@ -114,7 +114,7 @@ TEST_CASE("Eliminating the shared errors leaves what solving for all unknowns gi
       gradient += weight * error_m(target, side, start) * jacobian;
     }
   }
-  // y and yaw are nearly the same to a radar in front: x and yaw alone.
+  // y and yaw are nearly equivalent for a radar in front: x and yaw only.
   const std::vector<int> free{0, 2, 3, 4, 5, 6};
   const Eigen::Matrix<double, 6, 6> covariance = information(free, free).inverse();
   const Eigen::Matrix<double, 6, 1> step = -covariance * gradient(free);
@@ -142,7 +142,7 @@ TEST_CASE("The gradient is the derivative of the cost") {
   const Eigen::Vector3d motion(0.62, 0.0, 0.012);
   const Eigen::Vector3d expected = numeric::central_differences(
       motion, 1e-6, [&](const Eigen::Vector3d& at) { return equations_at(at).cost; });
-  // The weight's own dependence on the motion, by the bearing's deviation, is left out.
+  // The weight's dependence on the motion through the bearing's deviation is omitted.
   CHECK((equations_at(motion).gradient - expected).norm() < 1e-3 * expected.norm());
 }
 
@@ -151,7 +151,8 @@ TEST_CASE("An offset that all targets share does not average out") {
   errors.doppler_offset_std_mps = 0.05;
   const SharedDoppler with = shared_doppler(no_movers(), errors, {3.4, 0.0, 0.0});
   const SharedDoppler without = shared_doppler(no_movers(), no_errors(), {3.4, 0.0, 0.0});
-  const double narrow_rad = radians(10.0);  // Wide apart, the targets would tell offset from speed.
+  // Over a wide angle the targets would separate offset from speed.
+  const double narrow_rad = radians(10.0);
   for (const int count : {10, 50, 250}) {
     CAPTURE(count);
     const TargetSet scan = seen({8.0, 0.0, 0.0}, {3.4, 0.0, 0.0}, count, 0.1, 5, narrow_rad);
@@ -198,7 +199,8 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
   SharedErrorOptions errors = no_errors();
   errors.acceleration_std_mps2 = 5.0;
   errors.yaw_acceleration_std_radps2 = 0.5;
-  // Yaw and side are the same to one radar; told the yaw, it finds the side.
+  // Yaw and lateral velocity are equivalent for one radar; with known yaw it determines the lateral
+  // velocity.
   const TargetSet previous = seen({10.0, -1.9, 0.5}, kMount, 60, 0.0, 10);
   const TargetSet current = seen({10.0, -2.1, 0.5}, kMount, 90, 0.0, 11);
   const double turn_rad = 0.5 * kDt;

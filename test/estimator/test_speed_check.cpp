@@ -18,17 +18,17 @@ namespace {
 constexpr double kPeriodS = 0.075;
 constexpr double kWorldM = 400.0;
 
-/// A radar in front of a car that drives on a circle among things that stand.
+/// A radar in front of a car that drives a circle among static points.
 struct CircleDrive {
   double speed_mps = 10.0;
   double yaw_rate_radps = 0.0;
-  double doppler_factor = 1.0;  ///< What is reported of it: 0 if stuck.
-  double pace = 1.0;            ///< Of the stamps.
+  double doppler_factor = 1.0;  ///< Factor on the reported Doppler: 0 if stuck.
+  double pace = 1.0;            ///< Rate of the stamps.
   int things = 2000;            ///< On kWorldM x kWorldM.
-  double kept = 0.8;            ///< Share that is seen in a scan.
+  double kept = 0.8;            ///< Share that is detected in a scan.
 };
 
-/// A check after some seconds of it.
+/// The check after a few seconds of driving.
 class CheckedDrive {
  public:
   void go_on(const CircleDrive& drive, double duration_s) {
@@ -57,7 +57,7 @@ class CheckedDrive {
     return result;
   }
 
-  /// The world begins again where it ends.
+  /// The world is periodic.
   static Eigen::Vector2d wrapped(const Eigen::Vector2d& way) {
     return {std::remainder(way.x(), kWorldM), std::remainder(way.y(), kWorldM)};
   }

@@ -26,7 +26,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// What the estimator says about the second of two scans.
+/// The estimator's result for the second of two scans.
 EgoMotion estimate(const Pose2& mount, Drive drive) {
   const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(mount));
   estimator->update(drive.next());
@@ -65,14 +65,14 @@ TEST_CASE("standing still is told from moving, whatever the radar sees of it") {
 }
 
 TEST_CASE("targets abeam show no Doppler and are no standstill") {
-  // A radar to the left whose few degrees of view hold no target with Doppler to speak of.
+  // A radar to the left whose narrow view has no target with significant Doppler.
   const Pose2 left{2.0, 0.8, radians(90.0)};
   Drive drive({0.5, 0.0, 0.0}, left, 3, 1500);
   drive.set_noise({0.02, 0.0005, 0.2});
   drive.set_half_view(radians(4.0));
   const EgoMotion motion = estimate(left, drive);
   CHECK(motion.status == MotionStatus::ok);
-  CHECK(std::sqrt(motion.covariance(0, 0)) < 0.011);  // precise enough to stand, if it did
+  CHECK(std::sqrt(motion.covariance(0, 0)) < 0.011);  // Accurate enough for standstill.
   CHECK(motion.motion.x() == Approx(0.05).margin(0.02));
 }
 

@@ -231,7 +231,7 @@ constexpr std::array kMeasurements = {&Detection::range_m, &Detection::azimuth_r
 constexpr std::array kDeviations = {&Detection::range_std_m, &Detection::azimuth_std_rad,
                                     &Detection::doppler_std_mps};
 
-/// Is a set finite, of which one target in the middle has `field` = value?
+/// Whether a set is finite in which one target has `field` = value.
 bool is_finite_with(double Detection::*field, double value, double azimuth_rad = 0.3) {
   Detection changed = usable_detection(20.0, azimuth_rad);
   changed.*field = value;

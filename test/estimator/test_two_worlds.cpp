@@ -23,7 +23,7 @@ EgoMotionOptions options_at(const Pose2& mount) {
   return options;
 }
 
-/// One radar, two worlds: each sees its own of two drives.
+/// One radar, two worlds, each with its own drive.
 RadarScan both(RadarScan scan, const RadarScan& other) {
   for (std::size_t i = 0; i < other.count; ++i) {
     scan.detections[scan.count++] = other.detections[i];
@@ -35,7 +35,7 @@ TEST_CASE("two worlds are ambiguous, until one is gone or if the last motion tel
   struct Row {
     std::string what;
     Eigen::Vector3d road;
-    int scans_before;  // of the road alone
+    int scans_before;  // Of the road alone.
     MotionStatus status;
   };
   const std::vector<Row> rows = {

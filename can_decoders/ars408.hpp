@@ -41,6 +41,7 @@ const RadarFamily& family_of(const Ars408Options& options);
 ///
 /// A frame is checked in this order: identifier, kind, length, mode. Extended frames, error frames
 /// and frames of another sensor are ignored and not counted.
+///
 /// A 0x201 that names another sensor, or that comes more often than once a second, is from another
 /// device with this identifier (a GPR); the state is then unknown.
 ///

@@ -29,7 +29,7 @@ class StampMerge {
   /// All frames of the lane stamped before `stamp_us` have been pushed.
   void set_read_until(std::size_t lane, std::int64_t stamp_us);
 
-  /// Lane of the first frame pushed; nothing if there are none.
+  /// Lane of the earliest frame in the lanes; nothing if there are none.
   [[nodiscard]] std::optional<std::size_t> oldest() const;
   /// An empty lane on which a frame earlier than the oldest may still arrive; nothing if there is
   /// none.

@@ -27,7 +27,6 @@ namespace cremed {
 /// ms), at the same range. Without speed and yaw rate the sensor reports A = 0, does not turn
 /// positions, and takes everything with Doppler for moving. An object's velocity is tracked: its
 /// component across is the target's own.
-/// across is that of the target itself.
 class Ars408Sender : public RadarSender {
  public:
   static constexpr std::size_t kMaxClusters = 125;

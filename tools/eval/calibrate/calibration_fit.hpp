@@ -108,7 +108,7 @@ class CalibrationFit {
   CalibrationFit(std::vector<FittedRadar> radars, const FittedVehicle& vehicle,
                  const MotionPrior& prior);
 
-  /// Starts a new set of measurements.
+  /// Sets the measurements of the next solve(); the states keep their values.
   void set_measurements(std::vector<VelocityMeasurement> velocities,
                         std::vector<YawRateMeasurement> yaw_rates);
   /// Truth refers to the rear axle, in the frame of the mounts.

@@ -34,11 +34,11 @@ void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostic
 /// Radars with interface "auto" must be distinguishable by their identifiers.
 void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
   if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
-    diagnostics.add(
-        is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
-        concat({"is \"auto\", but ", later.radar.decoder.describe(),
-                " is searched for where radars ", quoted(earlier.radar.name), " and ",
-                quoted(later.radar.name), "match it; must be the name of an interface for both"}));
+    diagnostics.add(is_auto(later.radar) ? later.interface_line : earlier.interface_line,
+                    "radar.interface",
+                    concat({"is \"auto\", but radars ", quoted(earlier.radar.name), " and ",
+                            quoted(later.radar.name), " are both ", later.radar.decoder.describe(),
+                            "; must be the name of an interface for both"}));
   }
 }
 

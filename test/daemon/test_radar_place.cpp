@@ -122,10 +122,10 @@ TEST_CASE("Two radars that are alike cannot be told apart, so their interfaces m
   const std::string front = radar_text("front", "ars408", "auto");
   for (const char* interface : {"auto", "can0"}) {
     CHECK(message_of(front + radar_text("left", "ars408", interface))
-              .find("radar.interface: is \"auto\", but an ARS408 with sensor id 0 is searched for "
-                    "where "
-                    "radars \"front\" and \"left\" match it; must be the name of an interface for "
-                    "both") != std::string::npos);
+              .find("radar.interface: is \"auto\", but radars \"front\" and \"left\" are both an "
+                    "ARS408 "
+                    "with sensor id 0; must be the name of an interface for both") !=
+          std::string::npos);
   }
   CHECK(message_of(front + radar_text("left", "ars408", "auto") + "sensor_id = 1\n") == "accepted");
   CHECK(message_of(front + radar_text("left", "bosch_gpr", "auto")) == "accepted");

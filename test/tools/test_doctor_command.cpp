@@ -44,9 +44,10 @@ TEST_CASE("cremed-doctor: findings are one a line, the status says that there ar
   const TemporaryFolder folder;
   const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '");
   CHECK(silent.status == 1);
-  CHECK_THAT(silent.output, Catch::StartsWith("error: the log has no frame of interface can0; set "
-                                              "interface to one it has: can1\nfront: 0.0 scans/s, "
-                                              "0 estimates\nrear: 10."));
+  CHECK_THAT(silent.output,
+             Catch::StartsWith("error: the log has no frame of interface can0; set "
+                               "interface to one of these: can1\nfront: 0.0 scans/s, "
+                               "0 estimates\nrear: 10."));
   const ToolRun shifted = doctor_of_filtered(folder, "sed 's/ can0 \\([267]\\)0/ can0 \\12/'");
   CHECK(shifted.status == 1);
   CHECK_THAT(shifted.output, Catch::StartsWith("error: front: not an ARS408 with sensor id 0 but "

@@ -396,8 +396,9 @@ TEST_CASE("A log of more interfaces than a vehicle has is bounded, and the rest 
   const Observation observation = observer.finish();
   CHECK(observation.buses.size() == kMaxBuses);
   CHECK(observation.frames_left_out > 199'000);
-  CHECK_THAT(all_text(diagnose(configuration, observation)),
-             Catch::Contains(" frames of further interfaces ignored: at most 64 are looked at"));
+  CHECK_THAT(
+      all_text(diagnose(configuration, observation)),
+      Catch::Contains(" frames of further interfaces ignored: at most 64 interfaces are analysed"));
 }
 
 TEST_CASE("A radar that is somewhere else explains the silence of its bus") {

@@ -50,9 +50,9 @@ Motion motion_of(Ars408DynProp dyn_prop) {
   return Motion::unknown;
 }
 
-/// First order, all four inputs independent. Errors of the position are none of Doppler's: that was
-/// measured along the true line of sight, and the sensor makes its velocity of it afterwards. On
-/// nuScenes it scatters by 0.11 m/s whatever the azimuth's noise makes of the velocity across.
+/// First order, the four inputs independent. Position errors do not enter the Doppler error: the
+/// sensor measures Doppler along the true line of sight and derives the velocity from it. On
+/// nuScenes the Doppler scatters by 0.11 m/s, independent of the azimuth noise.
 void set_noise(Detection& detection, const Ars408General& target, const CartesianStd& std) {
   const double cosine = target.x_m / detection.range_m;
   const double sine = target.y_m / detection.range_m;
@@ -61,7 +61,7 @@ void set_noise(Detection& detection, const Ars408General& target, const Cartesia
   detection.doppler_std_mps = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
 }
 
-/// Everything but what the sensor itself says against the target: usable, no_position or no_noise.
+/// Sets every field but the sensor's own judgement; validity is usable, no_position or no_noise.
 Detection polar(const Ars408General& target, const Ars408RmsCodes& rms) {
   Detection detection{.rcs_dbm2 = target.rcs_dbm2,
                       .id = target.id,
@@ -100,14 +100,15 @@ ScanPart header(std::uint16_t counter, unsigned target_count) {
           .target_count = static_cast<std::uint16_t>(target_count)};
 }
 
-// Bytes past the layout mean nothing: the caller leaves them out, so that repeats are comparable.
+// `bytes` must end with the layout: the bytes after it are undefined and would break the duplicate
+// check.
 ScanPart target_part(std::uint8_t message, Ars408Bytes bytes) {
   ScanPart part{.kind = ScanPart::Kind::target, .message = message, .slot = bytes[0]};
   std::copy(bytes.begin(), bytes.end(), part.payload.begin());
   return part;
 }
 
-/// `bytes` is at least as long as the row demands.
+/// `bytes` must have the row's length at least.
 ScanPart scan_part(const Ars408MessageRow& row, Ars408Bytes bytes) {
   switch (row.message) {
     case Ars408Message::cluster_status: {

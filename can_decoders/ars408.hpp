@@ -12,12 +12,13 @@
 
 namespace cremed {
 
-/// What an ARS408 is set to send (RadarState OutputTypeCfg: 1 objects, 2 clusters).
+/// The output type of an ARS408 (RadarState OutputTypeCfg: 1 objects, 2 clusters).
 enum class Ars408Output : std::uint8_t { clusters, objects };
 
-/// How far ahead an ARS408 turns the positions of its clusters (estimator/scan/rotation_lead.hpp).
-/// On four turning nuScenes drives the Doppler of static targets gives 0.0413 +- 0.0002 s (front),
-/// 0.0380 and 0.0388 +- 0.0003 s (rear). Nothing is known of objects: it is not used for them.
+/// Time by which an ARS408 extrapolates the positions of its clusters
+/// (estimator/scan/rotation_lead.hpp). Measured on four turning nuScenes drives with the Doppler of
+/// static targets: 0.0413 +- 0.0002 s (front), 0.0380 and 0.0388 +- 0.0003 s (rear). Not used for
+/// objects: no measurement.
 inline constexpr double kArs408RotationLeadS = 0.040;
 
 struct Ars408Options {
@@ -27,28 +28,27 @@ struct Ars408Options {
   std::uint32_t keep_invalid_states = (1U << 0U) | (1U << 4U) | (1U << 11U);
   /// Bit n set: keep targets with DynProp n (table D). Default: 1, 3, 5 (stationary).
   std::uint8_t keep_dyn_props = (1U << 1U) | (1U << 3U) | (1U << 5U);
-  /// Objects with a smaller ProbOfExist code (table P, 0..7) are kept out. Default: 5, >= 90 %.
+  /// Objects with a smaller ProbOfExist code (table P, 0..7) are rejected. Default: 5, >= 90 %.
   std::uint8_t min_existence_code = 5;
-  bool motion_feedback = false;  ///< The sensor is sent the estimate (0x300, 0x301) by the daemon.
+  bool motion_feedback = false;  ///< The daemon sends the estimate to the sensor (0x300, 0x301).
 };
 
 const RadarFamily& family_of(const Ars408Options& options);
 
 /// One Continental ARS408. A scan is its list of clusters (0x600, 0x701, 0x702) or of objects
-/// (0x60A, 0x60B, 0x60C); a target's slot is its id. Everything else the sensor sends, object
-/// messages 0x60D and 0x60E in object mode included, is counted as state and is no scan part.
+/// (0x60A, 0x60B, 0x60C); a target's slot is its id. All other messages of the sensor, including
+/// 0x60D and 0x60E, are counted as state.
 ///
-/// A frame is judged in this order: identifier (extended and error frames, and those of another
-/// sensor on the bus, are not this radar's and are not counted), kind, length, mode.
+/// A frame is checked in this order: identifier, kind, length, mode. Extended frames, error frames
+/// and frames of another sensor are ignored and not counted.
 ///
-/// A 0x201 that names another sensor, or comes sooner than once a second, is of something else that
-/// uses the identifier (a GPR); then the state is unknown.
+/// A 0x201 that names another sensor, or that comes more often than once a second, is from another
+/// device with this identifier (a GPR); the state is then unknown.
 ///
-/// A detection is judged in this order, and the first that holds is its validity: no_position,
-/// no_noise, invalid_state, moving, low_existence. An object that the sensor says it has deleted
-/// counts as invalid_state. Four rms codes of 0 are no_noise: recordings hold a 0 only as a group
-/// of four, nearly always on clusters the sensor calls invalid, so it says "no quality", not
-/// "0.005".
+/// The validity of a detection is the first that applies of: no_position, no_noise, invalid_state,
+/// moving, low_existence. An object that the sensor has deleted is invalid_state. Four rms codes of
+/// 0 are no_noise, not "0.005": recordings contain 0 only in all four codes at once, nearly always
+/// on clusters that the sensor calls invalid.
 class Ars408Decoder final : public RadarDecoder {
  public:
   explicit Ars408Decoder(const Ars408Options& options) : options_(options) {}

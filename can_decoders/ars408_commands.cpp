@@ -34,7 +34,7 @@ CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t lengt
   return result;
 }
 
-/// Writes a signal and its valid bit, if it is to be changed.
+/// Writes a signal and its valid bit if it has a value.
 template <typename Code>
 void put(PayloadBits& bits, std::uint8_t valid_bit, BitField field,
          const std::optional<Code>& code) {

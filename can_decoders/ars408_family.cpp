@@ -13,8 +13,8 @@ namespace {
 constexpr std::array<std::string_view, 2> kOutputs = {"clusters", "objects"};
 constexpr std::uint8_t kSensors = 8;
 
-/// A foreign frame on any of these is a new setting or a wrong motion. 0x008 and 0x010 (relay) do
-/// no harm.
+/// A foreign frame with one of these identifiers changes a setting or gives a wrong motion. 0x008
+/// and 0x010 (relay) are harmless.
 constexpr std::array<std::uint32_t, 6> kCommands = {0x200, 0x202, 0x300, 0x301, 0x400, 0x401};
 
 std::uint32_t id_of(Ars408Message message, std::uint8_t sensor) {
@@ -72,7 +72,7 @@ std::string key(const Ars408Options& options) {
   return "sensor_id = " + std::to_string(options.sensor_id);
 }
 
-/// A GPR of which a frame is lost may have the identifier and the length too.
+/// The content is checked too: a GPR that loses a frame can match in identifier and length.
 bool has_state(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
   const std::uint32_t id = id_of(Ars408Message::radar_state, sensor);
   const IdTraffic& traffic = bus.ids[id];
@@ -81,7 +81,7 @@ bool has_state(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
          decode_ars408_radar_state(traffic.payload)->sensor_id == sensor;
 }
 
-/// Any message that comes once a cycle or second shows a sensor; its length tells it from others.
+/// One periodic message with the right length is enough to recognise a sensor.
 bool is_on(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
   const auto has = [&](Ars408Message message, std::uint8_t length) {
     const std::uint32_t id = id_of(message, sensor);

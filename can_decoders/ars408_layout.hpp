@@ -8,12 +8,12 @@
 
 #include "cremed/can_decoders/bit_field.hpp"
 
-/// Where each signal of an ARS408 lies (Motorola order) and how its raw number scales.
+/// Position (Motorola order) and scale of each signal of an ARS408.
 namespace cremed::ars408_layout {
 
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-// The id of a target is the first byte of each of its messages.
+// The first byte of each message of a target is its id.
 inline constexpr BitField kId{0, 8};
 
 namespace status {
@@ -97,7 +97,7 @@ inline constexpr BitField kRcsThreshold{58, 3};
 inline constexpr LinearScale kMaxDistanceScale{0.0, 0.5};
 }  // namespace state
 
-/// 0x200. The sensor heeds a signal only if its valid bit is set.
+/// 0x200. The sensor ignores a signal whose valid bit is not set.
 namespace configuration {
 inline constexpr std::uint8_t kMaxDistanceValid = 0;
 inline constexpr std::uint8_t kSensorIdValid = 1;
@@ -145,9 +145,9 @@ inline constexpr BitField kObjectFilters{11, 5};
 inline constexpr std::uint8_t kForObjects = 7;
 inline constexpr BitField kIndex{3, 4};
 inline constexpr std::uint8_t kActive = 2;
-inline constexpr std::uint8_t kValid = 1;  // 0x202 alone.
+inline constexpr std::uint8_t kValid = 1;  // 0x202 only.
 
-/// Both limits of a filter have the width and the scale of its criterion, the index here.
+/// The limits of a filter have the width and scale of its criterion, the index here.
 struct Limits {
   std::uint8_t length;
   LinearScale scale;

@@ -11,7 +11,7 @@ namespace {
 namespace layout = ars408_layout;
 using layout::kId;
 
-/// The payload of a message, or nothing if it is too short for it.
+/// The payload of a message; nothing if it is too short.
 std::optional<PayloadBits> bits_of(Ars408Message message, Ars408Bytes bytes) {
   for (const Ars408MessageRow& row : kArs408Messages) {
     if (row.message == message && bytes.size() >= row.length) {

@@ -11,7 +11,7 @@
 
 namespace cremed {
 
-/// Every message an ARS408 sends, by its identifier for sensor 0; sensor n adds 0x10 * n.
+/// Every message of an ARS408, by its identifier for sensor 0; sensor n adds 0x10 * n.
 enum class Ars408Message : std::uint16_t {
   radar_state = 0x201,
   filter_header = 0x203,
@@ -29,7 +29,7 @@ enum class Ars408Message : std::uint16_t {
   cluster_quality = 0x702,
 };
 
-/// The identifier that sensor 0..7 has for the one with `base_id` of sensor 0, and the way back.
+/// Converts the identifier of sensor 0 to that of sensor 0..7, and back.
 constexpr std::uint32_t ars408_id(std::uint32_t base_id, std::uint32_t sensor_id) {
   return base_id + 0x10U * sensor_id;
 }
@@ -38,12 +38,12 @@ constexpr std::uint8_t ars408_sensor_id(std::uint32_t id) {
   return static_cast<std::uint8_t>((id & 0x70U) >> 4U);
 }
 
-/// What a message is about: the sensor itself, or one of the two kinds of target list.
+/// The subject of a message: the sensor itself or one of the two kinds of target list.
 enum class Ars408Subject : std::uint8_t { sensor, clusters, objects };
 
 struct Ars408MessageRow {
   Ars408Message message;
-  std::uint8_t length;  ///< Bytes that hold its signals; a frame may be longer.
+  std::uint8_t length;  ///< Bytes with signals; a frame may be longer.
   Ars408Subject subject;
 };
 
@@ -59,7 +59,7 @@ inline constexpr std::array<Ars408MessageRow, 14> kArs408Messages{{
     {Ars408Message::object_quality, 7, Ars408Subject::objects},
     {Ars408Message::object_extended, 8, Ars408Subject::objects},
     {Ars408Message::object_warning, 2, Ars408Subject::objects},  // Sent with 4 bytes.
-    {Ars408Message::version, 3, Ars408Subject::sensor},          // Flags only in a fourth byte.
+    {Ars408Message::version, 3, Ars408Subject::sensor},  // The fourth byte holds flags only.
     {Ars408Message::cluster_general, 8, Ars408Subject::clusters},
     {Ars408Message::cluster_quality, 5, Ars408Subject::clusters},
 }};
@@ -90,7 +90,7 @@ struct Ars408General {
   double rcs_dbm2 = 0.0;
 };
 
-/// Indices of table R, to be read with ars408_rms().
+/// Codes of table R, for ars408_rms().
 struct Ars408RmsCodes {
   std::uint8_t x = 0;
   std::uint8_t y = 0;
@@ -136,10 +136,10 @@ struct Ars408ObjectWarning {
   std::uint8_t regions = 0;  ///< Bit n: the object is in collision region n.
 };
 
-/// 0x201, once a second: how the sensor is configured and what ails it.
+/// 0x201, once a second: settings and faults of the sensor.
 struct Ars408RadarState {
   bool nvm_read = false;     ///< Configuration was read at start-up.
-  bool nvm_written = false;  ///< Configuration was stored since one was sent.
+  bool nvm_written = false;  ///< Configuration was stored since the last 0x200.
   double max_distance_m = 0.0;
   bool persistent_error = false;
   bool interference = false;
@@ -149,10 +149,10 @@ struct Ars408RadarState {
   std::uint8_t power_code = 0;  ///< 0 standard, 1 -3 dB, 2 -6 dB, 3 -9 dB.
   std::uint8_t sort_code = 0;   ///< 0 none, 1 range, 2 radar cross section.
   std::uint8_t sensor_id = 0;
-  bool speed_missing = false;     ///< No 0x300 received: DynProp is worthless when driving.
+  bool speed_missing = false;     ///< No 0x300 received: DynProp is wrong while driving.
   bool yaw_rate_missing = false;  ///< No 0x301 received.
   bool sends_extended = false;    ///< 0x60D.
-  bool sends_quality = false;     ///< 0x702 or 0x60C; without them no scan can be whole.
+  bool sends_quality = false;     ///< 0x702 or 0x60C; without them no scan is complete.
   std::uint8_t output_code = 0;   ///< 0 none, 1 objects, 2 clusters.
   bool relay_control = false;
   std::uint8_t rcs_threshold_code = 0;  ///< 0 standard, 1 high sensitivity.
@@ -164,17 +164,17 @@ struct Ars408Version {
   std::uint8_t minor_release = 0;
   std::uint8_t patch_level = 0;
   bool extended_range = false;
-  bool power_restricted = false;  ///< Country code that demands less power.
+  bool power_restricted = false;  ///< The country code demands less power.
 };
 
-/// 0x203: how many 0x204 follow.
+/// 0x203: the number of 0x204 that follow.
 struct Ars408FilterHeader {
   std::uint8_t cluster_filters = 0;
   std::uint8_t object_filters = 0;
 };
 
-/// What a filter limits, and in which unit. The sources disagree on which of the two crossing
-/// directions 11 and 13 are.
+/// The quantity that a filter limits, and its unit. The sources disagree on the crossing direction
+/// of 11 and 13.
 enum class Ars408Criterion : std::uint8_t {
   target_count,
   range_m,
@@ -199,7 +199,7 @@ struct Ars408FilterState {
   bool for_objects = false;
   bool active = false;
   Ars408Criterion criterion = Ars408Criterion::target_count;
-  double min = 0.0;  ///< Unit: see the criterion.
+  double min = 0.0;  ///< In the unit of the criterion.
   double max = 0.0;
 };
 

@@ -9,14 +9,14 @@
 
 namespace cremed {
 
-/// An ARS408 sends its 0x201 once a second.
+/// Less than the period of 0x201, one second.
 inline constexpr std::int64_t kArs408ShortestStateGapUs = 400'000;
 
-/// Tells the 0x201 of a sensor from frames of something else with its identifier (a GPR): it names
-/// the sensor, and comes once a second.
+/// Separates the 0x201 of a sensor from those of another device with the same identifier (a GPR):
+/// the sensor's own names its id and comes once a second.
 class Ars408StateWatch {
  public:
-  /// Notes a frame with the identifier. Of frames with one stamp nothing is known of how often.
+  /// Judges one frame with the identifier. Frames with equal stamps pass the period check.
   bool is_own(std::uint8_t sensor_id, const std::optional<Ars408RadarState>& state,
               std::int64_t stamp_us) {
     const std::int64_t gap_us = stamp_us - last_us_.value_or(stamp_us);

@@ -7,10 +7,10 @@
 
 namespace cremed {
 
-// The code tables of the ARS408. A signal may also hold codes that the tables leave out: they are
-// kept as they are, and match no enumerator.
+// The code tables of the ARS408. Codes that a table does not define are kept and match no
+// enumerator.
 
-/// Table D: motion of a target, right only while the sensor is told the speed of its vehicle.
+/// Table D: motion of a target, correct only while the sensor receives the vehicle's speed.
 enum class Ars408DynProp : std::uint8_t {
   moving,
   stationary,
@@ -31,8 +31,8 @@ enum class Ars408Ambiguity : std::uint8_t {
   stationary_candidate,
 };
 
-/// Table I: what speaks against a cluster. The sensor calls 1, 2, 3, 6, 7 and 14 invalid, the
-/// others valid with a doubt; 5, 13 and from 18 on are not defined.
+/// Table I: state of a cluster. The sensor calls 1, 2, 3, 6, 7 and 14 invalid, the others valid
+/// with a doubt; 5, 13 and 18 and above are undefined.
 enum class Ars408InvalidState : std::uint8_t {
   valid = 0,
   invalid_low_rcs = 1,
@@ -52,7 +52,7 @@ enum class Ars408InvalidState : std::uint8_t {
   suspicious_angle = 17,
 };
 
-/// MeasState: where an object of this cycle comes from.
+/// MeasState: origin of an object in this cycle.
 enum class Ars408MeasurementState : std::uint8_t {
   deleted,
   created,
@@ -62,19 +62,12 @@ enum class Ars408MeasurementState : std::uint8_t {
   created_by_merge,
 };
 
-/// Table R: upper bound of the standard deviation (m, m/s or m/s^2) of an index; nothing for 31,
-/// "invalid", and above.
+/// Table R: upper bound of the standard deviation (m, m/s or m/s^2); nothing for 31, "invalid", and
+/// above.
 std::optional<double> ars408_rms(std::uint8_t index);
 
-/// The standard deviation to reckon with: an index stands for all from the bound below to its own,
-/// a factor of 2000^(1/30). Root mean square, each part of the logarithm being as likely.
+/// The standard deviation to use: root mean square over the interval from the next lower bound to
+/// the index's own, a factor of 2000^(1/30), uniform in the logarithm.
 std::optional<double> ars408_std(std::uint8_t index);
-
-/// Table RA: standard deviation of an orientation; nothing for 31, "invalid", and above.
-std::optional<double> ars408_orientation_rms_rad(std::uint8_t index);
-
-/// Table P: upper bound of a probability (Pdh0: of a false alarm, ProbOfExist: of existence);
-/// nothing for 0, "invalid", and above 7.
-std::optional<double> ars408_probability(std::uint8_t code);
 
 }  // namespace cremed

@@ -10,15 +10,15 @@
 
 namespace cremed {
 
-/// Where a signal lies: the least significant bit (byte * 8 + bit, bit 0 being the lowest of its
-/// byte) and the number of bits, 1..32. The numbers are those of the vendors' tables.
+/// Position of a signal: its least significant bit (byte * 8 + bit, bit 0 is the lowest of its
+/// byte) and its length, 1..32 bits, numbered as in the vendors' tables.
 struct BitField {
   std::uint8_t start;
   std::uint8_t length;
 };
 
-/// A payload of up to eight bytes as one word, from which signals are cut. Bytes that are not there
-/// read as zero, so nothing is ever read past the payload.
+/// A payload of up to eight bytes as one word, from which signals are extracted. Missing bytes read
+/// as zero, so nothing is read past the payload.
 class PayloadBits {
  public:
   /// Motorola order: a signal grows towards lower byte numbers.
@@ -75,17 +75,17 @@ class PayloadBits {
   bool big_;
 };
 
-/// Physical value of a raw number. Dividing by the steps a unit holds keeps round values round:
-/// 12 / 5 is 2.4, 12 * 0.2 is not.
+/// Physical value of a raw number. Division by the steps per unit is exact where possible: 12 / 5
+/// is 2.4, 12 * 0.2 is not.
 struct LinearScale {
-  double zero;            ///< Raw number of the value 0; need not be whole.
+  double zero;            ///< Raw number of the value 0; may be fractional.
   double steps_per_unit;  ///< 1 / factor.
 
   [[nodiscard]] constexpr double operator()(double raw) const {
     return (raw - zero) / steps_per_unit;
   }
 
-  /// The raw number nearest to a value that `field` can hold; NaN becomes that of 0.
+  /// The nearest raw number that `field` can hold; NaN becomes that of 0.
   [[nodiscard]] std::uint32_t raw(double value, BitField field) const {
     const double greatest = static_cast<double>((std::uint64_t{1} << field.length) - 1U);
     const double nearest = std::round((std::isnan(value) ? 0.0 : value) * steps_per_unit + zero);

@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kLength = 8;  // Of all three messages.
+constexpr std::size_t kLength = 8;  // All three messages.
 constexpr double kMinRangeM = 0.01;
 
 // Common to all messages, Intel order.
@@ -56,7 +56,7 @@ constexpr LinearScale kAzimuthStdScale{0.0, 1000.0};
 constexpr LinearScale kExistenceScale{0.0, 32.0};
 constexpr LinearScale kAgeScale{0.0, 10000.0};
 
-/// Half a step of the scale, where the sensor says 0.
+/// Used where the sensor gives 0: half a step of the scale.
 double at_least_half_step(double std, LinearScale scale) { return std::max(std, scale(0.5)); }
 
 Payload payload_of(const CanFrame& frame) {

@@ -13,7 +13,7 @@
 
 namespace cremed {
 
-/// off: not checked. count: checked and counted, frame used. enforce: counted and frame dropped.
+/// off: not checked. count: counted, frame used. enforce: counted, frame dropped.
 enum class CrcPolicy : std::uint8_t { off, count, enforce };
 
 struct BoschGprOptions {
@@ -22,19 +22,20 @@ struct BoschGprOptions {
   CrcPolicy crc_policy = CrcPolicy::count;
   bool invert_azimuth = false;  ///< true: the sensor counts azimuth positive to the right.
   bool invert_doppler = false;  ///< true: the sensor's radial velocity is positive when closing.
-  double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are kept out.
+  double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are rejected.
 };
 
 const RadarFamily& family_of(const BoschGprOptions& options);
 
 inline constexpr std::uint8_t kBoschGprSlots = 48;
-/// Two messages for each slot, always.
+/// Messages per slot.
 inline constexpr std::uint32_t kGprTargetIds = 2U * kBoschGprSlots;
 
-/// Message A: the measurement, with the sensor's own signs.
+/// Message A: the measurement, with the sensor's signs.
 struct BoschGprTargetA {
   bool is_a = false;
-  std::uint8_t id = 0;  ///< 0..47; more hints at a sister product with the same identifiers.
+  /// 0..47; larger values suggest a sister product with the same identifiers.
+  std::uint8_t id = 0;
   double range_m = 0.0;
   double radial_velocity_mps = 0.0;
   double power_dbm2 = 0.0;
@@ -43,7 +44,7 @@ struct BoschGprTargetA {
   std::uint8_t counter = 0;
 };
 
-/// Message B: its quality. A standard deviation of 0 means less than half a step.
+/// Message B: quality of the measurement. A standard deviation of 0 means less than half a step.
 struct BoschGprTargetB {
   bool is_a = false;
   std::uint8_t id = 0;
@@ -55,7 +56,7 @@ struct BoschGprTargetB {
   std::uint8_t counter = 0;
 };
 
-/// What the sensor says about itself.
+/// Status of the sensor.
 struct BoschGprInfo {
   std::uint8_t sensor_type = 0;
   std::int16_t temperature_degc = 0;
@@ -76,28 +77,26 @@ struct BoschGprInfo {
   }
 };
 
-/// Each returns nothing if there are fewer than eight bytes. Flag, id and checksum are not judged.
+/// Each returns nothing if there are fewer than eight bytes. Flag, id and checksum are not checked.
 std::optional<BoschGprTargetA> decode_bosch_gpr_target_a(std::span<const std::uint8_t> bytes);
 std::optional<BoschGprTargetB> decode_bosch_gpr_target_b(std::span<const std::uint8_t> bytes);
 std::optional<BoschGprInfo> decode_bosch_gpr_info(std::span<const std::uint8_t> bytes);
 
-/// SAE J1850: polynomial 0x1D, start 0xFF, result inverted; "123456789" gives 0x4B. A message
-/// carries it in its last byte, over those before.
+/// SAE J1850: polynomial 0x1D, start 0xFF, result inverted; "123456789" gives 0x4B. The last byte
+/// of a message is the checksum of the bytes before it.
 std::uint8_t crc8_j1850(std::span<const std::uint8_t> bytes);
 
-/// One Bosch general purpose radar. A scan is 48 slots of two messages, sent whether or not they
-/// hold a target; each message carries the scan's two-bit counter.
+/// One Bosch general purpose radar. A scan is 48 slots of two messages, sent with or without a
+/// target; each message carries the scan's two-bit counter.
 ///
-/// A frame is judged in this order: identifier, kind, length, checksum, slot.
-/// The slot is that of the identifier. A frame whose A flag contradicts its identifier, or whose
-/// own target number no slot has, is not from this sensor: counted as wrong_slot and dropped. A
-/// possible but different target number is counted as wrong_slot and the frame used: at least one
-/// transmitter leaves the number 0 everywhere, and the identifier already tells the slot.
-/// A message whose counter does not follow its last one is counted (counter_errors) and used: one
-/// lost frame must not cost two. After a dropped frame the next counter is taken as it is.
+/// A frame is checked in this order: identifier, kind, length, checksum, slot.
+/// The identifier gives the slot. A frame is counted as wrong_slot and dropped if its A flag
+/// contradicts the identifier or its target number is not 0..47. A different number in 0..47 is
+/// counted as wrong_slot and the frame used: at least one transmitter sends 0 in all slots.
+/// A message whose counter does not follow its last one is counted (counter_errors) and used, so
+/// that a lost frame does not cost the next one too. After a dropped frame any counter is accepted.
 ///
-/// A detection is judged in this order, and the first that holds is its validity: empty,
-/// no_position, low_existence.
+/// The validity of a detection is the first that applies of: empty, no_position, low_existence.
 class BoschGprDecoder final : public RadarDecoder {
  public:
   explicit BoschGprDecoder(const BoschGprOptions& options);
@@ -124,7 +123,7 @@ class BoschGprDecoder final : public RadarDecoder {
 
   BoschGprOptions options_;
   std::optional<BoschGprInfo> info_;
-  std::array<std::uint8_t, kForeign> last_counters_;  ///< By index_of(); or kAnyCounter.
+  std::array<std::uint8_t, kForeign> last_counters_;  ///< By index_of().
 };
 
 }  // namespace cremed

@@ -61,7 +61,7 @@ std::string key(const BoschGprOptions& options) {
   return "base_id = " + hexadecimal(options.base_id);
 }
 
-/// Runs of as many identifiers as a GPR's targets have.
+/// A GPR is a run of kGprTargetIds consecutive identifiers with its frame length.
 std::vector<RadarSettings> recognise(const BusTraffic& bus, IdSet& unexplained) {
   std::vector<RadarSettings> radars;
   std::uint32_t run = 0;

@@ -12,24 +12,24 @@
 
 namespace cremed {
 
-/// What one identifier carried.
+/// Statistics of one identifier.
 struct IdTraffic {
   std::uint64_t frames = 0;
   std::int64_t last_us = 0;  ///< Stamp of the last frame.
-  /// Between two frames; of frames with one stamp nothing is known of how often they come.
+  /// Shortest time between two frames with different stamps.
   std::int64_t shortest_gap_us = std::numeric_limits<std::int64_t>::max();
   std::uint8_t length = 0;  ///< Of the last frame.
   Payload payload{};        ///< Of the last frame.
 };
 
-/// The classic data frames of one bus, by identifier: what radars are recognised by.
+/// The classic data frames of one bus, by identifier, from which radars are recognised.
 struct BusTraffic {
   std::array<IdTraffic, 0x800> ids{};
 
-  /// Frames of other kinds are left out.
+  /// Ignores frames of other kinds.
   void add(const CanFrame& frame);
 
-  /// Identifiers of which a frame came.
+  /// The identifiers seen.
   [[nodiscard]] IdSet seen() const;
 };
 

@@ -6,18 +6,18 @@
 
 namespace cremed {
 
-/// May this detection enter an estimate? Everything but `usable` is kept in the scan and counted.
+/// Whether a detection may enter an estimate. All but `usable` are kept in the scan and counted.
 enum class Validity : std::uint8_t {
   usable,
   no_noise,       ///< The sensor gave no usable standard deviation (rms index 31, or no quality).
-  invalid_state,  ///< The sensor's own state code is not one of those to keep.
-  moving,         ///< The sensor's own motion class is not one of those to keep.
+  invalid_state,  ///< State code not among those to keep.
+  moving,         ///< Motion class not among those to keep.
   low_existence,  ///< Probability of existence below the limit.
   no_position,    ///< Range too small to define an azimuth.
   empty,          ///< The slot holds no target; never stored in a scan.
 };
 
-/// What the sensor says about the target's own motion.
+/// The target's own motion as the sensor classifies it.
 enum class Motion : std::uint8_t { unknown, moving, stationary };
 
 /// One radar detection in the radar's own polar frame: x forward, y left, azimuth
@@ -27,14 +27,14 @@ struct Detection {
   double range_m = 0.0;
   double azimuth_rad = 0.0;
   double doppler_mps = 0.0;
-  /// Velocity across the line of sight, counter-clockwise. No radar measures it: an ARS408 fills in
-  /// what speed and yaw rate it is told make of a static target; 0 where the sensor tells none.
+  /// Velocity across the line of sight, counter-clockwise. Not measured: an ARS408 computes it for
+  /// a static target from the speed and yaw rate it receives; 0 where the sensor gives none.
   double across_mps = 0.0;
   double range_std_m = 0.0;
   double azimuth_std_rad = 0.0;
   double doppler_std_mps = 0.0;
   double rcs_dbm2 = 0.0;
-  std::uint16_t id = 0;  ///< The sensor's own number of the target within this scan.
+  std::uint16_t id = 0;  ///< The sensor's number of the target within this scan.
   Motion motion = Motion::unknown;
   Validity validity = Validity::empty;
 };

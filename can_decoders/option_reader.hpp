@@ -11,14 +11,14 @@
 
 namespace cremed {
 
-/// Closed.
+/// Closed interval.
 struct Range {
   double min = 0.0;
   double max = 0.0;
 };
 
-/// Reads a radar's options key by key, from wherever they are written. What is wrong is reported; a
-/// key that is absent or wrong leaves the value as it is. Keys must be string literals.
+/// Reads a radar's options key by key from any format. Errors are reported; an absent or wrong key
+/// leaves the value unchanged. Keys must be string literals.
 class OptionReader {
  public:
   virtual ~OptionReader() = default;
@@ -30,10 +30,10 @@ class OptionReader {
       value = static_cast<Integer>(*read);
     }
   }
-  /// An integer from 0, shown as hexadecimal in messages.
+  /// A non-negative integer, shown in hexadecimal in messages.
   virtual void identifier(std::string_view key, std::uint32_t& value, std::uint32_t max) = 0;
   virtual void boolean(std::string_view key, bool& value) = 0;
-  /// Index of the name that the key has; nothing if it is absent or wrong.
+  /// Index of the key's name in the list; nothing if the key is absent or wrong.
   virtual std::optional<std::size_t> choice(std::string_view key,
                                             std::span<const std::string_view> names) = 0;
   /// A list of codes from 0 to `max_code`, not empty, as bits.
@@ -41,7 +41,7 @@ class OptionReader {
 
   virtual void report(std::string_view key, std::string_view problem) = 0;
   [[nodiscard]] virtual bool has(std::string_view key) const = 0;
-  /// Nothing was reported yet.
+  /// Whether nothing was reported yet.
   [[nodiscard]] virtual bool clean() const = 0;
 
  protected:

@@ -16,8 +16,8 @@
 
 namespace cremed {
 
-/// All that tells one kind of radar from others, as one row. Of the functions, those of
-/// RadarSettings are asked about settings of this family only.
+/// One kind of radar as a table row. The functions that take RadarSettings accept settings of this
+/// family only.
 struct RadarFamily {
   std::string_view type;  ///< In the configuration: "ars408".
 
@@ -28,22 +28,22 @@ struct RadarFamily {
 
   std::string (*label)(const RadarSettings&);     ///< "ARS408 3"
   std::string (*describe)(const RadarSettings&);  ///< "an ARS408 with sensor id 3"
-  /// The key that tells radars of this type on one bus apart: "sensor_id = 3".
+  /// The key that distinguishes radars of this type on one bus: "sensor_id = 3".
   std::string (*key)(const RadarSettings&);
 
-  /// The radars of this family that identifiers, lengths and, where those do not suffice, contents
-  /// on a bus give away, with the options that these tell. Looks at identifiers in `unexplained`
-  /// only, and takes out those of the radars it finds.
+  /// Finds radars of this family on a bus by identifiers, lengths and, where needed, contents, with
+  /// the options these determine. Uses identifiers in `unexplained` only and removes those of the
+  /// radars found.
   std::vector<RadarSettings> (*recognise)(const BusTraffic& bus, IdSet& unexplained);
 
-  /// Frames on these are commands to it; null: nothing is.
+  /// Identifiers of commands to the radar; null: none.
   IdSet (*obeyed_ids)(const RadarSettings&) = nullptr;
-  /// Default of how far ahead it turns positions by the yaw rate it is told
-  /// (estimator/scan/rotation_lead.hpp); null: it is told none.
+  /// Default time by which the radar extrapolates positions with the yaw rate it receives
+  /// (estimator/scan/rotation_lead.hpp); null: it receives none.
   double (*rotation_lead_s)(const RadarSettings&) = nullptr;
 };
 
-/// For a row: a function of a family's options as one of settings.
+/// Adapts a function of a family's options to one of RadarSettings, for a row.
 template <auto function>
 struct OfSettings;
 template <typename Result, typename Options, Result (*function)(const Options&)>
@@ -55,11 +55,11 @@ inline constexpr auto kOfSettings = &OfSettings<function>::call;
 
 using RadarFamilies = std::span<const RadarFamily* const>;
 
-/// All there are. Of two that may send the same identifiers the one that sends more stands first:
-/// it is recognised first, and what it explains is of no other radar.
+/// All families. Of two that can send the same identifiers, the one with more of them comes first:
+/// it is recognised first, and its identifiers are not considered again.
 RadarFamilies radar_families();
 
-/// The radars that give themselves away on a bus.
+/// The radars recognised on a bus.
 std::vector<RadarSettings> seen_radars(const BusTraffic& bus,
                                        RadarFamilies families = radar_families());
 

@@ -6,7 +6,7 @@
 
 namespace cremed {
 
-/// What a radar last said about itself, whatever its family. The bits are those of status_t.
+/// A radar's latest report about itself, for every family. The bits are those of status_t.
 struct RadarHealth {
   enum Fault : std::uint32_t {
     persistent_error = 1U << 0U,  ///< ARS408; GPR: hardware failure.
@@ -20,8 +20,8 @@ struct RadarHealth {
     configuration_failure = 1U << 8U,
     not_safe = 1U << 9U,
     trouble_code = 1U << 10U,
-    speed_missing = 1U << 11U,     ///< ARS408 gets no 0x300.
-    yaw_rate_missing = 1U << 12U,  ///< ARS408 gets no 0x301.
+    speed_missing = 1U << 11U,     ///< The ARS408 receives no 0x300.
+    yaw_rate_missing = 1U << 12U,  ///< The ARS408 receives no 0x301.
   };
   enum class Output : std::uint8_t { unknown = 0, objects = 1, clusters = 2, none = 3 };
 
@@ -29,7 +29,7 @@ struct RadarHealth {
   std::uint32_t faults = 0;
   Output output = Output::unknown;
   bool sends_quality = false;
-  double max_distance_m = 0.0;  ///< Far limit it is set to; 0: unknown.
+  double max_distance_m = 0.0;  ///< Configured far limit; 0: unknown.
 };
 
 }  // namespace cremed

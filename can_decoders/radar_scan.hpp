@@ -10,12 +10,12 @@
 
 namespace cremed {
 
-/// An ARS408 names its targets with one byte, a GPR has 48 slots: no radar here can exceed this.
+/// The target id of an ARS408 has one byte; a GPR has 48 slots.
 inline constexpr std::size_t kMaxDetections = 256;
 
-/// Is the scan whole? Only `complete` is everything the radar saw. With missing_parts and
-/// dropped_frames the targets that came are sound, others may be missing; otherwise they may be of
-/// more than one list.
+/// Only `complete` scans hold everything the radar saw. With missing_parts and dropped_frames the
+/// targets present are sound, others may be missing; with the rest, targets of more than one list
+/// may be mixed.
 enum class ScanStatus : std::uint8_t {
   complete,           ///< Every announced target arrived with all its parts.
   missing_parts,      ///< Closed (next scan, time-out, end of input) before every part arrived.

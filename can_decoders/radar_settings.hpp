@@ -16,13 +16,13 @@ namespace cremed {
 
 struct RadarFamily;
 
-/// What is set of one radar: the options of its family, Ars408Options for example. Options are
-/// those of a family where beside them stands
+/// The settings of one radar: the options of its family, for example Ars408Options. A type is the
+/// options of a family if this is declared beside it:
 ///
 ///     const RadarFamily& family_of(const Ars408Options&);
 class RadarSettings {
  public:
-  /// Implicit: settings are the options.
+  /// Implicit: settings hold nothing but the options.
   template <typename Options>
   requires requires(const Options& options) {
     { family_of(options) } -> std::same_as<const RadarFamily&>;
@@ -32,7 +32,7 @@ class RadarSettings {
 
   [[nodiscard]] const RadarFamily& family() const { return *family_; }
 
-  // What the family's row says of this radar.
+  // The functions of the family's row, applied to this radar.
   [[nodiscard]] std::unique_ptr<RadarDecoder> make_decoder() const;
   [[nodiscard]] IdSet sent_ids() const;
   [[nodiscard]] IdSet obeyed_ids() const;
@@ -41,8 +41,8 @@ class RadarSettings {
   [[nodiscard]] std::string describe() const;
   [[nodiscard]] std::string key() const;
 
-  /// Whether both are one radar, if they are on one bus. Options that only say how targets are used
-  /// do not matter.
+  /// Whether both are the same radar if they are on one bus. Options that only select targets are
+  /// ignored.
   [[nodiscard]] bool is_same_radar(const RadarSettings& other) const;
 
   /// Null if the options are of another family.

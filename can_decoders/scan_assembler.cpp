@@ -7,18 +7,18 @@
 namespace cremed {
 namespace {
 
-/// Between two lists. A list's own frames are 0.25 ms apart; of 1263 lists of a real ARS408 none
-/// came less than 2.2 ms after the one before.
+/// Shortest pause between two lists. Frames within a list are 0.25 ms apart; in 1263 lists of a
+/// real ARS408 the shortest pause was 2.2 ms.
 constexpr std::uint64_t kPauseUs = 1500;
-/// A list begins with slot 0, and a few messages may be lost with the header.
+/// A list begins with slot 0; a few messages may be lost together with the header.
 constexpr std::uint8_t kLatestFirstSlot = 3;
-/// More cycles than that are not lost in the middle of a list.
-constexpr std::uint32_t kMostCycles = 8;
+/// A larger counter step in the middle of a list is a damaged header, not a gap.
+constexpr std::uint32_t kMaxLostCycles = 8;
 
 /// Bits 0 to message - 1.
 constexpr unsigned before(unsigned message) { return (1U << message) - 1U; }
 
-/// Stamps come from outside, so their difference and sum may not fit a signed number.
+/// Stamps are external input: their difference and sum may overflow a signed number.
 std::uint64_t distance(std::int64_t a, std::int64_t b) {
   const auto [low, high] = std::minmax(a, b);
   return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
@@ -64,7 +64,7 @@ void ScanAssembler::expire(std::int64_t now_us) {
 }
 
 bool ScanAssembler::is_overdue(std::int64_t now_us) const {
-  // A clock that was set back says nothing about how long the scan has been waiting.
+  // A clock set back does not show how long the scan has been waiting.
   return is_open_ && now_us > open_.last_part_us && !in_time(now_us, open_.last_part_us);
 }
 
@@ -149,7 +149,7 @@ void ScanAssembler::add_repeated_header(const ScanPart& part) {
   }
 }
 
-/// The header of a scan that was begun without comes late.
+/// The late header of a scan that began without one.
 void ScanAssembler::adopt_header(const ScanPart& part) {
   if (open_.has_later_messages || part.target_count < open_.known) {
     note_conflict(part);
@@ -162,7 +162,7 @@ void ScanAssembler::adopt_header(const ScanPart& part) {
 
 bool ScanAssembler::is_damaged_header(const ScanPart& part) const {
   return is_open_ && !is_after_pause_ && cycle_step_ != 0 && part.counter != closed_counter_ &&
-         step_to(part.counter, open_.counter) > kMostCycles * cycle_step_;
+         step_to(part.counter, open_.counter) > kMaxLostCycles * cycle_step_;
 }
 
 void ScanAssembler::note_conflict(const ScanPart& part) {

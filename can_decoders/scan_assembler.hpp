@@ -16,11 +16,11 @@ struct AssemblerCounters {
   std::uint64_t scans = 0;              ///< Closed scans of any status.
   std::uint64_t incomplete_scans = 0;   ///< Those of them that are not ScanStatus::complete.
   std::uint64_t empty_scans = 0;        ///< Complete scans with no target.
-  std::uint64_t timeouts = 0;           ///< Scans closed because no part came for too long.
+  std::uint64_t timeouts = 0;           ///< Scans closed because no part came within the time-out.
   std::uint64_t missing_parts = 0;      ///< Announced messages that never came.
-  std::uint64_t duplicate_parts = 0;    ///< Same message, same bytes, again: ignored.
-  std::uint64_t conflicting_parts = 0;  ///< Same message, other bytes: the scan is not whole.
-  std::uint64_t reordered_parts = 0;    ///< Message of a target before an earlier one of it: used.
+  std::uint64_t duplicate_parts = 0;    ///< Same message, same bytes: ignored.
+  std::uint64_t conflicting_parts = 0;  ///< Same message, other bytes: the scan is not complete.
+  std::uint64_t reordered_parts = 0;    ///< Later message of a target before an earlier one: used.
   std::uint64_t excess_parts = 0;       ///< Targets beyond the announced number: dropped.
   std::uint64_t orphan_parts = 0;       ///< Parts while no scan is open: dropped.
   std::uint64_t repeated_scans = 0;     ///< Header with the counter of the last scan: dropped.
@@ -29,48 +29,48 @@ struct AssemblerCounters {
   std::uint64_t headerless_scans = 0;   ///< Scans whose header was lost; all of them incomplete.
 };
 
-/// Collects the parts of one radar into scans, closed by count, counter change, next header or
-/// time-out. Usage:
+/// Collects the parts of one radar into scans. A scan is closed by its count, a counter change, the
+/// next header or the time-out. Usage:
 ///
 ///     assembler.add(decoder.decode(frame));
 ///     while (const RadarScan* scan = assembler.next()) use(*scan);
 ///
 /// At most two scans can be waiting (a header that closes a scan and announces no target); a third
-/// would overwrite the oldest.
+/// overwrites the oldest.
 ///
-/// What makes a scan less than complete has this precedence: over_capacity, conflicting_parts,
-/// dropped_frames, missing_parts. Whatever its status, a scan holds the targets of which all
-/// messages came, in the order in which the first of them did, but for those whose slot is empty.
+/// An incomplete scan has the first status that applies of: over_capacity, conflicting_parts,
+/// dropped_frames, missing_parts. Whatever the status, a scan holds the targets whose messages have
+/// all arrived, in the order of their first messages, without empty slots.
 ///
-/// With header: a header of the open scan again is a duplicate (a conflict, if it announces another
-/// number); one of the last closed scan closes the open scan and opens none, so that a repeated
-/// list never looks like a fresh one. One whose counter continues none, in the middle of a list, is
-/// damaged: a conflict.
+/// With header: a repeated header of the open scan is a duplicate, or a conflict if it announces
+/// another number. A repeated header of the last closed scan closes the open scan and opens none,
+/// so that a repeated list never passes for a new one. A header in the middle of a list whose
+/// counter does not continue the last is damaged: a conflict.
 ///
-/// A lost header does not lose its scan: the first message of one of the first four targets, after
-/// a pause and where no more first messages are due (where targets have one message: while no scan
-/// is open), begins a new scan. Its stamp is late by the
-/// frames that were lost before it: one of them, 0.25 ms, up to four. Its counter is one cycle
-/// after the last; `announced` is the number of targets of which a part came.
+/// A lost header does not lose the scan. A new scan begins with the first message of one of the
+/// first four targets, after a pause and when no first messages are due (with one message per
+/// target: while no scan is open). Its stamp is late by the frames lost before it, 0.25 ms each, at
+/// most four. Its counter is one cycle after the last; `announced` is the number of targets with at
+/// least one part.
 ///
-/// Without header: a part of the last closed scan within the time-out
-/// after that scan's last part is late and dropped; after more time it opens a new scan.
+/// Without header: a part of the last closed scan that arrives within the time-out after that
+/// scan's last part is late and dropped; afterwards it opens a new scan.
 ///
-/// Counter steps: the smallest step seen is taken for one cycle, and larger ones for gaps. A 16-bit
-/// counter that went back by less than half its range is a restarted sensor and no gap.
+/// Counter steps: the smallest step seen is one cycle; larger steps are gaps. A 16-bit counter that
+/// goes back by less than half its range is a restarted sensor, not a gap.
 ///
-/// Stamps may run backwards. A part counts as in time if it is no further than the time-out from
-/// the last part, either way.
+/// Stamps may run backwards. A part is in time if it is within the time-out of the last part, in
+/// either direction.
 class ScanAssembler {
  public:
-  /// `decoder` must outlive the assembler. An open scan closes as incomplete when `timeout_us`
-  /// pass without a part of it. `stamp_offset_us` is added to the stamps of scans.
+  /// `decoder` must outlive the assembler. An open scan closes as incomplete when no part of it
+  /// comes for `timeout_us`. `stamp_offset_us` is added to the stamps of scans.
   ScanAssembler(const RadarDecoder& decoder, std::int64_t timeout_us,
                 std::int64_t stamp_offset_us = 0);
 
   void add(const ScanPart& part);
 
-  /// Lets time pass: closes the open scan if its last part is older than the time-out.
+  /// Closes the open scan if its last part is older than the time-out.
   void expire(std::int64_t now_us);
 
   /// Whether expire() would close a scan.
@@ -81,14 +81,13 @@ class ScanAssembler {
   /// Stamp of the open scan; nothing if no scan is open.
   [[nodiscard]] std::optional<std::int64_t> open_stamp_us() const;
 
-  /// The frame source lost frames: the open scan, if any, can no longer be whole.
+  /// The frame source lost frames: the open scan, if any, becomes incomplete.
   void mark_dropped();
 
-  /// No more input: closes the open scan.
+  /// End of input: closes the open scan.
   void finish();
 
-  /// Messages that the open scan still waits for; nothing if no scan is open. A scan of more
-  /// targets than fit waits for those that do.
+  /// Messages the open scan still waits for, within its capacity; nothing if no scan is open.
   [[nodiscard]] std::optional<std::size_t> awaited_parts() const;
 
   /// The oldest closed scan not yet handed out, or nullptr. Valid until the next call of add,
@@ -98,16 +97,16 @@ class ScanAssembler {
   [[nodiscard]] const AssemblerCounters& counters() const { return counters_; }
 
  private:
-  /// What is known of the scan that is being collected.
+  /// State of the open scan.
   struct OpenScan {
     std::int64_t stamp_us = 0;
     std::int64_t last_part_us = 0;
     std::uint16_t counter = 0;
     std::uint16_t announced = 0;
-    std::uint16_t known = 0;  ///< Targets of which a part came: valid entries in order_.
-    std::uint16_t whole = 0;  ///< Those of them of which all parts came.
+    std::uint16_t known = 0;  ///< Targets with at least one part: valid entries in order_.
+    std::uint16_t whole = 0;  ///< Targets with all parts.
     std::uint16_t parts = 0;
-    bool has_later_messages = false;  ///< Not only the first of each target.
+    bool has_later_messages = false;  ///< A second or later message of a target came.
     bool conflicting = false;
     bool dropped = false;
     bool has_header = true;
@@ -149,8 +148,8 @@ class ScanAssembler {
   std::int64_t stamp_offset_us_;
   AssemblerCounters counters_;
   std::optional<std::int64_t> last_stamp_us_;
-  bool is_after_pause_ = false;   ///< The last part came after one.
-  bool is_list_refused_ = false;  ///< The last header was that of a repeated list.
+  bool is_after_pause_ = false;   ///< The last part came after a pause.
+  bool is_list_refused_ = false;  ///< The last header repeated a list.
 
   bool is_open_ = false;
   OpenScan open_;
@@ -158,7 +157,7 @@ class ScanAssembler {
   std::array<std::uint8_t, kMaxDetections> order_{};     ///< Slots in order of arrival.
 
   std::optional<std::uint16_t> closed_counter_;  ///< Of the last closed scan.
-  std::int64_t closed_part_us_ = 0;              ///< Last part of that scan, late ones included.
+  std::int64_t closed_part_us_ = 0;              ///< Last part of that scan, including late ones.
   std::uint32_t cycle_step_ = 0;                 ///< Smallest counter step seen; 0: none yet.
 
   std::array<RadarScan, 2> waiting_{};

@@ -42,7 +42,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   CommandLine c;
   std::string speed = "max";
   CLI::App app{
-      "Radar ego-motion with a covariance that can be believed\n"
+      "Radar ego-motion with credible covariance\n"
       "Without --replay it runs on the CAN interfaces of the configuration.",
       "cremed"};
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
@@ -50,8 +50,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   std::string checked;
   const auto* check_config =
       app.add_option("--check-config", checked,
-                     "Check a configuration (without FILE the default one), show what was "
-                     "understood, and exit")
+                     "Check a configuration (default: the installed one), show it as read, and "
+                     "exit")
           ->expected(0, 1)
           ->type_name("[FILE]");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
@@ -60,8 +60,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.add_option("--speed", speed, "Speed of the replay: max, or a factor of real time")
       ->capture_default_str();
   app.add_option("--state-file", c.state_file,
-                 "Begin with what was learned of the radars before, and keep it; live it overrides "
-                 "odometry.state_file, which a replay leaves alone");
+                 "File of the learned errors: read at the start, written at the end; live it "
+                 "overrides odometry.state_file, which a replay does not use");
   app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output");
   app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");

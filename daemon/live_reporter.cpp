@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-/// Shorter pauses are no news: a scan may be lost.
+/// Shorter pauses, such as one lost scan, are not reported.
 constexpr int kPatienceS = 3;
 
 enum BusCondition : int {
@@ -56,7 +56,7 @@ int condition_of(const BusStatus& now, const BusStatus& before) {
 std::string text_of(int condition, const std::string& name, const BusStatus& status) {
   switch (condition) {
     case absent:
-      return "no such CAN interface; waiting for it (those there are: `ip link show type can`)";
+      return "no such CAN interface; waiting for it (list them: `ip link show type can`)";
     case down:
       return concat({"is down; set it up: `ip link set ", name,
                      " up type can bitrate 500000 restart-ms 100`"});
@@ -77,7 +77,7 @@ std::string text_of(int condition, const std::string& name, const BusStatus& sta
       return "controller is error passive: check wiring, termination (120 ohm at both ends), bit "
              "rate";
     case silent:
-      return concat({"silent: no frame of a configured radar; `cremed-doctor` tells why"});
+      return "silent: no frame of a configured radar; `cremed-doctor` finds the cause";
     default:
       return {};
   }
@@ -95,10 +95,10 @@ const char* short_text(int condition) {
   return kTexts[condition];
 }
 
-/// All buses have the computer's clock: one of them tells.
+/// All buses report the same computer clock.
 void report_clock(const BusStatus& now, const BusStatus& before) {
   if (now.clock_steps != before.clock_steps) {
-    spdlog::warn("the clock was set: odometry starts anew");
+    spdlog::warn("the clock was set: odometry restarts");
   }
 }
 
@@ -166,7 +166,8 @@ void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
   });
   const int stale = now.frames_stale != before.frames_stale ? 1 : 0;
   log_.update(concat({name, " delay"}), stale, [] {
-    return "frames waited for longer than live.max_latency_s and are not used: cremed was not run";
+    return "frames waited for longer than live.max_latency_s and are dropped: cremed did not run "
+           "in time";
   });
   const int wanted = configuration_.live.socket.receive_buffer_bytes;
   const bool is_clipped = now.receive_buffer_bytes != 0 && now.receive_buffer_bytes < wanted;
@@ -195,7 +196,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
 
   const int condition = condition_of(status.bus, buses_[channel.interface]);
   if (condition != good && scans == 0) {
-    // The bus is to blame, and was: the radar has its patience once frames come again.
+    // The bus is the cause; the radar's own timer starts when frames come again.
     progress.seconds_without_scan = progress.seconds_without_estimate = 0;
     return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
   }
@@ -213,8 +214,8 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
 }
 
-/// Once a radar is named, why is its own affair: here is said that all of them give no odometry,
-/// although there are scans.
+/// Radars with findings of their own are reported there; this reports missing odometry although
+/// there are scans.
 std::string LiveReporter::report_odometry() {
   const std::optional<Odometry>& odometry = pipeline_.odometry();
   const bool is_new = odometry && odometry->utime_us != odometry_us_;
@@ -227,7 +228,7 @@ std::string LiveReporter::report_odometry() {
     return "odometry: " + state;
   }
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
-  // Once: what is missing then goes on to change in the status line.
+  // Logged once; the status line shows later changes of the cause.
   log_.update("odometry", seconds_without_odometry_ < kPatienceS ? 0 : 1, [&] { return state; });
   return "odometry: " + state;
 }
@@ -235,7 +236,7 @@ std::string LiveReporter::report_odometry() {
 void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
   log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
               status.odometry.is_left_out ? 1 : 0,
-              [] { return "left out: it contradicts the other radars, or what it said before"; });
+              [] { return "excluded: it contradicts the other radars or its own past"; });
 }
 
 void LiveReporter::report_publisher() {

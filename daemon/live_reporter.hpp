@@ -16,25 +16,24 @@
 
 namespace cremed {
 
-/// What a live daemon says of itself: once a second a line for `systemctl status`, and in the log
-/// what is wrong with buses, radars and LCM, when it begins and when it ends. Off the hot path: it
-/// builds texts.
+/// Reports of the live daemon: once a second a line for `systemctl status`, and log lines when a
+/// fault of buses, radars or LCM begins and ends. Builds texts, so it is not for the hot path.
 class LiveReporter {
  public:
-  /// All but `configuration` must outlive it; `publisher` may be null.
+  /// All arguments but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
                const LiveSource& source, const LcmPublisher* publisher);
 
-  /// The interface of a radar that had none is known.
+  /// The interface of a radar with "auto" was found.
   void set_interface(std::size_t radar, const std::string& name) {
     configuration_.radars[radar].interface = name;
   }
 
-  /// Looks at everything. Called once a second; returns the line.
+  /// Checks everything. Called once a second; returns the status line.
   std::string report();
 
  private:
-  /// What a radar had done when last looked at.
+  /// State of a radar at the last check.
   struct Progress {
     std::uint64_t scans = 0;
     std::uint64_t estimates = 0;
@@ -53,10 +52,10 @@ class LiveReporter {
   const LiveSource& source_;
   const LcmPublisher* publisher_;
   ConditionLog log_;
-  std::vector<BusStatus> buses_;  // As last looked at.
+  std::vector<BusStatus> buses_;  // At the last check.
   std::vector<Progress> progress_;
-  bool has_scans_ = false;        // Of any radar, since then.
-  std::int64_t odometry_us_ = 0;  // As last looked at.
+  bool has_scans_ = false;        // Of any radar, since the last check.
+  std::int64_t odometry_us_ = 0;  // At the last check.
   int seconds_without_odometry_ = 0;
   bool is_connected_ = false;
   std::uint64_t failures_ = 0;

@@ -13,7 +13,7 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kReportPeriodUs = 1'000'000;
-/// Power is cut without notice; a flash memory bears a write a minute.
+/// Limits the loss at a power cut; flash memory endures one write a minute.
 constexpr std::int64_t kSavePeriodUs = 60'000'000;
 constexpr std::int64_t kFirstConnectPauseUs = 1'000'000;
 constexpr std::int64_t kLongestConnectPauseUs = 5'000'000;
@@ -65,7 +65,7 @@ std::vector<OdometrySink*> LiveSession::sinks() {
   return sinks;
 }
 
-/// Tries with growing pauses; whoever adds the route need not wait for longer than the longest.
+/// Retries with growing pauses, up to the longest.
 void LiveSession::connect(std::int64_t monotonic_us) {
   if (!publisher_ || publisher_->is_connected() || monotonic_us < next_connect_us_) {
     return;
@@ -86,7 +86,7 @@ void LiveSession::save_learned() {
   }
   if (const auto problem = learned_writer_->problem()) {
     log_.update("state file", problem->empty() ? 0 : 1, [&] {
-      return concat({*problem, "; what was learned of the radars is not kept"});
+      return concat({*problem, "; the learned errors are not saved"});
     });
   }
 }
@@ -104,7 +104,7 @@ void LiveSession::look_for_radars(std::int64_t monotonic_us) {
   }
 }
 
-/// From here on it is as if the name had been written.
+/// The radar is used as if the interface had been configured by name.
 void LiveSession::use(const Sighting& sighting) {
   const auto& [radar, place] = sighting;
   const std::uint8_t interface =

@@ -20,19 +20,20 @@
 
 namespace cremed {
 
-/// All that works by one configuration, live: made anew when the configuration changes.
+/// Live operation with one configuration; a new one is made when the configuration changes.
 class LiveSession {
  public:
-  /// Opens what can be opened; the rest is tried again while it runs. `lcm_url` may be "none",
+  /// Opens what is available and retries the rest while running. `lcm_url` may be "none",
   /// `state_file` (LearnedFile) empty.
   LiveSession(const Configuration& configuration, const std::string& lcm_url,
               const std::string& state_file, const volatile std::sig_atomic_t* stop);
-  /// Keeps what was learned.
+  /// Saves the learned errors.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
 
-  /// One event of the buses, and once a second a report to log and service manager. false: the end.
+  /// Handles one event of the buses, and once a second reports to log and service manager. false:
+  /// end.
   bool turn(const ServiceNotifier& notifier);
   void finish() { pipeline_.finish(); }
 

@@ -10,7 +10,6 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
 #include "daemon/configuration/configuration_summary.hpp"
-#include "daemon/process/plain_streams.hpp"
 #include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "daemon/report/log_sink.hpp"
@@ -53,7 +52,6 @@ int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
 
 int main(int argc, char** argv) {
   cremed::set_up_process();
-  cremed::make_standard_streams_plain();
   const auto log = cremed::log_to_standard_error();
   const cremed::CommandLineResult result = cremed::parse_command_line(argc, argv);
   if (!result.command_line) {
@@ -61,9 +59,6 @@ int main(int argc, char** argv) {
   }
   try {
     return run(*result.command_line, *log);
-  } catch (const cremed::ConfigurationError& error) {
-    spdlog::error("{}", error.what());
-    return bad_usage;
   } catch (const cremed::UsageError& error) {
     spdlog::error("{}", error.what());
     return bad_usage;

@@ -12,9 +12,8 @@
 
 namespace cremed {
 
-/// Tells ARS408 sensors the speed and yaw rate (0x300, 0x301) that cremed estimated from their own
-/// scans, where the configuration asks for it. A scan without estimate sends nothing: after 500 ms
-/// the sensor takes the vehicle for standing.
+/// Sends ARS408 sensors the speed and yaw rate (0x300, 0x301) estimated from their own scans, if
+/// configured. A scan without estimate sends nothing: after 500 ms the sensor assumes standstill.
 class MotionFeedback final : public OdometrySink {
  public:
   /// `bus` must outlive it.

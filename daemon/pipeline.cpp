@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-/// A radar's stamps go back by less if frames are reordered.
+/// Larger steps backwards mean that the clock was set, not that frames were reordered.
 constexpr std::int64_t kClockSetBackUs = 1'000'000;
 
 std::vector<OdometryRadar> odometry_radars(
@@ -26,14 +26,14 @@ std::vector<OdometryRadar> odometry_radars(
   return radars;
 }
 
-/// Stamps of hardware that is synchronised differ from the order in which the kernel got the frames
-/// by less; a fraction of any time-out.
+/// Bound on the difference between synchronised hardware stamps and the order of arrival; a
+/// fraction of any time-out.
 constexpr std::int64_t kMaxClockDifferenceUs = 5'000;
 
-/// How long a scan waits for one that began before it: an ARS408 sends for less than its cycle.
+/// Bound on the duration of a scan, for which later scans wait: the cycle of an ARS408.
 constexpr std::int64_t kLongestScanUs = 75'000;
 
-/// Of RadarChannel::shares_clock.
+/// A bit of RadarChannel::shares_clock.
 static_assert(kMaxRadars <= 32);
 constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
@@ -41,7 +41,7 @@ bool share_clock(const RadarChannel& a, const RadarChannel& b) {
   return (a.shares_clock & bit_of(b.interface)) != 0 && (b.shares_clock & bit_of(a.interface)) != 0;
 }
 
-/// With three degrees of freedom the vehicle may go sideways: a skid of 14 degrees within a second.
+/// With three degrees of freedom the vehicle may slip sideways: 14 degrees within a second.
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
   OdometryOptions options = configuration.odometry.filter;
@@ -104,7 +104,7 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
 }
 
 void Pipeline::on_frame(const CanFrame& frame) {
-  const std::int64_t begin_us = clock_.is_that_of_stamps ? frame.stamp_us : clock_.now_us();
+  const std::int64_t begin_us = clock_.is_stamp_clock ? frame.stamp_us : clock_.now_us();
   note_clock(frame);
   on_time(frame.interface, frame.stamp_us);
   expire(frame.stamp_us, frame.interface);
@@ -117,8 +117,8 @@ void Pipeline::on_frame(const CanFrame& frame) {
   publish_held();
 }
 
-/// The clocks of two buses need not agree. A frame that comes after one of another bus, but was
-/// stamped before it, shows that they do not: then frames of that bus do not tell its time.
+/// The clocks of two buses may differ. A frame stamped before an earlier frame of another bus shows
+/// that; frames of that bus then do not advance the time of this one.
 void Pipeline::note_clock(const CanFrame& frame) {
   const std::uint32_t before = bit_of(std::exchange(last_interface_, frame.interface));
   if (!time_us_ || before == bit_of(frame.interface)) {
@@ -132,13 +132,13 @@ void Pipeline::note_clock(const CanFrame& frame) {
   }
 }
 
-/// Closes the scans that have waited for too long at a time that a frame of an interface tells, or
-/// silence on all of them. The order is that of their time-outs, whoever tells the time.
-void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) {
+/// Closes the overdue scans at the time of a frame of `interface`, or of silence on all buses, in
+/// the order of their time-outs.
+void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> interface) {
   const auto is_overdue = [&](const RadarChannel& radar) {
-    const bool is_told =
-        !told_by || *told_by == radar.interface || (radar.shares_clock & bit_of(*told_by)) != 0;
-    return is_told && radar.assembler.is_overdue(now_us);
+    const bool is_comparable = !interface || *interface == radar.interface ||
+                               (radar.shares_clock & bit_of(*interface)) != 0;
+    return is_comparable && radar.assembler.is_overdue(now_us);
   };
   while (RadarChannel* radar = first_to_close(is_overdue)) {
     const std::int64_t deadline_us = *radar->assembler.deadline_us();
@@ -150,7 +150,7 @@ void Pipeline::expire(std::int64_t now_us, std::optional<std::uint8_t> told_by) 
   reach(now_us);
 }
 
-/// Scans held for too long go, and predictions that are due, each at its time.
+/// Releases overdue held scans and predictions that are due, each at its own time.
 void Pipeline::reach(std::int64_t now_us) {
   for (RadarChannel* held = first_held();
        held != nullptr && *held->held_us + kLongestScanUs < now_us; held = first_held()) {
@@ -162,7 +162,7 @@ void Pipeline::reach(std::int64_t now_us) {
   publish_predictions(now_us);
 }
 
-/// Of the open scans that fulfil the condition, whose time-out comes first?
+/// The open scan with the earliest time-out among those that meet the condition.
 template <typename Condition>
 RadarChannel* Pipeline::first_to_close(Condition condition) {
   RadarChannel* first = nullptr;
@@ -184,7 +184,7 @@ void Pipeline::publish_motions(RadarChannel& radar, std::int64_t begin_us) {
 
 void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us) {
   while (radar.held_us) {
-    publish_odometry(*first_held());  // This radar's targets go.
+    publish_odometry(*first_held());  // update() replaces this radar's targets.
   }
   const std::int64_t solve_begin_us = clock_.now_us();
   EgoMotion motion = radar.estimator.update(scan);
@@ -205,14 +205,14 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   }
 }
 
-/// A radar in doubt has no say while there is one that is not.
+/// A radar in doubt is used only if all radars are in doubt.
 bool Pipeline::is_believed(const RadarChannel& radar) const {
   return radar.self_check.is_trusted() ||
          std::none_of(radars_.begin(), radars_.end(),
                       [](const auto& other) { return other->self_check.is_trusted(); });
 }
 
-/// Every scan with usable targets, whether or not it could be registered with the one before.
+/// Holds every scan with usable targets, registered or not.
 void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   if (!filter_ || radar.estimator.targets().size() == 0) {
     return;
@@ -232,7 +232,7 @@ void Pipeline::forget_odometry() {
   }
 }
 
-/// The earliest; null if none is held.
+/// The earliest held scan; null if none.
 RadarChannel* Pipeline::first_held() const {
   RadarChannel* first = nullptr;
   for (const auto& radar : radars_) {
@@ -250,7 +250,7 @@ void Pipeline::publish_held() {
   }
 }
 
-/// Whether a scan that began before the held one is still coming in.
+/// Whether a scan that began before the held one is still open.
 bool Pipeline::is_awaiting(const RadarChannel& radar) const {
   return event_us_ - *radar.held_us <= kLongestScanUs &&
          std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
@@ -286,7 +286,7 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   }
 }
 
-/// Those that are due: at most max_gap_s of them, however long nothing was heard.
+/// The filter predicts over max_gap_s at most.
 void Pipeline::publish_predictions(std::int64_t now_us) {
   while (const auto odometry = filter_ ? filter_->predict_next(now_us) : std::nullopt) {
     for (OdometrySink* sink : sinks_) {

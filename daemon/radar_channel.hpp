@@ -19,36 +19,36 @@
 
 namespace cremed {
 
-/// One radar's stages. Neither copied nor moved: the assembler refers to the decoder.
+/// One radar's stages. Not copyable: the assembler refers to the decoder.
 struct RadarChannel {
   RadarChannel(const RadarConfiguration& configuration, std::size_t radar_index,
                std::uint8_t interface_index);
   RadarChannel(const RadarChannel&) = delete;
   RadarChannel& operator=(const RadarChannel&) = delete;
 
-  /// Notes an estimate in the status.
+  /// Counts an estimate in the status.
   void count(const EgoMotion& motion);
-  /// Notes whether a scan went into the odometry.
+  /// Counts whether a scan was used by the odometry.
   void count(const Odometry& odometry);
-  /// Notes in the status what the odometry filter knows of it.
+  /// Copies the odometry filter's report into the status.
   void note_report(const RadarReport& report);
-  /// Notes how long a scan took from its last frame to the end of its publication, and how much of
-  /// that its registration took.
+  /// Notes the time from a scan's last frame to the end of its publication, and the part that
+  /// registration took.
   void note_duration(std::int64_t latency_us, std::int64_t solve_us);
-  /// Sums up the latencies since the last call: the status shows them until the next.
+  /// Takes the latencies since the last call into the status.
   void begin_period();
-  /// The status with all stages' counters as of now.
+  /// The status with the present counters of all stages.
   const RadarStatus& status(std::int64_t utime_us, const FrameSource& source);
 
   std::size_t index;
   std::uint8_t interface;
-  /// Bit i: its frames and those of interface i are stamped by clocks that agree, as far as known.
+  /// Bit i: its interface and interface i have agreeing clocks, as far as known.
   std::uint32_t shares_clock = 0;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
   SelfCheck self_check;
-  /// Stamp of its last scan while the odometry still has to take it.
+  /// Stamp of its last scan while the odometry has not used it.
   std::optional<std::int64_t> held_us;
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.

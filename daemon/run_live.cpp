@@ -25,7 +25,7 @@ std::string state_file(const CommandLine& command_line, const Configuration& con
       configuration.odometry.enabled ? configuration.odometry.state_file : std::string());
 }
 
-/// A file grows for months and writing it may block; LCM has a recorder for that.
+/// A file would grow for months, and writing may block; lcm-logger records instead.
 void refuse_files(const CommandLine& command_line, const Configuration& configuration) {
   if (command_line.output_csv || command_line.output_odometry || command_line.output_tum ||
       command_line.timing) {
@@ -43,7 +43,7 @@ void refuse_files(const CommandLine& command_line, const Configuration& configur
   }
 }
 
-/// What the live daemon writes besides messages.
+/// The outputs of the live daemon besides messages.
 void refuse_overwriting(const CommandLine& command_line, const std::string& path,
                         const Configuration& configuration) {
   refuse_aliases({{"the configuration", path}},
@@ -74,7 +74,7 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
                                        state_file(command_line, configuration), stop);
 }
 
-/// The file's new configuration, or nothing if it is bad.
+/// The new configuration of the file, or nothing if it is invalid.
 std::unique_ptr<Configuration> reload(const std::string& path) {
   try {
     return std::make_unique<Configuration>(load_configuration(path));
@@ -91,7 +91,7 @@ int run_live(const CommandLine& command_line, const std::string& path,
   refuse_files(command_line, configuration);
   refuse_overwriting(command_line, path, configuration);
   const InstanceLock lock(path);
-  std::signal(SIGPIPE, SIG_IGN);  // Whoever read the log may end before us.
+  std::signal(SIGPIPE, SIG_IGN);  // The reader of the log may end first.
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   handle_reload_signal();
   const ServiceNotifier notifier;
@@ -109,7 +109,7 @@ int run_live(const CommandLine& command_line, const std::string& path,
     if (take_reload_request()) {
       notifier.reloading();
       if (const auto changed = reload(path)) {
-        session.reset();  // Two at once would fight for the same buses.
+        session.reset();  // Two sessions must not use the same buses.
         session = begin(command_line, *changed, stop);
         spdlog::set_level(spdlog::level::from_str(changed->logging.level));
         log_configuration(path, *changed);

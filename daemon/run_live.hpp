@@ -10,11 +10,11 @@
 
 namespace cremed {
 
-/// Runs on the CAN interfaces of the configuration until asked to stop; what is missing (interface,
-/// multicast route) is waited for. SIGHUP reads `path` again: a good configuration replaces the one
-/// in use, a bad one is told and left alone. Returns the exit status. Throws UsageError if real
-/// time is required and not granted, something asked for makes sense in a replay only, a file would
-/// be overwritten, or another process runs with the same configuration.
+/// Runs on the CAN interfaces of the configuration until a stop is requested; waits for missing
+/// interfaces and routes. SIGHUP reads `path` again: a valid configuration replaces the one in use,
+/// an invalid one is logged and ignored. Returns the exit status. Throws UsageError if real time is
+/// required and not granted, an option is for replays only, a file would be overwritten, or another
+/// process uses the same configuration.
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration);
 

@@ -41,7 +41,7 @@ std::vector<std::string> radar_names(const Configuration& configuration) {
   return names;
 }
 
-/// Names as the user knows them: of the command line, or else of the configuration.
+/// The files with their names on the command line or in the configuration.
 void refuse_overwriting(const CommandLine& command_line, const OutputConfiguration& output,
                         const std::string& configuration_path) {
   std::vector<NamedFile> inputs = {{"the configuration", configuration_path}};
@@ -57,7 +57,7 @@ void refuse_overwriting(const CommandLine& command_line, const OutputConfigurati
                   {"LCM", lcm_file(lcm_url)}});
 }
 
-/// Whatever cannot be, before anything is opened.
+/// Checks the usage before anything is opened.
 void refuse(const CommandLine& command_line, const std::string& configuration_path,
             const Configuration& configuration) {
   require_interface_names(configuration);
@@ -156,7 +156,7 @@ void log_durations(const Configuration& configuration, const Pipeline& pipeline)
   }
 }
 
-/// Logs what was wrong with the logs; false if one could not be read to its end.
+/// Logs the faults of the logs; false if one could not be read to its end.
 bool report_logs(const Replay& replay) {
   bool good = true;
   for (const auto& log : replay.logs()) {
@@ -185,20 +185,20 @@ std::string other_interfaces(const Replay& replay) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// One log may have the frames of one interface only: of another, nothing needs to be wrong.
+/// One of several logs may lack an interface; that is no fault.
 void report_absent_interfaces(const Configuration& configuration, const Replay& replay) {
   const std::string others = other_interfaces(replay);
   const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
     if (std::none_of(replay.logs().begin(), replay.logs().end(),
                      [i](const auto& log) { return log->has_frames(i); })) {
-      spdlog::error("the input has no frame of interface {}; set interface to one it has: {}",
+      spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
                     names[i], others);
     }
   }
 }
 
-/// Whether any radar had a frame: without one, nothing can have come out.
+/// Whether any radar had a frame; without one there is no result.
 bool report_frames(const Configuration& configuration, const Replay& replay,
                    const Pipeline& pipeline) {
   const SourceCounters& counters = replay.counters();
@@ -228,7 +228,7 @@ bool report_sinks(const Sinks& sinks) {
     spdlog::error("{} results could not be written or published", failures);
   }
   if (sinks.tum != nullptr && sinks.tum->gaps() != 0) {
-    spdlog::warn("the trajectory has {} gaps, over which it stands still", sinks.tum->gaps());
+    spdlog::warn("the trajectory has {} gaps, at which it stands still", sinks.tum->gaps());
   }
   return failures == 0;
 }
@@ -269,7 +269,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
     log_durations(configuration, pipeline);
   }
   const bool logs_good = report_logs(*replay);
-  // Stopped before the first frame, the input may have been good.
+  // After a stop before the first frame the input may be good.
   const bool input_good =
       *stop != 0 ? logs_good : report_frames(configuration, *replay, pipeline) && logs_good;
   const bool output_good = report_sinks(sinks);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of `cmake --install`: writes the unit from `unit_template`, for the prefix that is installed to.
+# Part of `cmake --install`: writes the unit from `unit_template` for the installed prefix.
 cmake_path(ABSOLUTE_PATH CMAKE_INSTALL_PREFIX NORMALIZE OUTPUT_VARIABLE prefix)
 cmake_path(ABSOLUTE_PATH bindir BASE_DIRECTORY "${prefix}" OUTPUT_VARIABLE CMAKE_INSTALL_FULL_BINDIR)
 cmake_path(ABSOLUTE_PATH docdir BASE_DIRECTORY "${prefix}" OUTPUT_VARIABLE CMAKE_INSTALL_FULL_DOCDIR)

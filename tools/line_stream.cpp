@@ -32,7 +32,7 @@ std::streamsize LineStream::Buffer::xsputn(const char* text, std::streamsize siz
   return text_.size() < kManyBytes || write_lines() ? size : 0;
 }
 
-/// All but a last line that has no end yet.
+/// All complete lines.
 bool LineStream::Buffer::write_lines() {
   const std::size_t whole = text_.rfind('\n') + 1;  // npos + 1 is 0.
   file_.write(std::string_view(text_).substr(0, whole));

@@ -10,15 +10,15 @@
 
 namespace cremed {
 
-/// A stream into an OutputFile, which is given whole lines, many at a time.
+/// A stream into an OutputFile, which receives blocks of complete lines.
 class LineStream {
  public:
   /// "-" is standard output. Throws std::runtime_error.
   explicit LineStream(const std::string& path) : buffer_(path), stream_(&buffer_) {}
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
-  /// Writes what is left, a last line without its end too. Throws std::runtime_error if anything
-  /// could not be written.
+  /// Writes the rest, even without a line end. Throws std::runtime_error if anything could not be
+  /// written.
   void finish();
 
  private:

@@ -34,7 +34,7 @@ constexpr TextRule kSource = {
     "the name of a radar, \"odometry\" unless that is off, \"fused\" for the same of two radars or "
     "more, or \"\""};
 
-/// A name that LCM takes, 63 characters at most, and that is not one of cremed's own channels.
+/// An LCM channel name, at most 63 characters, not one of cremed's own.
 bool is_free_channel(std::string_view text) {
   constexpr std::size_t kLongest = 63;
   return text.size() <= kLongest && !text.starts_with("CREMED_") &&
@@ -146,7 +146,8 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   read_live(reader.table("live"), configuration.live);
   read_logging(reader.table("logging"), configuration.logging);
   reader.finish();
-  if (context.diagnostics.empty()) {  // A wrong value kept its default, which clashes easily.
+  // A wrong value keeps its default, which would cause false clashes.
+  if (context.diagnostics.empty()) {
     check_radars(radars, context.diagnostics);
     check_output(output, configuration);
   }
@@ -205,7 +206,7 @@ std::set<std::string> known_configuration_keys() {
   }
   if (const auto table = parse_toml(radars, context.diagnostics)) {
     read_configuration(*table, context,
-                       radar_families());  // What it reports as missing does not matter here.
+                       radar_families());  // Errors of this reading do not matter.
   }
   return keys;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFullCircleRad = 6.2832;
 
-/// In the order of Likelihood. Until version 1 the key was "covariance", with other names.
+/// In the order of Likelihood. The former key is "covariance", with other names.
 constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "max_sum_mixture"};
 constexpr std::array<std::string_view, 2> kOldLikelihoods{"exclusive", "gauss_newton"};
 

@@ -7,7 +7,7 @@
 
 namespace cremed {
 
-/// Reads [estimator] or [radar.estimator] over what `options` hold.
+/// Reads [estimator] or [radar.estimator]; absent keys keep the values in `options`.
 void read_estimator(TomlReader reader, EgoMotionOptions& options);
 
 }  // namespace cremed

@@ -7,7 +7,7 @@
 
 namespace cremed {
 
-/// Reads [odometry] over what `odometry` holds.
+/// Reads [odometry]; absent keys keep the values in `odometry`.
 void read_odometry(TomlReader reader, OdometryConfiguration& odometry);
 
 }  // namespace cremed

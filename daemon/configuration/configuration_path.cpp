@@ -13,7 +13,7 @@ std::string configuration_path(const std::string& named, const std::string& stan
   if (!named.empty()) {
     return named;
   }
-  // A file that is there and cannot be read is told by the one who reads it.
+  // An existing but unreadable file is reported when it is read.
   std::error_code error;
   if (!std::filesystem::exists(standard, error) && !error) {
     throw ConfigurationError(

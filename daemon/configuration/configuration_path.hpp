@@ -8,8 +8,8 @@ namespace cremed {
 
 inline constexpr const char* kStandardConfiguration = "/etc/cremed/cremed.toml";
 
-/// The file that --config names; without one the standard one. Where that is absent too it throws
-/// ConfigurationError: mounts cannot be guessed, and an example's would give wrong odometry.
+/// The path given by --config, else the standard path. Throws ConfigurationError if that file does
+/// not exist: there is no default for mounts.
 std::string configuration_path(const std::string& named,
                                const std::string& standard = kStandardConfiguration);
 

@@ -43,7 +43,7 @@ constexpr TextRule kName = {
 constexpr TextRule kInterface = {is_interface,
                                  "1 to 15 characters that print, without space, '/' or ':'"};
 
-/// In the order of their types.
+/// In the order of the families.
 std::vector<const RadarFamily*> by_type(RadarFamilies families) {
   std::vector<const RadarFamily*> sorted(families.begin(), families.end());
   std::sort(sorted.begin(), sorted.end(),
@@ -51,7 +51,7 @@ std::vector<const RadarFamily*> by_type(RadarFamilies families) {
   return sorted;
 }
 
-/// The keys that it reads.
+/// The keys that the family reads.
 std::vector<std::string_view> keys_of(const RadarFamily& family) {
   ReadContext scratch{Diagnostics(""), nullptr};
   TomlReader reader(nullptr, "", 0, scratch);
@@ -69,7 +69,7 @@ const RadarFamily* read_type(TomlReader& reader, const std::vector<const RadarFa
   return type ? families[*type] : nullptr;
 }
 
-/// Keys of the type that the radar has, of any where that is not known; those of others are refused
+/// Keys of the radar's type, or of all types if that is unknown. Keys of other types are reported
 /// by name.
 void read_decoder(TomlReader& reader, RadarFamilies families, RadarConfiguration& radar) {
   const std::vector<const RadarFamily*> sorted = by_type(families);
@@ -110,12 +110,12 @@ std::string types_told_yaw_rate() {
   return list_text(types);
 }
 
-/// Only of a sensor that is told the yaw rate.
+/// Only for a sensor that receives the yaw rate.
 void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
   if (!radar.decoder.rotation_lead_s()) {
     reader.refuse(std::array{kRotationLead},
                   concat({"is a key of type ", types_told_yaw_rate(),
-                          ", which is told the yaw rate; must be left out here"}));
+                          ", which receives the yaw rate; must be left out here"}));
     return;
   }
   reader.number(kRotationLead, radar.ego_motion.correction.rotation_lead_s, {-0.2, 0.2});
@@ -132,7 +132,7 @@ void read_calibration(TomlReader& reader, RadarConfiguration& radar) {
   reader.number("doppler_std_factor", correction.doppler_std_factor, {0.1, 10.0});
 }
 
-/// The tables of one radar that calibration is about.
+/// The tables of one radar that [calibrated] can replace.
 void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
   TomlReader mount = reader.table("mount");
   read_mount(mount, radar.ego_motion.vehicle_from_radar, Presence::required);

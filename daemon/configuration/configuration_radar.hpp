@@ -11,21 +11,21 @@
 
 namespace cremed {
 
-/// A radar and where the file says so.
+/// A radar and its place in the file.
 struct PlacedRadar {
   RadarConfiguration radar;
   std::size_t name_line = 0;
   std::size_t interface_line = 0;
 };
 
-/// Reads one [[radar]] table; `defaults` are those of [estimator], `families` the types there are.
+/// Reads one [[radar]] table; `defaults` are those of [estimator], `families` the allowed types.
 PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults, RadarFamilies families);
 
-/// Reads [calibrated], whose tables have the names of radars: what is in them takes the place of
-/// what is in [radar.mount] and [radar.calibration].
+/// Reads [calibrated], whose tables have the names of radars and replace [radar.mount] and
+/// [radar.calibration].
 void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars);
 
-/// Reports radars of one name, and radars on one interface that would hear each other's frames.
+/// Reports radars with the same name, and radars on one interface that share identifiers.
 void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics);
 
 }  // namespace cremed

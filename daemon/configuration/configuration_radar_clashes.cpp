@@ -23,7 +23,7 @@ std::string of_radar(const PlacedRadar& placed) {
       {" of radar \"", placed.radar.name, "\" (line ", std::to_string(placed.name_line), ")"});
 }
 
-/// Channel names are in capitals, so names that differ in case only would share one.
+/// Channel names are upper case, so names that differ only in case would share one.
 void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
   if (upper_case(earlier.radar.name) == upper_case(later.radar.name)) {
     diagnostics.add(later.name_line, "radar.name",
@@ -31,14 +31,14 @@ void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostic
   }
 }
 
-/// By what it sends one radar must be told from the other.
+/// Radars with interface "auto" must be distinguishable by their identifiers.
 void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
   if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
-    diagnostics.add(
-        is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
-        concat({"is \"auto\", but ", later.radar.decoder.describe(), " is looked for where radars ",
-                quoted(earlier.radar.name), " and ", quoted(later.radar.name),
-                " are alike; must be the name of an interface for both"}));
+    diagnostics.add(is_auto(later.radar) ? later.interface_line : earlier.interface_line,
+                    "radar.interface",
+                    concat({"is \"auto\", but radars ", quoted(earlier.radar.name), " and ",
+                            quoted(later.radar.name), " are both ", later.radar.decoder.describe(),
+                            "; must be the name of an interface for both"}));
   }
 }
 

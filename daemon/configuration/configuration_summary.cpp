@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-/// A little more than pi, as rounded as people write it.
+/// Slightly more than pi, for rounded values.
 constexpr double kHalfCircleRad = 3.15;
 
 constexpr const char* kRow = "{:<15} {:<9} {:<15} {:>8} {:>8} {:>8}  {}\n";
@@ -112,7 +112,7 @@ std::vector<std::string> configuration_doubts(const Configuration& configuration
     doubts.push_back(configuration.warnings);
   }
   for (const RadarConfiguration& radar : configuration.radars) {
-    // Radians are usually counted from -pi to pi; small degrees are the likelier meaning beyond.
+    // A larger angle is probably in degrees.
     const double yaw = radar.ego_motion.vehicle_from_radar.yaw_rad;
     if (std::abs(yaw) > kHalfCircleRad) {
       doubts.push_back(fmt::format(

@@ -9,14 +9,14 @@
 
 namespace cremed {
 
-/// What was understood, for people: a table of the radars with their mounts in m and degrees, then
-/// what the odometry uses, where it goes, and what is sent on the buses. Lines end with '\n'.
+/// The configuration as text: a table of the radars with mounts in m and degrees, then the input
+/// and output of the odometry, and what is sent on the buses. Lines end with '\n'.
 std::string configuration_summary(const Configuration& configuration);
 
-/// What is allowed but is rarely meant, a line each.
+/// Valid but unusual settings, one per line.
 std::vector<std::string> configuration_doubts(const Configuration& configuration);
 
-/// Logs what a run begins with: its file, a line a radar, and doubts.
+/// Logs the configuration of a run: its file, a line per radar, and doubts.
 void log_configuration(const std::string& path, const Configuration& configuration);
 
 }  // namespace cremed

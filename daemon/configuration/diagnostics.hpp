@@ -10,17 +10,17 @@
 
 namespace cremed {
 
-/// Collects everything that is wrong with one file, so that its author can mend it in one go.
+/// Collects all errors of one file, so that they can be corrected at once.
 class Diagnostics {
  public:
   explicit Diagnostics(std::string file_name) : file_name_(std::move(file_name)) {}
 
-  /// `problem` says what is wrong and what would be right.
+  /// `problem` states the error and a correct value.
   void add(std::size_t line, std::string_view key, std::string_view problem);
 
   [[nodiscard]] bool empty() const { return entries_.empty(); }
 
-  /// "file:line: key: problem", one a line, in the order of the file's lines.
+  /// "file:line: key: problem", one per line, in the order of the file.
   [[nodiscard]] std::string text() const;
 
  private:

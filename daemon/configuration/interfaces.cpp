@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// Names, and of each radar where its own is among them.
+/// The distinct names, and for each radar the index of its own.
 struct Interfaces {
   std::vector<std::string> names;
   std::vector<std::uint8_t> of_radars;

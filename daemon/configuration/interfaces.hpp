@@ -12,22 +12,22 @@
 
 namespace cremed {
 
-/// For a radar whose interface is to be found (RadarSearch).
+/// Interface of a radar that RadarSearch has to find.
 inline constexpr std::string_view kAutoInterface = "auto";
 
 bool is_auto(const RadarConfiguration& radar);
 
-/// Whether no interface is to be found.
+/// Whether every interface is given by name.
 bool has_interface_names(const Configuration& configuration);
 
-/// Distinct names of the radars' interfaces, in order of first mention. Each radar whose interface
-/// is to be found has an entry of its own.
+/// Distinct names of the radars' interfaces, in order of first use. Each "auto" has an entry of its
+/// own.
 std::vector<std::string> interface_names(const Configuration& configuration);
 
-/// CanFrame::interface of a radar of the configuration: where its interface is in that list.
+/// CanFrame::interface of a radar: index of its interface in that list.
 std::uint8_t interface_index(const Configuration& configuration, std::size_t radar);
 
-/// Throws ConfigurationError if the interface of a radar is to be found: in a log it cannot be.
+/// Throws ConfigurationError if a radar has interface "auto", which a log cannot resolve.
 void require_interface_names(const Configuration& configuration);
 
 }  // namespace cremed

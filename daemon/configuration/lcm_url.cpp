@@ -15,7 +15,7 @@ bool is_integer(std::string_view text, int min, int max) {
          value <= max;
 }
 
-/// What stands before the separator; the text is then what stands behind it.
+/// Returns the text before the separator and leaves the text after it.
 std::string_view take_until(char separator, std::string_view& text) {
   const std::size_t end = text.find(separator);
   const std::string_view taken = text.substr(0, end);
@@ -23,8 +23,7 @@ std::string_view take_until(char separator, std::string_view& text) {
   return taken;
 }
 
-/// "239.255.76.67:7667?ttl=0", of which each part may be missing. The group has its own check
-/// (multicast_problem), which may ask the kernel.
+/// "239.255.76.67:7667?ttl=0"; each part is optional. multicast_problem checks the group.
 bool is_multicast(std::string_view text) {
   std::string_view address = take_until('?', text);
   const bool has_port = address.find(':') != std::string_view::npos;

@@ -6,8 +6,8 @@
 
 namespace cremed {
 
-/// "none", or a URL that LCM never waits for: udpm:// with a ttl that IP has, file:// or memq://.
-/// tcpq:// would wait for its server, and hold up the odometry.
+/// "none", or a URL with which LCM never blocks: udpm:// with a valid ttl, file:// or memq://.
+/// tcpq:// would block the odometry while it waits for its server.
 bool is_lcm_url(std::string_view text);
 inline constexpr const char* kLcmUrlWanted =
     "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\", with a port of 1 to 65535 and "

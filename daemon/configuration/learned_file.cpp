@@ -19,18 +19,18 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kVersion = 1;
-/// An error beyond so many standard deviations of the unlearned is none of an inexact mount.
-constexpr double kMostStds = 5.0;
-/// Of the unlearned: none is known better.
+/// Larger errors, in standard deviations of the prior, mean a wrong mount.
+constexpr double kMaxStds = 5.0;
+/// Smallest standard deviation of a learned error, as a share of the prior's.
 constexpr double kLeastShare = 1e-3;
-constexpr Range kAnyM{-100.0, 100.0};
-constexpr Range kAnyRad{-10.0, 10.0};
-/// Numbers are written with all their digits: a mount that differs was changed.
-constexpr double kSame = 1e-9;
+constexpr Range kMountRangeM{-100.0, 100.0};
+constexpr Range kMountYawRangeRad{-10.0, 10.0};
+/// Numbers are written with all digits, so any difference is a change.
+constexpr double kTolerance = 1e-9;
 
 constexpr const char* kHeader =
-    "# Written by cremed: what it learned of the radars while driving, and begins with the next "
-    "time.\n# Delete it after work on the radars' mounts.\n";
+    "# Written by cremed: errors of the radars learned while driving, the prior of the next "
+    "drive.\n# Delete it after work on the radars' mounts.\n";
 
 struct Entry {
   std::string name;
@@ -40,18 +40,18 @@ struct Entry {
 
 void read_error(TomlReader& reader, std::string_view key, std::string_view std_key,
                 double least_std, double most_std, LearnedError& error) {
-  const double most = kMostStds * most_std;
+  const double most = kMaxStds * most_std;
   reader.number(key, error.value, {-most, most}, Presence::required);
   reader.number(std_key, error.std, {least_std, most_std}, Presence::required);
 }
 
 bool is_same(const Pose2& a, const Pose2& b) {
-  return std::abs(a.x_m - b.x_m) <= kSame && std::abs(a.y_m - b.y_m) <= kSame &&
-         std::abs(a.yaw_rad - b.yaw_rad) <= kSame;
+  return std::abs(a.x_m - b.x_m) <= kTolerance && std::abs(a.y_m - b.y_m) <= kTolerance &&
+         std::abs(a.yaw_rad - b.yaw_rad) <= kTolerance;
 }
 
 bool is_plausible(const LearnedError& error, const LearnedError& unlearned) {
-  return std::abs(error.value) <= kMostStds * unlearned.std && std::isfinite(error.std);
+  return std::abs(error.value) <= kMaxStds * unlearned.std && std::isfinite(error.std);
 }
 
 LearnedError clipped(const LearnedError& error, const LearnedError& unlearned) {
@@ -96,18 +96,18 @@ LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
   return content;
 }
 
-/// A radar that is not configured (any longer) says nothing, but must be well-formed.
+/// A radar that is not configured is ignored, but its table must be well-formed.
 void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
   Entry entry;
   reader.text("name", entry.name, {[](std::string_view) { return true; }, "a radar's name"},
               Presence::required);
-  reader.number("mount_x_m", entry.mount.x_m, kAnyM, Presence::required);
-  reader.number("mount_y_m", entry.mount.y_m, kAnyM, Presence::required);
-  reader.number("mount_yaw_rad", entry.mount.yaw_rad, kAnyRad, Presence::required);
+  reader.number("mount_x_m", entry.mount.x_m, kMountRangeM, Presence::required);
+  reader.number("mount_y_m", entry.mount.y_m, kMountRangeM, Presence::required);
+  reader.number("mount_yaw_rad", entry.mount.yaw_rad, kMountYawRangeRad, Presence::required);
   const auto found = std::find_if(radars_.begin(), radars_.end(),
                                   [&](const Radar& radar) { return radar.name == entry.name; });
   const bool is_here = found != radars_.end() && is_same(found->mount, entry.mount);
-  const LearnedErrors any{{0.0, kAnyRad.max}, {0.0, kAnyRad.max}};
+  const LearnedErrors any{{0.0, kMountYawRangeRad.max}, {0.0, kMountYawRangeRad.max}};
   const LearnedErrors& most = is_here ? found->unlearned : any;
   const double least_share = is_here ? kLeastShare : 0.0;
   const auto read = [&](std::string_view key, std::string_view std_key,
@@ -147,12 +147,12 @@ std::vector<std::optional<LearnedErrors>> LearnedFile::read_and_log() const {
   const Content content = read();
   if (!content.problem.empty()) {
     spdlog::warn(
-        "{}\nwhat was learned of the radars is not used, and will be written anew; "
-        "delete the file if this comes again",
+        "{}\nthe learned errors are not used and will be overwritten; "
+        "delete the file if this happens again",
         content.problem);
   }
   for (const std::string& name : content.passed_over) {
-    spdlog::info("{}: its mount was changed: what was learned of it before is not used", name);
+    spdlog::info("{}: its mount has changed, so its learned errors are not used", name);
   }
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     if (const auto& errors = content.radars[i]) {

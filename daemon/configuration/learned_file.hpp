@@ -15,7 +15,7 @@ namespace cremed {
 
 class TomlReader;
 
-/// What the odometry filter learned of the radars, kept from one drive to the next as TOML:
+/// The learned errors of the radars, stored between drives as TOML:
 ///
 ///     version = 1
 ///     [[radar]]
@@ -28,8 +28,7 @@ class TomlReader;
 ///     doppler_scale_error = 0.0004         # Its Doppler is too great by this part, less the mean.
 ///     doppler_scale_error_std = 0.0017
 ///
-/// A file with an error anywhere counts for nothing. A radar that is mounted otherwise now is
-/// passed over.
+/// A file with any error is ignored as a whole. A radar whose mount has changed is skipped.
 class LearnedFile {
  public:
   LearnedFile(std::string path, const Configuration& configuration);
@@ -40,13 +39,13 @@ class LearnedFile {
     std::vector<std::string> passed_over;              ///< Radars whose mount changed.
   };
   [[nodiscard]] Content parse(std::string_view toml) const;
-  /// The file's; one that does not exist is empty.
+  /// Reads the file; empty if it does not exist.
   [[nodiscard]] Content read() const;
-  /// The same, said in the log.
+  /// As read(), and logs the result.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> read_and_log() const;
 
-  /// What is to be written; nothing if nothing was learned. Of a radar whose mount must be wrong
-  /// rather than inexact, nothing.
+  /// The text to write; nothing if nothing was learned. Omits radars whose mount is wrong rather
+  /// than inexact.
   [[nodiscard]] std::optional<std::string> text(
       std::span<const std::optional<LearnedErrors>> learned) const;
 

@@ -38,7 +38,7 @@ RadarPlace absent(const RadarConfiguration& radar, const std::vector<HeardBus>& 
       "check its power and cable, and that its interface is up"};
 }
 
-/// The interface is known: may the radar be there?
+/// Checks a known interface for clashes with other radars.
 RadarPlace checked(std::size_t radar, const Configuration& configuration,
                    const std::string& interface) {
   const RadarConfiguration& wanted = configuration.radars[radar];

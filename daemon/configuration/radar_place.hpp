@@ -12,7 +12,7 @@
 
 namespace cremed {
 
-/// A CAN interface and what came on it.
+/// A CAN interface and its traffic.
 struct HeardBus {
   std::string interface;
   BusTraffic traffic;
@@ -21,11 +21,13 @@ struct HeardBus {
 enum class PlaceStatus : std::uint8_t {
   found,
   absent,     ///< No interface shows this radar.
-  ambiguous,  ///< Several do.
-  clash,      ///< One does, but there another radar of the configuration uses its identifiers.
+  ambiguous,  ///< Several interfaces show it.
+  /// Its interface is found, but another radar of the configuration uses the same identifiers
+  /// there.
+  clash,
 };
 
-/// Which interface a radar is on.
+/// Result of the search for one radar's interface.
 struct RadarPlace {
   PlaceStatus status = PlaceStatus::absent;
   std::string interface;  ///< If found.
@@ -33,14 +35,14 @@ struct RadarPlace {
   std::string remedy;
 };
 
-/// Where a radar is, by its index in the configuration.
+/// By the radar's index in the configuration.
 struct Sighting {
   std::size_t radar = 0;
   RadarPlace place;
 };
 
-/// Where the radars are whose interface is to be found, by what the buses show. Interfaces that are
-/// found are written into the configuration.
+/// Finds the interfaces of the radars with "auto" from the traffic, and writes them into the
+/// configuration.
 std::vector<Sighting> find_interfaces(const std::vector<HeardBus>& buses,
                                       Configuration& configuration);
 

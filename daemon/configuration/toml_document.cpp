@@ -19,9 +19,9 @@ namespace {
 constexpr std::size_t kMaxDotsInLine = 128;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// toml++ 3.3 bounds the nesting of values but not that of dotted keys, and destroys tables by
-/// recursion: some ten thousand dots in one key overflow the stack. A key cannot span lines, so the
-/// dots of a line bound the depth of its keys. Dots in a row (a drawn line) nest nothing.
+/// toml++ 3.3 limits the nesting of values but not of dotted keys, and destroys tables recursively:
+/// about ten thousand dots in one key overflow the stack. A key cannot span lines, so the dots of a
+/// line bound its depth. Consecutive dots (a drawn line) do not nest.
 std::size_t first_line_with_too_many_dots(std::string_view text) {
   std::size_t line = 1;
   std::size_t dots = 0;
@@ -38,8 +38,8 @@ std::size_t first_line_with_too_many_dots(std::string_view text) {
   return 0;
 }
 
-/// Walks a text and knows whether it is in a comment: a '#' outside strings up to the end of the
-/// line. Strings that span lines are not followed.
+/// Tracks whether a character is in a comment: '#' outside strings to the end of the line.
+/// Multi-line strings are not tracked.
 class CommentTracker {
  public:
   /// Takes the next character; true if it belongs to a comment.
@@ -66,10 +66,9 @@ class CommentTracker {
 
 bool is_ascii(char c) { return (static_cast<unsigned char>(c) & 0x80U) == 0; }
 
-/// toml++ 3.3 has undefined behaviour on characters above U+007F where they may not stand (its
-/// issues 190 and 295), so it gets to see none: those in comments become '?', others are refused.
-/// Whatever the tracker mistakes for a comment, what is left is ASCII. Returns the line at fault, 0
-/// for none.
+/// toml++ 3.3 has undefined behaviour on characters above U+007F in invalid places (its issues 190
+/// and 295). In comments they become '?'; elsewhere they are refused, so the result is ASCII even
+/// if the tracker errs. Returns the offending line, 0 for none.
 std::size_t make_ascii(std::string& text) {
   CommentTracker tracker;
   std::size_t line = 1;
@@ -86,7 +85,7 @@ std::size_t make_ascii(std::string& text) {
   return 0;
 }
 
-/// Makes the text fit for toml++; false if it cannot be.
+/// Prepares the text for toml++; false if it is refused.
 bool prepare(std::string& text, Diagnostics& diagnostics) {
   if (const std::size_t line = make_ascii(text); line > 0) {
     diagnostics.add(line, "syntax",
@@ -119,7 +118,7 @@ std::string read_toml(const std::string& path) {
   if (!S_ISREG(status.st_mode)) {
     throw std::system_error(S_ISDIR(status.st_mode) ? EISDIR : ENOTSUP, std::generic_category());
   }
-  std::string text(kMaxTomlBytes + 1, '\0');  // One byte more than allowed shows that it is more.
+  std::string text(kMaxTomlBytes + 1, '\0');  // One byte over the limit shows a larger file.
   errno = 0;
   text.resize(std::fread(text.data(), 1, text.size(), file.get()));
   if (std::ferror(file.get()) != 0) {

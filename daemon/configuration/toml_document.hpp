@@ -18,14 +18,14 @@ class table;
 
 namespace cremed {
 
-/// A larger file is no configuration.
+/// Limit for a configuration.
 inline constexpr std::size_t kMaxTomlBytes = std::size_t{256} * 1024;
 
-/// What a file holds, of a file that is too large only so much that it shows. Throws
-/// std::system_error, with ENOTSUP for what is no file: it might never end, or never begin.
+/// Content of a file, cut just above the limit. Throws std::system_error; ENOTSUP if it is not a
+/// regular file, which might block or never end.
 std::string read_toml(const std::string& path);
 
-/// Syntax errors are added to `diagnostics`; the result is then null. Throws nothing.
+/// Adds syntax errors to `diagnostics` and then returns null. Throws nothing.
 std::shared_ptr<const toml::table> parse_toml(std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace cremed

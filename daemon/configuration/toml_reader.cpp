@@ -40,7 +40,7 @@ std::string describe(const toml::node& node) {
   }
 }
 
-/// A float is never taken for an integer, but an integer may stand where a number is wanted.
+/// A number may be written as an integer; an integer may not be written as a float.
 std::optional<double> number_in(const toml::node& node) {
   if (node.is_integer()) {
     return static_cast<double>(node.as_integer()->get());
@@ -54,7 +54,7 @@ std::optional<std::int64_t> integer_in(const toml::node& node, std::int64_t min,
   return within ? std::optional(integer->get()) : std::nullopt;
 }
 
-/// For an angle that would be right were it in degrees.
+/// A hint for an angle that would be valid in degrees.
 std::string degrees_hint(std::string_view key, std::optional<double> value, Range range) {
   const double angle_rad = value.value_or(0.0) * kRadPerDeg;
   const bool is_likely = key.ends_with("_rad") && value && std::abs(*value) >= 1.0 &&
@@ -252,7 +252,7 @@ std::optional<std::size_t> TomlReader::deprecated_choice(
   if (!has(old_key)) {
     return std::nullopt;
   }
-  refused_.push_back(old_key);  // Unknown to messages and documents, but not an unknown key.
+  refused_.push_back(old_key);  // Accepted, but not offered in messages and documents.
   if (has(new_key)) {
     report(old_key,
            concat({"is the old name of ", new_key, ", which is there too; must be left out"}));

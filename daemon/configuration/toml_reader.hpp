@@ -24,27 +24,27 @@ namespace cremed {
 
 enum class Presence : std::uint8_t { optional, required };
 
-/// Which strings a key takes, and the words for it: "must be ...".
+/// The allowed strings of a key, and their description after "must be".
 struct TextRule {
   bool (*accepts)(std::string_view);
   std::string_view wanted;
 };
 
-/// What the readers of one file share.
+/// State shared by the readers of one file.
 struct ReadContext {
   Diagnostics diagnostics;                      ///< Errors: the file is refused.
-  std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys asked for.
+  std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys read.
   Diagnostics warnings = diagnostics;
 };
 
-/// Reads one table key by key: checks type and range, reports what is wrong, and remembers which
-/// keys are known. Defaults are what the values were. Usage:
+/// Reads one table key by key: checks type and range, reports errors and notes the known keys. An
+/// absent key leaves the value unchanged. Usage:
 ///
 ///     reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
-///     reader.finish();  // All that was not asked for is an unknown key.
+/// Every key not read is unknown.
 class TomlReader final : public OptionReader {
  public:
-  /// `table` may be null: a table that the file does not have; then `line` is where it would be.
+  /// `table` may be null if the file lacks it; `line` is then where it would be.
   TomlReader(const toml::table* table, std::string path, std::size_t line, ReadContext& context);
 
   void number(std::string_view key, double& value, Range range) override {
@@ -64,18 +64,18 @@ class TomlReader final : public OptionReader {
   void bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) override;
 
   TomlReader table(std::string_view key);
-  /// A list of tables, not empty and required.
+  /// A required, non-empty list of tables.
   std::vector<TomlReader> tables(std::string_view key);
 
   /// Reports `high` unless it is greater than `low`; only if one of them is in this table.
   void require_less(std::string_view low_key, double low, std::string_view high_key, double high);
   /// Reports each of `keys` that is in this table, with `problem`.
   void refuse(std::span<const std::string_view> keys, std::string_view problem);
-  /// Reports every key that nothing asked for.
+  /// Reports every key that was not read.
   void finish();
 
-  /// Index of the name that a key has which `new_key` has replaced, with a warning; an error if
-  /// both are there. `old_names` are in the order of the new ones.
+  /// Index of the name of a deprecated key that `new_key` has replaced, with a warning; an error if
+  /// both exist. `old_names` are in the order of the new ones.
   std::optional<std::size_t> deprecated_choice(std::string_view old_key,
                                                std::span<const std::string_view> old_names,
                                                std::string_view new_key,
@@ -83,7 +83,7 @@ class TomlReader final : public OptionReader {
 
   void report(std::string_view key, std::string_view problem) override;
   [[nodiscard]] bool has(std::string_view key) const override;
-  /// Of the key, or of the table if it has no such key.
+  /// Of the key, or of the table if the key is absent.
   [[nodiscard]] std::size_t line_of(std::string_view key) const;
   [[nodiscard]] bool clean() const override { return clean_; }
   [[nodiscard]] const std::vector<std::string_view>& known() const { return known_; }

@@ -17,13 +17,13 @@ inline constexpr std::string_view kMotionCsvHeader =
     "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
     "status,targets,iterations,solve_us\n";
 
-/// One row under that header; without estimate it has nan for the motion.
+/// One row; nan for the motion if there is no estimate.
 TextLine motion_csv_row(std::string_view source, const EgoMotion& motion, std::int32_t solve_us);
 
-/// Ego-motions as CSV, one row a scan of each radar, and one a fused motion.
+/// Ego-motions as CSV, one row per scan of each radar and per fused motion.
 class CsvWriter final : public OdometrySink {
  public:
-  /// `radars`: their names. Throws std::runtime_error if the file cannot be made.
+  /// `radars`: their names. Throws std::runtime_error if the file cannot be created.
   CsvWriter(const std::string& path, std::vector<std::string> radars);
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override;

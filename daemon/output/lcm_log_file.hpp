@@ -11,17 +11,17 @@
 
 namespace cremed {
 
-/// An LCM log that ends on a whole message, also on a full disk: LCM's own address
-/// file://PATH?mode=w does not tell when one is lost.
+/// An LCM log that always ends on a complete message, also on a full disk. LCM's own
+/// file://PATH?mode=w does not report lost messages.
 class LcmLogFile {
  public:
-  /// Creates or empties it; is_open() says whether that could be.
+  /// Creates or truncates the file; is_open() tells whether that succeeded.
   explicit LcmLogFile(std::string path);
 
   [[nodiscard]] bool is_open() const { return log_ != nullptr; }
-  /// False if it is not all in the file. Then, and ever after, nothing of it is.
+  /// False if the message was not written completely. Then nothing more is written.
   bool write(const char* channel, std::span<std::uint8_t> data);
-  /// Which message could not be written, and why; empty if all were.
+  /// The message that could not be written, and why; empty if none.
   [[nodiscard]] std::string problem() const;
 
  private:
@@ -30,7 +30,7 @@ class LcmLogFile {
   };
   std::string path_;
   std::unique_ptr<lcm_eventlog_t, Close> log_;
-  std::int64_t size_bytes_ = 0;  // Of whole messages.
+  std::int64_t size_bytes_ = 0;  // Size of the complete messages.
   int error_ = 0;
 };
 

@@ -121,9 +121,9 @@ void fill(const Odometry& odometry, odometry_t& m) {
   copy(odometry.twist_covariance, m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps);
 }
 
-/// LCM sends with a socket that waits when its buffer is full, and gives no access to it: it is
-/// among the descriptors that lcm_create has opened. One that never waits costs a message, not the
-/// scans behind it.
+/// The socket of LCM blocks when its send buffer is full, and LCM gives no access to it. It is
+/// found among the descriptors that lcm_create opens and made non-blocking: a full buffer then
+/// costs a message instead of delaying scans.
 lcm_t* create_lcm(const std::string& url) {
   constexpr int kDescriptors = 256;
   const auto is_open = [](int descriptor) { return ::fcntl(descriptor, F_GETFD) >= 0; };
@@ -171,7 +171,7 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
   }
 }
 
-/// Returns what is wrong; empty if there is something to publish with.
+/// Returns the problem; empty if it can publish.
 std::string LcmPublisher::open() {
   const std::string path = lcm_file(url_);
   if (!path.empty() && url_.ends_with("mode=w")) {
@@ -193,7 +193,7 @@ std::string LcmPublisher::connect() {
   const std::uint64_t failures = failures_;
   for (Messages& messages : messages_) {
     publish({kStatusChannel, messages.status_channel.c_str()},
-            messages.status);  // As last known: counters never go back.
+            messages.status);  // As last known: counters must not decrease.
     ++messages.status.seq;
   }
   if (failures_ != failures) {

@@ -23,18 +23,18 @@
 
 namespace cremed {
 
-/// Publishes over LCM: ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t and
-/// nav_msgs.Odometry. What several sources tell goes out on one channel for all and on one a
-/// source: a reader of all needs no names, and lcm-spy, which shows a channel's last message, shows
-/// them all. Messages are encoded into a member buffer and handed to lcm_publish: no allocation.
+/// Publishes ego_motion_t, odometry_t, status_t and, if configured, radar_scan_t and
+/// nav_msgs.Odometry over LCM. Messages of several sources go to one common channel, so that a
+/// reader needs no names, and to one channel per source, because lcm-spy shows only the last
+/// message of a channel. Messages are encoded into a member buffer: no allocation.
 class LcmPublisher final : public OdometrySink {
  public:
-  /// Does not connect yet: until connect() succeeds, every message is a failure.
+  /// Does not connect: until connect() succeeds, every message counts as a failure.
   LcmPublisher(std::string url, const Configuration& configuration);
 
-  /// Sets LCM up and publishes a first status_t of each radar: watchers see the radars before the
-  /// first frame, LCM allocates what it makes at first use, and what cannot work is found now.
-  /// Returns what is wrong and how to mend it; empty if all is well. May be tried again.
+  /// Sets LCM up and publishes a first status_t of each radar: subscribers see the radars before
+  /// the first frame, LCM makes its first allocations, and faults show now. Returns the problem and
+  /// its remedy; empty if it succeeded. May be called again.
   std::string connect();
   [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] bool is_connected() const { return lcm_ != nullptr || file_; }
@@ -49,14 +49,14 @@ class LcmPublisher final : public OdometrySink {
     return file_ ? file_->problem() : std::string();
   }
 
-  /// For subscribing in the same process (memq://, tests).
+  /// For subscribers in the same process (memq://, tests).
   [[nodiscard]] lcm_t* handle() { return lcm_.get(); }
 
  private:
   struct Destroy {
     void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
   };
-  /// One radar's messages; strings and arrays are given their room once.
+  /// One radar's messages; strings and arrays are allocated once.
   struct Messages {
     ego_motion_t motion;
     radar_scan_t scan;
@@ -69,15 +69,15 @@ class LcmPublisher final : public OdometrySink {
                       ego_motion_t& message);
   std::string open();
   bool send(const char* channel, int size);
-  /// The same bytes on each of the channels.
+  /// Publishes the same bytes on each channel.
   template <typename Message>
   void publish(std::initializer_list<const char*> channels, const Message& message);
 
   std::string url_;
   std::unique_ptr<lcm_t, Destroy> lcm_;
-  std::optional<LcmLogFile> file_;  // In place of lcm_ where the address is a file to write.
+  std::optional<LcmLogFile> file_;  // Replaces lcm_ if the URL is a file to write.
   bool publish_scans_;
-  std::string nav_msgs_channel_;  // Empty: not asked for.
+  std::string nav_msgs_channel_;  // Empty: not configured.
   std::vector<Messages> messages_;
   ego_motion_t fused_;
   std::string fused_channel_;
@@ -87,7 +87,7 @@ class LcmPublisher final : public OdometrySink {
   std::uint64_t failures_ = 0;
 };
 
-/// Of one source: `channel`, '_' and the source's name in upper case.
+/// Channel of one source: `channel`, '_' and the source's name in upper case.
 std::string channel_of(const std::string& channel, const std::string& source);
 
 }  // namespace cremed

@@ -10,7 +10,7 @@
 
 namespace cremed {
 LearnedWriter::LearnedWriter(std::string path) : path_(std::move(path)) {
-  const SignalsBlocked blocked;  // Signals are for the loop, whose reads they end.
+  const SignalsBlocked blocked;  // Signals must reach the main loop, to interrupt its reads.
   thread_ = std::thread(&LearnedWriter::run, this);
 }
 

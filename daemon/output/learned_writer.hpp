@@ -10,20 +10,20 @@
 
 namespace cremed {
 
-/// Writes a small file again and again in a thread of its own: a disk may take a second to answer,
-/// for which no scan can wait. The file is replaced at once (replace_file).
+/// Writes a small file repeatedly in its own thread, because a disk may block for a second. The
+/// file is replaced atomically (replace_file).
 class LearnedWriter {
  public:
   explicit LearnedWriter(std::string path);
-  /// Writes what was offered last.
+  /// Writes the last text offered.
   ~LearnedWriter();
   LearnedWriter(const LearnedWriter&) = delete;
   LearnedWriter& operator=(const LearnedWriter&) = delete;
 
-  /// Takes a text that is to be written next, in place of one that was not begun yet. Does not
-  /// wait: false if the thread is just taking one.
+  /// Sets the next text to write; replaces one that is still waiting. Does not block: false if the
+  /// thread is just fetching one.
   bool offer(std::string text);
-  /// The same at the end, when waiting for a moment does no harm.
+  /// The same for the end of the process; may block for a moment.
   void put(std::string text);
   /// Why the last text was not written; empty if it was. Nothing if the thread is just setting it.
   [[nodiscard]] std::optional<std::string> problem();
@@ -37,7 +37,7 @@ class LearnedWriter {
   std::optional<std::string> text_;
   std::string problem_;
   bool is_ending_ = false;
-  std::thread thread_;  // Last: it uses all the others.
+  std::thread thread_;  // Last member: the thread uses all others.
 };
 
 }  // namespace cremed

@@ -19,7 +19,7 @@ constexpr std::string_view kScheme = "udpm://";
 constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr std::uint16_t kDefaultPort = 7667;
 
-/// Asks the routing table, without sending: errno, or 0.
+/// Looks up the route without sending: errno, or 0.
 int connect_error(const sockaddr_in& address) {
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) {

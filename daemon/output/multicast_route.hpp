@@ -6,9 +6,9 @@
 
 namespace cremed {
 
-/// Why messages cannot leave for the multicast group of a udpm:// URL, with the command that mends
-/// it; empty if they can, or if the URL is of another kind. Asked for before lcm_create, which
-/// prints a riddle and leaks a descriptor where no route leads to the group.
+/// Why the multicast group of a udpm:// URL is unreachable, with a remedy; empty if it is reachable
+/// or the URL is of another kind. Checked before lcm_create, which without a route prints an
+/// obscure message and leaks a descriptor.
 std::string multicast_problem(const std::string& url);
 
 }  // namespace cremed

@@ -8,11 +8,11 @@
 namespace cremed {
 namespace {
 
-// Order of the message's covariances: x, y, z, roll, pitch, yaw.
+// Covariances of the message are ordered x, y, z, roll, pitch, yaw.
 constexpr Eigen::Index kStates = 6;
 using Covariance = Eigen::Matrix<double, kStates, kStates, Eigen::RowMajor>;
 constexpr std::array<Eigen::Index, 3> kXYYaw = {0, 1, 5};
-/// Of what a vehicle in the plane does not estimate: z, roll, pitch. Zero would mean known exactly.
+/// Variance of z, roll and pitch, which are not estimated. Zero would mean exactly known.
 constexpr double kUnknownVariance = 1e6;
 constexpr std::int64_t kUsPerSecond = 1'000'000;
 

@@ -10,13 +10,13 @@
 
 namespace cremed {
 
-/// The odometry as robot stacks of ROS's kind read it: pose in "odom", twist in "base_link", which
-/// is the vehicle frame. The message has no status: what is not to be used is not published.
+/// The odometry in ROS conventions: pose in "odom", twist in "base_link", the vehicle frame. The
+/// message has no status, so unusable odometry is not published.
 class NavMsgsOdometry {
  public:
   NavMsgsOdometry();
 
-  /// Takes a new odometry over; false if there is none to publish. Allocates nothing.
+  /// Converts a new odometry; false if it is not to be published. Allocates nothing.
   bool update(const Odometry& odometry);
   [[nodiscard]] const nav_msgs::Odometry& message() const { return message_; }
 

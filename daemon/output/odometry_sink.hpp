@@ -13,24 +13,24 @@
 
 namespace cremed {
 
-/// Where results go. `radar` is the index of the radar in the configuration. Called on the hot
-/// path: an implementation must not allocate or log; what it cannot deliver it counts.
+/// Receiver of results. `radar` is the radar's index in the configuration. Called on the hot path:
+/// implementations must not allocate or log, and count what they cannot deliver.
 class OdometrySink {
  public:
   virtual ~OdometrySink() = default;
 
   virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
   virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
-  /// The state of the vehicle after each scan that is later than those before, or predicted at
+  /// The state of the vehicle after each scan later than those before, or predicted at
   /// odometry.rate_hz.
   virtual void on_odometry(const Odometry& /*odometry*/) {}
-  /// Its motion since the odometry before, where there are two radars or more.
+  /// The motion since the odometry before, if there are two radars or more.
   virtual void on_fused(const EgoMotion& /*motion*/, std::int32_t /*solve_us*/) {}
   virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
 
   /// Results that could not be delivered.
   [[nodiscard]] virtual std::uint64_t failures() const = 0;
-  /// Which was the first, and why, for people; empty if there was none, or nothing to say of it.
+  /// The first failure and its cause, as text; empty if there is none to report.
   [[nodiscard]] virtual std::string problem() const { return {}; }
 
  protected:

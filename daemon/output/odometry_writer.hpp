@@ -17,13 +17,13 @@ inline constexpr std::string_view kOdometryCsvHeader =
     "odom_x_m,odom_y_m,odom_yaw_rad,vx_mps,vy_mps,yaw_rate_radps,"
     "cov_vxvx,cov_vxvy,cov_vxw,cov_vyvy,cov_vyw,cov_ww\n";
 
-/// One row under that header.
+/// One row.
 TextLine odometry_csv_row(const Odometry& odometry);
 
-/// The state of the vehicle as CSV, a row an output.
+/// The state of the vehicle as CSV, a row per output.
 class OdometryWriter final : public OdometrySink {
  public:
-  /// Throws std::runtime_error if the file cannot be made.
+  /// Throws std::runtime_error if the file cannot be created.
   explicit OdometryWriter(const std::string& path);
 
   void on_motion(std::size_t /*radar*/, const EgoMotion& /*motion*/, std::int32_t) override {}

@@ -14,7 +14,7 @@
 
 namespace cremed {
 
-/// Quantiles since the status before.
+/// Quantiles since the last status.
 struct LatencySummary {
   std::uint64_t scans = 0;
   std::int64_t p50_us = 0;
@@ -22,17 +22,17 @@ struct LatencySummary {
   std::int64_t max_us = 0;
 };
 
-/// Whether a radar's covariance can be believed, by SelfCheck and the odometry filter. Means of
-/// normalised innovations squared over the last minute: 1 expected, 0 none yet.
+/// Whether a radar's covariance is credible, by SelfCheck and the odometry filter. Time-averaged
+/// NIS over the last minute: 1 expected, 0 none yet.
 struct BeliefStatus {
-  double doppler_innovation = 0.0;  ///< Positions against Doppler.
-  double next_innovation = 0.0;     ///< Each motion against the one before.
-  std::uint32_t doubts = 0;         ///< Doubt bits; 0: believable, as far as is known.
-  /// Positions told a speed in the last seconds; else Doppler cannot be checked by them.
+  double doppler_innovation = 0.0;  ///< Doppler predicted from positions.
+  double next_innovation = 0.0;     ///< Each motion predicted from the one before.
+  std::uint32_t doubts = 0;         ///< Doubt bits; 0: no doubt.
+  /// Positions gave a speed in the last seconds, which the Doppler check needs.
   bool is_speed_checked = false;
 };
 
-/// Everything countable about one radar's way through the pipeline.
+/// All counters of one radar's pipeline.
 struct RadarStatus {
   std::int64_t utime_us = 0;
   MotionStatus last_motion_status = MotionStatus::no_reference;
@@ -48,7 +48,7 @@ struct RadarStatus {
   AssemblerCounters assembler;
   SelectionCounters selection;
   std::array<std::uint64_t, kMotionStatusCount> motions_by_status{};
-  std::uint64_t motions_of_incomplete_scans = 0;  ///< Estimates from scans that lack parts.
+  std::uint64_t motions_of_incomplete_scans = 0;  ///< Estimates from incomplete scans.
 };
 
 }  // namespace cremed

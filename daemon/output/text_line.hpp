@@ -11,7 +11,7 @@
 
 namespace cremed {
 
-/// Builds one line of text without allocation or locale. What does not fit is cut off.
+/// Builds one line of text without allocation or locale. A text that does not fit is truncated.
 class TextLine {
  public:
   TextLine& text(std::string_view value) {
@@ -26,7 +26,7 @@ class TextLine {
   TextLine& scientific(double value, int decimals) {
     return advance(std::to_chars(end(), limit(), value, std::chars_format::scientific, decimals));
   }
-  /// Three numbers, and the upper triangle of a matrix, row by row, each after a comma.
+  /// Three numbers, and the upper triangle of a matrix by rows, each after a comma.
   TextLine& numbers(const Eigen::Vector3d& values) {
     for (Eigen::Index i = 0; i < 3; ++i) {
       text(",").fixed(values(i), 9);

@@ -29,7 +29,7 @@ void TumWriter::on_odometry(const Odometry& odometry) {
   }
 }
 
-/// A motion that starts then.
+/// Starts a motion there.
 void TumWriter::begin(std::int64_t utime_us) {
   if (!has_begun_) {
     has_begun_ = true;

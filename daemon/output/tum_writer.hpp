@@ -17,13 +17,13 @@ namespace cremed {
 /// A pose in TUM format: `seconds x y z qx qy qz qw` and a line end.
 TextLine tum_line(std::int64_t utime_us, const Pose2& pose);
 
-/// Trajectory of the odometry, or of one radar's ego-motions chained, in TUM format, beginning at
-/// the origin. Where they do not join (a gap), the trajectory goes on from its last pose as if the
-/// vehicle had not moved; gaps() counts these places.
+/// Trajectory of the odometry, or of one radar's chained ego-motions, in TUM format from the
+/// origin. At a gap the trajectory continues from its last pose as if the vehicle had not moved;
+/// gaps() counts them.
 class TumWriter final : public OdometrySink {
  public:
   /// Follows the radar of that index, or the odometry if there is none. Throws std::runtime_error
-  /// if the file cannot be made.
+  /// if the file cannot be created.
   TumWriter(const std::string& path, std::optional<std::size_t> radar)
       : file_(path), radar_(radar) {}
 

@@ -9,7 +9,7 @@ namespace cremed {
 /// CLOCK_MONOTONIC: for durations.
 std::int64_t monotonic_us();
 
-/// CLOCK_REALTIME: the clock of the frames' stamps. It can be set, so it may jump.
+/// CLOCK_REALTIME: the clock of the stamps. It may jump.
 std::int64_t realtime_us();
 
 }  // namespace cremed

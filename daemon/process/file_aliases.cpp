@@ -20,23 +20,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The kernel follows as many.
-constexpr int kMostLinks = 40;
+/// The kernel's own limit.
+constexpr int kMaxLinks = 40;
 
-/// Device and inode of a file; of one that does not exist yet those of its folder, and its name
-/// there.
+/// Device and inode of a file; for a new file those of its folder, and its name.
 using Identity = std::tuple<dev_t, ino_t, std::string>;
 
 struct KnownFile {
   NamedFile file;
-  std::optional<Identity> identity;  // Nothing: cannot be anybody else's.
+  std::optional<Identity> identity;  // Nothing: equals no other file.
 };
 
-/// Where a link leads that leads nowhere yet.
+/// Resolves a link whose target does not exist yet.
 fs::path end_of_links(fs::path path) {
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
-    path = path.parent_path() / fs::read_symlink(path, error);  // An absolute one replaces it all.
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
+    // An absolute target replaces the whole path.
+    path = path.parent_path() / fs::read_symlink(path, error);
   }
   return path;
 }
@@ -57,7 +57,7 @@ std::optional<Identity> identity(const std::string& path) {
              : std::nullopt;
 }
 
-/// A file that a standard stream is redirected from or to.
+/// The file of a redirected standard stream.
 KnownFile stream(int descriptor, const char* name) {
   struct stat status {};
   const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "cremed:";
 
-/// The same by whatever path the configuration is named; `ss -xl` shows it as "@cremed:/etc/...".
-/// Of a path that is too long for a socket's name its end.
+/// Independent of how the path is written; `ss -xl` shows it as "@cremed:/etc/...". A path too long
+/// for a socket name is cut at its beginning.
 std::string lock_name(const std::string& path) {
   constexpr std::size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1 - kPrefix.size();
   const std::string whole = std::filesystem::weakly_canonical(path).string();

@@ -6,13 +6,13 @@
 
 namespace cremed {
 
-/// Two live instances with one configuration would send every message twice: each holds the name of
-/// its configuration as an abstract socket. The kernel gives it back however the process ends, and
-/// it needs no folder that all users can write; instances in different network namespaces, whose
-/// buses differ too, do not see each other.
+/// Prevents a second live instance with one configuration, which would send every message twice.
+/// The lock is an abstract socket named after the configuration: the kernel releases it however the
+/// process ends, and it needs no writable folder. Network namespaces, which have their own buses,
+/// have their own locks.
 class InstanceLock {
  public:
-  /// Of the configuration at that path. Throws UsageError if another process has it.
+  /// Locks the configuration at that path. Throws UsageError if another process holds it.
   explicit InstanceLock(const std::string& configuration_path);
   ~InstanceLock();
   InstanceLock(const InstanceLock&) = delete;

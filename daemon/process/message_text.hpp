@@ -10,15 +10,15 @@
 
 #include "cremed/can_decoders/hexadecimal.hpp"
 
-// Words of error messages. None depends on the locale.
+// Parts of error messages, independent of the locale.
 namespace cremed {
 
-/// Text of the file as it may stand in a message: control characters replaced, cut when long.
+/// A text from a file made fit for a message: control characters replaced, cut when long.
 std::string printable(std::string_view text);
 
 std::string concat(std::initializer_list<std::string_view> parts);
 
-/// Shortest digits that give the number back.
+/// Shortest digits that reproduce the number.
 std::string digits(double value);
 std::string digits(std::int64_t value);
 
@@ -28,7 +28,7 @@ std::string tenths(double value);
 /// "1 frame", "2 frames"
 std::string counted(std::uint64_t count, std::string_view noun);
 
-/// Printable and in double quotes.
+/// Printable, in double quotes.
 std::string quoted(std::string_view text);
 
 /// "a number from 0 to 1"

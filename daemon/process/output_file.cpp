@@ -32,7 +32,7 @@ bool is_regular_file(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// False, with errno, if a stop was requested before.
+/// False, with errno, if a stop was requested first.
 bool wait_for_room(int descriptor) {
   pollfd output{descriptor, POLLOUT, 0};
   while (::poll(&output, 1, kLongestWaitMs) <= 0) {
@@ -65,7 +65,7 @@ void OutputFile::write(std::string_view lines) {
     ++failures_;
     return;
   }
-  // A signal that ends the process could come between two pages of a line.
+  // Prevents a signal from ending the process within a line.
   std::optional<SignalsBlocked> blocked;
   if (is_regular_) {
     blocked.emplace();
@@ -89,7 +89,7 @@ long OutputFile::write_some(std::string_view text) const {
   return ::write(descriptor_, text.data(), text.size());
 }
 
-/// Takes away what is there of a line that did not get its end.
+/// Removes an incomplete last line.
 void OutputFile::fail(std::string_view written) {
   error_ = errno;
   ++failures_;

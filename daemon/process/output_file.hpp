@@ -9,24 +9,24 @@
 
 namespace cremed {
 
-/// A text file that ends on a whole line at any time, also on a full disk and where a signal ends
-/// the process. Nothing waits in a buffer.
+/// A text file that always ends on a complete line, also on a full disk or when a signal ends the
+/// process. Unbuffered.
 class OutputFile {
  public:
-  /// Creates or empties the file; "-" is standard output. Throws std::runtime_error with path and
+  /// Creates or truncates the file; "-" is standard output. Throws std::runtime_error with path and
   /// reason.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Writes whole lines, or counts a failure. After the first one nothing more is written. A pipe
-  /// that nobody reads is waited for until a stop is requested (signals.hpp).
+  /// Writes complete lines, or counts a failure. Nothing is written after the first failure. Waits
+  /// for the reader of a full pipe until a stop is requested (signals.hpp).
   void write(std::string_view lines);
 
-  /// Calls of write() that did not write all of it.
+  /// Calls of write() that failed.
   [[nodiscard]] std::uint64_t failures() const { return failures_; }
-  /// Which line could not be written, and why; empty if all were.
+  /// The line that could not be written, and why; empty if none.
   [[nodiscard]] std::string problem() const;
 
  private:

@@ -17,10 +17,10 @@
 namespace cremed {
 namespace {
 
-/// Text on its way to a descriptor.
+/// Text for a descriptor.
 struct PlainOutput {
   int descriptor;
-  std::string unfinished;  ///< The beginning of a character, until the rest comes.
+  std::string unfinished;  ///< An incomplete UTF-8 sequence.
 };
 
 bool write_all(int descriptor, std::string_view text) {
@@ -34,7 +34,7 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-/// As fopencookie(3) wants it: 0 is an error.
+/// For fopencookie(3): 0 is an error.
 ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
   auto& output = *static_cast<PlainOutput*>(cookie);
   std::string text = output.unfinished.append(data, size);
@@ -44,7 +44,7 @@ ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
   return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-/// A stream's buffer that hands on to a FILE, as std::cout does to stdout.
+/// A stream buffer that writes to a FILE, as std::cout does to stdout.
 class FileBuffer final : public std::streambuf {
  public:
   explicit FileBuffer(std::FILE* file) : file_(file) {}
@@ -63,7 +63,7 @@ class FileBuffer final : public std::streambuf {
   std::FILE* file_;
 };
 
-/// Lasts until the process ends: standard streams are flushed when everything else is gone.
+/// Never destroyed: standard streams are flushed after all other objects.
 std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
   auto* const output = new PlainOutput{descriptor, {}};
   std::FILE* const file = ::fopencookie(output, "w", {nullptr, write_plain, nullptr, nullptr});

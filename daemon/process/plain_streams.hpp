@@ -4,8 +4,8 @@
 
 namespace cremed {
 
-/// From now on all that goes through std::cout, std::cerr, stdout and stderr is plain_text(). For
-/// programs that print what they read; called in main, before anything is printed.
+/// Passes all output of std::cout, std::cerr, stdout and stderr through plain_text(), because
+/// programs print what they read. To be called before anything is printed.
 void make_standard_streams_plain();
 
 }  // namespace cremed

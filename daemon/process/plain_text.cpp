@@ -10,7 +10,7 @@ namespace {
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Of the character that begins with this byte; 0: none does.
+/// Length of the UTF-8 sequence that begins with this byte; 0: invalid.
 std::size_t length_of(unsigned char first) {
   if (first < 0x80U) {
     return 1;
@@ -18,7 +18,7 @@ std::size_t length_of(unsigned char first) {
   return first < 0xC2U ? 0 : first < 0xE0U ? 2 : first < 0xF0U ? 3 : first < 0xF5U ? 4 : 0;
 }
 
-/// Of the whole character at the beginning of the text; 0 if there is none.
+/// Length of the complete sequence at the beginning of the text; 0 if there is none.
 std::size_t whole_length(std::string_view text) {
   const std::size_t length = length_of(static_cast<unsigned char>(text.front()));
   const bool is_whole =
@@ -27,7 +27,7 @@ std::size_t whole_length(std::string_view text) {
   return is_whole ? length : 0;
 }
 
-/// One whole character.
+/// One complete sequence.
 std::uint32_t code_of(std::string_view character) {
   const auto first = static_cast<unsigned char>(character.front());
   std::uint32_t code = character.size() == 1 ? first : first & (0x7FU >> character.size());

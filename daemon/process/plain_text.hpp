@@ -7,11 +7,11 @@
 
 namespace cremed {
 
-/// UTF-8 that only prints: logs, files and names may hold what a terminal takes for commands. All
-/// control characters but line feed and tab (those of C1 too), and what is no UTF-8, become '?'.
+/// Text that is safe on a terminal: control characters (C0 but line feed and tab, and C1) and
+/// invalid UTF-8 become '?'. Logs, files and names may hold terminal commands.
 std::string plain_text(std::string_view text);
 
-/// How many bytes at its end are the beginning of a character: 0 to 3.
+/// Number of bytes of an incomplete sequence at the end: 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
 
 }  // namespace cremed

@@ -12,13 +12,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "daemon/process/plain_streams.hpp"
+
 namespace cremed {
 namespace {
 
-/// open(2) takes the lowest number that is free, and those below are taken.
+/// open(2) takes the lowest free number; those below are in use.
 void open_if_closed(int descriptor, int flags) {
   if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", flags) != descriptor) {
-    std::_Exit(1);  // There is nowhere to say why.
+    std::_Exit(1);  // No stream is left for a message.
   }
 }
 
@@ -26,9 +28,10 @@ void open_if_closed(int descriptor, int flags) {
 
 void set_up_process() {
   open_if_closed(STDIN_FILENO, O_RDONLY);
-  open_if_closed(STDOUT_FILENO, O_RDONLY);  // Results are not lost in silence.
+  open_if_closed(STDOUT_FILENO, O_RDONLY);  // Writing results to it then fails.
   open_if_closed(STDERR_FILENO, O_WRONLY);
   std::signal(SIGXFSZ, SIG_IGN);
+  make_standard_streams_plain();
 }
 
 int finish_process(int status) {
@@ -38,7 +41,7 @@ int finish_process(int status) {
   if (is_good) {
     return status;
   }
-  // What failed earlier has left no reason.
+  // An earlier failure leaves errno 0.
   std::fprintf(stderr, "standard output could not be written: %s\n",
                errno != 0 ? std::strerror(errno) : "a part is missing");
   return status == 0 ? 1 : status;

@@ -4,14 +4,13 @@
 
 namespace cremed {
 
-/// Called first in every main. Opens /dev/null in place of closed standard streams: otherwise the
-/// next file or socket would become one of them. Nothing can be read from these, and writing
-/// results to a standard output that was closed fails. A file over its size limit is a failed
-/// write, not a signal.
+/// Called first in every main. Replaces closed standard streams by /dev/null, so that no file or
+/// socket becomes one of them; writing results to a closed standard output fails. A file over its
+/// size limit is a failed write, not a signal. Makes the standard streams plain.
 void set_up_process();
 
-/// Called last with the exit status, which it returns; 1 in place of 0, and a message, if standard
-/// output did not take all.
+/// Called last with the exit status, which it returns; 1 instead of 0, and a message, if standard
+/// output was not written completely.
 int finish_process(int status);
 
 }  // namespace cremed

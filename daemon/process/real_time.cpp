@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-/// The deepest use measured is below 64 KiB; Eigen may take 128 KiB on the stack.
+/// The deepest measured use is below 64 KiB; Eigen may take 128 KiB.
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
 void touch_stack() {
@@ -45,7 +45,7 @@ RealTimeState enter_real_time() {
   state.has_priority =
       (policy == SCHED_FIFO || policy == SCHED_RR) && ::sched_getparam(0, &parameters) == 0;
   state.priority = parameters.sched_priority;
-  // Another thread's own arena would be locked too, 64 MiB of it.
+  // A separate arena of another thread would lock another 64 MiB.
   ::mallopt(M_ARENA_MAX, 1);
   state.memory_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   touch_stack();

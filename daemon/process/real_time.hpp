@@ -6,19 +6,19 @@
 
 namespace cremed {
 
-/// Whether the process can rely on being run in time. The priority is the service manager's to set
-/// (CPUSchedulingPolicy=fifo); we only look.
+/// Real-time state of the process. The service manager sets the priority
+/// (CPUSchedulingPolicy=fifo).
 struct RealTimeState {
   bool has_priority = false;  ///< SCHED_FIFO or SCHED_RR.
   int priority = 0;
   bool memory_locked = false;
 
-  /// What is missing and how to get it; empty if nothing is.
+  /// What is missing and how to obtain it; empty if nothing is.
   [[nodiscard]] std::string problem() const;
 };
 
-/// Locks all memory, present and future, and touches the stack the hot path will use: a page fault
-/// costs more than an estimate.
+/// Locks present and future memory and touches the stack of the hot path: a page fault costs more
+/// than an estimate.
 RealTimeState enter_real_time();
 
 }  // namespace cremed

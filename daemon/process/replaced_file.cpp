@@ -21,11 +21,12 @@ namespace {
 
 constexpr mode_t kUsualPermissions = 0644;
 
-/// Beside the file that it will replace; removed unless it did.
+/// The temporary file beside the target; removed unless it was renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& target) : target_(target), path_(target + ".XXXXXX") {
-    check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);  // A rename would not ask.
+    // rename(2) does not check this permission.
+    check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);
     file_ = ::mkstemp(path_.data());
     check(file_ >= 0);
   }
@@ -63,7 +64,7 @@ class TemporaryFile {
     }
     check(::fchmod(file_, status.st_mode & 07777U) == 0);
     if (::fchown(file_, status.st_uid, status.st_gid) != 0) {
-      errno = 0;  // Only root can; the file is then that of who edits it.
+      errno = 0;  // Only root may change the owner; otherwise the file belongs to the caller.
     }
   }
 
@@ -79,7 +80,7 @@ class TemporaryFile {
   int file_ = -1;
 };
 
-/// A device or a pipe is written to: nothing can take its place.
+/// Devices and pipes cannot be replaced; they are written to.
 bool is_no_file(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
@@ -100,7 +101,7 @@ void replace_file(const std::string& path, std::string_view text) {
     write_through(path, text);
     return;
   }
-  const SignalsBlocked blocked;  // One that ends the process would leave the temporary file.
+  const SignalsBlocked blocked;  // A signal must not leave the temporary file behind.
   TemporaryFile file(std::filesystem::weakly_canonical(path).string());
   file.write(text);
   file.replace();

@@ -11,7 +11,7 @@ volatile std::sig_atomic_t reload_requested = 0;
 void request_stop(int /*signal*/) { stop_was_requested = 1; }
 void request_reload(int /*signal*/) { reload_requested = 1; }
 
-/// Without SA_RESTART: what is in progress ends at once.
+/// Without SA_RESTART: system calls in progress return.
 void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;

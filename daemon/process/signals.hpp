@@ -6,20 +6,20 @@
 
 namespace cremed {
 
-/// SIGINT and SIGTERM from now on ask to stop: they set what is returned, and end a read, a sleep
-/// or a poll in progress.
+/// SIGINT and SIGTERM request a stop: they set the returned flag and interrupt a read, sleep or
+/// poll in progress.
 const volatile std::sig_atomic_t* handle_stop_signals();
-/// The same for SIGHUP, the end of the terminal, unless it is ignored (nohup).
+/// The same for SIGHUP (end of the terminal), unless it is ignored (nohup).
 void stop_at_hangup();
-/// Whether one of them came.
+/// Whether a stop was requested.
 bool stop_requested();
 
-/// SIGHUP from now on asks to read the configuration again.
+/// SIGHUP requests a reload of the configuration.
 void handle_reload_signal();
-/// Was it asked for since the last call?
+/// Whether a reload was requested since the last call.
 bool take_reload_request();
 
-/// No signal comes to this thread, nor to threads begun, while there is one.
+/// Blocks signals in this thread, and in threads started meanwhile, during its lifetime.
 class SignalsBlocked {
  public:
   SignalsBlocked();

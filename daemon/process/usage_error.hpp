@@ -6,7 +6,7 @@
 
 namespace cremed {
 
-/// A command line that cannot be carried out as it is; what() says what would be right.
+/// A command line that cannot be executed; what() states the correction.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

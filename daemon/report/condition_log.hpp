@@ -8,11 +8,10 @@
 
 namespace cremed {
 
-/// Logs each condition once when it begins and once when it ends, however often it is looked at.
+/// Logs each condition once when it begins and once when it ends.
 class ConditionLog {
  public:
-  /// `kind` numbers what is wrong with `subject`, 0: nothing. `text` is asked for when the kind is
-  /// another than last time.
+  /// `kind` identifies the fault of `subject`, 0: none. `text` is called when the kind has changed.
   void update(const std::string& subject, int kind, const std::function<std::string()>& text);
 
  private:

@@ -8,16 +8,16 @@
 namespace cremed {
 
 enum class Severity : std::uint8_t {
-  error,    ///< There is no odometry while this lasts.
-  warning,  ///< Odometry suffers, or is not to be trusted.
+  error,    ///< No odometry while this lasts.
+  warning,  ///< Degraded or untrustworthy odometry.
   note,     ///< Worth knowing.
 };
 
-/// Something that is wrong and how to mend it, for people.
+/// A fault and its remedy, as text.
 struct Finding {
   Severity severity = Severity::error;
   std::string what;
-  std::string remedy;  ///< With the command, in backquotes, where there is one.
+  std::string remedy;  ///< With the command in backquotes, if there is one.
 };
 
 /// "what; remedy"

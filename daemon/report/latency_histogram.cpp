@@ -15,7 +15,7 @@ void LatencyHistogram::add(std::int64_t duration_us) {
   max_us_ = std::max(max_us_, duration);
 }
 
-/// Below kPerOctave a bucket holds one value; above, an octave has kPerOctave buckets.
+/// Below kPerOctave a bucket holds one value; above it, an octave has kPerOctave buckets.
 std::size_t LatencyHistogram::bucket_of(std::int64_t duration_us) {
   const auto value = static_cast<std::uint64_t>(duration_us);
   if (value < kPerOctave) {

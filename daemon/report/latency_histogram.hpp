@@ -8,8 +8,8 @@
 
 namespace cremed {
 
-/// Durations in microseconds, counted in buckets no wider than 1/16 of their value: quantiles are
-/// right to 6 %, never too small; the maximum is exact. Fixed size, nothing is kept of each.
+/// Histogram of durations in microseconds with buckets no wider than 1/16 of their value: quantiles
+/// are too large by at most 6 %, never too small; the maximum is exact. Fixed size.
 class LatencyHistogram {
  public:
   /// Negative durations (a clock was set back) count as 0.
@@ -18,7 +18,7 @@ class LatencyHistogram {
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t max_us() const { return max_us_; }
-  /// Least duration that is not exceeded by `share` (0..1) of all; 0 if there is none.
+  /// Least duration not exceeded by `share` (0..1) of all; 0 if there is none.
   [[nodiscard]] std::int64_t quantile_us(double share) const;
 
  private:

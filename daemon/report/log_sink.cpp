@@ -41,7 +41,7 @@ LevelText text_of(spdlog::level::level_enum level) {
   }
 }
 
-/// systemd says which stream it connected: one that was redirected since is another.
+/// systemd names the stream it connected; a redirected stream is another.
 bool is_journal(const struct stat& status) {
   const char* const stream = std::getenv("JOURNAL_STREAM");
   return stream != nullptr && fmt::format("{}:{}", status.st_dev, status.st_ino) == stream;
@@ -61,10 +61,11 @@ LogSink::LogSink() {
 
 void LogSink::drop_when_full() {
   drops_ = true;
-  if (is_journal_) {  // The connection is ours alone.
+  if (is_journal_) {  // No other process shares this connection.
     ::fcntl(STDERR_FILENO, F_SETFL, ::fcntl(STDERR_FILENO, F_GETFL) | O_NONBLOCK);
   } else if (is_shared_) {
-    // Opened anew, whether it waits is our affair. Where that is not allowed, poll has to do.
+    // Opened anew, O_NONBLOCK affects this process only. If that is not allowed, poll() must
+    // suffice.
     const int own = ::open("/proc/self/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (own >= 0) {
       ::dup2(own, STDERR_FILENO);
@@ -75,14 +76,14 @@ void LogSink::drop_when_full() {
 
 void LogSink::log(const spdlog::details::log_msg& message) {
   if (lost_ != 0 && has_room()) {
-    const std::string text = fmt::format("lines of the log that nobody took: {}", lost_);
+    const std::string text = fmt::format("log lines dropped: {}", lost_);
     lost_ = 0;
     log_text(spdlog::level::warn, text);
   }
   log_text(message.level, {message.payload.data(), message.payload.size()});
 }
 
-/// Each line by itself: the journal takes each for a message.
+/// Writes line by line: the journal takes each as a message.
 void LogSink::log_text(spdlog::level::level_enum level, std::string_view text) {
   const LevelText words = text_of(level);
   std::string begin = is_terminal_ ? fmt::format("{}{}\033[m: ", words.colour, words.name)
@@ -103,7 +104,8 @@ void LogSink::log_text(spdlog::level::level_enum level, std::string_view text) {
 
 bool LogSink::put(std::string line) {
   if (drops_ && line.size() > PIPE_BUF) {
-    line.replace(PIPE_BUF - 1, std::string::npos, "\n");  // More may not fit where poll sees room.
+    // A longer line may not fit although poll() reports room.
+    line.replace(PIPE_BUF - 1, std::string::npos, "\n");
   }
   if (!has_room()) {
     return false;

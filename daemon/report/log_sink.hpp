@@ -11,19 +11,19 @@
 
 namespace cremed {
 
-/// Standard error as the log of one thread: "warning: text" a line. Where it is the journal each
-/// line begins with its priority ("<4>", sd-daemon(3)), on a terminal the level has its colour.
+/// Standard error as the log of one thread, "warning: text" per line. For the journal a line begins
+/// with its priority ("<4>", sd-daemon(3)); on a terminal the level is coloured.
 class LogSink final : public spdlog::sinks::sink {
  public:
   LogSink();
 
-  /// A line for which a pipe, a socket or a terminal has no room is waited with, until a stop is
-  /// requested (signals.hpp). From now on it is lost instead; how many were is told when there is
-  /// room again. What libraries print does not wait either.
+  /// By default a line waits for room in a pipe, socket or terminal until a stop is requested
+  /// (signals.hpp). After this call it is dropped instead, and the number of dropped lines is
+  /// logged when there is room again. Output of libraries does not block either.
   void drop_when_full();
 
   void log(const spdlog::details::log_msg& message) override;
-  void flush() override {}  // Nothing waits in a buffer.
+  void flush() override {}  // Unbuffered.
   void set_pattern(const std::string& /*pattern*/) override {}
   void set_formatter(std::unique_ptr<spdlog::formatter> /*formatter*/) override {}
 
@@ -35,12 +35,12 @@ class LogSink final : public spdlog::sinks::sink {
   bool is_journal_ = false;
   bool is_terminal_ = false;
   bool is_socket_ = false;
-  bool is_shared_ = false;  // A pipe or terminal that others write to as well.
+  bool is_shared_ = false;  // A pipe or terminal shared with other processes.
   bool drops_ = false;
   std::uint64_t lost_ = 0;
 };
 
-/// Makes a LogSink the sink of all of spdlog.
+/// Makes a LogSink the only sink of spdlog.
 std::shared_ptr<LogSink> log_to_standard_error();
 
 }  // namespace cremed

@@ -80,7 +80,7 @@ const Ars408Options* ars408_options(const RadarConfiguration& radar) {
   return radar.decoder.as<Ars408Options>();
 }
 
-/// The command that sets the sensor to what the configuration expects.
+/// The command that configures the sensor as expected.
 std::string configure_command(const RadarConfiguration& radar) {
   return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
 }
@@ -109,13 +109,13 @@ void add_wrong_mode(const RadarConfiguration& radar, const RadarStatus& status,
   }
 }
 
-/// A scan can be whole only with the quality message of each target.
+/// A scan is complete only with the quality message of each target.
 void add_unknown_quality(const RadarConfiguration& radar, const RadarStatus& status,
                          Findings& findings) {
   const AssemblerCounters& scans = status.assembler;
   if (!status.health.is_known && scans.scans > 2 && scans.incomplete_scans == scans.scans) {
     findings.push_back({Severity::error,
-                        "no scan is whole, and no 0x201 says how the sensor is set",
+                        "no scan is complete, and no 0x201 gives the sensor's settings",
                         "if it sends no quality: " + configure_command(radar)});
   }
 }
@@ -154,7 +154,7 @@ void add_no_detection(const RadarConfiguration& radar, const RadarStatus& status
          {c.no_position, "all targets are at range 0: is this radar of the configured type?"},
          {c.outside_limits, "widen [radar.limits]"}});
     findings.push_back({Severity::error,
-                        "whole scans, but no usable detection: " + rejected_detections(c),
+                        "complete scans, but no usable detection: " + rejected_detections(c),
                         std::string(remedy)});
   }
 }
@@ -168,7 +168,7 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
         "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},
        {count_of(status, MotionStatus::degenerate), "the surroundings hold too few fixed targets"},
        {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
-       {count_of(status, MotionStatus::non_finite), "report it: it is a defect of cremed"},
+       {count_of(status, MotionStatus::non_finite), "report it: it is a bug in cremed"},
        {count_of(status, MotionStatus::implausible),
         "check type, invert_azimuth, invert_doppler and the limits of speed"},
        {count_of(status, MotionStatus::ambiguous),
@@ -176,12 +176,12 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
         "`cremed-eval calibrate`"}});
 }
 
-/// Usable detections, but few of the whole scans gave an estimate.
+/// Usable detections, but few complete scans gave an estimate.
 void add_few_estimates(const RadarStatus& status, Findings& findings) {
-  constexpr std::uint64_t kEnoughScans = 10;
+  constexpr std::uint64_t kMinScans = 10;
   const std::uint64_t whole = status.assembler.scans - status.assembler.incomplete_scans;
   const std::uint64_t good = estimates(status);
-  if (status.selection.used != 0 && whole >= kEnoughScans && 2 * good < whole) {
+  if (status.selection.used != 0 && whole >= kMinScans && 2 * good < whole) {
     findings.push_back({good == 0 ? Severity::error : Severity::warning,
                         concat({"few scans give an estimate: ", summary(status)}),
                         std::string(remedy_of_most_motions(status))});
@@ -190,10 +190,11 @@ void add_few_estimates(const RadarStatus& status, Findings& findings) {
 
 void add_setting(const RadarConfiguration& radar, const RadarHealth& health, Findings& findings) {
   if (health.output == RadarHealth::Output::none) {
-    findings.push_back({Severity::error, "the sensor is set to send no targets (0x201)",
+    findings.push_back({Severity::error, "the sensor is configured to send no targets (0x201)",
                         configure_command(radar)});
   } else if (!health.sends_quality) {
-    findings.push_back({Severity::error, "the sensor sends no quality (0x201), so no scan is whole",
+    findings.push_back({Severity::error,
+                        "the sensor sends no quality (0x201), so no scan is complete",
                         configure_command(radar)});
   }
 }
@@ -263,10 +264,10 @@ constexpr std::array<DoubtText, 3> kDoubts{{
      "the positions of its targets contradict their Doppler",
      "check the mount's yaw and the sign of Doppler and azimuth: `cremed-eval calibrate`"},
     {motions_contradict_each_other, &BeliefStatus::next_innovation,
-     "its motions jump more than a vehicle can",
-     "check mount and detections; `cremed-eval calibrate` tells its noise"},
+     "its motion jumps more than a vehicle's can",
+     "check mount and detections; `cremed-eval calibrate` estimates its noise"},
     {covariance_too_large, &BeliefStatus::doppler_innovation,
-     "its errors are far smaller than its covariance says",
+     "its errors are far smaller than its covariance",
      "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
 }};
 
@@ -274,7 +275,7 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
   for (const DoubtText& text : kDoubts) {
     if ((belief.doubts & text.doubt) != 0) {
       findings.push_back({Severity::warning,
-                          concat({"its covariance is not to be believed: ", text.what,
+                          concat({"its covariance is not credible: ", text.what,
                                   " (normalised innovation squared ",
                                   decimal(belief.*text.innovation), ", 1 expected)"}),
                           std::string(text.remedy)});
@@ -285,9 +286,9 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
 void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
   if ((belief.doubts & positions_contradict_speed) != 0) {
     findings.push_back(
-        {Severity::warning, "the positions of its targets tell another speed than their Doppler",
+        {Severity::warning, "the positions of its targets give another speed than their Doppler",
          "Doppler has the wrong sign, is stuck or over ground (it must be relative to the sensor), "
-         "or the stamps run at another pace than time: compare both with the speedometer"});
+         "or the stamps run faster or slower than time: compare both with the speedometer"});
   }
 }
 
@@ -295,7 +296,7 @@ void add_left_out(const RadarStatus& status, Findings& findings) {
   if ((status.belief.doubts & other_radars_contradict) != 0) {
     findings.push_back(
         {Severity::warning,
-         concat({"it contradicts the other radars, or what it said before, and is left out of the "
+         concat({"it contradicts the other radars or its own past and is excluded from the "
                  "odometry (normalised innovation squared of its Doppler ",
                  decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
          "check its mount: was it knocked? `cremed-eval calibrate`"});

@@ -14,17 +14,16 @@ namespace cremed {
 /// Number of estimates so far.
 std::uint64_t estimates(const RadarStatus& status);
 
-/// One line: scans, estimates, what kept the others out.
+/// One line: scans, estimates, and the statuses of the others.
 std::string summary(const RadarStatus& status);
 
-/// One line: every counter of bad frames and imperfect scans that is not zero; empty if all are.
+/// One line: every non-zero counter of bad frames and incomplete scans; empty if all are zero.
 std::string irregularities(const RadarStatus& status);
 
-/// Why there is no odometry, or bad odometry, as far as the pipeline can tell; most likely cause
-/// first.
+/// Causes of missing or bad odometry that the pipeline can detect, most likely first.
 std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status);
 
-/// What the sensor says about itself, and about how it is set.
+/// Faults and settings that the sensor reports.
 std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status);
 
 }  // namespace cremed

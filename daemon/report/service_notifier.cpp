@@ -84,7 +84,7 @@ void ServiceNotifier::status(std::string_view text) const {
 
 void ServiceNotifier::send(std::string_view message) const {
   if (descriptor_ >= 0) {
-    // What the manager does not take in time it will get next time.
+    // What the manager does not accept in time is in the next message.
     [[maybe_unused]] const ssize_t sent =
         ::send(descriptor_, message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }

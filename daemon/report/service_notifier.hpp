@@ -7,11 +7,11 @@
 
 namespace cremed {
 
-/// Tells the service manager how we are (sd_notify(3): datagrams to $NOTIFY_SOCKET). Without such a
-/// socket every call does nothing. Never waits, never fails.
+/// Notifies the service manager (sd_notify(3): datagrams to $NOTIFY_SOCKET). Without that socket
+/// every call does nothing. Never blocks, never fails.
 class ServiceNotifier {
  public:
-  /// From NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID.
+  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID.
   ServiceNotifier();
   ~ServiceNotifier();
   ServiceNotifier(const ServiceNotifier&) = delete;
@@ -19,13 +19,13 @@ class ServiceNotifier {
 
   void ready() const { send("READY=1"); }
   void stopping() const { send("STOPPING=1"); }
-  /// Followed by ready() when done.
+  /// ready() follows when it is done.
   void reloading() const;
-  /// One line for people.
+  /// One line of text.
   void status(std::string_view text) const;
   void watchdog() const { send("WATCHDOG=1"); }
 
-  /// How often watchdog() is to be called: half of what the manager allows; 0: it does not watch.
+  /// Period of watchdog(): half of the manager's limit; 0: no watchdog.
   [[nodiscard]] std::int64_t watchdog_period_us() const { return watchdog_period_us_; }
 
  private:

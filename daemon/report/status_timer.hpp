@@ -10,15 +10,14 @@
 
 namespace cremed {
 
-/// Says when a second has passed, by clocks that need not agree: each counts by itself, so that it
-/// does not matter how far apart they are. A longer step than two seconds, either way, is a clock
-/// that was set or a log that was paused; it counts nothing.
+/// Reports each passed second, by clocks that may differ: each counts its own steps. A step of more
+/// than two seconds in either direction (a clock that was set, a paused log) counts nothing.
 class StatusTimer {
  public:
-  /// One for each interface, and one more for what no frame tells.
+  /// One per interface, and one for events without a frame.
   static constexpr std::size_t kNoInterface = kMaxRadars;
 
-  /// Notes the time of one clock. True the first time, and then once a second.
+  /// Notes the time of one clock. True the first time, then once a second.
   bool is_due(std::size_t clock, std::int64_t now_us) {
     constexpr std::int64_t kLongestStepUs = 2'000'000;
     Clock& told = clocks_[clock];
@@ -30,7 +29,7 @@ class StatusTimer {
     return is_first || told.elapsed_us >= kPeriodUs;
   }
 
-  /// A status was told: the next one is due a second from now, by any clock.
+  /// A status was published: the next is due a second from now, by any clock.
   void restart() {
     for (Clock& clock : clocks_) {
       clock.elapsed_us = 0;

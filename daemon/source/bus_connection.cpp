@@ -53,7 +53,7 @@ void BusConnection::open(const Link& link) {
 void BusConnection::look(const Link& link) {
   status_.hardware_stamps_work = socket_.hardware_stamps_work();
   if (link.error != 0) {
-    return;  // What is open may well live on.
+    return;  // An open socket may still work.
   }
   if (link.index != socket_.interface_index()) {
     lose(LinkState::absent);
@@ -64,7 +64,7 @@ void BusConnection::look(const Link& link) {
   }
 }
 
-/// Down, the same socket receives again once the interface is up; gone, it never does.
+/// After network_down the same socket works again; after device_gone it never does.
 void BusConnection::lose(LinkState link) {
   status_.interruptions += status_.link == LinkState::up ? 1 : 0;
   status_.link = link;
@@ -75,7 +75,7 @@ void BusConnection::lose(LinkState link) {
 
 CanReceiveResult BusConnection::receive() {
   if (!socket_.is_open()) {
-    return {};  // Closed since it was polled.
+    return {};  // Closed since poll().
   }
   const CanReceiveResult result = socket_.receive();
   switch (result.status) {

@@ -13,26 +13,25 @@
 
 namespace cremed {
 
-/// Keeps a socket on a named interface through its whole life: not there yet, down, up, down again
-/// (the socket lives on), removed and made anew (the old socket would stay deaf, so a new one is
-/// opened). What was interrupted resumes by itself.
+/// Keeps a socket on a named interface, which may be absent, down, up again (the socket survives),
+/// or removed and recreated (the old socket would receive nothing, so a new one is opened).
+/// Reception resumes automatically.
 class BusConnection {
  public:
   BusConnection(std::string name, std::vector<std::uint32_t> ids, const CanSocketOptions& options);
 
-  /// To be called a few times a second: opens what is closed, and closes what is no more. `link`:
-  /// the interface as it is now.
+  /// Opens and closes the socket as needed; call a few times a second. `link`: present state of the
+  /// interface.
   void maintain(const Link& link);
 
-  /// Frames that are there now, as CanSocket::receive. An interface that went down or away is
-  /// noted.
+  /// Frames available now, as CanSocket::receive. Notes an interface that went down or was removed.
   CanReceiveResult receive();
 
   int send(const CanFrame& frame);
 
-  /// From now on it is this interface.
+  /// Changes the interface.
   void set_name(std::string name) { name_ = std::move(name); }
-  /// Receives the frames of these identifiers too.
+  /// Also receives frames with these identifiers.
   void add_ids(const std::vector<std::uint32_t>& ids);
 
   [[nodiscard]] const std::string& name() const { return name_; }

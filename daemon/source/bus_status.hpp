@@ -6,16 +6,16 @@
 
 namespace cremed {
 
-/// Whether an interface can be read from. The numbers are those of status_t.
+/// State of an interface. The numbers are those of status_t.
 enum class LinkState : std::uint8_t {
   none = 0,    ///< Not live: frames come from a log.
-  absent = 1,  ///< No interface of this name; waited for.
+  absent = 1,  ///< No interface of this name; cremed waits for it.
   down = 2,
   up = 3,
-  failed = 4,  ///< The kernel refuses a socket; tried again.
+  failed = 4,  ///< The kernel refuses a socket; retried.
 };
 
-/// State of the CAN controller, as far as error frames tell. The numbers are those of status_t.
+/// State of the CAN controller according to error frames. The numbers are those of status_t.
 enum class BusState : std::uint8_t {
   error_active = 0,
   warning = 1,
@@ -29,18 +29,18 @@ struct BusStatus {
   BusState bus = BusState::error_active;
   std::uint64_t frames = 0;            ///< Handed to the decoders.
   std::uint64_t frames_lost = 0;       ///< Dropped by the kernel or the controller.
-  std::uint64_t frames_stale = 0;      ///< Waited for longer than max_latency_s: not used.
-  std::uint64_t frames_discarded = 0;  ///< Thrown away because the clock was set.
+  std::uint64_t frames_stale = 0;      ///< Older than max_latency_s when read: dropped.
+  std::uint64_t frames_discarded = 0;  ///< Dropped because the clock was set.
   std::uint64_t error_frames = 0;
   std::uint64_t bus_offs = 0;
   std::uint64_t restarts = 0;       ///< Controller restarted after bus-off.
-  std::uint64_t interruptions = 0;  ///< Times the interface went down or away.
-  std::uint64_t clock_steps = 0;    ///< Of the computer's clock.
+  std::uint64_t interruptions = 0;  ///< Times the interface went down or was removed.
+  std::uint64_t clock_steps = 0;    ///< Steps of the computer's clock.
   std::uint64_t frames_sent = 0;    ///< Motion feedback.
   std::uint64_t send_failures = 0;
   int receive_buffer_bytes = 0;      ///< Granted by the kernel.
-  bool hardware_stamps_work = true;  ///< false: asked for, but useless.
-  int error = 0;                     ///< errno of what failed last.
+  bool hardware_stamps_work = true;  ///< false: configured, but unusable.
+  int error = 0;                     ///< errno of the last failure.
 };
 
 }  // namespace cremed

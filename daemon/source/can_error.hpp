@@ -7,9 +7,9 @@
 
 namespace cremed {
 
-/// Takes an error frame (linux/can/error.h) into the status of its bus: bus state, bus-offs,
-/// restarts, and frames the controller itself lost, of which it tells no number: counted as one.
-/// Returns true if frames were lost.
+/// Evaluates an error frame (linux/can/error.h) for the status of its bus: bus state, bus-offs,
+/// restarts, and frames lost by the controller, whose number is unknown and counted as one. Returns
+/// true if frames were lost.
 bool note_error_frame(const CanFrame& error, BusStatus& status);
 
 }  // namespace cremed

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-/// Hardware stamps further from the kernel's are of a clock that is not the system's.
+/// Larger differences from the kernel's stamps mean that the hardware clock is not the system
+/// clock.
 constexpr std::int64_t kMaxClockDifferenceNs = kNsPerS;
 
 std::int64_t ns_of(const timespec& time) { return time.tv_sec * kNsPerS + time.tv_nsec; }
@@ -30,7 +31,7 @@ bool set_option(int descriptor, int level, int name, const Value& value) {
   return ::setsockopt(descriptor, level, name, &value, sizeof(value)) == 0;
 }
 
-/// One exact identifier each. The flags in the mask keep extended and remote frames out.
+/// Filters for one exact identifier each. The flags in the mask exclude extended and remote frames.
 std::vector<can_filter> filters_of(std::span<const std::uint32_t> ids) {
   constexpr canid_t kMask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
   if (ids.empty()) {
@@ -59,7 +60,7 @@ bool bind_to(int descriptor, unsigned interface_index) {
   return ::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
 }
 
-/// What the kernel gives, in the unit it is asked in: it doubles the number for its own needs.
+/// The kernel reports twice the requested number.
 int granted_buffer_bytes(int descriptor, int wanted) {
   if (!set_option(descriptor, SOL_SOCKET, SO_RCVBUFFORCE, wanted)) {
     set_option(descriptor, SOL_SOCKET, SO_RCVBUF, wanted);
@@ -70,7 +71,7 @@ int granted_buffer_bytes(int descriptor, int wanted) {
   return granted / 2;
 }
 
-/// Bytes past the length stay zero, whatever the sender left there.
+/// Clears the bytes after the length.
 void fill(const canfd_frame& raw, std::size_t size, CanFrame& frame) {
   frame = {};
   frame.fd = size == CANFD_MTU;
@@ -168,7 +169,7 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors)) {
     return fail("CAN_RAW_ERR_FILTER");
   }
-  // FD frames would otherwise vanish without a trace.
+  // Otherwise FD frames would be dropped silently.
   if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
     return fail("CAN_RAW_FD_FRAMES");
   }
@@ -196,7 +197,7 @@ CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
   hardware_stamps_work_ = true;
   last_hardware_ns_ = 0;
   kernel_drops_ = 0;
-  // Of SO_TIMESTAMPNS every frame gets one; SO_TIMESTAMPING may leave it out.
+  // SO_TIMESTAMPNS stamps every frame; SO_TIMESTAMPING may not.
   if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn)) {
     return fail("SO_TIMESTAMPNS");
   }

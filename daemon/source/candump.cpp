@@ -11,7 +11,7 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kMaxSecondsDigits = 12;  // Microseconds of the largest still fit an int64.
+constexpr std::size_t kMaxSecondsDigits = 12;  // The largest value in microseconds fits an int64.
 constexpr std::size_t kClassicCapacity = 8;
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
 constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
@@ -20,7 +20,7 @@ constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kDropPrefix = "DROPCOUNT: dropped ";
 
-/// Static text that says what would be right; empty: all is well.
+/// Static text that states the correct form; empty: no error.
 using Error = std::string_view;
 constexpr Error kStampShape = "time stamp must be (seconds.fraction) in digits";
 constexpr Error kSecondsLength = "seconds must have at most 12 digits";
@@ -45,7 +45,7 @@ constexpr Error kNoStamp =
     "console output without time: must be recorded by `candump -l`, or at least `candump -ta`";
 constexpr Error kNoFrame = "a frame's line must begin with (seconds.fraction)";
 
-/// Hands a line out piece by piece, from left to right.
+/// Consumes a line from left to right.
 class Cursor {
  public:
   explicit Cursor(std::string_view text) : rest_(text) {}
@@ -77,7 +77,7 @@ class Cursor {
   std::string_view rest_;
 };
 
-/// The whole text as a number; false for anything else.
+/// The whole text as a number; false if it is not one.
 bool parse_number(std::string_view text, int base, std::uint64_t& value) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value, base);
@@ -131,7 +131,7 @@ Error parse_standard_id(std::uint32_t id, CanFrame& frame) {
   return id <= kMaxStandardId ? Error{} : kStandardRange;
 }
 
-/// Error frames are written as if they were extended, with a flag that no identifier can have.
+/// Error frames are written as extended frames with a flag beyond the identifier's bits.
 Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
   frame.id = id & kMaxExtendedId;
   frame.error = (id & ~kMaxExtendedId) == kErrorFlag;
@@ -148,7 +148,7 @@ Error parse_identifier(std::string_view digits, CanFrame& frame) {
                             : parse_extended_id(static_cast<std::uint32_t>(id), frame);
 }
 
-/// Pairs of hex digits, each pair with a '.' before it or not.
+/// Pairs of hex digits, optionally separated by '.'.
 Error parse_bytes(std::string_view text, std::size_t capacity, CanFrame& frame) {
   while (!text.empty()) {
     text.remove_prefix(text.front() == '.' ? 1 : 0);
@@ -188,7 +188,7 @@ Error parse_remote(std::string_view text, CanFrame& frame) {
   return {};
 }
 
-/// A length code of 9 to 15 also means 8 bytes; candump -8 says which it was. It changes nothing.
+/// The raw length code of a frame with 8 bytes (candump -8): checked and ignored.
 Error parse_raw_dlc(std::string_view text, const CanFrame& frame) {
   const bool is_code = text.size() == 1 && hex_nibble(text.front()) >= 9;
   return is_code && frame.length == kClassicCapacity ? Error{} : kRawDlc;
@@ -217,8 +217,8 @@ Error parse_console_bytes(Cursor& cursor, std::uint64_t length, CanFrame& frame)
   return frame.fd && !is_fd_length(frame.length) ? kFdLength : Error{};
 }
 
-/// What candump prints on a terminal: `123   [8]  11 22 33 44 55 66 77 88`, of FD `[08]`; -x puts
-/// `RX - -` or the like before it. What follows says nothing more (text by -a, ERRORFRAME).
+/// The terminal format of candump: `123   [8]  11 22 33 44 55 66 77 88`, for FD `[08]`, after `RX -
+/// -` with -x. The rest (text by -a, ERRORFRAME) is ignored.
 Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   if (word == "RX" || word == "TX") {
     for (int i = 0; i < 3; ++i) {
@@ -305,7 +305,7 @@ CandumpLine parse_drop_count(std::string_view text) {
   return {};
 }
 
-/// Neither comment nor empty: whoever made the log should hear of it.
+/// Neither comment nor empty: to be reported to the user.
 CandumpLine parse_other(std::string_view text) {
   CandumpLine line;
   if (text.empty() || text.starts_with('#') || text.starts_with("DROPCOUNT")) {
@@ -326,7 +326,7 @@ std::string_view without_line_end(std::string_view text) {
   return text;
 }
 
-/// On a terminal candump begins with some.
+/// Terminal output begins with blanks.
 std::string_view without_blanks_before(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
 }

@@ -11,23 +11,23 @@
 
 namespace cremed {
 
-/// What one line of a candump log is.
+/// Kind of a line of a candump log.
 enum class CandumpStatus : std::uint8_t {
   frame,      ///< `frame` and `interface_name` are set.
-  skipped,    ///< Comment (#), empty line, or a line candump writes that is no frame.
+  skipped,    ///< Comment (#), empty line, or a line of candump without a frame.
   dropped,    ///< DROPCOUNT line: `dropped_frames` were lost on `interface_name`.
-  malformed,  ///< Anything else; `error` says what would be right.
+  malformed,  ///< Anything else; `error` states the correct form.
 };
 
 struct CandumpLine {
   CandumpStatus status = CandumpStatus::skipped;
-  CanFrame frame;                   ///< `interface` is left 0: the caller knows the names.
+  CanFrame frame;                   ///< `interface` stays 0: the caller maps names.
   std::string_view interface_name;  ///< Points into the parsed line.
   std::uint64_t dropped_frames = 0;
   std::string_view error;  ///< Static text.
 };
 
-/// Parses one line (without or with its line end) of `candump -l` / `-L` text:
+/// Parses one line (with or without its line end) of `candump -l` / `-L` text:
 ///
 ///     (1436509052.249713) can0 123#11223344           standard data frame, 6 or 9 decimals
 ///     (1436509052.249713) can0 12345678#11.22 R       extended; '.' between bytes; R or T from -x
@@ -41,12 +41,12 @@ struct CandumpLine {
 /// 9 decimals are rounded down to microseconds. Never allocates or throws.
 CandumpLine parse_candump_line(std::string_view line);
 
-/// Longest line format_candump_line writes: stamp, 15-character interface, FD frame, line end.
+/// Longest line of format_candump_line: stamp, 15-character interface, FD frame, line end.
 inline constexpr std::size_t kMaxCandumpLine = 192;
 
-/// Writes the frame as one line with 6 decimals and a line end, as candump -L would, and returns
-/// the number of characters. For a frame that can be on a bus, with a stamp of 0 to 10^18 - 1 us,
-/// parse_candump_line gives it back; anything else is cut to what the format can hold.
+/// Writes the frame as one line with 6 decimals and a line end, as candump -L does, and returns the
+/// number of characters. parse_candump_line restores any valid frame with a stamp of 0 to 10^18 - 1
+/// us; other values are cut to fit the format.
 std::size_t format_candump_line(const CanFrame& frame, std::string_view interface_name,
                                 std::array<char, kMaxCandumpLine>& line);
 

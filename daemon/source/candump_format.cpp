@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kMaxStampUs = 999'999'999'999'999'999;  // 12 digits of seconds.
 constexpr std::uint32_t kErrorFlag = 0x20000000;
 
-/// Appends to the buffer; the sizes of the parts add up to less than kMaxCandumpLine.
+/// Appends to the buffer; all parts together are shorter than kMaxCandumpLine.
 class LineWriter {
  public:
   explicit LineWriter(std::array<char, kMaxCandumpLine>& line) : line_(line) {}
@@ -66,7 +66,7 @@ void write_content(LineWriter& out, const CanFrame& frame) {
     out.number(length, 10, length > 0 ? 1 : 0);
     return;
   }
-  out.text(frame.fd ? "#0" : "");  // CanFrame keeps no FD flags.
+  out.text(frame.fd ? "#0" : "");  // CanFrame does not store FD flags.
   for (std::size_t i = 0; i < length; ++i) {
     out.number(frame.data[i], 16, 2);
   }

@@ -12,8 +12,8 @@
 namespace cremed {
 namespace {
 
-/// For a message; a log of noise has many.
-constexpr std::size_t kMostOtherInterfaces = 8;
+/// Limit for messages: a corrupt log may name many.
+constexpr std::size_t kMaxOtherInterfaces = 8;
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void CandumpLog::count_other(std::string_view interface) {
   ++counters_.other_interface_frames;
   const bool is_known = std::find(other_interfaces_.begin(), other_interfaces_.end(), interface) !=
                         other_interfaces_.end();
-  if (!is_known && other_interfaces_.size() < kMostOtherInterfaces) {
+  if (!is_known && other_interfaces_.size() < kMaxOtherInterfaces) {
     other_interfaces_.emplace_back(interface);
   }
 }

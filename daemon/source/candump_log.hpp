@@ -17,30 +17,30 @@ namespace cremed {
 /// One candump log (or standard input) as a source of frames.
 class CandumpLog final : public FrameSource {
  public:
-  /// The first line that was not understood, for the person who made the log.
+  /// The first invalid line.
   struct Complaint {
     std::uint64_t line_number = 0;  ///< 0: none.
     std::string_view reason;
   };
 
   /// `interfaces`: names in the order of CanFrame::interface. Reading ends when `*stop` is set.
-  /// Throws std::runtime_error if the log cannot be opened, or is none but of another format.
+  /// Throws std::runtime_error if the log cannot be opened or has another format.
   CandumpLog(const std::string& path, std::vector<std::string> interfaces,
              const volatile std::sig_atomic_t* stop);
 
-  /// Throws std::runtime_error at the first line of what a pipe brings in another format.
+  /// Throws std::runtime_error at the first line of a pipe with another format.
   SourceEvent next(CanFrame& frame) override;
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::size_t interface_count() const { return interfaces_.size(); }
-  /// Whether there was a frame of the interface with that index.
+  /// Whether the interface with that index had a frame.
   [[nodiscard]] bool has_frames(std::size_t interface) const { return has_frames_[interface]; }
-  /// Names of interfaces in the log that no radar is configured for; the first few.
+  /// Interfaces in the log without a configured radar; the first few.
   [[nodiscard]] const std::vector<std::string>& other_interfaces() const {
     return other_interfaces_;
   }
   [[nodiscard]] const Complaint& complaint() const { return complaint_; }
-  /// errno of a read that failed, 0 if none did.
+  /// errno of a failed read, else 0.
   [[nodiscard]] int read_error() const { return read_error_; }
 
  private:

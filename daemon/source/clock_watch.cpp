@@ -22,7 +22,7 @@ ClockWatch::~ClockWatch() {
   }
 }
 
-/// A timer that never fires, but is cancelled when the clock is set.
+/// A timer that never expires but is cancelled when the clock is set.
 void ClockWatch::arm() {
   itimerspec never{};
   never.it_value.tv_sec = std::numeric_limits<std::int32_t>::max();

@@ -4,8 +4,8 @@
 
 namespace cremed {
 
-/// Notices that the system's clock was set (by NTP, by hand, by waking up), however little: frames'
-/// stamps are of that clock, so no time may be measured across such a step. Slewing is no step.
+/// Detects steps of the system clock (NTP, by hand, resume). Stamps are of that clock, so no
+/// duration may span a step. Slewing is not a step.
 class ClockWatch {
  public:
   ClockWatch();
@@ -13,10 +13,10 @@ class ClockWatch {
   ClockWatch(const ClockWatch&) = delete;
   ClockWatch& operator=(const ClockWatch&) = delete;
 
-  /// Readable when the clock was set; -1 if the kernel cannot tell.
+  /// Readable after a step; -1 if the kernel does not support it.
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
-  /// Was the clock set since the last call? Does not wait.
+  /// Whether the clock was set since the last call. Does not block.
   bool was_set();
 
  private:

@@ -12,21 +12,21 @@ namespace cremed {
 enum class SourceEvent : std::uint8_t {
   frame,       ///< A frame of a known interface.
   dropped,     ///< Frames were lost on `frame.interface` before the next one.
-  clock_step,  ///< Live: the system's clock was set; stamps before and after do not compare.
+  clock_step,  ///< Live: the system clock was set; stamps before and after are not comparable.
   idle,        ///< Live: nothing to read for a while; all before `frame.stamp_us` was read.
-  other,       ///< Live: nothing but error frames was read.
-  end,         ///< No more input, or asked to stop.
+  other,       ///< Live: only error frames were read.
+  end,         ///< End of input, or a stop was requested.
 };
 
-/// What the source read besides the frames it handed out.
+/// Counters of a source.
 struct SourceCounters {
   std::uint64_t frames = 0;                  ///< Handed out.
-  std::uint64_t other_interface_frames = 0;  ///< On an interface no radar is configured for.
-  std::uint64_t lost_frames = 0;             ///< Lost before they reached us.
+  std::uint64_t other_interface_frames = 0;  ///< On an interface without a configured radar.
+  std::uint64_t lost_frames = 0;             ///< Lost before they were read.
   std::uint64_t malformed_lines = 0;
 };
 
-/// Where frames come from.
+/// A source of frames.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -35,7 +35,7 @@ class FrameSource {
   virtual SourceEvent next(CanFrame& frame) = 0;
 
   [[nodiscard]] const SourceCounters& counters() const { return counters_; }
-  /// The bus itself; a log knows nothing of it.
+  /// State of the bus; none for a log.
   [[nodiscard]] virtual BusStatus bus(std::uint8_t /*interface*/) const { return {}; }
 
  protected:

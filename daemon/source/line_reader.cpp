@@ -74,9 +74,9 @@ LineReader::Status LineReader::fill() {
   if (end_ == buffer_.size()) {
     skipping_ = true;
     end_ = 0;
-    return Status::interrupted;  // It may never end.
+    return Status::interrupted;  // The line may never end.
   }
-  // A signal just before read(2) would be slept through: come up for air now and then.
+  // A signal just before read(2) would not interrupt it: return now and then.
   pollfd input{descriptor_, POLLIN, 0};
   if (::poll(&input, 1, kLongestWaitMs) <= 0) {
     return Status::interrupted;

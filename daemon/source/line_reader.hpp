@@ -10,20 +10,20 @@
 
 namespace cremed {
 
-/// Reads a file or standard input line by line through a fixed buffer. Hands out what has arrived:
-/// a pipe from a live candump is followed without delay.
+/// Reads a file or standard input line by line through a fixed buffer, without delay: follows the
+/// pipe of a live candump.
 class LineReader {
  public:
   enum class Status : std::uint8_t {
     line,         ///< `line` is set, valid until the next call.
-    too_long,     ///< A line longer than the buffer was passed over.
+    too_long,     ///< A line longer than the buffer was skipped.
     end,          ///< End of input.
-    interrupted,  ///< A signal came, or nothing for a while, or still the same line; call again.
+    interrupted,  ///< A signal, a pause, or a line in progress; call again.
     failed,       ///< read(2) failed; errno says why.
   };
 
-  /// "-" is standard input. A pipe that nobody writes to yet is waited for in next(). Throws
-  /// std::runtime_error with path and reason.
+  /// "-" is standard input. next() waits for the writer of a pipe. Throws std::runtime_error with
+  /// path and reason.
   explicit LineReader(const std::string& path);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -31,9 +31,9 @@ class LineReader {
 
   /// The next line without its line feed.
   Status next(std::string_view& line);
-  /// What a file begins with, before anything is read of it; nothing of a pipe.
+  /// The first bytes of a file, before anything is read; empty for a pipe.
   [[nodiscard]] std::string begin() const;
-  /// Number of the line last returned, from 1.
+  /// Number of the last line returned, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
 
  private:

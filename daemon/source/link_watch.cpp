@@ -15,11 +15,11 @@
 namespace cremed {
 namespace {
 
-/// The kernel fills at most this much at once (netlink(7)).
+/// The largest message of the kernel (netlink(7)).
 constexpr std::size_t kBufferBytes = 32768;
-/// A message a link at most, and far more links than any vehicle has; what is left waits.
+/// Far more links than any vehicle has; the rest stays queued.
 constexpr int kMaxReads = 1000;
-/// Room for more has to be allocated when they come.
+/// Reserved capacity, so that a new link seldom allocates.
 constexpr std::size_t kUsualLinks = 64;
 
 const ifinfomsg* info_in(const nlmsghdr& header) {
@@ -66,7 +66,7 @@ void LinkWatch::open() {
   request_all();
 }
 
-/// Of all links as they are now: at the start, and after notifications were lost.
+/// Requests the state of all links: at the start, and after lost notifications.
 void LinkWatch::request_all() {
   links_.clear();
   error_ = 0;
@@ -101,7 +101,7 @@ void LinkWatch::update() {
     const ssize_t size = ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0,
                                     reinterpret_cast<sockaddr*>(&sender), &sender_size);
     if (size >= 0) {
-      if (sender.nl_pid == 0) {  // The kernel, not another process.
+      if (sender.nl_pid == 0) {  // From the kernel, not another process.
         take(buffer_.data(), static_cast<std::size_t>(size));
       }
     } else if (errno == ENOBUFS) {

@@ -10,16 +10,16 @@
 
 namespace cremed {
 
-/// A network interface as the kernel knows it.
+/// State of a network interface.
 struct Link {
-  unsigned index = 0;  ///< 0: there is none of this name. One that is made anew gets another.
+  unsigned index = 0;  ///< 0: no interface of this name. A recreated one gets another index.
   bool is_up = false;
-  int error = 0;  ///< errno, if the kernel cannot be asked; then nothing else is known.
+  int error = 0;  ///< errno of a failed query; all else is then unknown.
 };
 
-/// Follows network interfaces by the kernel's own notifications (rtnetlink(7)). To look an
-/// interface up by name (if_nametoindex, SIOCGIFINDEX) would let the kernel search for a module of
-/// that name, a quarter of a second each time for one that is absent.
+/// Follows network interfaces by kernel notifications (rtnetlink(7)). A lookup by name
+/// (if_nametoindex, SIOCGIFINDEX) would make the kernel search for a module of that name, a quarter
+/// of a second for each absent interface.
 class LinkWatch {
  public:
   LinkWatch();
@@ -27,7 +27,7 @@ class LinkWatch {
   LinkWatch(const LinkWatch&) = delete;
   LinkWatch& operator=(const LinkWatch&) = delete;
 
-  /// Takes in what the kernel has told since the last call; does not wait.
+  /// Processes the notifications since the last call; does not block.
   void update();
 
   [[nodiscard]] Link link(std::string_view name) const;

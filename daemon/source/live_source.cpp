@@ -16,30 +16,30 @@
 namespace cremed {
 namespace {
 
-/// How often time passes on a silent bus: scans time out, the service tells that it lives.
+/// Period of idle events on a silent bus, for time-outs and the watchdog.
 constexpr int kIdleMs = 20;
 
-/// How soon an interface that came or went is noticed.
+/// Period of the check for new and removed interfaces.
 constexpr std::int64_t kLookPeriodUs = 200'000;
 
-/// More frames than can come in a millisecond: one of 8 bytes takes 111 us at 1 Mbit/s.
+/// More frames than fit in a millisecond: one of 8 bytes takes 111 us at 1 Mbit/s.
 constexpr std::size_t kFramesPerMs = 16;
 /// Long enough to save most wake-ups; too short for a scan of more than a few targets to begin and
-/// end in it, on a bus where none is open.
+/// end within it.
 constexpr std::size_t kLongestRestMs = 4;
 
-/// From a frame's stamp until it can be read: the driver stamps it and hands it up in one go, some
-/// 10 us, unless it is interrupted. 1 ms is little beside a radar's cycle.
+/// Bound on the time from a frame's stamp until it can be read: usually about 10 us in the driver
+/// unless interrupted. 1 ms is little beside a radar's cycle.
 constexpr std::int64_t kMergeMarginUs = 1000;
 
-/// A full receive buffer is some 40 batches; a bus cannot refill it while it is emptied.
+/// A full receive buffer is about 40 batches; a bus cannot refill it while it is emptied.
 constexpr int kMaxDiscardedBatches = 1000;
 
 std::int64_t rest_us(std::size_t expected_frames) {
   return static_cast<std::int64_t>(std::min(expected_frames / kFramesPerMs, kLongestRestMs)) * 1000;
 }
 
-/// Not at all if not positive.
+/// Does nothing if not positive.
 void sleep_us(std::int64_t duration_us) {
   if (duration_us > 0) {
     const timespec duration{0, duration_us * 1000};
@@ -91,7 +91,7 @@ SourceEvent LiveSource::next(CanFrame& frame) {
     const bool is_reading = next_to_read_ < interfaces_.size();
     const auto oldest = merge_.oldest();
     if (!is_reading && oldest && !merge_.awaited()) {
-      // However many error frames come, the caller's loop turns.
+      // Error frames must not keep the caller waiting.
       return take(*oldest, frame).value_or(SourceEvent::other);
     }
     const SourceEvent event = is_reading ? read_all(frame) : refill(frame);
@@ -115,7 +115,7 @@ std::optional<SourceEvent> LiveSource::take(std::size_t interface, CanFrame& fra
   return event;
 }
 
-/// What a frame off the bus means; nothing for one that is only counted.
+/// The event of a received frame; nothing for one that is only counted.
 std::optional<SourceEvent> LiveSource::judge(std::size_t interface, const ReceivedFrame& received,
                                              CanFrame& frame) {
   BusStatus& status = interfaces_[interface]->status();
@@ -126,12 +126,12 @@ std::optional<SourceEvent> LiveSource::judge(std::size_t interface, const Receiv
                                                     : std::nullopt;
   }
   if (status.bus == BusState::bus_off) {
-    status.bus = BusState::error_active;  // Not every driver tells that it restarted.
+    status.bus = BusState::error_active;  // Not every driver reports a restart.
   }
   if (batch.read_us - received.frame.stamp_us > max_latency_us_) {
     ++status.frames_stale;
-    return std::exchange(batch.stale_is_told, true) ? std::nullopt
-                                                    : std::optional(SourceEvent::dropped);
+    return std::exchange(batch.is_stale_reported, true) ? std::nullopt
+                                                        : std::optional(SourceEvent::dropped);
   }
   ++status.frames;
   ++counters_.frames;
@@ -152,8 +152,8 @@ void LiveSource::maintain() {
   }
 }
 
-/// Waits until there can be something to hand out. `frame` if there is something to read, else what
-/// happened instead.
+/// Waits until there can be a frame to hand out. `frame` if there is something to read, else the
+/// event.
 SourceEvent LiveSource::refill(CanFrame& frame) {
   maintain();
   if (merge_.size() == 0) {
@@ -175,12 +175,12 @@ SourceEvent LiveSource::wait(CanFrame& frame) {
   if (clock_watch_.was_set()) {
     return step_clock();
   }
-  // Before the wait: whoever is held up after it must not take time for passed in silence.
+  // Taken before the wait: a delay of this process afterwards is not silence on the bus.
   frame.stamp_us = polled_us_;
   return ready > 0 ? SourceEvent::frame : SourceEvent::idle;
 }
 
-/// Until nothing can come any more that precedes the oldest frame.
+/// Waits until no frame earlier than the oldest can arrive.
 void LiveSource::hold_back() const {
   const std::int64_t due_us = merge_.stamp_us(*merge_.oldest()) + kMergeMarginUs - realtime_us();
   const std::size_t queued = std::min(expected_frames_, merge_.size());
@@ -196,7 +196,7 @@ int LiveSource::poll_all(int timeout_ms) {
   return ::poll(polled_.data(), polled_.size(), timeout_ms);
 }
 
-/// Reads where nothing is left to hand out. `frame` when that is done, else what happened instead.
+/// Reads the empty lanes. `frame` when done, else the event.
 SourceEvent LiveSource::read_all(CanFrame& frame) {
   while (next_to_read_ < interfaces_.size()) {
     const std::size_t interface = next_to_read_++;
@@ -207,7 +207,7 @@ SourceEvent LiveSource::read_all(CanFrame& frame) {
       return SourceEvent::dropped;
     }
   }
-  // After the wait, maybe before these frames.
+  // The clock was set after the wait, possibly before these frames.
   return clock_watch_.was_set() ? step_clock() : SourceEvent::frame;
 }
 
@@ -224,8 +224,8 @@ CanReceiveStatus LiveSource::read(std::size_t interface) {
   return result.status;
 }
 
-/// All that was stamped before it has been read where nothing was left to read at polled_us_. A
-/// frame of the future is of a clock that was set unnoticed: it is not waited for.
+/// Frames stamped before this time have been read from every socket that was empty at polled_us_. A
+/// frame from the future shows a clock step that was not detected: it is not waited for.
 std::int64_t LiveSource::read_until_us() const {
   const auto oldest = merge_.oldest();
   const bool is_of_future = oldest && merge_.stamp_us(*oldest) > polled_us_ + kMergeMarginUs;

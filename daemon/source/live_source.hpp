@@ -20,19 +20,19 @@
 
 namespace cremed {
 
-/// The CAN interfaces of the configuration, live: their frames in order of the kernel's stamps,
-/// where stamps are equal in the order of the configuration. So a replay of what was logged beside
-/// it sees the same frames in the same order, and no interface starves another.
+/// The CAN interfaces of the configuration, live: frames in the order of the kernel's stamps, for
+/// equal stamps in the order of the configuration. A replay of a log gives the same order, and no
+/// interface starves another.
 ///
-/// The kernel stamps a frame shortly before it can be read. So once a socket was read empty at a
-/// time T, no frame stamped before T - 1 ms can come on it any more, and a silent interface
-/// is never waited for. With several interfaces a frame is held back until it is that old. One that
-/// the kernel delays for longer still comes late and out of order, but comes.
+/// The kernel stamps a frame shortly before it can be read. After a socket was found empty at time
+/// T, no frame stamped before T - 1 ms can arrive on it, so a silent interface is never waited for.
+/// With several interfaces a frame is held back until it is that old. A frame that the kernel
+/// delays longer arrives out of order.
 ///
-/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, what waits was stamped before
-/// or after, nobody knows: it is thrown away, and clock_step is reported.
+/// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, queued frames are discarded,
+/// because their clock is unknown, and clock_step is reported.
 ///
-/// Never sends but by send(); after construction allocates nothing.
+/// Sends only by send(); allocates only in the constructor.
 class LiveSource final : public FrameSource {
  public:
   /// `stop`: next() returns `end` when it is set.
@@ -41,12 +41,12 @@ class LiveSource final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
   [[nodiscard]] BusStatus bus(std::uint8_t interface) const override;
 
-  /// Nothing can come of the next so many frames but waiting for more: where they take longer than
-  /// a short rest, they are read together after it, instead of one wake-up each.
+  /// Hint that the next so many frames complete no scan: if they take longer than a short sleep,
+  /// they are read together after it instead of one wake-up each.
   void expect(std::size_t frames) { expected_frames_ = frames; }
 
-  /// The interface of an entry that had none (kAutoInterface) is known. Returns the entry that has
-  /// its frames from now on: where others are on that interface, theirs.
+  /// The interface of an "auto" entry (kAutoInterface) was found. Returns the index that its frames
+  /// have from now on: the existing entry if another radar uses that interface.
   std::uint8_t attach(std::uint8_t interface, const std::string& name);
 
   [[nodiscard]] const LinkWatch& links() const { return links_; }
@@ -59,10 +59,10 @@ class LiveSource final : public FrameSource {
   }
 
  private:
-  /// The frames of one interface that were read last.
+  /// The last frames read from one interface.
   struct Batch {
-    std::int64_t read_us = 0;    // Realtime.
-    bool stale_is_told = false;  // Of these frames.
+    std::int64_t read_us = 0;        // Realtime clock.
+    bool is_stale_reported = false;  // Of these frames.
   };
   std::optional<SourceEvent> take(std::size_t interface, CanFrame& frame);
   std::optional<SourceEvent> judge(std::size_t interface, const ReceivedFrame& received,
@@ -81,14 +81,14 @@ class LiveSource final : public FrameSource {
   const volatile std::sig_atomic_t* stop_;
   std::vector<std::unique_ptr<BusConnection>> interfaces_;
   LinkWatch links_;
-  std::int64_t next_look_us_ = 0;  // Monotonic.
+  std::int64_t next_look_us_ = 0;  // Monotonic clock.
   ClockWatch clock_watch_;
   std::uint64_t clock_steps_ = 0;
-  std::vector<pollfd> polled_;  // One each interface, then the clock.
-  std::int64_t polled_us_ = 0;  // Realtime.
-  std::size_t next_to_read_;    // Of those polled; the number of interfaces: none.
+  std::vector<pollfd> polled_;  // One per interface, then the clock.
+  std::int64_t polled_us_ = 0;  // Realtime clock.
+  std::size_t next_to_read_;    // Index in polled_; the number of interfaces: none.
   std::size_t expected_frames_ = 0;
-  StampMerge merge_;  // A lane an interface.
+  StampMerge merge_;  // A lane per interface.
   std::vector<Batch> batches_;
 };
 

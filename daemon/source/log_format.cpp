@@ -14,8 +14,8 @@ namespace {
 using namespace std::string_view_literals;
 
 enum class Way : std::uint8_t {
-  unpack,   // A command that writes the log to standard output.
-  convert,  // python-can, into a file.
+  unpack,   // A command writes the log to standard output.
+  convert,  // python-can writes a file.
   asc,
   odometry,
   results,
@@ -44,9 +44,9 @@ constexpr std::array kFormats = {
     Format{"utime,utime_anchor,"sv, "cremed's own odometry", Way::odometry, ""},
 };
 
-/// python-can's begins with "timestamp,arbitration_id,extended,remote,error,dlc,data".
+/// python-can's CSV begins with "timestamp,arbitration_id,extended,remote,error,dlc,data".
 constexpr std::string_view kCsv = "CSV";
-constexpr long kFewestCommas = 3;
+constexpr long kMinCommas = 3;
 
 std::string in_shell(std::string_view path) {
   return path.find_first_of(" '\"$`\\()&;<>|*?") == std::string_view::npos
@@ -72,7 +72,7 @@ std::string remedy(Way way, std::string_view command, const std::string& path) {
 }
 
 bool is_csv(std::string_view line) {
-  return std::count(line.begin(), line.end(), ',') >= kFewestCommas &&
+  return std::count(line.begin(), line.end(), ',') >= kMinCommas &&
          line.find_first_of("(#") == std::string_view::npos;
 }
 

@@ -7,11 +7,11 @@
 
 namespace cremed {
 
-/// What a file is that is taken for a candump log and begins so, with the command that makes a log
-/// of it; empty if it may be one. `path` is for the text, "-" standard input.
+/// The format of a file that begins like this and is not a candump log, with the command that
+/// converts it; empty if it may be one. `path` is for the text, "-" standard input.
 std::string foreign_format(std::string_view begin, const std::string& path);
 
-/// Throws std::runtime_error with that, unless it is empty.
+/// Throws std::runtime_error with that text, unless it is empty.
 void refuse_foreign_format(std::string_view begin, const std::string& path);
 
 }  // namespace cremed

@@ -11,14 +11,14 @@
 namespace cremed {
 namespace {
 
-/// More than the second after which each radar has sent every message once.
+/// More than one second, the longest period of a radar's messages.
 constexpr std::int64_t kRoundUs = 1'300'000;
-/// Fewer frames come meanwhile than the kernel's default buffer holds, 278.
+/// The kernel's default buffer holds 278 frames, more than arrive in this time.
 constexpr std::int64_t kListenPeriodUs = 20'000;
-/// What is left waits; a bus cannot refill its buffer while it is emptied.
+/// The rest stays queued; a bus cannot refill its buffer while it is emptied.
 constexpr int kMaxBatches = 100;
-/// A vehicle has fewer.
-constexpr std::size_t kMaxEars = 64;
+/// More than any vehicle has.
+constexpr std::size_t kMaxListeners = 64;
 
 }  // namespace
 
@@ -43,39 +43,39 @@ std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t m
   return sightings;
 }
 
-/// Opens sockets on what came up since the round before. One on an interface that went down or away
-/// ends by itself.
+/// Opens sockets on interfaces that came up since the last round; others have closed themselves.
 void RadarSearch::follow(const LinkWatch& links) {
   for (const std::string& name : links.up_can_names()) {
     const unsigned index = links.link(name).index;
     const bool is_heard =
-        std::any_of(ears_.begin(), ears_.end(), [&](const Ear& ear) { return ear.index == index; });
-    if (is_heard || ears_.size() >= kMaxEars) {
+        std::any_of(listeners_.begin(), listeners_.end(),
+                    [&](const Listener& listener) { return listener.index == index; });
+    if (is_heard || listeners_.size() >= kMaxListeners) {
       continue;
     }
     auto socket = std::make_unique<CanSocket>();
     if (socket->open(index, {}, configuration_.live.socket).status == CanOpenStatus::open) {
-      ears_.push_back({index, std::move(socket)});
+      listeners_.push_back({index, std::move(socket)});
       buses_.emplace_back().interface = name;
     }
   }
 }
 
 void RadarSearch::receive_all() {
-  for (std::size_t ear = ears_.size(); ear-- > 0;) {
-    if (!receive(ear)) {
-      ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(ear));
-      buses_.erase(buses_.begin() + static_cast<std::ptrdiff_t>(ear));
+  for (std::size_t listener = listeners_.size(); listener-- > 0;) {
+    if (!receive(listener)) {
+      listeners_.erase(listeners_.begin() + static_cast<std::ptrdiff_t>(listener));
+      buses_.erase(buses_.begin() + static_cast<std::ptrdiff_t>(listener));
     }
   }
 }
 
-/// false: the interface went down or away.
-bool RadarSearch::receive(std::size_t ear) {
+/// false: the interface went down or was removed.
+bool RadarSearch::receive(std::size_t listener) {
   for (int batch = 0; batch < kMaxBatches; ++batch) {
-    const CanReceiveResult result = ears_[ear].socket->receive();
+    const CanReceiveResult result = listeners_[listener].socket->receive();
     for (const ReceivedFrame& received : result.frames) {
-      buses_[ear].traffic.add(received.frame);
+      buses_[listener].traffic.add(received.frame);
     }
     if (result.status != CanReceiveStatus::frames) {
       return result.status == CanReceiveStatus::empty;
@@ -91,7 +91,7 @@ std::vector<Sighting> RadarSearch::end_round() {
   }
   is_over_ = has_interface_names(configuration_);
   if (is_over_) {
-    ears_.clear();
+    listeners_.clear();
   }
   return sightings;
 }

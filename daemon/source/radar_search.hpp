@@ -13,37 +13,37 @@
 
 namespace cremed {
 
-/// Finds the interfaces of the radars that are configured without (interface = "auto"): listens on
-/// all CAN interfaces that are up, in rounds as long as it takes to see all that a radar sends.
-/// Sends nothing and never waits. Not for the hot path, but for beside it.
+/// Finds the interfaces of radars with interface = "auto": listens on all CAN interfaces that are
+/// up, in rounds long enough to see every message of a radar. Sends nothing and never blocks. Not
+/// for the hot path.
 class RadarSearch {
  public:
   explicit RadarSearch(const Configuration& configuration);
 
-  /// To be called some fifty times a second. At the end of a round: of each radar that is looked
-  /// for, where it is; a radar that was found is looked for no more. Empty meanwhile.
+  /// Call about fifty times a second. At the end of a round: the place of each radar still searched
+  /// for; otherwise empty. A found radar is not searched for again.
   std::vector<Sighting> listen(const LinkWatch& links, std::int64_t monotonic_us);
 
-  /// All are found.
+  /// All radars are found.
   [[nodiscard]] bool is_over() const { return is_over_; }
 
-  /// With the interfaces that were found.
+  /// The configuration with the interfaces found.
   [[nodiscard]] const Configuration& configuration() const { return configuration_; }
 
  private:
-  struct Ear {
+  struct Listener {
     unsigned index;
     std::unique_ptr<CanSocket> socket;
   };
   void follow(const LinkWatch& links);
   void receive_all();
-  bool receive(std::size_t ear);
+  bool receive(std::size_t listener);
   std::vector<Sighting> end_round();
 
   Configuration configuration_;
   bool is_over_;
-  std::vector<Ear> ears_;
-  std::vector<HeardBus> buses_;  // By ear.
+  std::vector<Listener> listeners_;
+  std::vector<HeardBus> buses_;  // In the order of listening.
   std::int64_t next_listen_us_ = 0;
   std::int64_t round_end_us_ = 0;
 };

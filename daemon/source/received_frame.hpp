@@ -8,11 +8,11 @@
 
 namespace cremed {
 
-/// A frame and what became of those before it.
+/// A frame and the loss before it.
 struct ReceivedFrame {
   CanFrame frame;
-  std::int64_t received_us = 0;   ///< The kernel's stamp, also where the frame has a hardware one.
-  std::uint32_t lost_before = 0;  ///< Frames of this interface lost since the one before.
+  std::int64_t received_us = 0;   ///< The kernel's stamp, also if the frame has a hardware stamp.
+  std::uint32_t lost_before = 0;  ///< Frames of this interface lost since the last one.
 };
 
 }  // namespace cremed

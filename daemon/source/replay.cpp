@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-/// How long candump may be held up while frames of several interfaces come.
+/// Longest delay of candump between frames of several interfaces.
 constexpr std::int64_t kLookAheadUs = 500'000;
-/// More than come on a full bus of 1 Mbit/s in that time, 111 us a frame of 8 bytes.
+/// More than fit on a full bus at 1 Mbit/s in that time, 111 us per frame of 8 bytes.
 constexpr std::size_t kLaneFrames = 8192;
 
-/// A longer step of the log's clock is a clock that was set, or a log that was paused.
+/// A longer step of the log's clock means that it was set or the log paused.
 constexpr double kClockJumpS = 10.0;
 constexpr double kLongestWaitNs = 1e18;
 constexpr std::int64_t kLongestSleepNs = 100'000'000;
@@ -56,12 +56,12 @@ SourceEvent Replay::next(CanFrame& frame) {
   return SourceEvent::end;
 }
 
-/// Interfaces first: they decide the order where stamps are equal.
+/// By interface first: it decides the order of equal stamps.
 std::size_t Replay::lane(std::size_t log, std::size_t interface) const {
   return interface * logs_.size() + log;
 }
 
-/// A log is read on no sooner than it has to be: a pipe may not have the next line yet.
+/// A log is read no sooner than needed: the next line of a pipe may not exist yet.
 std::optional<std::size_t> Replay::log_to_read() const {
   if (const auto awaited = merge_.awaited()) {
     const std::size_t log = *awaited % logs_.size();
@@ -146,7 +146,7 @@ SourceEvent Replay::take(std::size_t lane, CanFrame& frame) {
   return *stop_ == 0 ? SourceEvent::frame : SourceEvent::end;
 }
 
-/// What the logs have read besides frames.
+/// Counters of the logs besides frames.
 void Replay::count() {
   counters_.other_interface_frames = counters_.lost_frames = counters_.malformed_lines = 0;
   for (const auto& log : logs_) {
@@ -156,7 +156,7 @@ void Replay::count() {
   }
 }
 
-/// The pace begins anew where the log's clock was set: nobody wants to wait for a jump's length.
+/// The pace restarts where the log's clock was set, to skip the jump.
 void Replay::begin_pace(std::int64_t stamp_us) {
   const double step_s =
       (static_cast<double>(stamp_us) - static_cast<double>(last_stamp_us_)) * 1e-6;
@@ -178,7 +178,7 @@ void Replay::wait_until_due(std::int64_t stamp_us) const {
       pace_ns_ + static_cast<std::int64_t>(std::min(after_ns, kLongestWaitNs));
   for (std::int64_t now_ns = monotonic_ns(); *stop_ == 0 && now_ns < due_ns;
        now_ns = monotonic_ns()) {
-    // In short sleeps: a signal just before one would be slept through.
+    // Sleeps in short steps: a signal just before a sleep would not interrupt it.
     const std::int64_t until_ns = std::min(due_ns, now_ns + kLongestSleepNs);
     const timespec until{until_ns / kNsPerS, until_ns % kNsPerS};
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);

@@ -15,13 +15,12 @@
 
 namespace cremed {
 
-/// Several candump logs as one source, in the order in which LiveSource hands out live frames: by
-/// stamp, where stamps are equal by interface. At a finite speed it waits until a frame is due.
+/// Several candump logs as one source, in the order of LiveSource: by stamp, equal stamps by
+/// interface. At a finite speed it waits until a frame is due.
 ///
-/// candump reads its sockets in turn, so the lines of several interfaces are out of order by as
-/// long as it was held up. Where several are configured, a log is read 0.5 s ahead of what is
-/// handed out. A line that is older still is of a clock that was set, or of a clock of its own: all
-/// lines before it are handed out first.
+/// candump reads its sockets in turn, so lines of several interfaces are out of order by as long as
+/// candump was delayed. With several interfaces a log is read 0.5 s ahead. A line older than that
+/// is of another clock, or of one that was set: all lines before it are handed out first.
 class Replay final : public FrameSource {
  public:
   /// `speed`: log seconds per second; 0: as fast as possible. `logs` is not empty.
@@ -31,17 +30,17 @@ class Replay final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
 
   [[nodiscard]] const std::vector<std::unique_ptr<CandumpLog>>& logs() const { return logs_; }
-  /// Time the frames handed out span, without jumps of the log's clock.
+  /// Time span of the frames handed out, without jumps of the log's clock.
   [[nodiscard]] double traffic_s() const { return traffic_s_; }
 
  private:
-  /// How far a log was read.
+  /// Reading state of a log.
   struct Reading {
     std::int64_t newest_us = 0;
     bool has_begun = false;
     bool is_at_end = false;
-    std::optional<ReceivedFrame> held;  // Until the lines before it were handed out.
-    std::vector<bool> has_lost;         // Of each interface, before its next frame.
+    std::optional<ReceivedFrame> held;  // Waits for the lines before it to be handed out.
+    std::vector<bool> has_lost;         // By interface, before its next frame.
   };
   [[nodiscard]] std::size_t lane(std::size_t log, std::size_t interface) const;
   [[nodiscard]] std::optional<std::size_t> log_to_read() const;
@@ -57,7 +56,7 @@ class Replay final : public FrameSource {
 
   std::vector<std::unique_ptr<CandumpLog>> logs_;
   std::vector<Reading> readings_;
-  StampMerge merge_;  // A lane for each interface of each log.
+  StampMerge merge_;  // A lane per interface and log.
   double speed_;
   const volatile std::sig_atomic_t* stop_;
   bool has_begun_ = false;

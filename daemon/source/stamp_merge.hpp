@@ -11,32 +11,31 @@
 
 namespace cremed {
 
-/// Brings the frames of several lanes (interfaces, live or of a log) into the order of
-/// ReceivedFrame::received_us, where stamps are equal that of the lanes' numbers. Frames of one
-/// lane are never reordered, whatever their stamps.
+/// Merges the frames of several lanes (interfaces, live or of a log) by ReceivedFrame::received_us,
+/// equal stamps by lane number. Frames of one lane are never reordered.
 ///
 ///     while (const auto lane = merge.oldest()) {
 ///       if (merge.awaited()) { read on in that lane, or wait; }
 ///       else { use(merge.front(*lane)); merge.pop(*lane); }
 ///     }
 ///
-/// Holds at most `capacity` frames a lane; allocates in the constructor only.
+/// Holds at most `capacity` frames per lane; allocates in the constructor only.
 class StampMerge {
  public:
   StampMerge(std::size_t lanes, std::size_t capacity);
 
   /// The lane must not be full.
   void push(std::size_t lane, const ReceivedFrame& frame);
-  /// All frames of the lane that were stamped before `stamp_us` have been pushed.
+  /// All frames of the lane stamped before `stamp_us` have been pushed.
   void set_read_until(std::size_t lane, std::int64_t stamp_us);
 
-  /// Lane of the frame that comes first of those that were pushed; nothing if there are none.
+  /// Lane of the earliest frame in the lanes; nothing if there are none.
   [[nodiscard]] std::optional<std::size_t> oldest() const;
-  /// An empty lane of which a frame may still come that precedes the oldest; nothing if there is
+  /// An empty lane on which a frame earlier than the oldest may still arrive; nothing if there is
   /// none.
   [[nodiscard]] std::optional<std::size_t> awaited() const;
 
-  /// Of the lane's first frame; the lane must not be empty.
+  /// Stamp of the lane's first frame; the lane must not be empty.
   [[nodiscard]] std::int64_t stamp_us(std::size_t lane) const;
   [[nodiscard]] ReceivedFrame& front(std::size_t lane);
   void pop(std::size_t lane);
@@ -58,7 +57,7 @@ class StampMerge {
 
   std::size_t capacity_;
   std::vector<Lane> lanes_;
-  std::vector<ReceivedFrame> frames_;  // A ring of `capacity_` a lane.
+  std::vector<ReceivedFrame> frames_;  // A ring of `capacity_` frames per lane.
   std::size_t size_ = 0;
 };
 

@@ -13,9 +13,9 @@ from .status_t import status_t
 GROUP, PORT = "239.255.76.67", 7667  # LCM's default.
 LONGEST_DATAGRAM = 65536
 MAGIC_SHORT, MAGIC_EVENT = 0x4C433032, 0xEDA1DA01
-# linux/socket.h: asm-generic; the socket module has no name for it.
+# linux/socket.h (asm-generic); the socket module does not define it.
 SO_TIMESTAMPNS = 35
-# A message begins with the fingerprint of its type, so no channel has to be known.
+# A message begins with the fingerprint of its type, so the channel is not needed.
 # pylint: disable=protected-access
 TYPES = {kind._get_packed_fingerprint(): kind
          for kind in (ego_motion_t, odometry_t, radar_scan_t, status_t)}
@@ -62,7 +62,7 @@ class Listener:
             datagram, ancillary, *_ = self.socket.recvmsg(LONGEST_DATAGRAM, 256)
         except TimeoutError:
             return None
-        # Messages of several datagrams have another magic; cremed's all fit one.
+        # Messages of several datagrams have another magic; cremed's messages all fit one.
         if len(datagram) < 8 or struct.unpack_from(">I", datagram)[0] != MAGIC_SHORT:
             return None
         channel, _, payload = datagram[8:].partition(b"\0")

@@ -15,7 +15,7 @@
 
 namespace cremed::test {
 
-/// A frame and what it says.
+/// A frame and its decoded values.
 template <class Message>
 struct Ars408Row {
   std::string frame;
@@ -34,7 +34,7 @@ inline const Ars408MessageRow& message_of(const CanFrame& frame) {
   return *row;
 }
 
-/// The decoder of the sensor and mode the frame is from takes it; every other sensor's ignores it.
+/// Only the decoder with the frame's sensor id and mode accepts it.
 inline void check_sensor(const CanFrame& frame, Ars408Subject subject) {
   const auto output =
       subject == Ars408Subject::objects ? Ars408Output::objects : Ars408Output::clusters;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What can_decoders reads from frames, for dbc_test: "ID#DATA" a line on standard input becomes
-// "ID#DATA NAME=VALUE ...", with the names and units of config/*.dbc. Without input, with
-// "commands": what the encoders make of values.
+// Decodes frames for dbc_test: "ID#DATA" lines on standard input become "ID#DATA NAME=VALUE ...",
+// with the names and units of config/*.dbc. With "commands" and without input: encodes given
+// values.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -120,7 +120,7 @@ Signals signals(const Ars408FilterHeader& m) {
   return {{"NofClusterFilterCfg", m.cluster_filters}, {"NofObjectFilterCfg", m.object_filters}};
 }
 
-/// The limits' names are those of the file without their criterion.
+/// The limits have the names of the file without their criterion.
 Signals signals(const Ars408FilterState& m) {
   const double unit = m.criterion == Ars408Criterion::azimuth_rad ? kDegPerRad : 1.0;
   return {{"Type", m.for_objects},
@@ -270,7 +270,7 @@ void print_configurations() {
 void print_filters() {
   for (std::uint8_t i = 0; i < 16; ++i) {
     const auto criterion = Ars408Criterion{i};
-    // Read back: as near to these as the frame can tell.
+    // Decoded values, rounded to the frame's resolution.
     const CanFrame sent = encode_ars408_filter(0, {i % 2 == 0, i % 3 == 0, criterion, 0.2, 3.0});
     Signals values = signals(decode_ars408_filter_state(test::bytes_of(sent)));
     values.emplace_back("Valid", 1);

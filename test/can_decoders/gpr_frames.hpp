@@ -9,7 +9,7 @@
 
 namespace cremed::test {
 
-/// A message of a Bosch GPR at 0x200 with a right checksum; `own_id` is the number it names itself.
+/// A message of a Bosch GPR at 0x200 with a correct checksum; `own_id` is its target number.
 struct GprFrame {
   unsigned slot = 0;
   bool is_a = true;

@@ -12,7 +12,7 @@
 
 namespace cremed::test {
 
-/// The frame that "701#004E81FC80200147" describes.
+/// Parses "701#004E81FC80200147".
 inline CanFrame hex_frame(std::string_view text, std::int64_t stamp_us = 0) {
   const auto number = [text](std::size_t begin, std::size_t count) {
     return std::stoul(std::string(text.substr(begin, count)), nullptr, 16);

@@ -14,9 +14,8 @@ namespace cremed::test {
 
 inline constexpr std::int64_t kTimeoutUs = 50'000;
 
-/// A radar family without bytes to decode: the first byte of each payload is a value that the
-/// detection hands on (of the first message and the last), and 255 in the first marks an empty
-/// slot.
+/// A radar family without a payload format: the first byte of the first and the last payload is
+/// passed on in the detection; 255 in the first is an empty slot.
 class PlainDecoder final : public RadarDecoder {
  public:
   explicit PlainDecoder(const ScanFraming& framing) : framing_(framing) {}
@@ -35,12 +34,12 @@ class PlainDecoder final : public RadarDecoder {
   ScanFraming framing_;
 };
 
-/// An assembler whose scans are collected as they come.
+/// An assembler whose scans are collected.
 class ScanBench {
  public:
   explicit ScanBench(const ScanFraming& framing) : decoder_(framing) {}
 
-  /// Every part comes 100 us after the last one unless the stamp is set by hand.
+  /// Each part comes 100 us after the last one unless its stamp is set.
   std::int64_t now_us = 1'000'000;
 
   void header(std::uint16_t counter, std::uint16_t target_count) {

@@ -12,7 +12,7 @@
 namespace cremed::test {
 namespace {
 
-// Raw numbers of a target, so that a test says what it varies.
+// Raw numbers of a target, so that a test names only what it varies.
 struct Raw {
   unsigned id = 3;
   unsigned x = 2551;       // 10.2 m
@@ -74,7 +74,7 @@ TEST_CASE("A cluster becomes polar") {
 TEST_CASE("The velocity across the line of sight is positive counter-clockwise") {
   const Detection d = detect({}, {});
   CHECK(std::hypot(d.doppler_mps, d.across_mps) == Approx(std::hypot(-9.0, 0.75)));
-  // The direction of the velocity is that of the line of sight plus the angle between the two.
+  // The velocity's direction is the line of sight plus the angle between them.
   CHECK(d.azimuth_rad + std::atan2(d.across_mps, d.doppler_mps) ==
         Approx(std::atan2(0.75, -9.0) - 2.0 * std::acos(-1.0)).margin(1e-9));
   CHECK(detect({}, {.x = 2600, .y = 511, .vx = 512, .vy = 280}).across_mps > 0.0);
@@ -113,7 +113,7 @@ TEST_CASE("Standard deviations follow from finite differences of the polar form"
     CHECK(d.azimuth_std_rad ==
           Approx(spread([](double a, double b, double, double) { return std::atan2(b, a); })));
     CHECK(d.doppler_std_mps == Approx(spread([&](double, double, double a, double b) {
-            return doppler(x, y, a, b);  // Along the line of sight as it is.
+            return doppler(x, y, a, b);  // Along the true line of sight.
           })));
   }
 }
@@ -164,7 +164,7 @@ TEST_CASE("Without a standard deviation there is no estimate") {
     CHECK(d.azimuth_std_rad == 0.0);
     CHECK(d.doppler_std_mps == 0.0);
   }
-  // A single code of 0 is a standard deviation like any other.
+  // A single code of 0 is a normal standard deviation.
   CHECK(detect({}, {.x_rms = 0, .y_rms = 0, .vx_rms = 0}).validity == Validity::usable);
   CHECK(detect({}, {.y_rms = 0, .vx_rms = 0, .vy_rms = 0}).validity == Validity::usable);
 }

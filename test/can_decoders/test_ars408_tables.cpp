@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -36,35 +35,16 @@ TEST_CASE("The deviation to reckon with is the root mean square of those an inde
   }
 }
 
-TEST_CASE("Table RA is a geometric series of degrees rounded to thousandths") {
-  for (std::uint8_t index = 0; index <= 30; ++index) {
-    INFO(int{index});
-    const double rounded_deg = to_thousandths(0.005 * std::pow(36000.0, index / 30.0));
-    CHECK(ars408_orientation_rms_rad(index).value() ==
-          Approx(rounded_deg * std::numbers::pi / 180.0).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("Rms index 31 and impossible ones have no value") {
   for (const std::uint8_t index : std::initializer_list<std::uint8_t>{31, 32, 255}) {
     INFO(int{index});
     CHECK_FALSE(ars408_rms(index).has_value());
     CHECK_FALSE(ars408_std(index).has_value());
-    CHECK_FALSE(ars408_orientation_rms_rad(index).has_value());
   }
-}
-
-TEST_CASE("Table P bounds a probability") {
-  const double bounds[] = {0.25, 0.5, 0.75, 0.9, 0.99, 0.999, 1.0};
-  for (std::uint8_t code = 1; code <= 7; ++code) {
-    CHECK(ars408_probability(code).value() == bounds[code - 1]);
-  }
-  CHECK_FALSE(ars408_probability(0).has_value());
-  CHECK_FALSE(ars408_probability(8).has_value());
 }
 
 TEST_CASE("Codes of tables D, I, M and of the measurement state") {
-  // The numbers are the sensor's; the masks of the configuration are written in them.
+  // The codes are the sensor's; the configuration's masks use them.
   CHECK(Ars408DynProp{0} == Ars408DynProp::moving);
   CHECK(Ars408DynProp{1} == Ars408DynProp::stationary);
   CHECK(Ars408DynProp{2} == Ars408DynProp::oncoming);

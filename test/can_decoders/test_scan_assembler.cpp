@@ -148,7 +148,7 @@ TEST_CASE("A part that comes after the time-out finds its scan closed") {
   ScanBench bench(kWithHeader);
   bench.header(1, 1);
   bench.first(0);
-  bench.now_us += kTimeoutUs;  // With the 100 us since the last part: just too late.
+  bench.now_us += kTimeoutUs;  // With the 100 us since the last part just over the time-out.
   bench.second(0);
   REQUIRE(bench.scans.size() == 1);
   CHECK(bench.scans[0].status == ScanStatus::missing_parts);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Families whose targets have other than two messages.
+// Families with one message, or more than two, per target.
 #include <initializer_list>
 
 #include "test/can_decoders/scan_bench.hpp"

@@ -12,7 +12,7 @@
 
 namespace cremed {
 
-/// The required keys of a radar: five lines, so that what a test appends starts at line 6.
+/// The required keys of a radar: five lines, so that appended text starts at line 6.
 inline std::string radar_text(const std::string& name, const std::string& type,
                               const std::string& interface) {
   std::string text = "[[radar]]\n";
@@ -42,7 +42,7 @@ struct Refused {
   std::string right;
 };
 
-/// Exactly one error, with this line and key, that says what is wrong and what would be right.
+/// Exactly one error, with this line and key, that states the fault and the correction.
 inline void check_refused(const std::vector<Refused>& rows) {
   for (const Refused& row : rows) {
     CAPTURE(row.text.substr(0, 300));

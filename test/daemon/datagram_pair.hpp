@@ -13,7 +13,7 @@
 
 namespace cremed::test {
 
-/// A socket that receives, and one connected to it that sends.
+/// A receiving socket and a sending one connected to it.
 class DatagramPair {
  public:
   DatagramPair() : sender_(make()), receiver_(make()) {
@@ -30,7 +30,7 @@ class DatagramPair {
   DatagramPair(const DatagramPair&) = delete;
   DatagramPair& operator=(const DatagramPair&) = delete;
 
-  /// To be given away.
+  /// Transfers the ownership.
   [[nodiscard]] int receiver() const { return receiver_; }
   void send(const void* data, std::size_t size) const {
     REQUIRE(::send(sender_, data, size, 0) == static_cast<ssize_t>(size));

@@ -8,7 +8,7 @@
 
 namespace cremed::test {
 
-/// As linux/can/error.h has it: the class, and what the controller says.
+/// In the format of linux/can/error.h: the class, and the controller's state.
 inline CanFrame error_frame(std::uint32_t error_class, std::uint8_t controller = 0) {
   CanFrame frame;
   frame.error = true;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// LCM within the process: what is published comes back.
+// LCM within the process: receives what is published.
 
 #include <cstdint>
 #include <functional>
@@ -35,8 +35,8 @@ inline void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* 
       {channel, {bytes, bytes + buffer->data_size}});
 }
 
-/// Everything published while `publish` runs on channels like `pattern`, through LCM's in-process
-/// transport; by default on those of all sources.
+/// Everything published while `publish` runs on channels that match `pattern`, through LCM's
+/// in-process transport; by default the channels of all sources.
 inline std::vector<Received> receive(
     LcmPublisher& publisher, const std::function<void()>& publish,
     const char* pattern = "(CREMED_(EGO_MOTION|STATUS|ODOMETRY|SCAN_.*)|/.*)") {

@@ -13,7 +13,7 @@
 
 namespace cremed {
 
-/// A file in the system's temporary folder, gone with the object.
+/// A file in the system's temporary folder, removed by the destructor.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view content = {}) {

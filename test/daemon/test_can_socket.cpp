@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// UDP on this computer stands in for CAN, which test machines may lack: it delivers the same stamps
-// and drop counts. What only CAN has (filters, interfaces) is tested in test/vm.
+// UDP on this computer replaces CAN, which test machines may lack: it has the same stamps and drop
+// counts. CAN's own features (filters, interfaces) are tested in test/vm.
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// Everything that is there.
+/// All available frames.
 std::vector<ReceivedFrame> receive_all(CanSocket& socket) {
   std::vector<ReceivedFrame> all;
   for (;;) {

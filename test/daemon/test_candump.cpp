@@ -89,7 +89,7 @@ TEST_CASE("interface names may be padded and up to 15 characters long") {
 
 struct BadLine {
   std::string text;
-  const char* right;  // Part of the message that says what would be right.
+  const char* right;  // Part of the message that states the correct form.
 };
 
 const BadLine kBadLines[] = {

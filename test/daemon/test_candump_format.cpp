@@ -68,7 +68,7 @@ TEST_CASE("what the format cannot hold is cut, not written past the end") {
   CHECK(format(frame) == "(0000000000.000000) can0 7FF#R8\n");
 }
 
-/// Any frame that can be on a bus.
+/// Any valid frame.
 CanFrame random_frame(std::mt19937_64& random) {
   const auto below = [&](std::uint64_t limit) { return random() % limit; };
   constexpr std::array<std::uint8_t, 16> fd_lengths = {0, 1,  2,  3,  4,  5,  6,  7,

@@ -292,7 +292,7 @@ TEST_CASE("radars may share an interface if they share no identifier") {
   CHECK(parse(kGpr + gpr + "base_id = 0x260\ninfo_id = 0x101\n").radars.size() == 2);
 }
 
-/// Decimal comma and grouped thousands, without needing a locale that is installed.
+/// Decimal comma and grouped thousands, independent of installed locales.
 struct CommaPunctuation : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }

@@ -41,7 +41,7 @@ TEST_CASE("nesting that would overflow the stack is refused") {
       {repeated(80'000, "{a=", "a = "), 1, "syntax", "Error", "maximum nested value depth of 16"},
       {repeated(17, "[", "a = ") + repeated(17, "]"), 1, "syntax", "Error", "depth of 16"},
       {std::string(262'145, '\n'), 1, "file", "is too large", "at most 256 KiB"},
-      // As deep as it goes: read, destroyed, and refused for its first key.
+      // The greatest depth: read, destroyed, and refused for its first key.
       {kArs408 + repeated(7, deepest_dots + " = [\n{") + deepest_dots + " = 1" + repeated(7, "}]"),
        6, "radar.a", "unknown key", "must be one of"},
   });
@@ -288,7 +288,7 @@ TEST_CASE("all errors are reported, in the order of the file") {
     REQUIRE(message.compare(at, line.size(), line) == 0);
     at = message.find('\n', at) + 1;
   }
-  CHECK(at == 0);  // find() gave npos: that was the last line.
+  CHECK(at == 0);  // find() returned npos: that was the last line.
 }
 
 TEST_CASE("a flood of errors is cut") {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The files of config/: the manual says everything and nothing but the truth, the examples load.
+// The files of config/: the manual is complete and correct, the examples load.
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace {
 
 const std::string kFolder = CREMED_SOURCE_DIR "/config/";
 
-// Structured bindings: a field that is added to a struct and not here does not compile.
+// With structured bindings, a new field does not compile until it is added here.
 void write(std::ostream& out, const Ars408Options& options) {
   const auto& [sensor_id, output, states, dyn_props, existence, feedback] = options;
   out << "ars408 " << int{sensor_id} << ' ' << static_cast<int>(output) << ' ' << states << ' '
@@ -146,7 +146,7 @@ std::string uncommented(const std::string& line) {
   return is_commented_out(line) ? line.substr(1) : line;
 }
 
-/// "table.key" of every key that the manual sets or shows commented out.
+/// "table.key" of every key in the manual, set or commented out.
 std::set<std::string> keys_of(const std::vector<std::string>& lines) {
   std::set<std::string> keys;
   std::string table;

@@ -320,7 +320,7 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   CHECK(m.radar_sends_quality == 1);
   CHECK(m.radar_max_distance_m == 196.0F);
   CHECK(m.radar_faults == 1024 + 2048);
-  // Every counter was given another number: all of 1..59 must come out, none twice.
+  // Every counter was given another number: each of 1..59 must appear once.
   std::vector<std::int64_t> values{m.frames_read,
                                    m.frames_of_other_interfaces,
                                    m.frames_lost_before_us,

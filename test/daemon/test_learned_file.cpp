@@ -140,7 +140,7 @@ TEST_CASE("An error anywhere in the file is named by its line, and the file coun
        {"= 1", "= = 1", "learned.toml:"}}));
   CAPTURE(from, to);
   std::string text = replaced(good_text(), from, to);
-  if (to == "name = \"front\"") {  // Twice, and with the same mount: whose is it?
+  if (to == "name = \"front\"") {  // Twice with the same mount: ambiguous.
     text = good_text() + good_text().substr(good_text().find("[[radar]]"));
   }
   const LearnedFile::Content content = file_of(two_radars()).parse(text);
@@ -183,7 +183,7 @@ TEST_CASE("Whatever is damaged, what is read is whole and sane, or nothing at al
       }
     }
   }
-  CHECK(used > 0);  // A digit of a number that stays a number, or of a comment.
+  CHECK(used > 0);  // A digit changed within a number or a comment.
 }
 
 TEST_CASE("No file is no error; one that cannot be read is") {

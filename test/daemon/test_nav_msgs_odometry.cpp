@@ -40,7 +40,7 @@ Configuration with_channel() {
 
 }  // namespace
 
-// A reader takes a message by this number: it is that of the type with all types in it.
+// The fingerprint by which readers accept a message: a hash of the type with all nested types.
 TEST_CASE("Fingerprints are those that LCM robot stacks expect") {
   CHECK(fingerprint<std_msgs::Time>() == 0xbc3a494751d96c91U);
   CHECK(fingerprint<std_msgs::Header>() == 0x2fdb11453be64af7U);

@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-/// A disk that is full after so many bytes.
+/// A disk that is full after this many bytes.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -40,7 +40,7 @@ TEST_CASE("On a full disk the file ends on a whole line, and the lost line is na
     file.write("first\n");   // 6 bytes
     file.write("second\n");  // cut after 4
   }
-  file.write("third\n");  // There is room again, but a line is missing.
+  file.write("third\n");  // There is room again, but the file must not have a gap.
   CHECK(target.content() == "first\n");
   CHECK(file.failures() == 2);
   CHECK(file.problem() == target.path() +

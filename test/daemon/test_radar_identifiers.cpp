@@ -27,7 +27,7 @@ RadarConfiguration gpr() {
   return radar;
 }
 
-/// The identifiers that the radar's decoder takes for its own.
+/// The identifiers that the radar's decoder accepts.
 IdSet decoded_ids(const RadarConfiguration& radar) {
   const RadarChannel channel(radar, 0, 0);
   IdSet ids;

@@ -121,12 +121,11 @@ TEST_CASE("A radar whose interface is to be found has an entry of its own") {
 TEST_CASE("Two radars that are alike cannot be told apart, so their interfaces must be written") {
   const std::string front = radar_text("front", "ars408", "auto");
   for (const char* interface : {"auto", "can0"}) {
-    CHECK(
-        message_of(front + radar_text("left", "ars408", interface))
-            .find(
-                "radar.interface: is \"auto\", but an ARS408 with sensor id 0 is looked for where "
-                "radars \"front\" and \"left\" are alike; must be the name of an interface for "
-                "both") != std::string::npos);
+    CHECK(message_of(front + radar_text("left", "ars408", interface))
+              .find("radar.interface: is \"auto\", but radars \"front\" and \"left\" are both an "
+                    "ARS408 "
+                    "with sensor id 0; must be the name of an interface for both") !=
+          std::string::npos);
   }
   CHECK(message_of(front + radar_text("left", "ars408", "auto") + "sensor_id = 1\n") == "accepted");
   CHECK(message_of(front + radar_text("left", "bosch_gpr", "auto")) == "accepted");

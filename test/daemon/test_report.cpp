@@ -27,7 +27,7 @@ std::uint64_t& count(RadarStatus& status, MotionStatus motion) {
   return status.motions_by_status[static_cast<std::size_t>(motion)];
 }
 
-/// 100 scans of an ARS408, an estimate each.
+/// 100 scans of an ARS408 with an estimate each.
 RadarStatus healthy() {
   RadarStatus status;
   status.source.frames = 5000;
@@ -95,7 +95,7 @@ TEST_CASE("Each trouble is the first finding") {
              s.assembler.incomplete_scans = 100;
              s.health = {};
            },
-           Severity::error, "no scan is whole", "--configure-ars408 front"},
+           Severity::error, "no scan is complete", "--configure-ars408 front"},
       Case{"empty", [](auto& s) { s.assembler.empty_scans = 100; }, Severity::error,
            "all scans are empty", "0x202"},
       Case{"no quality", [](auto& s) { s.health.sends_quality = false; }, Severity::error,
@@ -148,7 +148,7 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
                             Case{MotionStatus::too_few_targets, "min_targets"},
                             Case{MotionStatus::degenerate, "few fixed targets"},
                             Case{MotionStatus::no_convergence, "max_iterations"},
-                            Case{MotionStatus::non_finite, "defect"},
+                            Case{MotionStatus::non_finite, "bug"},
                             Case{MotionStatus::implausible, "invert_doppler"},
                             Case{MotionStatus::ambiguous, "few fixed targets"});
   RadarStatus status = healthy();
@@ -203,7 +203,7 @@ TEST_CASE("Each doubt in the covariance is named with its figure and what to do"
   };
   const auto row = GENERATE(
       Case{registration_contradicts_doppler, "contradict their Doppler", "4.2", "sign of Doppler"},
-      Case{motions_contradict_each_other, "jump more than a vehicle can", "5.3", "noise"},
+      Case{motions_contradict_each_other, "jumps more than a vehicle's can", "5.3", "noise"},
       Case{other_radars_contradict, "contradicts the other radars", "6.4", "mount"},
       Case{covariance_too_large, "far smaller than its covariance", "4.2", "lower its noise"});
   RadarStatus status = healthy();
@@ -225,7 +225,8 @@ TEST_CASE("A speed by positions that is not Doppler's is named with its causes")
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].severity == Severity::warning);
   CHECK_THAT(findings[0].what, Catch::Contains("another speed than their Doppler"));
-  CHECK_THAT(findings[0].remedy, Catch::Contains("over ground") && Catch::Contains("pace"));
+  CHECK_THAT(findings[0].remedy,
+             Catch::Contains("over ground") && Catch::Contains("faster or slower"));
 }
 
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {

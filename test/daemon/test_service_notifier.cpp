@@ -16,7 +16,7 @@ using namespace cremed;
 
 namespace {
 
-/// What a service manager listens with.
+/// The socket of a service manager.
 class Manager {
  public:
   explicit Manager(const std::string& name) : name_(name) {
@@ -88,7 +88,7 @@ TEST_CASE("Without a manager, or with one that is gone or does not read, nothing
     const Manager manager("@cremed-test-deaf-" + std::to_string(::getpid()));
     const ServiceNotifier notifier;
     for (int i = 0; i < 10'000; ++i) {
-      notifier.watchdog();  // Its queue is full long before.
+      notifier.watchdog();  // Far more than its queue holds.
     }
   }
   ::setenv("NOTIFY_SOCKET", "relative/path", 1);

@@ -23,8 +23,7 @@ ReceivedFrame frame(std::int64_t stamp_us, std::size_t lane, std::uint32_t id) {
   return received;
 }
 
-/// A lane as the kernel has it: frames that become readable in order, each some time after its
-/// stamp.
+/// A lane of the kernel: frames become readable in order, each some time after its stamp.
 struct Bus {
   std::vector<ReceivedFrame> frames;
   std::vector<std::int64_t> readable_us;
@@ -46,7 +45,7 @@ std::vector<Bus> draw_buses(std::mt19937& random, std::size_t count, std::int64_
   return buses;
 }
 
-/// In order of stamp, then of lane; those of a lane as they are.
+/// By stamp, then by lane; frames of one lane keep their order.
 std::vector<ReceivedFrame> sorted(const std::vector<Bus>& buses) {
   std::vector<ReceivedFrame> all;
   for (const Bus& bus : buses) {
@@ -112,11 +111,11 @@ TEST_CASE("A lane that is known to be read far enough is not awaited") {
   CHECK(merge.awaited() == std::size_t{1});
   merge.set_read_until(1, 99);
   CHECK(merge.awaited() == std::size_t{1});
-  merge.set_read_until(1, 100);  // What still comes of lane 1 at 100 is behind lane 0.
+  merge.set_read_until(1, 100);  // A later frame of lane 1 at 100 comes after lane 0.
   CHECK_FALSE(merge.awaited());
   merge.pop(0);
   merge.push(1, frame(100, 1, 1));
-  merge.set_read_until(0, 100);  // What still comes of lane 0 at 100 is before lane 1.
+  merge.set_read_until(0, 100);  // A later frame of lane 0 at 100 comes before lane 1.
   CHECK(merge.awaited() == std::size_t{0});
   merge.set_read_until(0, 101);
   CHECK_FALSE(merge.awaited());

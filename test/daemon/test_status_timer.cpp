@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1000;
 
-/// Statuses of `seconds` in which two clocks tell the time each millisecond, in turn.
+/// Number of statuses in `seconds` when two clocks advance alternately each millisecond.
 int statuses(std::int64_t apart_us, int seconds) {
   StatusTimer timer;
   int count = 0;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kSkipped = 77;  // What CTest reports as skipped.
 
-/// Recorded data is not part of the project. Where it is not at hand the tests say so and end
-/// before Catch2 begins: a main of their own would take as long to compile as all of them.
+/// Recorded data is not part of the project. Without it the tests report that and end before Catch2
+/// starts: a main of their own would double the compile time.
 bool find_data() {
   if (std::getenv("CREMED_SHARED") == nullptr) {
     ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);

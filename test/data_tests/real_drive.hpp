@@ -19,7 +19,7 @@ inline Configuration configuration_of_car(const std::string& name) {
   return load_configuration(CREMED_SOURCE_DIR "/config/" + name + ".toml");
 }
 
-/// A recorded log in memory, interfaces by the configuration.
+/// A recorded log in memory, with the configuration's interfaces.
 inline std::vector<CanFrame> read_frames(const std::string& log,
                                          const Configuration& configuration) {
   const std::vector<std::string> names = interface_names(configuration);

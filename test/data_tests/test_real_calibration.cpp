@@ -50,9 +50,9 @@ std::vector<double> yaws_deg(const Configuration& configuration, const std::stri
 
 }  // namespace
 
-// What is found differs from the data set's mounts by up to 1.4 degrees, the same way in both
-// drives of a city, and it lowers the front radar's yaw error by up to a fifth: the data set's
-// mounts are not the way that the car goes.
+// The results differ from the data set's mounts by up to 1.4 degrees, equally in both drives of a
+// city, and lower the front radar's yaw error by up to a fifth: the data set's mounts are not
+// aligned with the rolling direction.
 TEST_CASE("Real drives: mounts that are two degrees off are found again, without truth") {
   const auto city = GENERATE(City{"nuscenes-singapore.toml", {"scene-0061", "scene-0796"}},
                              City{"nuscenes-boston.toml", {"scene-0103", "scene-0655"}});

@@ -65,7 +65,7 @@ std::vector<Row> read_table(const std::string& name) {
   return rows;
 }
 
-/// One object list, each block in the order it was sent.
+/// One object list, each block in the order of transmission.
 struct ObjectList {
   std::int64_t stamp_us = 0;
   Ars408ObjectStatus status;
@@ -92,7 +92,7 @@ std::vector<ObjectList> object_lists(const std::vector<CanFrame>& frames) {
   return lists;
 }
 
-/// What the decoder says, in the columns and units of the table.
+/// The decoder's values in the columns and units of the table.
 Row row_of(const ObjectList& list, std::size_t index) {
   const Ars408General& g = list.general.at(index);
   const Ars408ObjectQuality& q = list.quality.at(index);

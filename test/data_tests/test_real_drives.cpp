@@ -19,7 +19,7 @@ namespace {
 struct RealDrive {
   const char* name;
   const char* configuration;
-  double rmse_m;  ///< Of the reference implementation, front radar, on this scene's pairs.
+  double rmse_m;  ///< RMSE of the reference implementation, front radar, on this scene's pairs.
   double rmse_deg;
 };
 
@@ -29,13 +29,13 @@ struct DriveOutcome {
   WheelReference wheels;
 };
 
-/// Error of the poses themselves, against wheels and gyro on 0061 and 0103 (`cremed-eval drive
-/// --wheels`): x, y, yaw of two stamps so far apart. On the other two it is up to 60 % more.
+/// Error of truth itself, against wheels and gyro on 0061 and 0103 (`cremed-eval drive --wheels`):
+/// x, y, yaw of two stamps at this interval. On the other two scenes it is up to 60 % larger.
 TruthNoise truth_noise() {
   return TruthNoise({{0.0075, 0.0017, 0.00045, 0.075}, {0.013, 0.003, 0.00065, 0.15}});
 }
 
-/// Against wheels and gyro, which tell no y.
+/// Against wheels and gyro, which do not measure y.
 MotionsAgainstWheels against_wheels(const std::vector<EgoMotion>& motions,
                                     const DriveOutcome& outcome) {
   std::vector<RecordedEstimate> estimates;
@@ -75,9 +75,9 @@ DriveOutcome drive(const RealDrive& scene) {
     const RadarStatus& status = odometry.sink.statuses[radar].back();
     CHECK(status.assembler.scans > 240);
     CHECK(status.assembler.incomplete_scans == 0);
-    // These cars never stand; a sideways radar that sees next to no Doppler must not say so.
+    // These cars never stop; a lateral radar with almost no Doppler must not report standstill.
     CHECK(count_status(odometry.sink.motions[radar], MotionStatus::standing_still) == 0);
-    // Of a sideways one most contradict the odometry, and are not published.
+    // Most estimates of a lateral radar contradict the odometry and are withdrawn.
     CHECK(credibility_of(odometry.sink.motions[radar], odometry.truth).count() >= 20);
   }
   return odometry;
@@ -122,7 +122,7 @@ TEST_CASE(
   CHECK(front.rmse_deg() <= 0.082);
   CHECK(front.anees() >= 0.8);
   CHECK(front.anees() <= 1.25);
-  // Of some 27 ms each, between the outputs of the odometry.
+  // Each about 27 ms, between outputs of the odometry.
   CHECK(fused.count() >= 2500);
   CHECK(fused.rmse_m() <= 0.0050);
   CHECK(fused.rmse_deg() <= 0.032);

@@ -10,7 +10,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// Error of the poses themselves, as in test_real_drives; up to 60 % more on 0655 and 0796.
+/// Error of truth itself, as in test_real_drives; up to 60 % larger on 0655 and 0796.
 TruthNoise truth_noise() {
   return TruthNoise({{0.012, 0.0027, 0.00072, 0.075},
                      {0.021, 0.0048, 0.00104, 0.15},
@@ -28,8 +28,8 @@ FaultDrive recorded(const std::string& scene, const std::string& car) {
 
 }  // namespace
 
-// Radars that look sideways are off by far more than they say, and not all are doubted for it
-// within 20 s: README's limits.
+// Lateral radars have far too small covariances, and not all are doubted for it within 20 s: a
+// limit stated in the README.
 TEST_CASE("Real drives: each fault, what each source makes of it") {
   std::vector<FaultDrive> drives;
   drives.push_back(recorded("scene-0061", "nuscenes-singapore"));

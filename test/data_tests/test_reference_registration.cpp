@@ -48,7 +48,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Our cost at a motion that somebody else found.
+/// Our cost at another implementation's motion.
 double cost_at(const RegistrationPair& pair, const RegistrationOptions& options,
                const Eigen::Vector3d& motion) {
   const Pose2& mount = pair.vehicle_from_radar;
@@ -62,8 +62,8 @@ double cost_at(const RegistrationPair& pair, const RegistrationOptions& options,
 struct Differences {
   double median_m = 0.0;
   double median_rad = 0.0;
-  std::size_t different = 0;  // by more than the row's bound in any state
-  std::size_t better = 0;     // of these: ours is the lower minimum
+  std::size_t different = 0;  // By more than the row's bound in any state.
+  std::size_t better = 0;     // Of these: our minimum is lower.
 };
 
 Differences compare(const std::vector<RegistrationPair>& pairs, const std::vector<PairResult>& ours,
@@ -126,8 +126,7 @@ TEST_CASE("Registration agrees with the reference implementation, pair by pair")
       pairs.size(), d.better);
 
   // Where the reference's stopping rule (relative cost) ends its slow search early, our minima are
-  // the lower ones, and our figures then are better than its by up to 5 % (observed: 2.8 % and
-  // 4.5 %), never worse.
+  // lower, and our figures better by up to 5 % (observed: 2.8 % and 4.5 %), never worse.
   const bool is_better_minimum =
       d.median_m > row.max_median_difference &&
       static_cast<double>(d.better) >= 0.99 * static_cast<double>(d.different);

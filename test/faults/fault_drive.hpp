@@ -12,7 +12,7 @@
 
 namespace cremed::test {
 
-/// A healthy drive, for faults to be put into. Each radar has a bus of its own: CanFrame::interface
+/// A healthy drive into which faults are injected. Each radar has its own bus: CanFrame::interface
 /// is the radar's index.
 struct FaultDrive {
   std::string name;
@@ -25,13 +25,13 @@ struct FaultDrive {
   [[nodiscard]] double duration_s() const {
     return static_cast<double>(frames.back().stamp_us - start_us()) * 1e-6;
   }
-  /// A radar that looks across the way: the odometry needs others beside it.
+  /// A lateral radar: the odometry needs others too.
   [[nodiscard]] bool is_side(std::size_t radar) const {
     return std::abs(std::cos(radars[radar].ego_motion.vehicle_from_radar.yaw_rad)) < 0.5;
   }
 };
 
-/// The demo's car, with an ARS408 at each side as well.
+/// The demo's car with an additional ARS408 on each side.
 inline std::vector<RadarConfiguration> four_radars() {
   std::vector<RadarConfiguration> radars = default_radars();
   radars.push_back(radar("left", "can2", {2.4, 0.8, 1.56}, Ars408Options{}));

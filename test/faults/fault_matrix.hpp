@@ -20,10 +20,10 @@ namespace cremed::test {
 /// One fault of one drive.
 struct FaultCase {
   std::string kind;
-  std::string of;  ///< Which radar; empty: all.
+  std::string of;  ///< The faulty radar; empty: all.
   FaultTime time;
   std::function<Frames(const FaultDrive&, FaultTime)> put_in;
-  /// Ahead of truth's clock are the stamps of radar `of`: it is judged by its own clock.
+  /// Offset of the stamps of radar `of` to truth's clock: it is judged by its own clock.
   std::int64_t clock_offset_us = 0;
 
   [[nodiscard]] bool ends() const {
@@ -31,7 +31,7 @@ struct FaultCase {
   }
 };
 
-/// What became of it.
+/// Result of a fault.
 struct FaultOutcome {
   const FaultDrive* drive = nullptr;
   FaultCase fault;
@@ -45,8 +45,8 @@ inline std::size_t index_of(const FaultDrive& drive, const std::string& radar) {
       drive.radars.begin());
 }
 
-/// Faults act from the start of a drive to its middle, so that the start is under the fault too and
-/// what follows shows how it ends; a radar returns in the middle; a mount stays knocked.
+/// Faults act from the start of a drive to its middle, so that the start is affected and the
+/// recovery visible; an absent radar returns in the middle; a mount stays knocked.
 inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
   const auto at = [&](double share) {
     return drive.start_us() + static_cast<std::int64_t>(share * drive.duration_s() * 1e6);
@@ -123,14 +123,14 @@ inline void print(const FaultOutcome& outcome) {
   }
 }
 
-/// What is held of a kind of fault.
+/// Bounds for a kind of fault.
 struct FaultBound {
   double radar_beyond = 0.001;     ///< Share of the radars' estimates.
   double odometry_beyond = 0.001;  ///< Share of the odometry's and fused estimates.
   double ratio = 1.2;              ///< RMSE of the odometry over that of the best radar.
 };
 
-/// Of all drives with one kind of fault.
+/// Results of all drives with one kind of fault.
 struct KindSummary {
   struct Count {
     double estimates = 0.0;
@@ -163,8 +163,7 @@ struct KindSummary {
   }
 };
 
-/// Puts what came of one drive into the summary; a second after the fault's end all must be as
-/// without it.
+/// Adds the result of one drive; a second after the fault's end all must be as without it.
 inline void check_outcome(const FaultOutcome& outcome, bool judge_sides,
                           std::map<std::string, std::size_t>& healthy_after, KindSummary& summary) {
   const FaultCase& fault = outcome.fault;
@@ -181,7 +180,7 @@ inline void check_outcome(const FaultOutcome& outcome, bool judge_sides,
       summary.errors[verdict.source].odometry += verdict.errors_of_odometry;
     }
     if (fault.kind == "none") healthy_after[verdict.source] = verdict.after;
-    // A side radar's scans give an estimate or not by chance.
+    // A lateral radar gives an estimate or not at random.
     if (fault.ends() && (judge_sides || !verdict.is_side)) {
       CHECK(static_cast<double>(verdict.after) >=
             0.95 * static_cast<double>(healthy_after[verdict.source]));
@@ -190,12 +189,12 @@ inline void check_outcome(const FaultOutcome& outcome, bool judge_sides,
 }
 
 /// Runs all faults of all drives, prints the table, and checks:
-/// - beyond 5 sigma are at most 0.1 % of what is published of each kind of fault. Not asked of a
-///   radar whose own mount is knocked: nothing but its self-check can tell that by itself;
-/// - the odometry is no worse than the best radar by more than 20 %, over the times of that one.
-///   Of all drives together: the 50 to 150 times of a single one tell it to 10 % only;
-/// - a second after the fault's end there are as many estimates as without, all of them good.
-/// `bounds`: kinds of fault for which less is held, each with its reason.
+/// - at most 0.1 % of the published estimates of each kind of fault are beyond 5 sigma, except for
+/// a radar whose own mount is knocked: only its self-check can detect that;
+/// - the odometry's RMSE exceeds the best radar's by at most 20 %, at that radar's times, over all
+/// drives together: the 50 to 150 times of a single drive determine it to 10 % only;
+/// - a second after the fault's end there are as many estimates as without it, all of them good.
+/// `bounds`: kinds of fault with weaker bounds, each with its reason.
 inline void check_faults(const std::vector<FaultDrive>& drives,
                          const std::map<std::string, FaultBound>& bounds, bool judge_sides) {
   std::map<std::string, KindSummary> kinds;

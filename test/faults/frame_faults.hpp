@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Faults of sensors, buses and clocks, put into the frames of a healthy drive.
+// Faults of sensors, buses and clocks, injected into the frames of a healthy drive.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace cremed::test {
 
 using Frames = std::vector<CanFrame>;
 
-/// When a fault acts, by the stamps of the drive.
+/// The time interval of a fault, by the stamps of the drive.
 struct FaultTime {
   std::int64_t from_us = 0;
   std::int64_t until_us = 0;
@@ -35,7 +35,7 @@ struct FaultTime {
 
 inline constexpr std::uint64_t kFaultStream = 910;
 
-/// Each frame is lost with that probability; nobody tells.
+/// Each frame is lost with that probability, unreported.
 inline Frames with_loss(Frames frames, FaultTime time, double share) {
   Random random(1, kFaultStream);
   std::erase_if(frames,
@@ -43,7 +43,7 @@ inline Frames with_loss(Frames frames, FaultTime time, double share) {
   return frames;
 }
 
-/// The radars that `is_silent` says are.
+/// Removes the frames of the radars selected by `is_silent`.
 template <typename IsSilent>
 Frames with_silence(Frames frames, FaultTime time, IsSilent is_silent) {
   std::erase_if(frames, [&](const CanFrame& frame) {
@@ -52,7 +52,7 @@ Frames with_silence(Frames frames, FaultTime time, IsSilent is_silent) {
   return frames;
 }
 
-/// Frames as they arrive at other times than they were stamped; of one time in the order given.
+/// Frames sorted by times of arrival that differ from their stamps; equal times keep their order.
 class Arrivals {
  public:
   void add(std::int64_t arrival_us, const CanFrame& frame) {
@@ -70,23 +70,23 @@ class Arrivals {
   std::vector<std::pair<std::int64_t, CanFrame>> frames_;
 };
 
-/// A radar's frames come 50 to 150 ms after they were stamped, in their order.
+/// A radar's frames arrive 50 to 150 ms after their stamps, in order.
 inline Frames with_lateness(const Frames& frames, FaultTime time, std::size_t radar) {
   constexpr double kMeanUs = 100'000.0;
-  constexpr double kMostLessMeanUs = 50'000.0;
+  constexpr double kDelayAmplitudeUs = 50'000.0;
   constexpr double kPeriodUs = 3e6;
   Arrivals arrivals;
   for (const CanFrame& frame : frames) {
     const double phase = 2.0 * std::numbers::pi *
                          static_cast<double>(frame.stamp_us - frames.front().stamp_us) / kPeriodUs;
     const bool is_late = frame.interface == radar && time.has(frame);
-    const double late_us = is_late ? kMeanUs + kMostLessMeanUs * std::sin(phase) : 0.0;
+    const double late_us = is_late ? kMeanUs + kDelayAmplitudeUs * std::sin(phase) : 0.0;
     arrivals.add(frame.stamp_us + static_cast<std::int64_t>(late_us), frame);
   }
   return arrivals.in_order();
 }
 
-/// The clock of one radar's bus is ahead; frames come as before.
+/// The clock of one radar's bus is ahead; frames arrive as before.
 inline Frames with_clock_offset(Frames frames, FaultTime time, std::size_t radar,
                                 std::int64_t ahead_us) {
   for (CanFrame& frame : frames) {
@@ -95,7 +95,7 @@ inline Frames with_clock_offset(Frames frames, FaultTime time, std::size_t radar
   return frames;
 }
 
-/// Two sensors send with one id: the frames of radar `other` are on the bus of `radar` as well.
+/// Two sensors with one id: the frames of radar `other` also appear on the bus of `radar`.
 inline Frames with_doubled_id(const Frames& frames, FaultTime time, std::size_t radar,
                               std::size_t other) {
   Frames result;
@@ -109,10 +109,10 @@ inline Frames with_doubled_id(const Frames& frames, FaultTime time, std::size_t 
   return result;
 }
 
-/// Of each bus every so many frames one is overtaken by 1 to 20 others, and half of those that are
-/// get the stamp of the last of them.
+/// On each bus, every so many frames one is overtaken by 1 to 20 others; half of the delayed frames
+/// get the stamp of the last of these.
 inline Frames with_reordering(const Frames& frames, FaultTime time, double share) {
-  constexpr std::size_t kMostOvertaking = 20;
+  constexpr std::size_t kMaxOvertaking = 20;
   struct Held {
     CanFrame frame;
     std::size_t overtaken_by = 0;
@@ -129,7 +129,7 @@ inline Frames with_reordering(const Frames& frames, FaultTime time, double share
   for (const CanFrame& frame : frames) {
     auto& late = held[frame.interface];
     if (!late && time.has(frame) && random.chance(share)) {
-      late = Held{frame, 1 + random.index(kMostOvertaking), random.chance(0.5)};
+      late = Held{frame, 1 + random.index(kMaxOvertaking), random.chance(0.5)};
       continue;
     }
     result.push_back(frame);
@@ -141,8 +141,8 @@ inline Frames with_reordering(const Frames& frames, FaultTime time, double share
   return result;
 }
 
-/// One bit of a frame's data is another, in that share of frames, and one of its id in a tenth of
-/// that.
+/// In that share of frames, one bit of the data is flipped; in a tenth of that share, one bit of
+/// the id.
 inline Frames with_bit_flips(Frames frames, FaultTime time, double share) {
   constexpr double kIdShare = 0.1;
   constexpr std::size_t kIdBits = 11;
@@ -158,8 +158,8 @@ inline Frames with_bit_flips(Frames frames, FaultTime time, double share) {
   return frames;
 }
 
-/// An ARS408 was knocked: it looks to another direction by `yaw_rad`, so all that it reports turns
-/// the other way, and is rounded once more.
+/// An ARS408 was knocked: its direction of view turns by `yaw_rad`, so its targets turn the other
+/// way, and are rounded again.
 inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
   const double c = std::cos(yaw_rad);
   const double s = std::sin(yaw_rad);

@@ -20,7 +20,7 @@ namespace cremed::test {
 inline constexpr double kMaxSigmas = 5.0;
 inline constexpr std::int64_t kWholeAfterUs = 1'000'000;
 
-/// Squared errors of estimates.
+/// Sums of squared errors of estimates.
 struct SquaredErrors {
   std::size_t count = 0;
   double x_m2 = 0.0;
@@ -41,33 +41,34 @@ struct SquaredErrors {
   [[nodiscard]] double rmse_rad() const { return std::sqrt(yaw_rad2 / static_cast<double>(count)); }
 };
 
-/// What became of one source in one drive.
+/// Result of one source in one drive.
 struct SourceVerdict {
   std::string source;
-  bool is_side = false;          ///< A radar that looks across the way, ...
-  bool is_doubted = false;       ///< ... and is named in doubt in its last status.
-  std::size_t estimates = 0;     ///< Published as to be used.
-  std::size_t beyond = 0;        ///< Off by more than kMaxSigmas of their own sigma and truth's.
-  std::size_t after = 0;         ///< Of these, that end a second after the fault's end and later.
-  std::size_t beyond_after = 0;  ///< That begin then.
+  bool is_side = false;       ///< A lateral radar ...
+  bool is_doubted = false;    ///< ... whose last status has a doubt.
+  std::size_t estimates = 0;  ///< Published as usable.
+  std::size_t beyond = 0;     ///< Errors beyond kMaxSigmas of their own sigma and truth's.
+  /// Of the estimates, those that end a second or more after the fault's end.
+  std::size_t after = 0;
+  std::size_t beyond_after = 0;  ///< Of the errors beyond, those that begin then.
   SquaredErrors errors;
-  SquaredErrors errors_of_odometry;  ///< Over the same times. Of a radar only.
+  SquaredErrors errors_of_odometry;  ///< At the same times. For radars only.
 
-  /// RMSE of the odometry over its own. Not of y: with two degrees of freedom a radar takes it as
-  /// 0, which is more than any sensor knows, and true in a simulation without slip.
+  /// RMSE of the odometry over its own. Without y: with two degrees of freedom a radar assumes 0,
+  /// which is exact in a simulation without slip but not known to any sensor.
   [[nodiscard]] double ratio_x() const { return errors_of_odometry.rmse_x_m() / errors.rmse_x_m(); }
   [[nodiscard]] double ratio_yaw() const {
     return errors_of_odometry.rmse_rad() / errors.rmse_rad();
   }
 };
 
-/// Judges what came out of a drive with a fault.
+/// Judges the output of a drive with a fault.
 class Judge {
  public:
   Judge(const FaultDrive& drive, FaultTime fault) : drive_(drive), fault_(fault) {}
 
-  /// `front_ahead_us`: so much the first radar's clock is ahead of truth's during the fault. Its
-  /// motions are right by its own clock, and nobody can tell it that there is another.
+  /// `front_ahead_us`: offset of the first radar's clock to truth during the fault. Its motions are
+  /// correct by its own clock, the only one it knows.
   [[nodiscard]] std::vector<SourceVerdict> all(const RecordingSink& sink,
                                                std::int64_t front_ahead_us) const {
     std::vector<SourceVerdict> verdicts;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Any frames to a Bosch GPR decoder of any options, every message decoder, and detections from any
-// two payloads: values stay finite and in range, and every frame is counted.
+// Arbitrary frames to a Bosch GPR decoder with arbitrary options, every message decoder, and
+// detections from two arbitrary payloads: values stay finite and in range, and every frame is
+// counted.
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!input.done()) {
     const std::uint8_t choice = input.byte();
     CanFrame frame = input.frame(choice < 96 ? options.base_id + choice : 0);
-    if (choice % 4 != 3) {  // Most checksums right, or nothing gets past them.
+    if (choice % 4 != 3) {  // Most checksums are correct; otherwise no frame would pass.
       frame.data[7] = crc8_j1850(std::span(frame.data).first(7));
     }
     const ScanPart part = decoder.decode(frame);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Any bytes as one line of a log: read without a crash, and a frame that was read is written and
-// read back as the same frame.
+// Arbitrary bytes as one line of a log: no crash, and a frame that was read is written and read
+// back unchanged.
 #include <array>
 #include <cstddef>
 #include <cstdint>

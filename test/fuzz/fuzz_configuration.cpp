@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Any bytes as a configuration file: either a configuration or a ConfigurationError that names the
-// file and a line; no other exception, no crash. What is accepted holds what others rely on.
+// Arbitrary bytes as a configuration file: either a valid configuration or a ConfigurationError
+// with file and line; no other exception, no crash.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -19,7 +19,7 @@ inline void check(bool holds) {
   }
 }
 
-/// The fuzzer's bytes, taken one by one; 0 when there are no more.
+/// The fuzzer's bytes in order; 0 when there are no more.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : bytes_(data, size) {}
@@ -44,7 +44,7 @@ class Input {
     return value;
   }
 
-  /// Any frame, of `id` if it is not 0: flags, length byte (which may lie), data.
+  /// Any frame, with `id` if it is not 0: flags, length byte (possibly wrong), data.
   CanFrame frame(std::uint32_t id) {
     const std::uint8_t flags = byte();
     CanFrame frame{.id = id != 0 ? id : static_cast<std::uint32_t>(number(4)), .length = byte()};
@@ -62,7 +62,7 @@ class Input {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// What detection.hpp promises of every detection.
+/// The guarantees of detection.hpp.
 inline void check_detection(const Detection& d) {
   for (const double value : {d.range_m, d.azimuth_rad, d.doppler_mps, d.rcs_dbm2}) {
     check(std::isfinite(value));

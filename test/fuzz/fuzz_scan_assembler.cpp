@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Mostly valid frames of both families in any order, with time going anywhere, lost frames and
-// ends of input: whatever happens, the scans that come out keep their promises and every part is
-// accounted for.
+// Mostly valid frames of both families in any order, with arbitrary time, lost frames and ends of
+// input: scans meet their guarantees and every part is counted.
 #include <array>
 #include <bitset>
 #include <optional>
@@ -20,7 +19,7 @@ using fuzz::check;
 
 constexpr std::int64_t kTimeoutUs = 50'000;
 
-/// One radar and what its assembler has put out.
+/// One radar and the scans of its assembler.
 class Bench {
  public:
   explicit Bench(RadarDecoder& decoder)
@@ -59,7 +58,7 @@ class Bench {
     check(scan.counter < framing_.counter_modulus);
     if (framing_.has_header) {
       check(!complete || scan.count == scan.announced);
-      check(last_counter_ != scan.counter);  // A repeated list never looks like a fresh one.
+      check(last_counter_ != scan.counter);  // A repeated list must not pass for a new one.
     } else {
       check(scan.announced == framing_.slot_count);
     }
@@ -81,7 +80,7 @@ class Bench {
     const AssemblerCounters& c = assembler_.counters();
     check(c.scans == scans_ && c.incomplete_scans == incomplete_ && c.empty_scans == empty_);
     check(c.timeouts <= c.incomplete_scans && c.missing_parts <= framing_.messages * announced_);
-    // Nothing is open now: each part was a header, went into a scan, or was refused.
+    // No scan is open now: each part was a header, went into a scan, or was refused.
     const std::uint64_t headers =
         framing_.has_header ? c.scans + c.repeated_scans - c.headerless_scans : 0;
     check(c.headerless_scans <= c.incomplete_scans);
@@ -123,7 +122,7 @@ CanFrame header_frame(Script& script) {
 CanFrame cluster_frame(Script& script, bool first, std::uint8_t slot) {
   CanFrame frame = first ? frame_of(script, 0x701, 8) : frame_of(script, 0x702, 5);
   frame.data[0] = slot;
-  frame.data[3] = script.input.byte() & 3U;  // Few values, so that repeats are often the same.
+  frame.data[3] = script.input.byte() & 3U;  // Few values, so that repeats are often equal.
   return frame;
 }
 
@@ -136,7 +135,7 @@ CanFrame slot_frame(Script& script, std::uint8_t slot, std::uint8_t what) {
   return frame;
 }
 
-/// A whole list or burst at once: the fuzzer need not find each part.
+/// A whole list or burst at once, because the fuzzer rarely finds all parts.
 void list(Script& script, Bench& clusters, Bench& slots) {
   const std::uint8_t counter = script.input.byte();
   for (std::uint8_t slot = 0; slot < 48; ++slot) {
@@ -172,7 +171,7 @@ void step(Script& script, Bench& clusters, Bench& slots) {
       slots.receive(slot_frame(script, slot, script.input.byte()));
       break;
     }
-    case 5:  // Time steps of up to 65 ms either way, and now and then anywhere.
+    case 5:  // Time steps of up to 65 ms in either direction, and sometimes any time.
       script.now_us += std::int64_t{2} * static_cast<std::int16_t>(script.input.number(2));
       break;
     case 6:

@@ -4,7 +4,7 @@
 #include <cremed/can_decoders/scan_assembler.hpp>
 #include <cremed/estimator/motion/ego_motion_estimator.hpp>
 
-// Succeeds if a whole, empty scan goes through all stages.
+// Succeeds if a complete, empty scan passes all stages.
 int main() {
   cremed::Ars408Decoder decoder{cremed::Ars408Options{}};
   cremed::ScanAssembler assembler(decoder, 50'000);

@@ -3,9 +3,9 @@
 //
 // Fuses cremed's odometry with a gyro: yaw since the start, and the gyro's bias with its sigma.
 //     fuse_gyro GYRO.csv [LCM URL]      GYRO.csv: utime,yaw_rate_radps
-// Neighbouring messages share errors (of the body for 0.3 s, of mounts for good): taken as a
-// measurement each, they would make the result worse than its sigma says. From anchor to anchor
-// (odometry.anchor_period_s) errors are as good as independent: hence one measurement an anchor.
+// Neighbouring messages share errors (the body's for 0.3 s, the mounts' permanently): used as one
+// measurement each, they would make the filter overconfident. Errors from anchor to anchor
+// (odometry.anchor_period_s) are practically independent: so it uses one measurement per anchor.
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -37,7 +37,7 @@ struct YawFilter {
   }
 };
 
-/// The angle turned by, from samples in a file; a vehicle's own gyro comes in its place.
+/// The angle turned, from samples in a file; replace it with the vehicle's gyro.
 struct Gyro {
   std::map<std::int64_t, double> angles_rad;
 
@@ -73,12 +73,12 @@ struct Subscriber {
     if (message->status > cremed::odometry_t::STATUS_STANDING_STILL) {
       return;
     }
-    // `last` closes its anchor's segment.
+    // `last` is the last message of its anchor.
     if (last.utime != 0 && message->utime_anchor != last.utime_anchor) {
       estimate.add(static_cast<double>(last.utime - last.utime_anchor) * 1e-6,
                    gyro.turn_rad(last.utime_anchor, last.utime), last.yaw_in_anchor_frame_rad,
                    last.covariance_x_y_yaw_in_anchor_frame_m_rad[8]);
-      // Nothing, unless messages were lost.
+      // Messages were lost.
       estimate.yaw_rad += gyro.turn_rad(last.utime, message->utime_anchor);
       std::printf("%" PRId64 " yaw %.5f rad, bias %.5f +- %.5f rad/s\n", message->utime_anchor,
                   estimate.yaw_rad, estimate.bias_radps, std::sqrt(estimate.bias_variance));

@@ -4,9 +4,9 @@
 
     fuse_gyro.py GYRO.csv [LOG of lcm-logger]      GYRO.csv: utime,yaw_rate_radps
 
-Neighbouring messages share errors (of the body for 0.3 s, of mounts for good): taken as a measurement
-each, they would make the result worse than its sigma says. From anchor to anchor
-(odometry.anchor_period_s) errors are as good as independent: hence one measurement an anchor.
+Neighbouring messages share errors (the body's for 0.3 s, the mounts' permanently): used as one
+measurement each, they would make the filter overconfident. Errors from anchor to anchor
+(odometry.anchor_period_s) are practically independent: so it uses one measurement per anchor.
 """
 import bisect
 import csv
@@ -35,7 +35,7 @@ class YawFilter:
 
 
 class Gyro:
-    """The angle turned by, from samples in a file; a vehicle's own gyro comes in its place."""
+    """The angle turned, from samples in a file; replace it with the vehicle's gyro."""
 
     def __init__(self, path):
         self.utimes, self.angles_rad = [], []
@@ -57,11 +57,11 @@ def main():
         message = heard.message
         if not isinstance(message, cremed.odometry_t) or message.status > message.STATUS_STANDING_STILL:
             continue
-        if last and message.utime_anchor != last.utime_anchor:  # `last` closes its anchor's segment.
+        if last and message.utime_anchor != last.utime_anchor:  # `last` is the last message of its anchor.
             begin, end = last.utime_anchor, last.utime
             estimate.add((end - begin) * 1e-6, gyro.turn_rad(begin, end), last.yaw_in_anchor_frame_rad,
                          last.covariance_x_y_yaw_in_anchor_frame_m_rad[8])
-            # Nothing, unless messages were lost.
+            # Messages were lost.
             estimate.yaw_rad += gyro.turn_rad(end, message.utime_anchor)
             print(f"{message.utime_anchor} yaw {estimate.yaw_rad:.5f} rad, bias "
                   f"{estimate.bias_radps:.5f} +- {estimate.bias_variance**0.5:.5f} rad/s", flush=True)

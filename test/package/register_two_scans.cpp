@@ -5,7 +5,7 @@
 
 #include <cremed/estimator/registration/registration.hpp>
 
-/// What a radar in the vehicle's origin sees of a post.
+/// A post as seen by a radar at the vehicle's origin.
 cremed::Detection see(double x_m, double y_m, double yaw_rad, double speed_mps) {
   cremed::Detection detection;
   detection.range_m = std::hypot(x_m, y_m);

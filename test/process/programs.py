@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The programs as the process matrix runs them: what each reads and writes."""
+"""The programs of the process matrix with their inputs and outputs."""
 import dataclasses
 import pathlib
 import subprocess
@@ -20,14 +20,14 @@ class Program:
     """A command line; {in} is its input, {out} and {out2} its outputs, others are Files."""
     name: str
     line: str
-    source: str = ""        # The file that is its input; empty: none.
+    source: str = ""        # Name of its input file; empty: none.
     prints: bool = False    # Results on standard output.
-    stops: bool = False     # Ends in good order at a signal; others are ended by it.
+    stops: bool = False     # Ends in order at a signal; others are killed by it.
     status: int = 0         # With a good input.
-    is_timed: bool = False  # It tells how long it took.
-    at_once: bool = False   # Its outputs are there when they are whole.
-    again_lines: int = 1    # The end of its input that may come again and again; 0: all of it.
-    cut_statuses: tuple = (0, 1)  # With half of it.
+    is_timed: bool = False  # It prints its duration.
+    at_once: bool = False   # Its outputs appear when they are complete.
+    again_lines: int = 1    # Lines at the end of its input that may repeat; 0: all.
+    cut_statuses: tuple = (0, 1)  # With half of the input.
 
     def command(self, folder, files, **named):
         places = {key: str(value) for key, value in {**files, **named}.items()}
@@ -38,7 +38,7 @@ class Program:
         return [program, *(argument.format(**places) for argument in arguments)]
 
     def endless(self, files):
-        """Its input, and what may follow for ever."""
+        """Its input, and the part that may repeat."""
         content = pathlib.Path(files[self.source]).read_bytes()
         return content, b"".join(content.splitlines(True)[-self.again_lines:])
 
@@ -68,7 +68,7 @@ TABLE = Program("eval table", "cremed-eval table --runs 1 --sets 1 --threads 1",
                 is_timed=True)
 
 BENCH = Program("bench", "cremed-bench --benchmark_min_time=0.001 --benchmark_filter=components/16",
-                prints=True, is_timed=True)  # Built where libbenchmark-dev is.
+                prints=True, is_timed=True)  # Needs libbenchmark-dev.
 
 ALL = (REPLAY, ODOMETRY, DOCTOR, SIMULATE, SIMULATE_OUT, LCM_TO_CSV, PAIRS_OF, DRIVE, CALIBRATE,
        TABLE, BENCH)

@@ -17,7 +17,7 @@ double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 bool is_symmetric(const Eigen::Matrix3d& c) { return (c.array() == c.transpose().array()).all(); }
 
-/// Of one radar on a car: x and yaw are estimated, y is 0 and sure.
+/// A radar on a car estimates x and yaw; y is exactly 0.
 bool is_definite_in_x_and_yaw(const Eigen::Matrix3d& c) {
   return is_symmetric(c) && c.row(1).isZero(0.0) && c(0, 0) > 0.0 && c(2, 2) > 0.0 &&
          c(0, 0) * c(2, 2) > c(0, 2) * c(0, 2);
@@ -30,7 +30,7 @@ bool is_definite(const Eigen::Matrix3d& c) {
 }  // namespace
 
 bool Comparison::is_beyond() const {
-  // Not "greater": NaN is no error that is small enough.
+  // Negated, so that NaN counts as too large.
   return !(std::abs(x_error_sigma) <= kMaxSigmas && std::abs(yaw_error_sigma) <= kMaxSigmas);
 }
 

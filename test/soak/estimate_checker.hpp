@@ -18,7 +18,7 @@ namespace cremed::soak {
 inline constexpr std::size_t kRadars = 2;
 inline constexpr double kMaxSigmas = 5.0;
 
-/// What no result may be, whatever came in.
+/// Faults that no result may have, whatever the input.
 enum class Violation : std::uint8_t {
   not_finite,
   not_definite,
@@ -42,13 +42,12 @@ inline constexpr std::array<std::string_view, 9> kViolationNames{
     "number of results is not that of scans",
 };
 
-/// What comes from all radars together is counted after each of them: the fused motion, and the
-/// odometry's pose relative to its anchor.
+/// Sources after the radars: the fused motion, and the odometry's pose relative to its anchor.
 inline constexpr std::size_t kFused = kRadars;
 inline constexpr std::size_t kOdometry = kRadars + 1;
 inline constexpr std::size_t kSources = kRadars + 2;
 
-/// An estimate beside truth.
+/// An estimate and the truth.
 struct Comparison {
   std::size_t radar = 0;
   std::size_t scenario = 0;
@@ -61,7 +60,7 @@ struct Comparison {
   double x_sigma_m = 0.0;
   double yaw_sigma_rad = 0.0;
   int targets = 0;
-  FaultSet faults = 0;  ///< On its bus since it started.
+  FaultSet faults = 0;  ///< On its bus since the estimate's start.
 
   [[nodiscard]] bool is_beyond() const;
 };
@@ -73,7 +72,7 @@ struct Found {
   EgoMotion motion;
 };
 
-/// How many estimates of a kind there were, and how many were further from truth than they say.
+/// Number of estimates of a kind, and of those with errors beyond their covariance.
 struct Tally {
   std::uint64_t estimates = 0;
   std::uint64_t beyond_x = 0;
@@ -91,12 +90,12 @@ struct RadarTallies {
   std::array<Tally, 4> by_acceleration{};  ///< Below 1, 2, 3 m/s^2, and the rest.
 };
 
-/// Checks every result. Allocates nothing while it does.
+/// Checks every result without allocation.
 class EstimateChecker final : public OdometrySink {
  public:
   EstimateChecker(const Configuration& configuration, const FaultInjector& source);
 
-  /// Results from now on are compared with this drive.
+  /// Sets the drive for the next results.
   void begin(const SoakDrive& drive);
   void on_clock_step();
 
@@ -113,7 +112,7 @@ class EstimateChecker final : public OdometrySink {
     return counts_;
   }
 
-  /// The first few of each, since they were last taken.
+  /// The first few of each since the last call.
   std::vector<Found> take_found();
   std::vector<Comparison> take_beyond();
 
@@ -121,7 +120,7 @@ class EstimateChecker final : public OdometrySink {
   static constexpr std::size_t kKept = 16;
   static constexpr std::size_t kMaxReported = 40;
 
-  /// What is known of one radar's past.
+  /// History of one radar.
   struct Past {
     std::int64_t last_estimate_us = 0;
     bool has_estimate = false;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kStream = 900;
 
-/// As the live source: idle when nothing came for so long.
+/// As in LiveSource: idle after this time without frames.
 constexpr std::int64_t kIdleUs = 20'000;
 constexpr std::int64_t kSilenceAfterDriveUs = 600'000;
 
@@ -85,7 +85,7 @@ void FaultInjector::end_drive() {
   is_over_ = true;
 }
 
-/// What the source says while nothing comes.
+/// The event while no frame arrives.
 void FaultInjector::pass_time(std::int64_t until_us) {
   for (std::int64_t idle_us = now_us_ + kIdleUs; idle_us < until_us; idle_us += kIdleUs) {
     CanFrame time;
@@ -118,7 +118,7 @@ void FaultInjector::deliver(const CanFrame& original) {
 }
 
 void FaultInjector::disturb_clock(double elapsed_s) {
-  // Asked for each bus.
+  // Called for each bus.
   if (!happens(FaultKind::clock_step, buses_[0], elapsed_s / kBuses)) {
     return;
   }
@@ -129,7 +129,7 @@ void FaultInjector::disturb_clock(double elapsed_s) {
   push(SourceEvent::clock_step, offset);
 }
 
-/// Is the frame lost? Begins, goes on with and ends whatever loses frames.
+/// Whether the frame is lost; starts, continues and ends all faults that lose frames.
 bool FaultInjector::lose(Bus& bus, std::uint8_t interface, double elapsed_s) {
   if (happens(FaultKind::interface_down, bus, elapsed_s)) {
     bus.silent_until_us = bus.last_us + microseconds(severity(FaultKind::interface_down));
@@ -171,7 +171,7 @@ void FaultInjector::corrupt(Bus& bus, CanFrame& frame, double elapsed_s) {
   }
 }
 
-/// Later frames overtake it; it arrives with their stamp, or with the one that it would have had.
+/// Later frames overtake it; it arrives with their stamp or its original one.
 bool FaultInjector::hold_back(Bus& bus, const CanFrame& frame, double elapsed_s) {
   if (bus.late || !happens(FaultKind::frame_late, bus, elapsed_s)) {
     return false;

@@ -17,22 +17,22 @@ namespace cremed::soak {
 
 inline constexpr std::size_t kBuses = 2;
 
-/// The frames of simulated drives as a live bus would deliver them on its worst days.
+/// The frames of simulated drives as delivered by a live bus with many faults.
 class FaultInjector final : public FrameSource {
  public:
   explicit FaultInjector(std::uint64_t seed);
 
-  /// Deliver this drive next; it must live until `next` returns `end`.
+  /// Sets the next drive; it must live until `next` returns `end`.
   void begin(Simulation& drive);
 
-  /// `end`: the drive is over, and the buses have been silent for a while.
+  /// `end`: the drive is over and the buses have been silent for a while.
   SourceEvent next(CanFrame& frame) override;
 
-  /// Time of the drive's own clock, which is never set, and what was done to the daemon's.
+  /// Time of the drive's own clock, which is never set, and the offset of the daemon's.
   [[nodiscard]] std::int64_t true_us(std::int64_t stamp_us) const { return stamp_us - offset_us_; }
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
-  /// What happened on the bus since then.
+  /// The faults on the bus since then.
   [[nodiscard]] FaultSet faults_since(std::size_t bus, std::int64_t true_us) const;
   [[nodiscard]] std::uint64_t count(FaultKind kind) const {
     return counts_[static_cast<std::size_t>(kind)];
@@ -41,7 +41,7 @@ class FaultInjector final : public FrameSource {
  private:
   struct Event {
     SourceEvent kind = SourceEvent::frame;
-    CanFrame frame;  ///< Stamped by the drive's clock.
+    CanFrame frame;  ///< With the drive's stamp.
   };
   struct LateFrame {
     CanFrame frame;
@@ -76,7 +76,7 @@ class FaultInjector final : public FrameSource {
   std::array<Bus, kBuses> buses_{};
   std::array<std::uint64_t, kFaults.size()> counts_{};
   std::int64_t offset_us_ = 0;
-  std::int64_t next_offset_us_ = 0;  ///< Once whoever was told of the step has dealt with it.
+  std::int64_t next_offset_us_ = 0;  ///< Applied after the clock step has been handled.
   std::int64_t now_us_ = 0;
   bool is_over_ = true;
 };

@@ -23,8 +23,8 @@ enum class FaultKind : std::uint8_t {
   clock_step,
 };
 
-/// How often a fault happens on each bus (the clock: to all buses), at random times, and how badly:
-/// between `least` and `most`, evenly if in whole numbers, else in the logarithm.
+/// Mean interval of a fault on each bus (the clock: on all buses) and its size between `least` and
+/// `most`, uniform for integers, otherwise log-uniform.
 struct FaultRow {
   FaultKind kind;
   std::string_view name;
@@ -47,7 +47,7 @@ inline constexpr std::array<FaultRow, 11> kFaults{{
     {FaultKind::clock_step, "clock step", 20.0, 0.01, 3600.0},      // s; the source tells
 }};
 
-/// Every stamp is late by up to so much; nobody tells.
+/// Greatest delay of every stamp, unreported.
 inline constexpr double kStampJitterUs = 100.0;
 
 constexpr const FaultRow& row_of(FaultKind kind) { return kFaults[static_cast<std::size_t>(kind)]; }

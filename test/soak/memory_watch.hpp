@@ -8,7 +8,7 @@ namespace cremed::soak {
 
 struct MemoryUse {
   std::size_t resident_kib = 0;   ///< VmRSS
-  std::size_t allocated_kib = 0;  ///< In blocks of malloc that are not free.
+  std::size_t allocated_kib = 0;  ///< In malloc's blocks in use.
 };
 
 MemoryUse memory_use();

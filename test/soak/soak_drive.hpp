@@ -18,7 +18,7 @@ namespace cremed::soak {
 inline constexpr std::array<std::string_view, 4> kScenarios{"straight", "bends", "stop-and-go",
                                                             "city"};
 
-/// One of the drives, with truth.
+/// One drive with truth.
 struct SoakDrive {
   SoakDrive(std::size_t scenario_index, const std::vector<RadarConfiguration>& radars,
             const SimulationOptions& options)

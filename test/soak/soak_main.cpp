@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Drives through the pipeline for hours, everything going wrong that can, and checks each result.
+// Drives through the pipeline for hours with all kinds of faults, and checks each result.
 
 #include <algorithm>
 #include <cinttypes>
@@ -37,7 +37,7 @@ constexpr double kPauseS = 2.0;
 constexpr double kLeastDriveS = 10.0;
 constexpr std::int64_t kProgressUs = 60'000'000;
 
-// Room for what the simulation leaves in malloc's bins, and for pages not yet touched.
+// Margin for malloc's bins and untouched pages.
 constexpr std::size_t kMaxGrowthKib = 64;
 constexpr std::size_t kMaxResidentGrowthKib = 4096;
 
@@ -64,7 +64,7 @@ class Soak {
  public:
   explicit Soak(const Arguments& arguments);
 
-  /// Whether all was well.
+  /// Whether all checks passed.
   bool run();
 
  private:
@@ -87,8 +87,8 @@ class Soak {
   std::unique_ptr<Pipeline> pipeline_;
   long allocations_ = 0;
   double driven_s_ = 0.0;
-  std::int64_t drive_begin_us_ = 0;  // Of the drive's clock, and
-  std::int64_t pace_begin_us_ = 0;   // of ours.
+  std::int64_t drive_begin_us_ = 0;  // By the drive's clock.
+  std::int64_t pace_begin_us_ = 0;   // By our clock.
   std::int64_t begin_us_ = monotonic_us();
   std::int64_t next_progress_us_ = begin_us_ + kProgressUs;
   std::optional<MemoryUse> memory_at_first_;
@@ -102,7 +102,7 @@ Soak::Soak(const Arguments& arguments) : arguments_(arguments) {
                                          PipelineClock{&monotonic_us});
 }
 
-/// Over the real transport, but never onto a network that others are on.
+/// Over the real transport, but never on a shared network.
 void Soak::connect() {
   const bool is_alone = test::enter_own_network();
   const std::string url = is_alone ? "udpm://239.255.76.67:7667?ttl=0" : "memq://";
@@ -121,7 +121,7 @@ bool Soak::run() {
     const double left_s = std::max(arguments_.seconds - driven_s_, kLeastDriveS);
     run_drive(number, std::min(whole_s, left_s));
     memory_ = memory_use();
-    // The first round warms everything up that is made at first use.
+    // The first round includes allocations of first use.
     if (number + 1 == kScenarios.size()) {
       memory_at_first_ = memory_;
     }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Talks with ARS408s on a bus in memory.
+// Dialogues with ARS408s on a bus in memory.
 
 #include <array>
 #include <cstdint>
@@ -33,26 +33,23 @@ inline Configuration two_ars408s(Ars408Output output = Ars408Output::clusters) {
   return configuration;
 }
 
-/// As a sensor comes from the factory: objects, with all that belongs to them.
+/// The factory setting: objects, with all their messages.
 inline Ars408RadarState factory_state(std::uint8_t sensor_id) {
-  Ars408RadarState state;
-  state.sensor_id = sensor_id;
+  Ars408RadarState state = good_state(sensor_id);
   state.output_code = 1;
-  state.sends_quality = true;
   state.sends_extended = true;
-  state.max_distance_m = 200.0;
   return state;
 }
 
-/// What a program may find as its standard input.
+/// A standard input for a program.
 class Input {
  public:
   enum class Kind : std::uint8_t { terminal, pipe, closed };
 
-  /// Holds `typed` from the beginning, and then ends.
+  /// Provides `typed`, then the end of the file.
   Input(Kind kind, std::string_view typed) {
     if (kind == Kind::terminal && ::openpty(&other_, &own_, nullptr, nullptr, nullptr) == 0) {
-      write(std::string(typed) + '\x04');  // End of file, as a person types it.
+      write(std::string(typed) + '\x04');  // End of file on a terminal.
     } else if (std::array<int, 2> ends{}; kind == Kind::pipe && ::pipe(ends.data()) == 0) {
       std::tie(own_, other_) = std::pair(ends[0], ends[1]);
       write(typed);
@@ -79,8 +76,8 @@ class Input {
   int other_ = -1;
 };
 
-/// Waits that suit sensors which report some hundred times as often as real ones: as to how often,
-/// nothing is suspicious. One that does not answer is waited for in vain, all others until they do.
+/// Waits for sensors that report about a hundred times as often as real ones, so that the period is
+/// not checked. The wait for an answer is long, unless there will be none.
 inline Ars408TalkOptions quick_talk(const Ars408Manners& manners) {
   const bool answers = manners.obeys && !manners.keeps_range && !manners.falls_silent;
   Ars408TalkOptions options;

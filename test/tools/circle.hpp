@@ -21,7 +21,7 @@
 
 namespace cremed::test {
 
-/// Drives a circle at constant speed and yaw rate, without slip: every figure is known.
+/// Drives a circle at constant speed and yaw rate, without slip: all figures are known.
 struct Circle {
   double speed_mps = 8.0;
   double yaw_rate_radps = 0.1;
@@ -48,7 +48,7 @@ struct Circle {
     return {std::move(utime_us), std::move(poses)};
   }
 
-  /// Wheels on a grid of 10 ms, off by these constants.
+  /// Wheels every 10 ms with constant errors.
   [[nodiscard]] std::string wheels_csv(double seconds, const WheelStd& error = {}) const {
     std::string csv = "utime,speed_mps,yaw_rate_radps\n";
     for (std::int64_t utime_us = 0; utime_us <= std::llround(1e6 * seconds); utime_us += 10'000) {
@@ -61,7 +61,7 @@ struct Circle {
     return csv;
   }
 
-  /// Estimates that join, each with an independent error of this covariance.
+  /// Consecutive estimates, each with an independent error of this covariance.
   [[nodiscard]] std::vector<RecordedEstimate> estimates(std::int64_t step_us, std::size_t steps,
                                                         const Eigen::Matrix3d& covariance,
                                                         Random& random) const {

@@ -14,6 +14,7 @@
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/report/report.hpp"
+#include "test/tools/fake_ars408.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/observer.hpp"
@@ -26,17 +27,6 @@ struct BusFrame {
   CanFrame frame;
 };
 using Recording = std::vector<BusFrame>;
-
-/// How an ARS408 that is set as it should be reports itself, once a second.
-inline Ars408RadarState good_state(std::uint8_t sensor_id = 0) {
-  Ars408RadarState state;
-  state.nvm_read = true;
-  state.max_distance_m = 200.0;
-  state.sensor_id = sensor_id;
-  state.sends_quality = true;
-  state.output_code = 2;
-  return state;
-}
 
 /// The radars of the demo: an ARS408 in front on can0, a GPR at the rear on can1.
 inline Configuration demo_configuration() {
@@ -66,7 +56,7 @@ inline void remove_if(Recording& traffic, const std::function<bool(const BusFram
   traffic.erase(std::remove_if(traffic.begin(), traffic.end(), condition), traffic.end());
 }
 
-/// This 0x201 in front of everything else, and no other one.
+/// Puts this 0x201 before everything else and removes all others.
 inline void report_state(Recording& traffic, const std::string& interface,
                          const Ars408RadarState& state) {
   CanFrame frame = encode_ars408(state.sensor_id, state);
@@ -113,7 +103,7 @@ inline std::string all_text(const std::vector<Finding>& findings) {
   return text;
 }
 
-/// The first finding is this one.
+/// Checks the first finding.
 inline void check_first(const std::vector<Finding>& findings, Severity severity,
                         const std::string& what, const std::string& remedy) {
   CAPTURE(all_text(findings));

@@ -15,7 +15,7 @@
 
 namespace cremed::test {
 
-/// Points that stand, and what radars at the front and at both rear corners see of them.
+/// Static points, as seen by radars at the front and at both rear corners.
 class DrawnWorld {
  public:
   DrawnWorld(unsigned seed, int points) : random_(seed) {
@@ -30,7 +30,7 @@ class DrawnWorld {
   Sweep sweep(const Pose2& pose, const Eigen::Vector3d& twist, double position_std_m,
               std::size_t moving_one_in) {
     constexpr double kDopplerStdMps = 0.1;
-    constexpr double kMostRangeM = 50.0;
+    constexpr double kMaxRangeM = 50.0;
     static const std::array<Eigen::Vector2d, 3> kMounts{
         Eigen::Vector2d{3.4, 0.0}, Eigen::Vector2d{-0.6, 0.6}, Eigen::Vector2d{-0.6, -0.6}};
     std::normal_distribution<double> normal;
@@ -39,7 +39,7 @@ class DrawnWorld {
       const Eigen::Vector2d here =
           rotation_matrix(-pose.yaw_rad) * (point - Eigen::Vector2d(pose.x_m, pose.y_m));
       const Eigen::Vector2d& mount = kMounts[here.x() > 0.0 ? 0 : here.y() > 0.0 ? 1 : 2];
-      if (here.norm() > kMostRangeM) {
+      if (here.norm() > kMaxRangeM) {
         continue;
       }
       const Eigen::Vector2d sight = (here - mount).normalized();

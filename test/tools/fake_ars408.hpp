@@ -25,18 +25,29 @@
 
 namespace cremed::test {
 
-/// How the sensor deals with a RadarCfg.
+/// The state of a sensor that is set as expected.
+inline Ars408RadarState good_state(std::uint8_t sensor_id = 0) {
+  Ars408RadarState state;
+  state.nvm_read = true;
+  state.max_distance_m = 200.0;
+  state.sensor_id = sensor_id;
+  state.sends_quality = true;
+  state.output_code = 2;
+  return state;
+}
+
+/// Reaction of the sensor to a RadarCfg.
 struct Ars408Manners {
   bool obeys = true;
-  bool keeps_range = false;   ///< A model that cannot see as far as it is told.
-  bool falls_silent = false;  ///< No 0x201 any more after a command.
+  bool keeps_range = false;   ///< A model with a shorter range than commanded.
+  bool falls_silent = false;  ///< Sends no 0x201 after a command.
 };
 
-/// Sensors at the other end of a socket that stands for a bus: each reports its state, some hundred
+/// Sensors at the other end of a socket that replaces a bus: each reports its state about a hundred
 /// times as often as a real one, and obeys 0x200 + 0x10 * its own id.
 class FakeArs408s {
  public:
-  /// `traffic` of others is sent along with each report.
+  /// `traffic` of other nodes is sent with each report.
   FakeArs408s(std::vector<Ars408RadarState> states, Ars408Manners manners,
               std::vector<CanFrame> traffic)
       : states_(std::move(states)), manners_(manners), traffic_(std::move(traffic)) {
@@ -49,7 +60,7 @@ class FakeArs408s {
     if (socket_.adopt(ends[1], {}).status != CanOpenStatus::open) {
       throw std::runtime_error("adopt failed");
     }
-    report();  // However busy the computer is, there is something to hear.
+    report();  // The first report is available at once on a busy computer too.
     thread_ = std::thread([this] { live(); });
   }
   ~FakeArs408s() {
@@ -61,7 +72,7 @@ class FakeArs408s {
 
   CanSocket& socket() { return socket_; }
 
-  /// All frames that were sent to the bus; the sensors are switched off.
+  /// All frames sent to the bus; stops the sensors.
   const std::vector<CanFrame>& all_received() {
     stop();
     while (hear(0)) {
@@ -85,7 +96,7 @@ class FakeArs408s {
     }
   }
 
-  /// Takes a frame if one comes in time.
+  /// Receives a frame within the time-out.
   bool hear(int wait_ms) {
     pollfd polled{bus_, POLLIN, 0};
     can_frame raw{};
@@ -133,7 +144,7 @@ class FakeArs408s {
     }
   }
 
-  /// A filter is set if its valid bit is; what it is then is told, whatever.
+  /// Sets a filter if its valid bit is set, and always answers with the filter's state.
   void answer(const CanFrame& asked) {
     const auto filter = decode_ars408_filter_state(std::span(asked.data).first(asked.length));
     const auto index = static_cast<std::size_t>(filter->criterion);

@@ -15,8 +15,8 @@
 
 namespace cremed::test {
 
-/// Puts this process into a network of its own, where only lo exists and multicast goes there;
-/// false if the system does not let us.
+/// Moves this process into a new network namespace with only lo and a multicast route; false if not
+/// permitted.
 inline bool enter_own_network() {
   if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) {
     return false;

@@ -18,7 +18,7 @@
 
 namespace cremed::test {
 
-/// Keeps everything that comes out.
+/// Keeps all results.
 class RecordingSink final : public OdometrySink {
  public:
   explicit RecordingSink(std::size_t radars) : motions(radars), statuses(radars), scans(radars) {}

@@ -13,8 +13,7 @@ struct Polar {
   double azimuth_rad;
 };
 
-/// Where the radar sees a standing point: written anew, so that it cannot share an error with the
-/// simulator.
+/// The position of a static point in the radar's frame; independent of the simulator's code.
 inline Polar seen_from(const Pose2& vehicle, const Pose2& mount, double x_m, double y_m) {
   const double dx = x_m - vehicle.x_m;
   const double dy = y_m - vehicle.y_m;

@@ -39,7 +39,7 @@ inline RadarConfiguration radar(const std::string& name, const std::string& inte
   return result;
 }
 
-/// One radar of each kind, at mounts where every sign matters.
+/// One radar of each kind, with mounts that reveal sign errors.
 inline std::vector<RadarConfiguration> one_of_each_kind() {
   Ars408Options objects;
   objects.sensor_id = 3;
@@ -54,12 +54,20 @@ inline std::vector<RadarConfiguration> one_of_each_kind() {
           radar("inverted", "can3", {0.5, 0.8, 1.4}, inverted)};
 }
 
+/// Without unknown errors: mounts and Doppler scale are exact.
+inline SimulationOptions exactly_mounted(SimulationOptions options) {
+  options.mount_yaw_std_rad = 0.0;
+  options.mount_position_std_m = 0.0;
+  options.doppler_scale_std = 0.0;
+  return options;
+}
+
 /// A whole drive in memory.
 struct Drive {
   std::vector<RadarConfiguration> radars;
   std::vector<CanFrame> frames;
   std::vector<ScanTruth> truths;  ///< In order of their stamps.
-  std::vector<Pose2> mounts;      ///< Where the radars really are.
+  std::vector<Pose2> mounts;      ///< True mounts.
   std::string log;                ///< The frames as candump text.
   std::string truth_csv;
 };
@@ -84,7 +92,7 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   return result;
 }
 
-/// What the daemon would make of the log for one radar.
+/// The scans that the daemon decodes from the log for one radar.
 struct DecodedRadar {
   std::vector<RadarScan> scans;
   DecoderCounters decoder;
@@ -113,7 +121,7 @@ inline DecodedRadar decode(const std::string& log, const RadarConfiguration& rad
   return result;
 }
 
-/// The truth file, read again and interpolated as cremed-eval does: linearly.
+/// The truth file, interpolated linearly as in cremed-eval.
 class TruthTable {
  public:
   explicit TruthTable(const std::string& csv) {

@@ -46,7 +46,7 @@ TEST_CASE("True covariances have NEES 1 against true wheels, whatever the noise 
   CHECK(result.x.nees_estimate == result.x.nees);
   CHECK(result.x.rms_estimate_per_s == Approx(0.05).epsilon(0.05));
   CHECK(result.yaw.rms_estimate_per_s == Approx(0.01).epsilon(0.05));
-  // Two poses of truth have an error each; that of their direction moves x hardly.
+  // Two poses of truth have an error each; the error of direction hardly moves x.
   CHECK(result.x.nees_truth ==
         Approx(2.0 * std::pow(truth_m / 0.005, 2)).epsilon(0.06).margin(1e-6));
   CHECK(result.yaw.nees_truth ==

@@ -22,7 +22,7 @@ using cremed::encode_ars408_object;
 using cremed::test::bytes_of;
 using cremed::test::hex_frame;
 
-/// A message, the bits of it that are not reserved, and the way through decoder and encoder.
+/// A message, the mask of its non-reserved bits, and its round trip through decoder and encoder.
 struct Message {
   std::string name;
   std::uint32_t id;

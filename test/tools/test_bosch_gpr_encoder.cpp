@@ -21,7 +21,7 @@ using cremed::test::hex_frame;
 
 constexpr std::uint32_t kBaseId = 0x200;
 
-/// Random bytes where `used` has ones, those of `fixed` besides, and the right checksum.
+/// Random bits under the mask `used`, the bits `fixed`, and a correct checksum.
 CanFrame random_frame(std::mt19937_64& engine, const std::string& used, const std::string& fixed) {
   CanFrame frame = hex_frame(used);
   const CanFrame ones = hex_frame(fixed);

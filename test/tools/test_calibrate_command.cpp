@@ -45,7 +45,7 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   for (const char* words :
        {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference", "Doppler offset m/s ",
         "stamp offset ms ", "rotation lead ms ", "positions ahead ms ", "range std factor ",
-        "relative to the direction the vehicle rolls in"}) {
+        "relative to the rolling direction of the vehicle"}) {
     CHECK_THAT(result.error, Catch::Contains(words));
   }
   const std::string before = text_of(wrong);
@@ -81,17 +81,12 @@ TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") 
 }
 
 TEST_CASE("cremed-eval calibrate says what is wrong") {
-  struct Row {
-    std::string arguments;
-    int status;
-    std::string message;
-  };
-  const auto row =
-      GENERATE(Row{"calibrate", 2, "LOG"}, Row{"calibrate /dev/null", 2, "--config"},
-               Row{"calibrate /dev/null --config /no/such.toml", 2, "/no/such.toml"},
-               Row{"calibrate /no/such.log --config CONFIG", 1, "/no/such.log"},
-               Row{"calibrate /dev/null --config CONFIG", 1, "no whole scan"},
-               Row{"calibrate /dev/null --config CONFIG --truth /no/such.csv", 1, "/no/such.csv"});
+  const auto row = GENERATE(
+      Refusal{"calibrate", 2, "LOG"}, Refusal{"calibrate /dev/null", 2, "--config"},
+      Refusal{"calibrate /dev/null --config /no/such.toml", 2, "/no/such.toml"},
+      Refusal{"calibrate /no/such.log --config CONFIG", 1, "/no/such.log"},
+      Refusal{"calibrate /dev/null --config CONFIG", 1, "no complete scan"},
+      Refusal{"calibrate /dev/null --config CONFIG --truth /no/such.csv", 1, "/no/such.csv"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   std::string arguments = row.arguments;
@@ -100,10 +95,7 @@ TEST_CASE("cremed-eval calibrate says what is wrong") {
         place, 6,
         write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }"));
   }
-  const ToolRun result = run_tool("cremed-eval", folder, arguments);
-  CAPTURE(result.error);
-  CHECK(result.status == row.status);
-  CHECK_THAT(result.error, Catch::Contains(row.message));
+  check(run_tool("cremed-eval", folder, arguments), row);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Simulated drives, calibrated from a configuration that is wrong: what was done to it is found.
+// Calibration of simulated drives from a wrong configuration finds the changes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kGoalDeg = 0.3;
 
-/// Ahead, to the left, back; the last one a GPR if asked for.
+/// Ahead, to the left, back; the last one a GPR on request.
 std::vector<RadarConfiguration> three_radars(bool with_gpr) {
   std::vector<RadarConfiguration> radars = {
       radar("front", "can0", {3.4, 0.0, 0.02}, Ars408Options{}),
@@ -38,7 +38,7 @@ std::vector<RadarConfiguration> three_radars(bool with_gpr) {
   return radars;
 }
 
-/// A drive on disk, and what its radars really are.
+/// A drive on disk, and its radars' true parameters.
 struct RecordedDrive {
   TemporaryFolder folder;
   std::vector<RadarConfiguration> radars;
@@ -120,7 +120,7 @@ TEST_CASE("each fault of a radar shows in what is found for it, and in nothing e
   }
 }
 
-/// What is done to the configuration of each radar, as the states that make up for it.
+/// The changes of each radar's configuration, as the states that compensate them.
 CalibrationVector disturb(RadarConfiguration& radar, std::mt19937& random) {
   std::normal_distribution<double> normal;
   CalibrationVector truth{};
@@ -143,7 +143,7 @@ CalibrationVector disturb(RadarConfiguration& radar, std::mt19937& random) {
   return truth;
 }
 
-/// Those of the first radar are what the others are compared with.
+/// The first radar's values, to which the others are relative.
 void make_relative(CalibrationVector& truth, const CalibrationVector& first, double first_y_m) {
   truth[kY] += first_y_m - first[kY];
   truth[kStamp] -= first[kStamp];
@@ -171,7 +171,7 @@ TEST_CASE("what is found is as good as it says, over ten drives") {
       const FittedRadar& fit = found[i].free;
       for (const CalibrationState state : {kYaw, kX, kY, kOffset, kStamp, kScale, kLead}) {
         if (fit.prior_std[state] == 0.0 || fit.std[state] > 0.5 * fit.prior_std[state]) {
-          continue;  // The drive tells little: the prior, not the fit, would be tested.
+          continue;  // Weakly determined: the prior would be tested, not the fit.
         }
         const double z =
             std::remainder(fit.value[state] - truths[i][state], 2.0 * std::numbers::pi) /
@@ -219,7 +219,7 @@ TEST_CASE("with truth, so does the clock that all radars share") {
   }
   const auto calibrations = calibrate(wrong, {recorded.log}, recorded.truth.get()).radars;
   const Configuration found = calibrated(wrong, calibrations);
-  for (const std::size_t i : {0U, 2U}) {  // Sideways there is no speed to compare.
+  for (const std::size_t i : {0U, 2U}) {  // A lateral radar sees no speed to compare.
     CAPTURE(found.radars[i].name, calibrations[i].fit.std[kStamp]);
     CHECK(found.radars[i].stamp_offset_s ==
           Approx(0.0).margin(3.5 * calibrations[i].fit.std[kStamp]));

@@ -20,7 +20,7 @@ struct Vehicle {
   static double w_radps(double t_s) { return 0.3 * std::sin(0.5 * t_s); }
 };
 
-/// A minute of three radars with independent noise; what they are is `truths`.
+/// A minute of three radars with independent noise; `truths` are their true states.
 class Drive {
  public:
   Drive(std::vector<CalibrationVector> truths, unsigned seed)
@@ -91,7 +91,7 @@ TEST_CASE("the fit finds every state of every radar, as well as it says") {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     CalibrationFit fit = Drive(kTruths, seed).fit(error);
     for (int round = 0; round < 4; ++round) {
-      fit.solve();  // Times need to know how the vehicle moves.
+      fit.solve();  // Time offsets need the fitted motion.
     }
     for (std::size_t radar = 0; radar < kTruths.size(); ++radar) {
       const FittedRadar& found = fit.radars()[radar];

@@ -50,7 +50,7 @@ TEST_CASE("A target corresponds if the true motion brings it near a previous one
   RegistrationPair pair;
   pair.truth = {0.5, 0.2, 0.1};
   pair.previous = {detection(10.0, 0.0), detection(20.0, 0.3)};
-  // The first target seen from the new pose; one at the distance where the limit is; a stranger.
+  // The first target seen from the new pose; one at the limit of distance; one without a partner.
   const double x_m = 10.0 - 0.5;
   const double y_m = -0.2;
   const double range_m = std::hypot(x_m, y_m);

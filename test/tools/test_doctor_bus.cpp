@@ -16,7 +16,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// Frames in front of a healthy drive, or in place of what can0 carries.
+/// Frames before a healthy drive, or instead of those of can0.
 Observation with_errors(const Configuration& configuration, std::vector<CanFrame> errors,
                         bool only_errors) {
   Recording traffic = recording_of(configuration.radars);
@@ -49,7 +49,7 @@ TEST_CASE("What is wrong with a bus is found") {
       Case{"no CAN in the kernel", [](auto& o) { o.kernel_has_can = false; },
            "the kernel has no CAN sockets", "`modprobe can_raw`"},
       Case{"absent", [](auto& o) { front_bus(o).state = InterfaceState::absent; },
-           "there is no interface can0", "or set interface to one there is: can1"},
+           "there is no interface can0", "or set interface to an existing one: can1"},
       Case{"vcan absent",
            [](auto& o) {
              front_bus(o).state = InterfaceState::absent;
@@ -61,7 +61,7 @@ TEST_CASE("What is wrong with a bus is found") {
              front_bus(o).state = InterfaceState::absent;
              o.is_live = false;
            },
-           "the log has no frame of interface can0", "set interface to one it has: can1"},
+           "the log has no frame of interface can0", "set interface to one of these: can1"},
       Case{"no CAN interface", [](auto& o) { front_bus(o).state = InterfaceState::not_can; },
            "can0 is no CAN interface", "`ip -brief link show type can`"},
       Case{"down", [](auto& o) { front_bus(o).state = InterfaceState::down; }, "can0 is down",
@@ -141,7 +141,7 @@ TEST_CASE("Silence and error frames") {
                                     {error_frame(CAN_ERR_ACK)},
                                     false,
                                     Severity::warning,
-                                    "nobody acknowledges what is sent on can0",
+                                    "no node acknowledges frames on can0",
                                     "cable"},
                                Case{"controller overrun",
                                     {error_frame(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW)},

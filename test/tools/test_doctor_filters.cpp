@@ -70,17 +70,16 @@ TEST_CASE("Filters are set, each once, and read back") {
   CHECK(outcome.sent ==
         std::vector<std::string>{"202#0E003203E8", "202#2E06400C80", "202#2A07D007D0"});
   CHECK_THAT(outcome.text, Catch::Contains("in its flash, which wears"));
-  CHECK_THAT(outcome.text, Catch::Contains("  range: 5 to 100 m, took\n"));
-  CHECK_THAT(outcome.text, Catch::Contains("  rcs: -10 to 30 dBm^2, took\n"));
-  CHECK_THAT(outcome.text, Catch::EndsWith("  rcs: off, took\n"));
+  CHECK_THAT(outcome.text, Catch::Contains("  range: 5 to 100 m, set\n"));
+  CHECK_THAT(outcome.text, Catch::Contains("  rcs: -10 to 30 dBm^2, set\n"));
+  CHECK_THAT(outcome.text, Catch::EndsWith("  rcs: off, set\n"));
 }
 
 TEST_CASE("After a filter that does not take nothing more is sent") {
   const Outcome refused = talk({.obeys = false}, {"range=5..100", "rcs=-10..30"});
   CHECK(refused.result == TalkResult::not_taken);
   CHECK(refused.sent.size() == 1);
-  CHECK_THAT(refused.text,
-             Catch::EndsWith("  range: off, did not take: wanted range: 5 to 100 m\n"));
+  CHECK_THAT(refused.text, Catch::EndsWith("  range: off, not set: expected range: 5 to 100 m\n"));
   const Outcome silent = talk({.falls_silent = true}, {});
   CHECK(silent.result == TalkResult::not_taken);
   CHECK(silent.sent.size() == 1);

@@ -8,7 +8,7 @@
 
 using namespace cremed;
 
-// CAN interfaces themselves are for the tests in a kernel that has them (test/vm).
+// Tests with real CAN interfaces are in test/vm.
 TEST_CASE("An interface of another kind is told from one that is not there") {
   CHECK(state_of("lo") == InterfaceState::not_can);
   CHECK(state_of("cremed-absent") == InterfaceState::absent);

@@ -14,7 +14,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// A healthy drive, spoilt in one way, and the finding that must come first.
+/// A healthy drive with one change, and the finding that must come first.
 struct Case {
   std::string name;
   std::function<void(Configuration&, Recording&)> spoil;
@@ -52,7 +52,7 @@ std::function<bool(const BusFrame&)> is_between(const Recording& traffic, double
   };
 }
 
-/// A second sensor with the same id, some time later, with a counter of its own.
+/// A second sensor with the same id, delayed, with its own counter.
 void add_twin(Recording& traffic, const std::string& interface, std::int64_t later_us) {
   Recording twin;
   for (BusFrame entry : traffic) {
@@ -169,7 +169,7 @@ const std::vector<Case>& cases() {
          remove_if(traffic, [](const auto& entry) { return entry.interface == "can0"; });
          say(traffic, [](auto& state) { state.output_code = 0; });
        },
-       Severity::error, "front: the sensor is set to send no targets (0x201)",
+       Severity::error, "front: the sensor is configured to send no targets (0x201)",
        "`cremed-doctor --configure-ars408 front`"},
       {"reports, but sends no targets",
        [](auto&, auto& traffic) {
@@ -190,18 +190,19 @@ const std::vector<Case>& cases() {
        [](auto&, auto& traffic) { say(traffic, [](auto& state) { state.voltage_error = true; }); },
        Severity::warning, "front: the sensor reports a fault: voltage error", "8 to 32 V"},
       {"some frames lost", [](auto&, auto& traffic) { lose_each(traffic, "can0", 0x702, 40); },
-       Severity::warning, "scans are not whole: their headers say", "frames are lost on the way"},
+       Severity::warning, "scans are incomplete: their headers announce",
+       "frames are lost on the way"},
       {"some frames of a GPR lost",
        [](auto&, auto& traffic) { lose_each(traffic, "can1", 0x210, 4); }, Severity::warning,
        "missing", "frames are lost on the way"},
       {"more clusters than fit on the bus", [](auto&, auto& traffic) { announce(traffic, 170); },
-       Severity::error, "scans are not whole: their headers say",
+       Severity::error, "scans are incomplete: their headers announce",
        "`cremed-doctor --configure-ars408 front --max-distance 200`"},
       {"every scan lacks a frame", [](auto&, auto& traffic) { announce(traffic, 100); },
-       Severity::error, "scans are not whole", "frames are lost on the way"},
+       Severity::error, "scans are incomplete", "frames are lost on the way"},
       {"all targets move",
        [](auto& configuration, auto&) { front_options(configuration).keep_dyn_props = 1U << 7U; },
-       Severity::error, "front: whole scans, but no usable detection: invalid state",
+       Severity::error, "front: complete scans, but no usable detection: invalid state",
        "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
       {"all targets outside the limits",
        [](auto& configuration, auto&) {
@@ -393,10 +394,11 @@ TEST_CASE("A log of more interfaces than a vehicle has is bounded, and the rest 
     observer.add_lost("l" + std::to_string(i), 1);
   }
   const Observation observation = observer.finish();
-  CHECK(observation.buses.size() == kMostBuses);
+  CHECK(observation.buses.size() == kMaxBuses);
   CHECK(observation.frames_left_out > 199'000);
-  CHECK_THAT(all_text(diagnose(configuration, observation)),
-             Catch::Contains(" frames of further interfaces left out: only 64 are looked at"));
+  CHECK_THAT(
+      all_text(diagnose(configuration, observation)),
+      Catch::Contains(" frames of further interfaces ignored: at most 64 interfaces are analysed"));
 }
 
 TEST_CASE("A radar that is somewhere else explains the silence of its bus") {

@@ -15,7 +15,7 @@ using namespace cremed;
 
 namespace {
 
-/// `count` identifiers from `first` on, each with frames of this length.
+/// `count` consecutive identifiers from `first`, each with frames of this length.
 struct Ids {
   std::uint32_t first;
   std::uint32_t count;
@@ -67,7 +67,7 @@ TEST_CASE("Identifiers and lengths give radars away") {
   CHECK(seen(row.traffic) == row.radars);
 }
 
-/// The contents of a state report tell an ARS408 from what else has its identifier.
+/// The content of a state report distinguishes an ARS408 from other devices with its identifier.
 TEST_CASE("A state report names its sensor and comes once a second") {
   const auto names = [](std::uint8_t named_id, std::int64_t period_us) {
     BusObservation bus;

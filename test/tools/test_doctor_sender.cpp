@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every talk of the doctor that may send x what is on the bus x who is there to agree: the frames
-// on the bus are exactly those that are meant. test/vm/test_doctor has rows of it with the program.
+// Every command of the doctor that may send x traffic on the bus x source of consent: exactly the
+// intended frames are sent. test/vm/test_doctor repeats rows of it with the program.
 #include <functional>
 #include <optional>
 #include <sstream>
@@ -21,7 +21,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// What is on the bus.
+/// Traffic on the bus.
 struct Bus {
   std::string name;
   std::vector<Ars408RadarState> states;
@@ -33,10 +33,10 @@ struct Command {
   std::string name;
   std::optional<std::uint8_t> said_id;
   std::function<TalkResult(const Ars408Talk&)> run;
-  std::vector<std::string> frames;  ///< To a sensor that answers and obeys.
+  std::vector<std::string> frames;  ///< Frames to a sensor that answers and obeys.
 };
 
-/// Who may agree.
+/// Source of consent.
 struct Person {
   std::string name;
   bool agrees;
@@ -100,8 +100,8 @@ bool is_there(const Bus& bus, std::uint8_t id) {
                      [id](const auto& state) { return state.sensor_id == id; });
 }
 
-/// The rule: to the sensor with the configured id, or to the one that is said if the configured id
-/// is free, never where a GPR listens; filters one by one, as long as each takes.
+/// Expected: to the sensor with the configured id, or to the given id if the configured one is
+/// free, never with a GPR on the bus; filters one by one, as long as each is confirmed.
 std::vector<std::string> meant(const Command& command, const Bus& bus, const Person& person) {
   const std::uint8_t id = command.said_id.value_or(0);
   const bool takes_id_of_other = id != 0 && is_there(bus, 0);

@@ -23,7 +23,7 @@ struct Outcome {
   std::vector<CanFrame> sent;
 };
 
-/// What the user says on the command line, and types.
+/// The user's command line and input.
 struct Said {
   Ars408Setup setup{};
   Ars408Address address{};
@@ -62,8 +62,8 @@ TEST_CASE("A sensor is set to clusters with quality, and confirms it") {
   CHECK_THAT(outcome.text, Catch::Contains("output: objects -> clusters"));
   CHECK_THAT(outcome.text, Catch::Contains("extended: on -> off"));
   CHECK_THAT(outcome.text, Catch::Contains("--store keeps it"));
-  CHECK_THAT(outcome.text, Catch::Contains("output: clusters, took"));
-  CHECK_THAT(outcome.text, Catch::Contains("extended: off, took"));
+  CHECK_THAT(outcome.text, Catch::Contains("output: clusters, set"));
+  CHECK_THAT(outcome.text, Catch::Contains("extended: off, set"));
 }
 
 TEST_CASE("Nothing is sent unless the user says yes") {
@@ -82,8 +82,8 @@ TEST_CASE("Range and storing are set only if asked for") {
   CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#BB1F400010840000");
   CHECK_THAT(outcome.text, Catch::Contains("flash, which wears"));
-  CHECK_THAT(outcome.text, Catch::Contains("range: 250 m, took"));
-  CHECK_THAT(outcome.text, Catch::Contains("stored: yes, took"));
+  CHECK_THAT(outcome.text, Catch::Contains("range: 250 m, set"));
+  CHECK_THAT(outcome.text, Catch::Contains("stored: yes, set"));
 }
 
 TEST_CASE("A sensor with another id is addressed by that, and confirms under the new one") {
@@ -93,7 +93,7 @@ TEST_CASE("A sensor with another id is addressed by that, and confirms under the
   check_sent(outcome, "250#3A00000010040000");
   CHECK_THAT(outcome.text, Catch::Contains("front: ARS408 with sensor id 5 on can0"));
   CHECK_THAT(outcome.text, Catch::Contains("sensor id: 5 -> 0"));
-  CHECK_THAT(outcome.text, Catch::Contains("sensor id: 0, took"));
+  CHECK_THAT(outcome.text, Catch::Contains("sensor id: 0, set"));
 }
 
 TEST_CASE("A radar that is to send objects is set to objects") {
@@ -111,9 +111,9 @@ TEST_CASE("What did not take is named") {
     std::string text;
   };
   const auto row =
-      GENERATE(Case{{.keeps_range = true}, 0, "range: 200 m, did not take: wanted 260 m"},
-               Case{{.obeys = false}, 0, "output: objects, did not take: wanted clusters"},
-               Case{{.obeys = false}, 5, "sensor id: 5, did not take: wanted 0"},
+      GENERATE(Case{{.keeps_range = true}, 0, "range: 200 m, not set: expected 260 m"},
+               Case{{.obeys = false}, 0, "output: objects, not set: expected clusters"},
+               Case{{.obeys = false}, 5, "sensor id: 5, not set: expected 0"},
                Case{{.falls_silent = true}, 0, "no 0x201 came after it"});
   CAPTURE(row.text);
   const Outcome outcome =
@@ -131,7 +131,7 @@ TEST_CASE("A sensor that is set as wanted is left alone, unless it is to store i
   const Outcome outcome = set_up({state}, {}, {});
   CHECK(outcome.result == TalkResult::took);
   CHECK(outcome.sent.empty());
-  CHECK_THAT(outcome.text, Catch::Contains("It is set so already"));
+  CHECK_THAT(outcome.text, Catch::Contains("It already has these settings"));
   CHECK(set_up({state}, {}, {.setup = {.store = true}}).sent.size() == 1);
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("Nothing is sent to what is no ARS408") {
   const Outcome among = set_up({factory_state(0)}, {}, {}, two_ars408s(), gpr);
   CHECK(among.sent.empty());
   CHECK_THAT(among.text, Catch::Contains("a Bosch GPR is on can0"));
-  // A report whose sensor id is not that of its identifier is from something else.
+  // A report whose sensor id contradicts its identifier comes from another device.
   const Outcome stranger = set_up({}, {}, {}, two_ars408s(), {hex_frame("201#4019000013F40000")});
   CHECK(stranger.sent.empty());
   CHECK_THAT(stranger.text, Catch::Contains("no 0x201 of an ARS408 with sensor id 0 on can0"));

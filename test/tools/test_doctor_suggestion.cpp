@@ -13,7 +13,7 @@ using namespace cremed::test;
 
 namespace {
 
-/// What the doctor knows who has no configuration.
+/// Observation without a configuration.
 Observation observed(const Recording& traffic) {
   Configuration nothing;
   nothing.odometry.enabled = false;
@@ -33,7 +33,7 @@ RadarConfiguration ars408(const std::string& name, const std::string& interface,
   return radar;
 }
 
-/// As its reader is to do it.
+/// Fills in the mounts as a user would.
 std::string filled_in(std::string text) {
   const std::string gap = "\"FILL IN\"";
   for (std::size_t at = text.find(gap); at != std::string::npos; at = text.find(gap)) {
@@ -42,7 +42,7 @@ std::string filled_in(std::string text) {
   return text;
 }
 
-/// Interface and radar of each table, once the gaps are filled in.
+/// Interface and radar of each table, with the mounts filled in.
 std::vector<std::string> radars_in(const std::string& suggestion) {
   std::vector<std::string> radars;
   for (const RadarConfiguration& radar :

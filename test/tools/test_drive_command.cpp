@@ -20,19 +20,6 @@ ToolRun run(const TemporaryFolder& folder, const std::string& arguments) {
   return run_tool("cremed-eval", folder, arguments);
 }
 
-/// Cells of the lines that are no comments.
-std::vector<std::vector<std::string>> cells(const std::string& table) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(table);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.front() == '#') continue;
-    std::istringstream words(line);
-    rows.emplace_back(std::istream_iterator<std::string>(words),
-                      std::istream_iterator<std::string>());
-  }
-  return rows;
-}
-
 /// Odometry of these sources, 20 m straight on at 10 m/s with a scale error of 1 %, and its truth.
 std::string write_drive(const TemporaryFolder& folder, const std::vector<std::string>& sources) {
   std::ofstream truth(folder.file("truth.csv"));
@@ -59,7 +46,8 @@ std::string write_wheels(const TemporaryFolder& folder) {
   return " --wheels " + folder.file("wheels.csv");
 }
 
-/// The same drive as the vehicle's state since two anchors, 2 % too long and 0.2 m/s too fast.
+/// The same drive as the vehicle's state relative to two anchors, 2 % too long and 0.2 m/s too
+/// fast.
 std::string write_states(const TemporaryFolder& folder) {
   std::ofstream states(folder.file("states.csv"));
   states << "utime,utime_anchor,status,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,"
@@ -74,7 +62,7 @@ std::string write_states(const TemporaryFolder& folder) {
   return "drive " + folder.file("states.csv") + " " + folder.file("truth.csv");
 }
 
-/// Words of the first comment that begins with that.
+/// Words of the first comment with that beginning.
 std::vector<std::string> words(const std::string& output, const std::string& begin) {
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
@@ -114,7 +102,8 @@ TEST_CASE("cremed-eval drive tells how true the motions are when they are chaine
   const TemporaryFolder folder;
   const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
   REQUIRE(result.status == 0);
-  // 1 % of the way, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as independent.
+  // 1 % of the path, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as
+  // independent.
   const auto after_10_m = words(result.output, "sideways          10 m ");
   REQUIRE(after_10_m.size() == 9);
   CHECK(after_10_m[0] == "3");
@@ -163,7 +152,7 @@ TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
   REQUIRE(rows.size() == 1);
   CHECK(rows[0][0] == "odometry");
   CHECK(rows[0][1] == "20");
-  // Chained over the anchor: 0.4 m off at a variance of 0.08 m^2, drifting 2 %.
+  // Chained over the anchor: 0.4 m error at a variance of 0.08 m^2, drift 2 %.
   CHECK(words(result.output, "odometry        %")[0] == "2.00");
   CHECK(words(result.output, "odometry          10 m ") ==
         std::vector<std::string>{"2", "0.33", "1.00", "0.00", "0.00", "0.200", "0.000", "0.000",
@@ -212,7 +201,7 @@ TEST_CASE("cremed-eval drive draws one source and many, without an estimate too"
   CHECK(result.error.find("Warning") == std::string::npos);
   const std::string svg = content(picture);
   CHECK(svg.find("</svg>") != std::string::npos);
-  // Matplotlib tells each text that it draws in a comment.
+  // Matplotlib writes each text into a comment.
   const bool has_estimates = sources.front() != "blind";
   CHECK((svg.find("error of x [m], 0.0 % outside 3 sigma") != std::string::npos) == has_estimates);
   CHECK((svg.find("ANEES 0.50 (95 % band") != std::string::npos) == has_estimates);
@@ -235,18 +224,13 @@ TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM"
 }
 
 TEST_CASE("cremed-eval drive says what is wrong") {
-  struct Row {
-    std::string arguments;
-    int status;
-    std::string message;
-  };
-  const auto row =
-      GENERATE(Row{"/no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
-               Row{"/no/such/file", 2, "TRUTH"},
-               Row{"a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has too few"},
-               Row{"a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has too few"},
-               Row{"a b --truth-std 1,-2", 2, "--truth-std: '-2' is no number from 0 up"},
-               Row{"TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
+  const auto row = GENERATE(
+      Refusal{"/no/such/file /dev/null", 1, "/dev/null: line 1: no header"},
+      Refusal{"/no/such/file", 2, "TRUTH"},
+      Refusal{"a b --wheels-std 0.02", 2, "--wheels-std: '0.02' has the wrong number"},
+      Refusal{"a b --truth-std 1,2,3,4,5", 2, "--truth-std: '1,2,3,4,5' has the wrong number"},
+      Refusal{"a b --truth-std 1,-2", 2, "--truth-std: '-2' is not a number >= 0"},
+      Refusal{"TRUTH TRUTH --wheels TRUTH", 1, "no column speed_mps"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   write_drive(folder, {"front"});
@@ -254,10 +238,7 @@ TEST_CASE("cremed-eval drive says what is wrong") {
   for (std::size_t place = 0; (place = arguments.find("TRUTH")) != std::string::npos;) {
     arguments.replace(place, 5, folder.file("truth.csv"));
   }
-  const ToolRun result = run(folder, "drive " + arguments);
-  CAPTURE(result.error);
-  CHECK(result.status == row.status);
-  CHECK(result.error.find(row.message) != std::string::npos);
+  check(run(folder, "drive " + arguments), row);
 }
 
 TEST_CASE(

@@ -27,8 +27,8 @@ Drive simulate() {
   return drive(scenario("lossy"), default_radars(), options);
 }
 
-/// Text in, messages out, without an allocation: every line of the log is parsed and goes through
-/// both radars' stages into the sinks. Returns the number of allocations.
+/// Text in, messages out, without allocation: every line of the log is parsed and passes both
+/// radars' stages into the sinks. Returns the number of allocations.
 long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks,
                            int rate_hz = 0) {
   const NoSource source;
@@ -48,7 +48,7 @@ long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySin
   return AllocationGuard::stop();
 }
 
-/// Shows that the odometry filter was at work.
+/// Checks that the odometry filter was used.
 class OdometryCounter final : public OdometrySink {
  public:
   void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
@@ -63,7 +63,7 @@ class OdometryCounter final : public OdometrySink {
   int good_odometries = 0;
 };
 
-/// A sink that does what no sink may.
+/// A sink that violates the rules.
 class AllocatingSink final : public OdometrySink {
  public:
   void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {

@@ -24,8 +24,8 @@ using namespace cremed::test;
 
 namespace {
 
-/// A drive with losses, so that there are rows of all kinds, published into an LCM log and written
-/// as CSV.
+/// A drive with losses, so that all kinds of rows occur, published into an LCM log and written as
+/// CSV.
 void record_drive(const std::string& log, const std::string& csv, const std::string& odometry) {
   const std::vector<RadarConfiguration> radars = default_radars();
   SimulationOptions options;
@@ -146,7 +146,7 @@ TEST_CASE("Messages that are none of ours are left out and counted") {
     const ToolRun run = run_tool("cremed-lcm-to-csv", folder, folder.file("log"));
     CHECK(run.status == 1);
     CHECK(run.output == converted.csv);
-    CHECK(run.error.find("left out 1 messages") != std::string::npos);
+    CHECK(run.error.find("ignored 1 messages") != std::string::npos);
   }
 }
 

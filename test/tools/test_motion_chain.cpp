@@ -16,7 +16,7 @@ Eigen::Matrix3d some_covariance(double scale) {
   return scale * scale * root * root.transpose();
 }
 
-/// States since anchors that are renewed every `rows` rows, exact.
+/// Exact states relative to anchors that are renewed every `rows` rows.
 std::vector<RecordedEstimate> since_anchors(const Circle& circle, std::size_t count,
                                             std::size_t rows) {
   std::vector<RecordedEstimate> result;
@@ -86,7 +86,7 @@ TEST_CASE("A motion that does not join is a gap") {
   REQUIRE(chain.add(estimates[0]));
   CHECK_FALSE(chain.add({1'000'000, 1'100'000, {}, {}}));
   CHECK(chain.end_us() == 100'000);
-  // Without the state at the new anchor's time nothing leads there.
+  // Without the state at the new anchor's time the chain is broken.
   MotionChain broken(0);
   for (std::size_t i = 0; i < 9; ++i) REQUIRE(broken.add(estimates[i]));
   CHECK_FALSE(broken.add(estimates[10]));

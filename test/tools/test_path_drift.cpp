@@ -13,7 +13,7 @@ using namespace cremed;
 
 namespace {
 
-/// Steps of a drive: what truth did, and what was estimated of it.
+/// Steps of a drive: true and estimated motion.
 struct Drive {
   Eigen::Vector3d truth;
   Eigen::Vector3d estimate;
@@ -76,7 +76,7 @@ TEST_CASE("In bends too, a true estimate does not drift and errors are seen from
   const Eigen::Vector3d bend{kStepM, 0.0, 0.01};
   const auto still = path_drift(path_of({bend, bend, 600}));
   CHECK(mean_drift(still).translation_percent == Approx(0.0).margin(1e-9));
-  // All of a circle's chords are 1 % longer; the way across it is so as well.
+  // All chords of the circle are 1 % longer, including those across it.
   const auto wide = path_drift(path_of({bend, {1.01 * kStepM, 0.0, 0.01}, 600}));
   const double half_turn_rad = 0.5 * (20.0 + kStepM) / kStepM * 0.01;
   CHECK(wide[1].translation_percent ==

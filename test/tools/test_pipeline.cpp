@@ -23,7 +23,7 @@ SimulationOptions options(std::uint64_t seed, double duration_s) {
   return result;
 }
 
-/// What a drive must look like whatever happens in it.
+/// Requirements on every drive.
 void check_invariants(const RecordingSink& sink) {
   for (std::size_t radar = 0; radar < sink.motions.size(); ++radar) {
     REQUIRE(sink.motions[radar].size() == sink.scans[radar].size());
@@ -50,7 +50,7 @@ void check_invariants(const RecordingSink& sink) {
 
 TEST_CASE("Drives of every kind: the front radar is accurate, and knows how accurate") {
   // Bounds hold for any seed: ANEES of n = 300 estimates lies within 1 +- 0.12 if all errors are
-  // Gaussian; the rest is room for what the model leaves out (acceleration within a cycle).
+  // Gaussian; the rest is margin for unmodelled effects (acceleration within a cycle).
   struct Row {
     const char* scenario;
     double max_rmse_m;
@@ -98,7 +98,7 @@ TEST_CASE("A standing vehicle is told from a driving one") {
   }
 }
 
-/// Of NaN as well, which equals nothing.
+/// Also for NaN, which equals nothing.
 template <typename Matrix>
 bool has_same_bits(const Matrix& a, const Matrix& b) {
   return std::memcmp(a.data(), b.data(), sizeof(Matrix)) == 0;
@@ -138,7 +138,7 @@ TEST_CASE("Each radar's result does not depend on the other radars of the vehicl
   }
 }
 
-/// Frames of the drive but for those of an interface between two times since its start.
+/// Frames of the drive without those of an interface between two times since its start.
 std::vector<CanFrame> without(const Drive& simulated, std::uint8_t interface, double from_s,
                               double to_s) {
   const auto at_us = [&](double s) {
@@ -192,7 +192,7 @@ TEST_CASE("Odometry: outputs follow each other, and the fused motions are those 
   }
 }
 
-/// Stamps of all radars' scans in the order in which they were whole.
+/// Stamps of all radars' scans in the order of completion.
 class CompletionSink final : public OdometrySink {
  public:
   void on_scan(std::size_t, const RadarScan&) override {}
@@ -219,7 +219,7 @@ TEST_CASE("Odometry takes scans in the order of their stamps, whichever is whole
   pipeline.finish();
   CHECK_FALSE(std::is_sorted(sink.whole_us.begin(), sink.whole_us.end()));
   std::sort(sink.whole_us.begin(), sink.whole_us.end());
-  // The first scan is where the odometry starts.
+  // The odometry starts at the first scan.
   CHECK(std::vector(sink.whole_us.begin() + 1, sink.whole_us.end()) == sink.used_us);
 }
 
@@ -308,7 +308,7 @@ TEST_CASE("Lost frames cost their targets and nothing else") {
                                          [](const EgoMotion& m) { return m.has_estimate(); });
     CHECK(static_cast<double>(estimates) > 0.97 * static_cast<double>(motions.size()));
   }
-  // The estimate after a lost scan starts at the last whole one: no motion is missing.
+  // The estimate after a lost scan starts at the last complete one: the motions have no gap.
   const auto& motions = sink.motions[0];
   std::int64_t reached_us = 0;
   for (const EgoMotion& motion : motions) {
@@ -414,7 +414,7 @@ TEST_CASE("Two buses whose clocks disagree by an hour do not disturb each other"
     CHECK(count_status(apart.motions[radar], MotionStatus::incomplete_scan) ==
           count_status(together.motions[radar], MotionStatus::incomplete_scan));
     CHECK(apart.motions[radar].back().motion == together.motions[radar].back().motion);
-    // Each frame of the one follows frames of the other: a jump of the clock, to and fro.
+    // Frames of two clocks alternate: the time jumps back and forth.
     CHECK(apart.statuses[radar].size() >= 6);
     CHECK(apart.statuses[radar].size() <= 7);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What only a live source does to the pipeline: clock steps, silence, durations.
+// Effects of live sources only: clock steps, silence, durations.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ Drive straight(double duration_s) {
 std::int64_t stamp_clock_us = 0;
 std::int64_t stamp_clock() { return stamp_clock_us; }
 
-/// Each look at it takes 10 us.
+/// Each call advances it by 10 us.
 std::int64_t busy_clock() {
   static std::int64_t now_us = 0;
   return now_us += 10;
@@ -66,7 +66,7 @@ TEST_CASE("No estimate spans a clock step, however small, and the next pair give
       return motion.status == MotionStatus::no_reference && &motion != &motions.front();
     });
     REQUIRE(last_before != motions.end());
-    // Before it everything is of the old time, from it on of the new.
+    // Frames before it have the old time, frames after it the new.
     for (auto motion = motions.begin(); motion != last_before; ++motion) {
       CHECK(motion->utime_us < step_at_us);
     }
@@ -108,7 +108,7 @@ TEST_CASE("Latency counts from the stamp of a scan's last frame, and is told onc
   const NoSource source;
   Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&stamp_clock, true});
   for (const CanFrame& frame : simulated.frames) {
-    stamp_clock_us = frame.stamp_us + 700;  // So much later it is read.
+    stamp_clock_us = frame.stamp_us + 700;  // Time of reading.
     pipeline.on_frame(frame);
   }
   pipeline.finish();
@@ -130,8 +130,8 @@ TEST_CASE("Without stamps of the clock, latency counts from when the last frame 
     pipeline.on_frame(frame);
   }
   const RadarChannel& front = *pipeline.radars()[0];
-  // Handed in, before and after the solver, before and after the odometry, published; at most
-  // before and after the odometry of a scan of the other radar too, which waited for this one.
+  // Calls: handed in, before and after the solver, before and after the odometry, published; at
+  // most also before and after the odometry of a held scan of the other radar.
   CHECK(front.latencies.max_us() == 70);
   CHECK(front.solve_times.max_us() == 10);
 }

@@ -29,7 +29,7 @@ Drive simulate(const char* name, std::uint64_t seed, double duration_s = 12.0) {
   return drive(scenario(name), default_radars(), options);
 }
 
-/// `before_frame`: what happens before the frame of that index.
+/// `before_frame`: called with the index of each frame before it.
 using BeforeFrame = std::function<void(Pipeline&, std::size_t)>;
 
 RecordingSink run(
@@ -60,7 +60,7 @@ bool is_good(const Odometry& odometry) {
   return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
 }
 
-/// Nothing on the buses for a while.
+/// Silence on the buses.
 void silence(Drive& drive, double begin_s, double end_s) {
   const std::int64_t start_us = drive.frames.front().stamp_us;
   const auto is_silent = [&](const CanFrame& frame) {
@@ -98,7 +98,7 @@ TEST_CASE("A rate that is no divisor of a second keeps to its multiples too") {
 }
 
 TEST_CASE("Predicted poses are as credible as those at scans, from anchor to anchor too") {
-  // Two ways: since the anchor, and from each anchor to the next, which is what is chained.
+  // Two paths: since the anchor, and from anchor to anchor, which is chained.
   Credibility since_anchor(3);
   Credibility chained(3);
   Credibility at_scans(3);
@@ -142,7 +142,7 @@ TEST_CASE("A predicted row of the time of a new anchor is the last that refers t
     if (is_good(before) && odometry.utime_anchor_us != before.utime_anchor_us) {
       ++renewed;
       CHECK(odometry.utime_anchor_us == before.utime_us);
-      // In a step of 20 ms: nothing jumps, and nothing is as uncertain as 2 s of driving.
+      // In a step of 20 ms nothing jumps, and sigma is below that of 2 s of driving.
       CHECK(odometry.pose.norm() < 0.02 * (odometry.twist.norm() + 0.5));
       CHECK(odometry.covariance.trace() < 0.1 * before.covariance.trace());
       CHECK(odometry.odom_covariance.trace() > 0.9 * before.odom_covariance.trace());
@@ -158,7 +158,7 @@ TEST_CASE("The motions between scans are the same whether or not there are predi
   const RecordingSink with = run(simulated, kRateHz);
   REQUIRE(with.fused.size() == without.fused.size());
   for (std::size_t i = 0; i < with.fused.size(); ++i) {
-    // An anchor at another time is another point of linearisation.
+    // Another anchor is another point of linearisation.
     CHECK(with.fused[i].utime_us == without.fused[i].utime_us);
     CHECK(with.fused[i].status == without.fused[i].status);
     if (!without.fused[i].has_estimate()) {

@@ -51,7 +51,7 @@ TEST_CASE("The vehicle's state is told by its header and read with its covarianc
 
   const RecordedOdometry odometry = motions_since_anchors(recorded);
   CHECK(odometry.without_estimate == 1);
-  REQUIRE(odometry.estimates.size() == 1);  // At its anchor a state has not moved.
+  REQUIRE(odometry.estimates.size() == 1);  // At its own anchor a state is no motion.
   CHECK(odometry.estimates[0].start_us == 2000);
   CHECK(odometry.estimates[0].covariance(0, 0) == 11.0);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every regime of driving: is the covariance that of the errors, and does the status say what the
-// radar cannot know? Radars are mounted, and err, as real ones do: see SimulationOptions.
+// Every regime of driving: the covariance must match the errors, and the status must show what the
+// radar cannot determine. Mounts and errors are those of real radars: see SimulationOptions.
 
 #include <cstdint>
 #include <cstdio>
@@ -85,7 +85,7 @@ void check_credible(const Credibility& credibility) {
   CHECK(credibility.anees() <= 1.25);
 }
 
-/// What one radar must reach.
+/// Requirements on one radar.
 struct Bound {
   double rmse_m;
   double rmse_deg;
@@ -137,8 +137,8 @@ TEST_CASE("Regimes: tight turns and a slow start, of each radar and of both toge
     CHECK(all[i].all.count() >= all[i].motions.size() * 95 / 100);
     if (i != kFused) check_credible(all[i].all);
   }
-  // Over the 30 ms between its outputs the odometry counts on errors of real radars that the
-  // simulator has not (yaw scale, offsets in turns): too wide by far, never too narrow.
+  // Over the 30 ms between outputs the odometry allows for errors of real radars that the simulator
+  // lacks (yaw scale, offsets in turns): its covariance is far too large, never too small.
   CHECK(all[kFused].all.anees() <= 1.25);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("Regimes: empty scans and gaps are spanned, and what spans them is cre
     CHECK(joined.all.count() >= joined.motions.size() * 8 / 10);
     CHECK(joined.spanning.count() >= 100);
     CHECK(joined.spanning.anees() <= 1.25);
-    // The body's velocity errors do not last as long as the gap, which makes these too wide.
+    // The body's velocity errors are shorter than the gap, so these covariances are too large.
     CHECK(joined.spanning.anees() >= 0.6);
   }
 }
@@ -179,8 +179,8 @@ TEST_CASE("Regimes: among cars that drive as we do, a radar without a motion fla
   CHECK(joined[kFront].all.count() >= joined[kFront].motions.size() * 95 / 100);
   const Joined& rear = joined[kRear];
   CHECK(rear.share(MotionStatus::ambiguous) >= 0.7);
-  // When all start at once, nothing tells for some scans that it is not the road that rests: these
-  // few are off by more than they say, if only by centimetres.
+  // When all cars start together, some scans cannot separate them from the road: these few
+  // estimates are beyond their covariance, by centimetres.
   CHECK(rear.share(MotionStatus::ok) <= 0.02);
   if (rear.all.count() > 0) CHECK(rear.all.rmse_m() <= 0.006);
 }

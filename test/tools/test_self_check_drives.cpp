@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is wrong with a radar or its configuration shows in its status within a minute, and "fused"
-// goes on by the other radar.
+// Faults of a radar or its configuration appear in its status within a minute, and "fused"
+// continues with the other radar.
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ const BeliefStatus& last_belief(const RecordingSink& sink, std::size_t radar) {
   return sink.statuses[radar].back().belief;
 }
 
-/// All doubts that a radar's statuses ever showed.
+/// All doubts in a radar's statuses.
 std::uint32_t doubts(const RecordingSink& sink, std::size_t radar) {
   std::uint32_t result = 0;
   for (const RadarStatus& status : sink.statuses[radar]) {
@@ -53,7 +53,7 @@ std::uint32_t doubts(const RecordingSink& sink, std::size_t radar) {
   return result;
 }
 
-/// Share of motions whose errors are within five of their own sigma, in x and yaw.
+/// Share of motions with errors within five of their own sigma, in x and yaw.
 double share_within_five_sigma(const std::vector<EgoMotion>& motions, const TrueTrajectory& truth) {
   double count = 0.0;
   double within = 0.0;
@@ -76,16 +76,16 @@ std::vector<EgoMotion> after(const std::vector<EgoMotion>& motions, std::int64_t
   return result;
 }
 
-/// A fault in what the pipeline is told of a radar.
+/// A fault in the pipeline's configuration of a radar.
 struct Fault {
   std::string name;
   std::size_t radar;
   std::function<void(RadarConfiguration&)> configure;
   std::uint32_t doubts;
   std::vector<std::string> causes;  ///< Named in the report.
-  /// RMSE of the fused motion over that of the other radar alone, when it has been told. That one
-  /// takes y as 0, which helps its yaw in a simulation without slip; a radar with few estimates
-  /// takes longer to be told wrong.
+  /// RMSE of the fused motion over that of the other radar alone, after the doubt. The radar
+  /// assumes y = 0, which improves its yaw in a simulation without slip; a radar with few estimates
+  /// takes longer to be doubted.
   double max_rmse_ratio = 1.3;
   double from_s = 20.0;
 };
@@ -117,7 +117,7 @@ std::vector<Fault> faults() {
        1.6, 50.0},
       {"front reversed", kFront, [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); },
        kWrong, by_both},
-      // So little noise that next to no target is found again: no covariance to be doubted.
+      // With so little noise almost no target is found again: no covariance to doubt.
       {"front noise / 3", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
        no_estimates},
       {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
@@ -167,7 +167,7 @@ TEST_CASE("Self-check: a healthy drive raises no doubt") {
     CHECK(report(healthy.radars[radar], sink.statuses[radar].back()).empty());
     const RadarReport& odometry = sink.statuses[radar].back().odometry;
     CHECK(sink.statuses[radar].back().scans_in_odometry > 450);
-    // What a GPR sees behind it in a bend is too little.
+    // A GPR facing backwards in a bend has too few targets.
     if (radar == kFront) CHECK(belief.is_speed_checked);
     for (const double innovation :
          {belief.doppler_innovation, belief.next_innovation, odometry.doppler_innovation,
@@ -199,7 +199,7 @@ TEST_CASE("Self-check: each fault shows within a minute, and the fused motion st
 
 namespace {
 
-/// When the first status names the doubt, in s since the drive began; never: infinity.
+/// Time of the first status with the doubt, in s since the begin of the drive; never: infinity.
 double doubted_after_s(const RecordingSink& sink, std::size_t radar, Doubt doubt,
                        std::int64_t start_us) {
   for (const RadarStatus& status : sink.statuses[radar]) {
@@ -210,7 +210,7 @@ double doubted_after_s(const RecordingSink& sink, std::size_t radar, Doubt doubt
   return std::numeric_limits<double>::infinity();
 }
 
-/// An ARS408 whose clusters all have no velocity, from a time on.
+/// An ARS408 whose clusters all have zero velocity from a time on.
 std::vector<CanFrame> with_stuck_doppler(std::vector<CanFrame> frames, std::int64_t from_us) {
   for (CanFrame& frame : frames) {
     const auto id = static_cast<std::uint32_t>(Ars408Message::cluster_general);
@@ -243,8 +243,8 @@ TEST_CASE(
   CHECK(sink.statuses[kFront].back().belief.is_speed_checked);
 }
 
-// Between two scans at half the pace the vehicle goes twice as far as the check expects, and few
-// targets are found again: one of the radars shows it at once, the other within 5 s.
+// At half the rate of the stamps the vehicle moves twice as far between scans as expected, and few
+// targets are found again: one radar shows it at once, the other within 5 s.
 TEST_CASE("Self-check: a clock at another pace than time shows within 2 s of driving") {
   const double pace = GENERATE(0.5, 2.0);
   Drive other = simulated("bends", default_radars(), 5, 12.0);

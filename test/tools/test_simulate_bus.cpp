@@ -62,7 +62,7 @@ bool is_clean(const cremed::test::DecodedRadar& decoded) {
          0;
 }
 
-/// Wants the bus at given times.
+/// Requests the bus at given times.
 class ScriptedSender : public cremed::BusSender {
  public:
   ScriptedSender(std::vector<std::int64_t> times_us, const CanFrame& frame)
@@ -131,8 +131,8 @@ TEST_CASE("radars that share a bus all get their whole scans through, in their r
     CHECK(is_clean(decoded));
     CHECK(decoded.decoder.state_frames >= (is_gpr ? 19U : 38U));
     REQUIRE(decoded.scans.size() > (is_gpr ? 190U : 260U));
-    // The first frame of a list waits for the frame that is on the bus, and an ARS408 for the
-    // whole list of a GPR, whose identifiers are smaller.
+    // The first frame of a list waits for the frame on the bus; an ARS408 also waits for the whole
+    // list of a GPR, whose identifiers are smaller.
     const std::int64_t delay_us = one.name == "corner" ? 25'000 : 1'000;
     const std::int64_t least_us = (is_gpr ? 99'000 : 72'000) - delay_us;
     const std::int64_t greatest_us = (is_gpr ? 101'000 : 75'000) + delay_us;

@@ -21,7 +21,7 @@ using cremed::VehicleCourse;
 using cremed::VehicleState;
 using cremed::test::TruthTable;
 
-/// Displacement from one pose to the next, in the middle of their headings.
+/// Displacement from one pose to the next, in the frame of their mean heading.
 struct Motion {
   double forward_mps;
   double left_mps;
@@ -36,7 +36,7 @@ Motion motion(const Pose2& from, const Pose2& to, double dt_s) {
           (std::cos(yaw) * dy - std::sin(yaw) * dx) / dt_s, (to.yaw_rad - from.yaw_rad) / dt_s};
 }
 
-/// How a scenario may drive.
+/// Limits of a scenario's motion.
 struct CarLimits {
   double sideways_mps = 1e-4;
   double slowest_mps = 0.0;
@@ -53,7 +53,7 @@ CarLimits limits_of(std::string_view name) {
     limits.along_mps2 = 8.8;
     limits.jerk_mps3 = 11.0;
   }
-  // A turning circle of 12 m, which is that of the outer front wheel.
+  // A turning circle of 12 m, measured at the outer front wheel.
   if (name == "garage" || name == "u-turn") limits.curvature_1pm = 0.18;
   if (name == "skid") {
     limits.sideways_mps = 2.51;

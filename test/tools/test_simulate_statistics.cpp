@@ -26,11 +26,11 @@ using cremed::test::TruthTable;
 
 constexpr std::uint64_t kSeeds = 2;
 
-/// Errors of one detection over its own standard deviations: range, azimuth, Doppler.
+/// Normalised errors of one detection: range, azimuth, Doppler.
 using Errors = std::array<double, 3>;
 
-/// Velocity is the change of the position in the radar's frame from 10 ms before to 10 ms after, by
-/// the truth file alone; Doppler is its part along the reported line of sight.
+/// The velocity is the difference quotient of the position in the radar's frame over +-10 ms, from
+/// the truth file alone; Doppler is its component along the reported line of sight.
 Errors errors_of(const Detection& detection, const Echo& echo, const TruthTable& truth,
                  const cremed::RadarConfiguration& radar, std::int64_t stamp_us) {
   const auto vehicle = [&](double offset_us) {
@@ -56,7 +56,7 @@ Errors errors_of(const Detection& detection, const Echo& echo, const TruthTable&
 
 struct ScanErrors {
   std::vector<Errors> errors;
-  std::vector<std::pair<double, double>> places;  ///< Whose they are.
+  std::vector<std::pair<double, double>> places;  ///< Positions of these targets.
 };
 
 bool inside(const TruthTable& truth, std::int64_t stamp_us) {
@@ -64,7 +64,7 @@ bool inside(const TruthTable& truth, std::int64_t stamp_us) {
          stamp_us < truth.rows().back().stamp_us - 10'000;
 }
 
-/// Errors of all standing targets that one radar saw, scan by scan.
+/// Errors of all static targets of one radar, by scan.
 std::vector<ScanErrors> radar_errors(const Drive& drive, std::size_t radar) {
   const TruthTable truth(drive.truth_csv);
   const auto decoded = cremed::test::decode(drive.log, drive.radars[radar]);
@@ -108,19 +108,19 @@ class Moments {
   double squares_ = 0.0;
 };
 
-/// Chance takes it beyond 4.5 standard deviations once in 150 000; `slack` is for what the first
-/// order of the polar standard deviations leaves out.
+/// The bound of 4.5 standard deviations is exceeded by chance once in 150 000; `slack` is for the
+/// second order that the polar standard deviations omit.
 void check_standard_normal(const Moments& moments, double slack) {
   CHECK(std::abs(moments.mean()) < 4.5 / std::sqrt(moments.count()) + slack);
   CHECK(std::abs(moments.mean_square() - 1.0) < 4.5 * std::sqrt(2.0 / moments.count()) + slack);
 }
 
 constexpr std::array<const char*, 3> kComponents{"range", "azimuth", "doppler"};
-constexpr std::size_t kClusters = 0;  // Places in one_of_each_kind().
+constexpr std::size_t kClusters = 0;  // Indices in one_of_each_kind().
 constexpr std::size_t kGpr = 1;
 
 constexpr double kSharedMps = 0.15;
-constexpr double kReportedMps = 0.125;  // By every target of the simulated GPR.
+constexpr double kReportedMps = 0.125;  // For every target of the simulated GPR.
 
 std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t radar,
                                           double doppler_offset_std_mps = 0.0) {
@@ -132,7 +132,7 @@ std::vector<ScanErrors> errors_over_seeds(const std::string& name, std::size_t r
     options.body_velocity_std_mps = 0.0;
     const Drive drive =
         cremed::test::drive(cremed::test::scenario(name), {cremed::test::one_of_each_kind()[radar]},
-                            cremed::exactly_mounted(options));
+                            cremed::test::exactly_mounted(options));
     for (ScanErrors& errors : radar_errors(drive, 0)) all.push_back(std::move(errors));
   }
   return all;
@@ -154,7 +154,7 @@ TEST_CASE("errors of standing targets have the standard deviations that are repo
   const auto scans = errors_over_seeds(name, radar);
   for (std::size_t component = 0; component < kComponents.size(); ++component) {
     Moments single;
-    Moments shared;  // Of a scan as a whole: shows what its targets have in common.
+    Moments shared;  // Per scan: shows errors that its targets share.
     for (const ScanErrors& scan : scans) {
       if (scan.errors.empty()) continue;
       for (const Errors& errors : scan.errors) single.add(errors[component]);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an ARS408 makes of the motion that it is told, and where the radars really are.
+// An ARS408's use of the received motion, and the true mounts.
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ namespace {
 constexpr double kLeadS = 0.04;
 const Pose2 kMount{3.4, 0.6, 0.4};
 
-/// A target that was seen, and where its place in the world is by the truth file alone. Positions
-/// are those in the frame of the radar, 10 ms before the stamp, at it and 10 ms after.
+/// A target and its position in the world, by the truth file alone. Positions are in the radar's
+/// frame, 10 ms before the stamp, at it and 10 ms after.
 struct Seen {
   Detection detection;
   EchoKind kind;
@@ -37,7 +37,7 @@ struct Seen {
   Polar after;
   double yaw_rate_radps;
 
-  /// Change of the position in the direction `angle_rad`, if the target stands.
+  /// Velocity in the direction `angle_rad`, if the target is static.
   [[nodiscard]] double static_mps(double angle_rad) const {
     return (after.range_m * std::cos(after.azimuth_rad - angle_rad) -
             before.range_m * std::cos(before.azimuth_rad - angle_rad)) /
@@ -51,7 +51,7 @@ struct Seen {
     const double off_rad = detection.azimuth_rad - azimuth_rad;
     return detection.doppler_mps * std::sin(off_rad) + detection.across_mps * std::cos(off_rad);
   }
-  /// Positive if the target is reported too far to the left.
+  /// Positive if the reported position is too far to the left.
   [[nodiscard]] double azimuth_error_rad() const {
     return std::remainder(detection.azimuth_rad - now.azimuth_rad, 2.0 * M_PI);
   }
@@ -79,7 +79,7 @@ Drive drive_of(const char* name, bool is_told, double duration_s = 40.0) {
                exactly_mounted(options));
 }
 
-/// All targets but ghosts, which are nowhere.
+/// All targets but ghosts, which have no position.
 std::vector<Seen> all_seen(const Drive& drive) {
   const TruthTable truth(drive.truth_csv);
   const auto scans = decode(drive.log, drive.radars[0]).scans;
@@ -97,7 +97,7 @@ std::vector<Seen> all_seen(const Drive& drive) {
 
 using Value = std::function<double(const Seen&)>;
 
-/// Least squares' factor of `y` on `x`, over the targets that are asked for.
+/// Least-squares slope of `y` on `x` over the selected targets.
 double slope(const std::vector<Seen>& all, const Value& x, const Value& y,
              const std::function<bool(const Seen&)>& is_asked) {
   double products = 0.0;
@@ -189,7 +189,7 @@ TEST_CASE("On the reported line of sight Doppler has too much by tau w^2 r") {
   const auto predicted = [](const Seen& seen) {
     return kLeadS * seen.yaw_rate_radps * seen.yaw_rate_radps * seen.now.range_m;
   };
-  // What the model of a standing target expects where it is reported: no part of the turn's own.
+  // Expectation of a static target at the reported place, without the turn's own contribution.
   const auto bias = [](const Seen& seen) {
     const double lead_rad = kLeadS * seen.yaw_rate_radps;
     const double translation_mps =
@@ -240,7 +240,7 @@ TEST_CASE("Mounts are off by what is asked for, by seed, each radar by itself") 
   };
   double yaw_square = 0.0;
   double position_square = 0.0;
-  double alike = 0.0;  // Drives in which both radars are turned the same way.
+  double alike = 0.0;  // Drives in which both mounts are turned in the same direction.
   constexpr std::uint64_t kSeeds = 200;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const auto real = mounts(seed, radars);

@@ -17,12 +17,12 @@ constexpr double kPeriodS = 0.075;
 
 struct Driven {
   Pose2 submap;
-  Pose2 velocity;  ///< By velocity alone, which is wrong all the time.
+  Pose2 velocity;  ///< From the velocity alone, which has a constant error.
   Pose2 truth;
   double nees = 0.0;  ///< Of the motions.
 };
 
-/// Along a bend; velocity turns too fast by `yaw_rate_error_radps`.
+/// Along a bend; the velocity's yaw rate is too large by `yaw_rate_error_radps`.
 Driven drive(unsigned seed, const Eigen::Vector3d& twist, double yaw_rate_error_radps) {
   constexpr int kSweeps = 60;
   DrawnWorld world(seed, 400);
@@ -37,7 +37,7 @@ Driven drive(unsigned seed, const Eigen::Vector3d& twist, double yaw_rate_error_
     const auto velocity = kellner_velocity(sweep.targets);
     REQUIRE(velocity);
     const auto result = odometry.update(sweep, *velocity, wrong, kPeriodS);
-    // The first has nothing to be matched with.
+    // The first sweep has no map.
     driven.submap = moved(driven.submap, i == 0 ? motion : result.motion);
     const Eigen::Vector3d error = result.motion - motion;
     driven.nees += error.dot(result.covariance.ldlt().solve(error)) / 3.0 / kSweeps;

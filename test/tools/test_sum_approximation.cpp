@@ -80,7 +80,7 @@ TEST_CASE("The summing approximation finds a small true motion when there is no 
   const RegistrationResult result =
       register_sum_approximation(scans.previous, scans.current, context);
   REQUIRE(result.status == RegistrationStatus::converged);
-  // The covariance turns with yaw, which moves the minimum a little off the truth.
+  // The covariance depends on yaw, which moves the minimum slightly off the truth.
   CHECK(result.motion.x() == Approx(truth.x_m).margin(2e-3));
   CHECK(result.motion.y() == Approx(truth.y_m).margin(2e-3));
   CHECK(result.motion.z() == Approx(truth.yaw_rad).margin(2e-4));
@@ -95,7 +95,7 @@ TEST_CASE("The summing approximation finds a small true motion when there is no 
 TEST_CASE("A Hessian that is not positive definite is degenerate, not a covariance") {
   TargetSet one;
   one.add(test::seen_from(Pose2{}, 10.0, 0.0, 0.1), Pose2{});
-  // A single target: turning about it costs nothing, or gains by the turn of its covariance.
+  // A single target: rotation about it costs nothing, or gains by the rotation of its covariance.
   const RegistrationResult result = register_sum_approximation(one, one, context_of(3, false));
   CHECK(result.status == RegistrationStatus::degenerate);
 }

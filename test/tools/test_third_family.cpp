@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A radar family that exists in this file only: no code of cremed knows it, and all of it serves
-// it.
+// A radar family that exists in this file only: cremed supports it without knowing it.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +36,7 @@ const RadarFamily& family_of(const FanOptions& options);
 
 std::uint32_t header_id(const FanOptions& options) { return kFirstId + 2U * options.channel; }
 
-/// One message a target: its number, then range in cm, azimuth in 0.1 mrad, Doppler in cm/s.
+/// One message per target: its number, then range in cm, azimuth in 0.1 mrad, Doppler in cm/s.
 class FanDecoder final : public RadarDecoder {
  public:
   explicit FanDecoder(const FanOptions& options) : options_(options) {}
@@ -177,7 +176,7 @@ void put(CanFrame& frame, std::size_t byte, double value) {
 
 constexpr double kSpeedMps = 10.0;
 
-/// What a Fan on channel 2 sends of fixed posts while it goes straight ahead, ten times a second.
+/// Frames of a Fan on channel 2 with fixed posts on a straight drive, ten scans a second.
 std::vector<CanFrame> fan_drive() {
   constexpr int kScans = 20;
   constexpr int kTargets = 30;
@@ -224,7 +223,7 @@ TEST_CASE("Its keys are checked and told from those of others") {
   CHECK_THAT(refusal(kText + "sensor_id = 1\n"),
              Catch::Contains("sensor_id: is a key of type \"ars408\"; must be left out here"));
   CHECK_THAT(refusal(kText + "calibration = { rotation_lead_s = 0.1 }\n"),
-             Catch::Contains("is a key of type \"ars408\", which is told the yaw rate"));
+             Catch::Contains("is a key of type \"ars408\", which receives the yaw rate"));
   CHECK_THAT(refusal("[[radar]]\nname = \"a\"\ntype = \"ars408\"\ninterface = \"can0\"\n"
                      "channel = 1\nmount = { x_m = 0.0, y_m = 0.0, yaw_rad = 0.0 }\n"),
              Catch::Contains("channel: is a key of type \"fan\"; must be left out here"));

@@ -32,7 +32,7 @@ const SegmentErrors& of(const std::vector<SegmentErrors>& all, const std::string
   throw std::invalid_argument("no such length");
 }
 
-/// As many segments as there are that do not overlap tell how sure a mean is.
+/// The number of segments without overlap determines the accuracy of a mean.
 void check_is_one(double nees, double apart, int degrees_of_freedom) {
   const Interval interval =
       anees_interval(static_cast<std::size_t>(apart), degrees_of_freedom, 0.999);
@@ -40,8 +40,8 @@ void check_is_one(double nees, double apart, int degrees_of_freedom) {
   CHECK(nees < interval.high);
 }
 
-/// The motions joined to states since anchors: each says what was driven since the last anchor,
-/// with the errors and covariances of all motions since.
+/// The motions as states relative to anchors: each is the motion since the last anchor, with the
+/// errors and covariances of all motions since.
 std::vector<RecordedEstimate> since_anchors(const std::vector<RecordedEstimate>& motions,
                                             std::size_t rows) {
   std::vector<RecordedEstimate> states;
@@ -114,7 +114,8 @@ TEST_CASE("An error of scale is its share of the way; segments end at or beyond 
     CAPTURE(to_text(errors.length));
     CHECK(errors.position_percent == Approx(100.0 * 0.02 / 1.02).epsilon(1e-3));
   }
-  // 13 motions of 0.816 m are 10.6 m, every fifth of 400 begins one but where the end is too near.
+  // 13 motions of 0.816 m are 10.6 m; every fifth of 400 begins a segment unless the end is too
+  // near.
   CHECK(of(all, "10 m").rmse.x() == Approx(13 * 0.016).epsilon(1e-3));
   CHECK(of(all, "10 m").segments == 78);
   CHECK(of(all, "30 s").segments == 21);
@@ -138,7 +139,7 @@ TEST_CASE("Segments across a gap and beyond truth are left out") {
   const auto truth = exact_truth(circle, 300);
   CHECK(of(trajectory_segments(estimates, truth, {}), "10 s").segments == 41);
   estimates.erase(estimates.begin() + 150);
-  // Begins at 0, 0.5, ... 5 s before the gap, and, every fifth still, at 15.1 to 19.6 s behind it.
+  // Begins at 0, 0.5, ... 5 s before the gap, and, still every fifth, at 15.1 to 19.6 s after it.
   CHECK(of(trajectory_segments(estimates, truth, {}), "10 s").segments == 11 + 10);
   const auto none = trajectory_segments({}, truth, {});
   CHECK(of(none, "50 m").segments == 0);

@@ -52,5 +52,5 @@ TEST_CASE("Wheels tell nothing outside of their time, and bad files are refused 
   CHECK_THROWS_WITH(read_wheels("utime,speed_mps,yaw_rate_radps\n5,1,0\n5,1,0\n"),
                     Catch::Contains("row 2: utime does not increase"));
   CHECK_THROWS_WITH(read_wheels("utime,speed_mps,yaw_rate_radps\n5,fast,0\n"),
-                    Catch::Contains("'fast' is no number"));
+                    Catch::Contains("'fast' is not a number"));
 }

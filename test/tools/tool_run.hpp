@@ -5,8 +5,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include <catch2/catch.hpp>
 #include <sys/wait.h>
 
 #include "tools/eval/temporary_folder.hpp"
@@ -18,14 +21,14 @@ inline std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// How a run of one of the programs ended.
+/// Result of running a program.
 struct ToolRun {
   int status = 0;
   std::string output;
   std::string error;
 };
 
-/// Runs a program of the build; its output goes through files of the folder.
+/// Runs a program of the build; its output is stored in files of the folder.
 inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
                         const std::string& arguments) {
   const std::string command = std::string(CREMED_BINARY_DIR)
@@ -34,6 +37,34 @@ inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
                                   .append(" 2>" + folder.file("stderr"));
   const int status = std::system(command.c_str());
   return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+}
+
+/// Cells of a printed table without its comments and column separators ("|").
+inline std::vector<std::vector<std::string>> cells(const std::string& table) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.front() == '#') continue;
+    std::istringstream words(line);
+    rows.emplace_back();
+    for (std::string word; words >> word;) {
+      if (word != "|") rows.back().push_back(word);
+    }
+  }
+  return rows;
+}
+
+/// Arguments that a program refuses: its exit status, and a part of its message.
+struct Refusal {
+  std::string arguments;
+  int status;
+  std::string message;
+};
+
+inline void check(const ToolRun& run, const Refusal& refusal) {
+  CAPTURE(run.error);
+  CHECK(run.status == refusal.status);
+  CHECK_THAT(run.error, Catch::Contains(refusal.message));
 }
 
 }  // namespace cremed::test

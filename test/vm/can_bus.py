@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A virtual CAN bus, and a radar that talks on it."""
+"""A virtual CAN bus, and a radar on it."""
 import contextlib
 import itertools
 import json
@@ -55,12 +55,12 @@ class CanBus:
         return sender
 
     def frames_sent(self):
-        """By all, since the interface was made."""
+        """By all nodes, since the interface was created."""
         return json.loads(ip("-json", "-statistics", "link", "show", self.name).stdout)[0][
             "stats64"]["tx"]["packets"]
 
     def send(self, identifier, data=b"", count=1):
-        """`identifier` with flags; an error frame where it holds ERROR."""
+        """`identifier` with flags; an error frame if it includes ERROR."""
         with self.open() as sender:
             for _ in range(count):
                 sender.send(pack(identifier, data))
@@ -71,7 +71,7 @@ class CanBus:
 
 
 class BusListener:
-    """Hears frames of given identifiers on a bus."""
+    """Receives frames with given identifiers."""
 
     def __init__(self, bus, *identifiers):
         self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
@@ -90,23 +90,23 @@ class BusListener:
         return frames
 
 
-# A pause of a radar that is longer than this lies between two of its scans.
+# A longer pause of a radar separates two scans.
 SCAN_PAUSE_S = 0.004
-# A scan that would begin later than this is left out, so that stamps stay near those of the drive.
+# A scan that would begin later than this is omitted, so that stamps stay near the drive's.
 LATEST_SCAN_S = 0.005
-# Frames of so much time are sent at once: to sleep costs more than to send one.
+# Frames of this time span are sent together: a sleep costs more than a frame.
 BURST_S = 0.002
 
 
 def sensor_of(identifier):
-    """An ARS408's id, which the identifiers of all its messages hold; what is none is one sensor."""
+    """An ARS408's id, part of the identifiers of its messages; all other frames are one sensor."""
     return (identifier >> 4) & 7 if identifier >= 0x600 else None
 
 
 @dataclass
 class Burst:
     """Frames of one sensor."""
-    after_s: float  # Since the first of the log.
+    after_s: float  # Since the first frame of the log.
     sensor: object
     begins_scan: bool
     frames: list
@@ -134,7 +134,7 @@ def read_log(path, interface):
 
 
 class Flag:
-    """Like a threading.Event, of two processes."""
+    """A threading.Event between two processes."""
 
     def __init__(self):
         self.memory = mmap.mmap(-1, 1)
@@ -150,8 +150,8 @@ class Flag:
 
 
 class RadarPlayer(multiprocessing.Process):
-    """Plays one interface of a log at real speed, over and over, whatever becomes of the bus. It has
-    the priority of hardware. Where the computer is too slow nonetheless, it leaves out scans."""
+    """Replays one interface of a log repeatedly at real speed, whatever the state of the bus, with a
+    priority like hardware. If the computer is too slow it omits scans."""
 
     def __init__(self, bus, log):
         super().__init__(daemon=True)
@@ -189,7 +189,7 @@ class RadarPlayer(multiprocessing.Process):
             struct.pack_into("=Q", self.scans, 0, self.scans_begun() + 1)
 
     def scans_begun(self):
-        """On the bus, of all sensors."""
+        """Number of scans on the bus, of all sensors."""
         return struct.unpack_from("=Q", self.scans)[0]
 
     def send(self, frame):
@@ -197,7 +197,7 @@ class RadarPlayer(multiprocessing.Process):
             if self.sender is None:
                 self.sender = self.bus.open()
             self.sender.send(frame)
-        except OSError:  # Down or gone: the radar does not mind.
+        except OSError:  # Down or removed: the radar continues.
             if self.sender:
                 self.sender.close()
             self.sender = None

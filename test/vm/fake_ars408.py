@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The part of an ARS408 that can be configured, on a virtual bus."""
+"""The configurable part of an ARS408 on a virtual bus."""
 import contextlib
 import socket
 import struct
@@ -13,7 +13,7 @@ OBJECTS, CLUSTERS = 1, 2
 
 
 class FakeArs408(threading.Thread):
-    """Tells its state (0x201) once a second, obeys RadarCfg (0x200), answers FilterCfg (0x202)."""
+    """Sends its state (0x201) once a second, obeys RadarCfg (0x200), answers FilterCfg (0x202)."""
 
     def __init__(self, bus, sensor_id=0, output=OBJECTS, quality=True, extended=True,
                  range_m=200, obeys=True):
@@ -21,7 +21,7 @@ class FakeArs408(threading.Thread):
         self.sensor_id, self.output, self.range_m = sensor_id, output, range_m
         self.quality, self.extended, self.stored = quality, extended, False
         self.obeys = obeys
-        self.commands = []  # Identifier and bytes of each 0x200 and 0x202, whoever they are for.
+        self.commands = []  # Identifier and bytes of each 0x200 and 0x202 to any sensor.
         self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
         self.socket.bind((bus.name,))
         self.filters = {}  # By index: activity, limits.
@@ -37,7 +37,7 @@ class FakeArs408(threading.Thread):
     def run(self):
         due_s = time.monotonic()
         while not self.ended.is_set():
-            with contextlib.suppress(OSError):  # Nothing came, or the interface is down.
+            with contextlib.suppress(OSError):  # No frame, or the interface is down.
                 if time.monotonic() >= due_s:
                     due_s += 1
                     self.socket.send(pack(0x201 + 0x10 * self.sensor_id, self.state()))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hears what cremed publishes over LCM, with the build's Python module; needs no route."""
+"""Receives cremed's LCM messages with the build's Python module; needs no route."""
 import importlib
 import pathlib
 import sys
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 
 def cremed_module():
-    """The build's: a test's first argument is the folder of the build, or of its programs."""
+    """The build's module: a test's first argument is the folder of the build or of its programs."""
     for build in (pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[1]).parent):
         folder = build / "lcm_types" / "python"
         if folder.is_dir():
@@ -21,7 +21,7 @@ def cremed_module():
 
 @dataclass
 class Heard:
-    """A message and when it came; monotonic_s: was read."""
+    """A message and its time of arrival; monotonic_s: of reading."""
     wall_us: int
     monotonic_s: float
     message: object
@@ -35,7 +35,7 @@ class LcmListener(threading.Thread):
     def __init__(self):
         super().__init__(daemon=True)
         self.heard = {"CREMED_EGO_MOTION": [], "CREMED_STATUS": []}
-        # By address, not by route: it has to hear on lo whatever the routes are.
+        # By address, to receive on lo with any routes.
         self.listener = cremed_module().Listener(interface="127.0.0.1")
         self.start()
 
@@ -46,7 +46,7 @@ class LcmListener(threading.Thread):
                                                        heard.message))
 
     def motions(self, source, since_s=0.0):
-        """Motions of a radar that were heard after a time of time.monotonic()."""
+        """Motions of a radar received after a time of time.monotonic()."""
         return [heard for heard in list(self.heard["CREMED_EGO_MOTION"])
                 if heard.message.source == source and heard.monotonic_s > since_s]
 
@@ -54,7 +54,7 @@ class LcmListener(threading.Thread):
         return [heard for heard in self.motions(source, since_s) if heard.message.status in (0, 1)]
 
     def motions_of_scans(self, source, since_us):
-        """Of scans that began after a time of time.time_ns() / 1000."""
+        """Motions of scans that began after a time of time.time_ns() / 1000."""
         return [heard for heard in self.motions(source) if heard.message.utime > since_us]
 
     def statuses(self, source, since_s=0.0):
@@ -62,5 +62,5 @@ class LcmListener(threading.Thread):
                 if heard.message.source == source and heard.monotonic_s > since_s]
 
     def status(self, source):
-        """The latest one."""
+        """The latest status."""
         return self.statuses(source)[-1]

@@ -13,11 +13,11 @@ import time
 
 
 class Failure(Exception):
-    """What was expected, and what was there instead."""
+    """A failed expectation."""
 
 
 class Skipped(Exception):
-    """What this computer lacks for a scenario."""
+    """This computer lacks something for a scenario."""
 
 
 def wait_until(condition, limit_s, expected):
@@ -47,13 +47,13 @@ REAR = radar("rear", "vcan1", kind="bosch_gpr", x_m=-0.9, yaw_rad=3.14159)
 
 
 class LiveDaemon:
-    """One cremed, with the priority and as little right to anything as its unit gives it."""
+    """One cremed, with the priority and the few privileges of its unit."""
 
     def __init__(self, folder, program, configuration, live=('realtime = "off"',), user="nobody"):
         self.folder = pathlib.Path(folder)
         self.configuration = self.folder / "cremed.toml"
         self.configuration.write_text("\n".join(["[live]", *live, configuration]))
-        # The build may lie where only root can read.
+        # The build may be readable by root only.
         self.program = shutil.copy(program, self.folder / "cremed")
         self.lines, self.notifications = [], []
         self.start_time_s = time.monotonic()
@@ -81,7 +81,7 @@ class LiveDaemon:
             self.lines.append(line.rstrip())
 
     def log(self, *words):
-        """The log's lines that hold all of the words, whatever their case."""
+        """The log's lines with all of the words, in any case."""
         return [line for line in list(self.lines)
                 if all(word.lower() in line.lower() for word in words)]
 
@@ -102,7 +102,7 @@ class LiveDaemon:
         self.process.send_signal(number)
 
     def stop(self):
-        """Ends it and returns exit status and how long that took."""
+        """Ends it; returns exit status and duration."""
         begin_s = time.monotonic()
         self.signal(signal.SIGTERM)
         status = self.process.wait(10)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs scenarios, each in a network namespace of its own with buses of its own, some at a time."""
+"""Runs scenarios, several at a time, each in a network namespace with its own buses."""
 import argparse
 import concurrent.futures
 import os
@@ -24,8 +24,8 @@ SLOWEST_ODOMETRY_S = 0.8
 
 
 def scenario(function=None, owns_kernel=False):
-    """Registers a scenario. `owns_kernel`: it sets what all namespaces share, so it runs alone, and
-    only in a guest."""
+    """Registers a scenario. `owns_kernel`: it changes state shared by all namespaces, so it runs
+    alone, and only in a guest."""
     if function is None:
         return lambda function: scenario(function, owns_kernel)
     function.owns_kernel = owns_kernel
@@ -34,7 +34,7 @@ def scenario(function=None, owns_kernel=False):
 
 
 def expect_estimates(listener, sources, limit_s):
-    """Three more estimates of each source; returns how long the first one's first took."""
+    """Waits for three more estimates of each source; returns the delay of the first."""
     begin_s = time.monotonic()
     for source in sources:
         wait_until(lambda s=source: len(listener.estimates(s, begin_s)) >= 3, limit_s,
@@ -43,7 +43,7 @@ def expect_estimates(listener, sources, limit_s):
 
 
 class Vehicle:
-    """What a scenario works with."""
+    """The means of a scenario."""
 
     def __init__(self, arguments, folder):
         self.bin = pathlib.Path(arguments.bin)
@@ -73,18 +73,18 @@ class Vehicle:
         return expect_estimates(self.listener, sources, limit_s)
 
     def expect_good_manners(self, repeated=(), read_before_us=0):
-        """What holds in every scenario: nothing stale, nothing told twice, a clean end. `repeated`:
-        words of lines that may come again; `read_before_us`: older scans were read in time."""
+        """Checks for every scenario: nothing stale, nothing logged twice, a clean end. `repeated`:
+        words of lines that may repeat; `read_before_us`: older scans were read in time."""
         for heard in self.listener.heard["CREMED_EGO_MOTION"]:
             is_estimate = heard.message.status in (0, 1) and heard.message.utime > read_before_us
             check(not is_estimate or heard.age_s < SLOWEST_ODOMETRY_S,
                   f"no stale scan; {heard.message.source} is {heard.age_s:.2f} s old")
         for daemon in self.daemons:
-            # A computer that is busy otherwise may make it lose frames, or wait, more than once.
+            # On a busy computer it may lose frames, or wait, more than once.
             told = [line for line in daemon.lines
                     if not any(word in line for word in (*repeated, "losses", "delay"))]
             twice = {line for line in told if told.count(line) > 1}
-            check(not twice, f"each condition told once, not {sorted(twice)}")
+            check(not twice, f"each condition logged once, not {sorted(twice)}")
             if daemon.process.poll() is None:
                 status, took_s = daemon.stop()
                 check(status == 0, f"exit status 0 after SIGTERM, not {status}")
@@ -110,7 +110,7 @@ def simulate(program, name, folder):
 
 
 def set_receive_limit(setting):
-    """It is that of all namespaces, and only the first one's has it."""
+    """The setting is shared by all namespaces and visible in the first only."""
     subprocess.run(["nsenter", "--net", "--target", "1", "sysctl", "--quiet", setting], check=True)
 
 
@@ -138,7 +138,7 @@ def run_one(arguments):
             if daemon.process.poll() is None:
                 daemon.process.kill()
     sys.stdout.flush()
-    # Listeners, players and readers still wait for something.
+    # Listeners, players and readers are still waiting.
     os._exit(status)
 
 

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command lines of the READMEs, as a reader would copy them."""
+"""The command lines of the READMEs as a reader copies them."""
 import os
 import pathlib
 import re
 from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Of others; those of the project are known by their names and paths.
+# Programs of others; the project's are recognised by name and path.
 OTHERS = {"apt-get", "candump", "cmake", "cp", "cpack", "ctest", "evo_ape", "install", "ip", "journalctl",
           "lcm-logger", "systemctl", "systemd-analyze"}
 
@@ -68,7 +68,7 @@ def commands_in(document, heading, text):
 
 
 def all_commands():
-    """[Command] of all documents in their order, each once a heading."""
+    """[Command] of all documents in order, each once per heading."""
     found = {}
     for path in documents():
         parts = re.split(r"^#+ (.*)$", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
@@ -79,13 +79,13 @@ def all_commands():
 
 
 def other_lines():
-    """What stands in code blocks and is no command line."""
+    """Lines of code blocks that are not command lines."""
     return [plain(line) for path in documents() for line in blocks(path.read_text(encoding="utf-8"))
             if plain(line) and not is_command(plain(line))]
 
 
 def vehicle_steps():
-    """The numbered steps only: what follows them are examples."""
+    """The numbered steps only: examples follow them."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     section = text.split("## On your vehicle\n")[1].split("\n\n")[0]
     return [command for command in commands_in("README.md", "On your vehicle", section)

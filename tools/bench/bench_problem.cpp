@@ -17,7 +17,7 @@ constexpr std::size_t kRuns = 2;
 constexpr std::size_t kPairsOfSize = 10;
 constexpr double kIntervalS = 0.2;
 
-/// A rectangle about `x_m` ahead of the vehicle that the targets stand in.
+/// The rectangle of targets, about `x_m` ahead of the vehicle.
 struct Area {
   double x_m;
   double half_length_m;
@@ -35,7 +35,7 @@ struct Point {
   double y_m;
 };
 
-/// A standing target as seen by a radar at the vehicle's origin that drives straight ahead.
+/// A static target seen by a radar at the vehicle's origin that drives straight ahead.
 Detection see(const Point& point, double speed_mps, const Sensor& sensor, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   Detection detection;

@@ -11,20 +11,20 @@
 
 namespace cremed {
 
-/// Pairs of scans with the settings to register them.
+/// Pairs of scans with the options to register them.
 struct BenchProblem {
   std::string name;
   RegistrationOptions options;
   std::vector<RegistrationPair> pairs;
 };
 
-/// PSR, PSR-C, Sim, Sim-C, and the latter two with Doppler (-D), of the same landmarks for ever.
+/// PSR, PSR-C, Sim, Sim-C, and the latter two with Doppler (-D), always of the same landmarks.
 std::vector<BenchProblem> simulated_problems(Likelihood likelihood);
 
-/// Sim-D with so many targets in both scans, scattered over the whole view, at the sensor's noise.
+/// Sim-D with this many targets in both scans, spread over the whole view, at the sensor's noise.
 BenchProblem problem_of_size(std::size_t targets, Likelihood likelihood);
 
-/// The worst: full scans, 3 DoF, Doppler, every target within the noise of every other.
+/// The worst case: full scans, 3 DoF, Doppler, all targets within each other's noise.
 BenchProblem ambiguous_problem(Likelihood likelihood);
 
 }  // namespace cremed

@@ -16,7 +16,7 @@ struct Column {
   int digits;
 };
 
-/// Benchmarks whose names begin alike.
+/// Benchmarks whose names have a common prefix.
 struct Group {
   const char* prefix;
   const char* title;
@@ -39,7 +39,7 @@ constexpr std::array<Column, 3> kComponentColumns{
     {{"ns", "ns", 2}, {"floor_ns", "floor ns", 2}, {"ratio", "ns/floor", 2}}};
 
 constexpr std::array<Group, 4> kGroups{
-    {{"pair/", "Time a pair; floor: as many evaluations of a mixture component, bare",
+    {{"pair/", "Time per pair; floor: as many bare evaluations of a mixture component",
       kPairColumns},
      {"worst/", "256 against 256 targets, 3 DoF, Doppler, all within their noise of each other",
       kPairColumns},

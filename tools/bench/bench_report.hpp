@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// Google Benchmark's table as it grows, and at the end ours: one a group of benchmarks, with the
-/// counters in columns.
+/// Prints Google Benchmark's table as it grows, and at the end one table per group of benchmarks,
+/// with the counters in columns.
 class BenchReport : public benchmark::ConsoleReporter {
  public:
   BenchReport() : ConsoleReporter(OO_Tabular) {}

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kPoints = 64;
 
-/// The targets of a scan, over and over.
+/// The targets of a scan, repeated.
 std::vector<MixturePoint> points_of(const TargetSet& targets) {
   std::vector<MixturePoint> points;
   for (std::size_t i = 0; i < kPoints; ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 using namespace vector_math;
 
-/// Enough for the clock to tell, few enough that nothing else comes in between.
+/// Long enough to measure, short enough to be rarely interrupted.
 constexpr int kPoints = 200;
 constexpr int kRepetitions = 150;
 

@@ -6,12 +6,12 @@
 
 namespace cremed {
 
-/// The least that a mixture costs if every component is evaluated: difference, Mahalanobis distance
-/// in two dimensions, exponential, sum. Vectorised for the same instruction set as the mixture's
-/// kernel, nothing left out, nothing else done. Returns the sum.
+/// Lower bound on the cost of a mixture that evaluates every component: difference, Mahalanobis
+/// distance in two dimensions, exponential, sum, vectorised for the instruction set of the
+/// mixture's kernel. Returns the sum.
 double evaluate_floor(const MixtureComponents& components, const MixturePoint& point);
 
-/// Nanoseconds an evaluation of a component takes that way, with so many components.
+/// Nanoseconds per evaluation of a component at that bound, for this many components.
 double floor_ns(std::size_t components);
 
 }  // namespace cremed

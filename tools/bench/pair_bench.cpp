@@ -53,7 +53,7 @@ std::vector<Case> prepare(const BenchProblem& problem) {
   return cases;
 }
 
-/// Time of the processor, so that other programs do not count.
+/// Processor time, independent of other programs.
 double thread_us() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -70,7 +70,7 @@ double solve_us(Case& pair) {
   return taken_us;
 }
 
-/// Value that the share `share` of the sorted values does not exceed.
+/// The quantile `share` of the sorted values.
 double quantile(const std::vector<double>& sorted, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
   return sorted[std::max<std::size_t>(rank, 1) - 1];
@@ -85,8 +85,7 @@ double mean_of(const std::vector<Case>& cases, Value value) {
   return sum / static_cast<double>(cases.size());
 }
 
-/// The ratio compares least times on both sides: caches that other programs emptied belong to
-/// neither.
+/// The ratio compares least times on both sides, without caches emptied by other programs.
 void set_counters(const std::vector<Case>& cases, std::vector<double>& times_us,
                   benchmark::State& state) {
   std::sort(times_us.begin(), times_us.end());

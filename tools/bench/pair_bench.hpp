@@ -10,10 +10,10 @@
 
 namespace cremed {
 
-/// Registers a benchmark "group/name" of a problem; an iteration is one pair, its time that of the
-/// processor. Counters, of all pairs: p50_us, p99_us, max_us, least_us (mean of each pair's least),
-/// evaluations (of mixture components), floor_us (of as many bare evaluations, see floor.hpp),
-/// ratio (of least_us to it), targets, ns_per_target2.
+/// Registers a benchmark "group/name" of a problem; an iteration is one pair, in processor time.
+/// Counters over all pairs: p50_us, p99_us, max_us, least_us (mean of each pair's least),
+/// evaluations (of mixture components), floor_us (as many bare evaluations, see floor.hpp), ratio
+/// (least_us over floor_us), targets, ns_per_target2.
 benchmark::internal::Benchmark* register_pair_bench(const std::string& group, BenchProblem problem);
 
 }  // namespace cremed

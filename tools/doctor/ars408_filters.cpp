@@ -17,11 +17,11 @@
 namespace cremed {
 namespace {
 
-/// A criterion of clusters; its index in the table is its code.
+/// A criterion for clusters; its code is its index in the table.
 struct Row {
   std::string_view name;
   std::string_view unit;
-  double per_unit;  ///< Of the SI unit: how many of the user's one is.
+  double per_unit;  ///< Units shown per SI unit.
 };
 
 constexpr std::array<Row, 6> kRows{{{"count", "", 1.0},
@@ -43,12 +43,12 @@ CanFrame frame_of(std::uint8_t sensor_id, const Ars408FilterState& filter) {
   return encode_ars408_filter(sensor_id, filter);
 }
 
-/// What a 0x202 or 0x204 says.
+/// The content of a 0x202 or 0x204.
 std::optional<Ars408FilterState> filter_in(const CanFrame& frame) {
   return decode_ars408_filter_state(std::span(frame.data).first(frame.length));
 }
 
-/// Steps of a frame are rounded to; limits are not.
+/// Rounds to steps of the frame; limits need no rounding.
 bool can_be_sent(const Ars408FilterState& filter) {
   const auto& limits = ars408_layout::filter::kLimits[static_cast<std::size_t>(filter.criterion)];
   const double step = 1.0 / limits.scale.steps_per_unit;
@@ -105,7 +105,7 @@ std::optional<Ars408FilterState> answer_to(const CanFrame& sent, const Ars408Tal
   return answer;
 }
 
-/// Sends one frame and says what came back; `wanted`: what it should be.
+/// Sends one frame and prints the answer; `wanted`: the expected filter.
 bool exchange(const CanFrame& frame, const std::optional<Ars408FilterState>& wanted,
               const Ars408Talk& talk) {
   if (!send(talk, frame)) {
@@ -119,8 +119,8 @@ bool exchange(const CanFrame& frame, const std::optional<Ars408FilterState>& wan
   const bool took = !wanted || to_text(*wanted) == to_text(*answer);
   talk.out << "  " << to_text(*answer)
            << (!wanted ? ""
-               : took  ? ", took"
-                       : ", did not take: wanted " + to_text(*wanted))
+               : took  ? ", set"
+                       : ", not set: expected " + to_text(*wanted))
            << '\n';
   return took;
 }
@@ -157,7 +157,7 @@ TalkResult talk_about_filters(const Ars408Talk& talk,
   if (!met) {
     return TalkResult::not_sent;
   }
-  talk.out << (wanted.empty() ? "It tells its filters when asked; this changes nothing in it.\n"
+  talk.out << (wanted.empty() ? "It sends its filters on request; this changes no setting.\n"
                               : "The sensor keeps filters in its flash, which wears.\n");
   const std::vector<CanFrame> frames = frames_to_send(met->sensor_id, wanted);
   if (!is_agreed(talk, frames)) {

@@ -12,20 +12,20 @@
 
 namespace cremed {
 
-/// How a filter is to be given: "rcs=-5..60" or "rcs=off".
+/// Syntax of a filter: "rcs=-5..60" or "rcs=off".
 inline constexpr const char* kArs408FilterWanted =
     "NAME=MIN..MAX or NAME=off, with NAME one of count, range (m), azimuth (deg), oncoming, "
     "departing (m/s, along the line of sight), rcs (dBm^2)";
 
-/// A filter of clusters as the user words it; nothing if it is none, or cannot be sent as it is.
+/// Parses a filter for clusters; nothing if it is invalid or cannot be sent exactly.
 std::optional<Ars408FilterState> parse_ars408_filter(std::string_view text);
 
 /// "rcs: -5 to 60 dBm^2"; "rcs: off"
 std::string to_text(const Ars408FilterState& filter);
 
-/// Shows what clusters the sensor's own filters let pass, which it tells only when asked, and sets
-/// some of them, if there are any. Shows the frames, asks, sends one after the other, each once the
-/// sensor has answered the one before.
+/// Shows which clusters the sensor's filters pass, which it sends on request only, and sets
+/// `wanted` filters if there are any. Shows the frames, asks for consent, and sends one frame at a
+/// time, each after the answer to the last.
 TalkResult talk_about_filters(const Ars408Talk& talk, const std::vector<Ars408FilterState>& wanted);
 
 }  // namespace cremed

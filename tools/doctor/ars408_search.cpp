@@ -19,7 +19,7 @@ std::uint8_t configured_id(const RadarConfiguration& radar) {
   return radar.decoder.as<Ars408Options>()->sensor_id;
 }
 
-/// The radar of the configuration that has this id on the same bus; null if it is this one or none.
+/// The other radar of the configuration with this id on the same bus; null if there is none.
 const RadarConfiguration* other_radar(std::uint8_t sensor_id, const Configuration& configuration,
                                       const RadarConfiguration& radar) {
   for (const RadarConfiguration& other : configuration.radars) {
@@ -46,7 +46,7 @@ bool is_set_alike(const Ars408RadarState& a, const Ars408RadarState& b) {
          a.rcs_threshold_code == b.rcs_threshold_code;
 }
 
-/// Ids on the bus that are no other radar of the configuration, as "3, 5".
+/// Ids on the bus that belong to no other radar of the configuration, as "3, 5".
 std::string free_ids(const Configuration& configuration, const RadarConfiguration& radar,
                      const Ars408States& states) {
   std::string ids;
@@ -77,7 +77,7 @@ bool is_twin(const Ars408Reports& reports, const Ars408Address& address) {
          (reports.shortest_gap_us && *reports.shortest_gap_us < address.shortest_gap_us);
 }
 
-/// Why a sensor of this id must be left alone; empty if it need not.
+/// Why a sensor with this id must not be changed; empty if it may be.
 std::string problem(std::uint8_t id, const Configuration& configuration,
                     const RadarConfiguration& radar, const Ars408Address& address,
                     const Ars408States& states) {

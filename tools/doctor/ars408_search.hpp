@@ -13,10 +13,10 @@
 
 namespace cremed {
 
-/// What the 0x201 of one sensor id tell.
+/// Observations of one sensor id from its 0x201.
 struct Ars408Reports {
   std::optional<Ars408RadarState> state;        ///< The latest.
-  bool is_changing = false;                     ///< Two of them say that it is set otherwise.
+  bool is_changing = false;                     ///< The settings changed between two of them.
   std::optional<std::int64_t> shortest_gap_us;  ///< Between two of them.
   std::int64_t stamp_us = 0;                    ///< Of the latest.
 };
@@ -24,26 +24,26 @@ struct Ars408Reports {
 /// By sensor id.
 using Ars408States = std::array<Ars408Reports, 8>;
 
-/// Notes the state in the frame, if it is a 0x201 of the sensor that it names itself.
+/// Notes the state in a frame that is the 0x201 of the sensor named in it.
 void note_state(const CanFrame& frame, Ars408States& states);
 
-/// Which sensor a frame is meant for.
+/// Selects the sensor to talk to.
 struct Ars408Address {
-  /// The id the sensor has now, in the user's own words; else it has to be the configured one.
+  /// The sensor's present id if the user gave one; otherwise the configured id.
   std::optional<std::uint8_t> said_id;
-  /// A sensor reports once a second: two of one id come closer together, at least once.
+  /// A sensor sends 0x201 once a second; shorter gaps mean two sensors with one id.
   std::int64_t shortest_gap_us = 750'000;
 };
 
-/// Which sensor on the bus the radar of the configuration is.
+/// Result of the search for the radar's sensor.
 struct Ars408Search {
-  std::optional<std::uint8_t> sensor_id;  ///< The one it has now.
-  std::string problem;                    ///< Why there is none.
+  std::optional<std::uint8_t> sensor_id;  ///< Its present id.
+  std::string problem;                    ///< Why none was selected.
 };
 
-/// The sensor that is meant, if it is there, and the only one with its id. None is guessed: what is
-/// set in a wrong one outlasts power-off. None where a GPR is on the bus: what an ARS408 is told
-/// would be its targets.
+/// The wanted sensor, if it is present and the only one with its id. Never guesses: settings
+/// outlast power-off. None on a bus with a GPR, whose targets use the identifiers of commands to an
+/// ARS408.
 Ars408Search find_ars408(const Configuration& configuration, const RadarConfiguration& radar,
                          const Ars408Address& address, const BusObservation& bus,
                          const Ars408States& states);

@@ -104,7 +104,7 @@ void show_plan(const std::vector<Setting>& settings, const Ars408RadarState& now
                       : "It lasts until the sensor's power is switched off; --store keeps it.\n");
 }
 
-/// What the sensor says after the command, under its new id or, if it kept it, its old one.
+/// The sensor's state after the command, under its new or its old id.
 std::optional<Ars408RadarState> confirmed_state(const Ars408Talk& talk, std::uint8_t old_id,
                                                 const std::vector<Setting>& settings,
                                                 const Ars408RadarState& wanted) {
@@ -121,14 +121,14 @@ std::optional<Ars408RadarState> confirmed_state(const Ars408Talk& talk, std::uin
 TalkResult show_result(const std::vector<Setting>& settings, const Ars408RadarState& wanted,
                        const std::optional<Ars408RadarState>& state, std::ostream& out) {
   if (!state) {
-    out << "no 0x201 came after it: the sensor does not confirm anything\n";
+    out << "no 0x201 came after it: the sensor confirms nothing\n";
     return TalkResult::not_taken;
   }
   for (const Setting& setting : settings) {
     const std::string now = setting.text(*state);
     const bool took = now == setting.text(wanted);
     out << "  " << setting.name << ": " << now
-        << (took ? ", took\n" : ", did not take: wanted " + setting.text(wanted) + '\n');
+        << (took ? ", set\n" : ", not set: expected " + setting.text(wanted) + '\n');
   }
   return is_as_wanted(settings, wanted, *state) ? TalkResult::took : TalkResult::not_taken;
 }
@@ -144,7 +144,7 @@ TalkResult set_up_ars408(const Ars408Talk& talk, const Ars408Setup& setup) {
       wanted_state(*talk.radar.decoder.as<Ars408Options>(), setup, met->state);
   const std::vector<Setting> settings = settings_of(setup);
   if (!setup.store && is_as_wanted(settings, wanted, met->state)) {
-    talk.out << "It is set so already; nothing was sent.\n";
+    talk.out << "It already has these settings; nothing was sent.\n";
     return TalkResult::took;
   }
   show_plan(settings, met->state, wanted, setup, talk.out);

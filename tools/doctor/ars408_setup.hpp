@@ -9,13 +9,13 @@
 namespace cremed {
 
 struct Ars408Setup {
-  std::optional<double> max_distance_m{};  ///< As it is, if not set.
+  std::optional<double> max_distance_m{};  ///< Unchanged if not set.
   bool store = false;                      ///< To flash.
 };
 
-/// Sets an ARS408 to what the configuration expects of it: output, quality, no extended messages,
-/// sensor id; the range, if asked for. Shows what it reads and would send, asks, sends once, and
-/// says of each setting whether the sensor's next 0x201 confirms it.
+/// Sets an ARS408 to what the configuration expects: output, quality, no extended messages, sensor
+/// id, and optionally the range. Shows present and wanted settings, asks for consent, sends once,
+/// and reports which settings the next 0x201 confirms.
 TalkResult set_up_ars408(const Ars408Talk& talk, const Ars408Setup& setup);
 
 }  // namespace cremed

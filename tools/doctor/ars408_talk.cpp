@@ -17,7 +17,7 @@
 namespace cremed {
 namespace {
 
-/// As candump shows it: "can0 200#3800000010040000".
+/// In the format of candump: "can0 200#3800000010040000".
 std::string frame_text(const std::string& interface, const CanFrame& frame) {
   std::array<char, kMaxCandumpLine> line{};
   const std::string_view text(line.data(), format_candump_line(frame, interface, line));

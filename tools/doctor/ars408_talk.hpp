@@ -16,7 +16,7 @@
 
 namespace cremed {
 
-/// How to find the sensor, and how long to wait for it.
+/// How to find the sensor, and how long to wait.
 struct Ars408TalkOptions {
   Ars408Address address{};
   Consent consent{};
@@ -24,7 +24,7 @@ struct Ars408TalkOptions {
   std::int64_t confirm_us = 3'000'000;
 };
 
-/// A talk with the sensor that is one radar of the configuration; the user hears it all.
+/// A dialogue with the sensor of one configured radar, shown to the user.
 struct Ars408Talk {
   const Configuration& configuration;
   const RadarConfiguration& radar;
@@ -35,7 +35,7 @@ struct Ars408Talk {
 
 enum class TalkResult : std::uint8_t {
   took,       ///< The sensor confirms everything.
-  not_sent,   ///< Not found, or the user did not agree.
+  not_sent,   ///< Not found, or no consent.
   not_taken,  ///< Sent, but the sensor does not confirm all of it.
 };
 
@@ -44,16 +44,16 @@ struct MetArs408 {
   Ars408RadarState state;
 };
 
-/// Listens, and says which sensor it is, or why it is none.
+/// Listens, and prints the sensor found or why there is none.
 std::optional<MetArs408> meet(const Ars408Talk& talk);
 
-/// Shows the frames that are to be sent, and asks.
+/// Shows the frames to send, and asks for consent.
 bool is_agreed(const Ars408Talk& talk, std::span<const CanFrame> frames);
 
-/// Sends it once; says why, if that cannot be.
+/// Sends the frame once; prints why if that fails.
 bool send(const Ars408Talk& talk, const CanFrame& frame);
 
-/// Calls `use(frame)` for each frame that comes in time, until it returns true.
+/// Calls `use(frame)` for each frame within the time, until it returns true.
 void listen(CanSocket& socket, std::int64_t duration_us,
             const std::function<bool(const CanFrame&)>& use);
 

@@ -15,7 +15,7 @@ constexpr int kWantedBufferBytes = 1 << 20;
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
-/// Has no wires and no bit rate.
+/// A virtual interface has no wires and no bit rate.
 bool is_virtual(const BusObservation& bus) { return bus.interface.starts_with("vcan"); }
 
 std::string up_command(const BusObservation& bus) {
@@ -24,7 +24,7 @@ std::string up_command(const BusObservation& bus) {
                                    " up type can bitrate 500000 restart-ms 100`"});
 }
 
-/// A bit rate can be changed only while the interface is down.
+/// The bit rate can be changed only while the interface is down.
 std::string bit_rate_command(const BusObservation& bus) {
   return concat({"`ip link set ", bus.interface, " down; ip link set ", bus.interface,
                  " up type can bitrate 500000 restart-ms 100`"});
@@ -48,19 +48,19 @@ Finding absent(const BusObservation& bus, const Observation& observation) {
   const std::string others = other_interfaces(observation);
   if (!observation.is_live) {
     return {Severity::error, concat({"the log has no frame of interface ", bus.interface}),
-            concat({"set interface to one it has: ", others})};
+            concat({"set interface to one of these: ", others})};
   }
   const std::string remedy =
       is_virtual(bus)
           ? concat({"`ip link add ", bus.interface, " type vcan && ip link set ", bus.interface,
                     " up`"})
           : "plug in its adapter and load its driver (`ip -brief link show type can` lists them)";
-  return {
-      Severity::error, concat({"there is no interface ", bus.interface}),
-      others.empty() ? remedy : concat({remedy, ", or set interface to one there is: ", others})};
+  return {Severity::error, concat({"there is no interface ", bus.interface}),
+          others.empty() ? remedy
+                         : concat({remedy, ", or set interface to an existing one: ", others})};
 }
 
-/// What keeps a live interface from receiving anything.
+/// Why a live interface receives nothing.
 Finding state_finding(const BusObservation& bus, const Observation& observation) {
   switch (bus.state) {
     case InterfaceState::absent:
@@ -74,7 +74,7 @@ Finding state_finding(const BusObservation& bus, const Observation& observation)
                       is_virtual(bus) ? "" : "; for good: systemd/80-can.network of cremed"})};
     case InterfaceState::bus_off:
       return {Severity::error,
-              concat({bus.interface, " is bus-off: its controller gave up after errors"}),
+              concat({bus.interface, " is bus-off: its controller left the bus after errors"}),
               concat({"check wiring and bit rate, then ", bit_rate_command(bus)})};
     case InterfaceState::failed:
       return {Severity::error, concat({bus.interface, " cannot be read: ", bus.error}),
@@ -96,7 +96,7 @@ Finding silence(const BusObservation& bus, double seconds) {
   }
   return {Severity::error, concat({"no frame on ", bus.interface, " in ", tenths(seconds), " s"}),
           is_virtual(bus)
-              ? "play something on it, `canplayer -I LOG`"
+              ? "replay a log on it, `canplayer -I LOG`"
               : concat({"check the radar's power, the cable and its two 120 ohm terminations; ",
                         statistics_command(bus)})};
 }
@@ -105,16 +105,16 @@ void add_errors(const BusObservation& bus, std::vector<Finding>& findings) {
   const BusStatus& status = bus.status;
   const std::string frames = counted(status.error_frames, "error frame");
   if (status.bus_offs != 0) {
-    findings.push_back(
-        {Severity::warning,
-         concat({bus.interface, " went bus-off ", number(status.bus_offs),
-                 " times: the controller gave up after errors"}),
-         concat({"check wiring and termination; so that it recovers: ", bit_rate_command(bus)})});
+    findings.push_back({Severity::warning,
+                        concat({bus.interface, " went bus-off ", number(status.bus_offs),
+                                " times: the controller left the bus after errors"}),
+                        concat({"check wiring and termination; for automatic recovery: ",
+                                bit_rate_command(bus)})});
   } else if (bus.no_acknowledge != 0) {
     findings.push_back(
         {Severity::warning,
-         concat({"nobody acknowledges what is sent on ", bus.interface, " (", frames, ")"}),
-         "check the radar's power and the cable; do not send without need"});
+         concat({"no node acknowledges frames on ", bus.interface, " (", frames, ")"}),
+         "check the radar's power and the cable; do not send unless needed"});
   } else if (bus.protocol_errors != 0 || status.bus != BusState::error_active) {
     findings.push_back({Severity::warning,
                         concat({"bus errors on ", bus.interface, " (", frames, " among ",
@@ -132,14 +132,14 @@ void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
     findings.push_back({Severity::warning,
                         concat({"the controller of ", bus.interface, " lost frames ",
                                 counted(bus.overruns, "time"), ": it was not read in time"}),
-                        "use another adapter, or see what keeps the computer from interrupts"});
+                        "use another adapter, or find what delays interrupts"});
   }
   if (dropped != 0) {
     findings.push_back(
         {Severity::warning,
          concat({counted(dropped, "frame"), " of ", bus.interface, " lost before they were read"}),
          concat({"allow a larger receive buffer, ", kRaise,
-                 ", and see what keeps the processor busy"})});
+                 ", and find what keeps the processor busy"})});
   } else if (bus.status.receive_buffer_bytes != 0 &&
              bus.status.receive_buffer_bytes < kWantedBufferBytes) {
     findings.push_back(
@@ -162,9 +162,9 @@ void add_clock(const BusObservation& bus, const Observation& observation,
        concat({"the stamps of ", bus.interface, " run backwards ", counted(bus.stamps_back, "time"),
                ", by up to ", tenths(std::max(back_s, 0.1)), " s"}),
        observation.is_live
-           ? "the clock was set meanwhile: listen again, and see what sets it, `timedatectl`"
+           ? "the clock was set meanwhile: listen again, and find what sets it, `timedatectl`"
            : "the clock was set during the recording, or lines are out of order: "
-             "`sort -s -k1,1 LOG` mends the latter"});
+             "`sort -s -k1,1 LOG` corrects the latter"});
 }
 
 }  // namespace

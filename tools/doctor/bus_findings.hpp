@@ -12,7 +12,7 @@ namespace cremed {
 /// No frame came from this bus.
 bool is_silent(const BusObservation& bus);
 
-/// What is wrong with one bus of the observation, whatever radars are on it.
+/// Faults of one bus, independent of its radars.
 std::vector<Finding> bus_findings(const BusObservation& bus, const Observation& observation);
 
 }  // namespace cremed

@@ -12,7 +12,7 @@
 
 namespace cremed {
 
-/// Stamps of one bus are those of one clock; what differs by less is how they were rounded.
+/// Smaller steps backwards are rounding of the stamps.
 void BusObservation::note_stamp(std::int64_t stamp_us) {
   constexpr std::int64_t kRoundingUs = 1000;
   const std::int64_t back_us = last_stamp_us.value_or(stamp_us) - stamp_us;

@@ -15,7 +15,7 @@
 namespace cremed {
 namespace {
 
-/// What an interface request answers; nothing if there is no such interface.
+/// Result of an interface request; nothing if the interface does not exist.
 std::optional<ifreq> ask(const std::string& interface, unsigned long request) {
   ifreq answer{};
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -64,7 +64,7 @@ InterfaceState state_of(const std::string& interface) {
   if ((answer->ifr_flags & IFF_UP) == 0) {
     return InterfaceState::down;
   }
-  // Drivers take the carrier away when their controller goes bus-off.
+  // Drivers drop the carrier when their controller goes bus-off.
   return (answer->ifr_flags & IFF_RUNNING) == 0 ? InterfaceState::bus_off : InterfaceState::up;
 }
 

@@ -9,13 +9,13 @@
 
 namespace cremed {
 
-/// Can this kernel open raw CAN sockets?
+/// Whether this kernel supports raw CAN sockets.
 bool kernel_has_can();
 
-/// Names of the CAN interfaces there are, in the kernel's order.
+/// Names of the CAN interfaces, in the kernel's order.
 std::vector<std::string> can_interfaces();
 
-/// What the kernel says about an interface; never `failed`.
+/// The kernel's state of an interface; never `failed`.
 InterfaceState state_of(const std::string& interface);
 
 }  // namespace cremed

@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// One line; what came of it, if it ends early.
+/// A line, and the status if it is incomplete.
 std::string read_line(int descriptor) {
   constexpr std::size_t kLongest = 80;
   std::string line;
@@ -28,7 +28,7 @@ bool asks_consent(const Consent& consent, std::ostream& out) {
     return true;
   }
   if (::isatty(consent.terminal) == 0) {
-    out << "standard input is no terminal, so nobody can be asked; to agree, add --yes\n";
+    out << "standard input is no terminal; add --yes to give consent\n";
     return false;
   }
   out << "Send it? [y/N] " << std::flush;

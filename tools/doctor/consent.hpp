@@ -6,14 +6,14 @@
 
 namespace cremed {
 
-/// Whether the user wants a frame sent. Only a person may answer: a pipe, a file or a bus that
-/// happens to be standard input says nothing.
+/// The user's consent to send. It is read from a terminal only: a pipe, file or bus on standard
+/// input is no consent.
 struct Consent {
   bool is_given = false;  ///< On the command line: do not ask.
   int terminal = 0;       ///< Descriptor to ask on.
 };
 
-/// Asks, unless it was given already. Where there is no terminal, says what to give instead.
+/// Asks unless consent was given. Without a terminal, prints the option to give instead.
 bool asks_consent(const Consent& consent, std::ostream& out);
 
 }  // namespace cremed

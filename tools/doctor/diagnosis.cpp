@@ -20,7 +20,7 @@ void append(const Findings& more, Findings& findings) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Radars of the configuration on this bus; `found_elsewhere`: those of them that are on another.
+/// Radars of the configuration on this bus; `found_elsewhere`: those found on another bus.
 struct RadarsOnBus {
   std::size_t count = 0;
   std::size_t found_elsewhere = 0;
@@ -48,8 +48,7 @@ void add_buses(const Configuration& configuration, const Observation& observatio
   }
 }
 
-/// A radar's findings, each with its name. Of one on a silent bus nothing can be said but where it
-/// is instead.
+/// A radar's findings, each with its name. On a silent bus the only finding is where else it is.
 void add_radar(const Configuration& configuration, const Observation& observation,
                std::size_t radar, Findings& findings) {
   const RadarConfiguration& wanted = configuration.radars[radar];
@@ -79,8 +78,8 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   if (observation.frames_left_out != 0) {
     findings.push_back({Severity::warning,
                         concat({counted(observation.frames_left_out, "frame"),
-                                " of further interfaces left out: only ",
-                                std::to_string(kMostBuses), " are looked at"}),
+                                " of further interfaces ignored: at most ",
+                                std::to_string(kMaxBuses), " interfaces are analysed"}),
                         "is this a log of candump? Its second column names the interface"});
   }
   if (!observation.lcm_problem.empty()) {

@@ -11,14 +11,13 @@
 
 namespace cremed {
 
-/// Why there is no odometry, or bad odometry: errors first, and of each severity the most likely
-/// cause first.
+/// Causes of missing or bad odometry: errors first; within a severity the most likely first.
 std::vector<Finding> diagnose(const Configuration& configuration, const Observation& observation);
 
 /// "error", "warning" or "note".
 const char* severity_name(Severity severity);
 
-/// No finding, or only notes.
+/// True if there is no finding above a note.
 bool is_well(const std::vector<Finding>& findings);
 
 /// One line: "front: 13.6 scans/s, 40 estimates".

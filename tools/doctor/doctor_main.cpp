@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -18,11 +17,8 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/output/multicast_route.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "daemon/version.hpp"
 #include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -33,12 +29,13 @@
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/suggestion.hpp"
+#include "tools/program.hpp"
 
 namespace {
 
 using namespace cremed;
 
-enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
+enum ExitStatus : int { good = 0, failure = 1 };
 
 constexpr const char* kLive = "live";
 
@@ -64,15 +61,16 @@ void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--replay", arguments.replay,
                  "Diagnose a candump log instead of the live bus; - for standard input");
   app.add_option("--lcm-url", arguments.lcm_url,
-                 "LCM URL to check, or none; overrides the configuration. A log is diagnosed "
-                 "without LCM unless it is given");
+                 "LCM URL to check, or none; overrides the configuration. With a log LCM is "
+                 "checked only if this is given");
 }
 
 void add_other_outputs(CLI::App& app, Arguments& arguments) {
   auto* json = app.add_flag("--json", arguments.is_json, "Print the diagnosis as JSON");
-  app.add_option("--suggest-config", arguments.suggested_from,
-                 "Write a first configuration from what is on the buses (live), or in this candump "
-                 "log, to standard output; where the radars are mounted is to be filled in")
+  app.add_option(
+         "--suggest-config", arguments.suggested_from,
+         "Write a first configuration of the radars on the buses (live), or in this candump "
+         "log, to standard output; the mounts must be filled in")
       ->expected(0, 1)
       ->default_str(kLive)
       ->excludes("--config")
@@ -83,26 +81,26 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
 
 void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* configure = app.add_option("--configure-ars408", arguments.ars408,
-                                   "Set the sensor of this radar to what the configuration "
+                                   "Set the sensor of this radar as the configuration "
                                    "expects; asks before it sends");
   app.add_option("--max-distance", arguments.setup.max_distance_m,
-                 "Set its range in m too (by model 196 to 260, or up to 1200)")
+                 "Also set its range in m (by model 196 to 260, or up to 1200)")
       ->check(CLI::Range(196.0, 1200.0))
       ->needs(configure);
   app.add_flag("--store", arguments.setup.store,
-               "Write its settings to its flash, so that they outlast power-off")
+               "Write its settings to its flash, to keep them after power-off")
       ->needs(configure);
   auto* filtered = app.add_option("--ars408-filters", arguments.filtered,
-                                  "Show which clusters the sensor of this radar lets pass; asks "
-                                  "before it sends what the sensor answers to");
+                                  "Show which clusters the filters of this radar's sensor pass; "
+                                  "asks before it sends the request");
   app.add_option("--filter", arguments.filters,
-                 std::string("Set a filter, and keep it in the sensor's flash; may repeat: ") +
+                 std::string("Set a filter, also in the sensor's flash; may repeat: ") +
                      kArs408FilterWanted)
       ->needs(filtered)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--sensor-id", arguments.talk.address.said_id,
-                 "The sensor id it has now, where that is not the configured one")
+                 "The sensor's present id, if it is not the configured one")
       ->check(CLI::Range(0, 7));
   app.add_flag("--yes", arguments.talk.consent.is_given, "Send without asking");
   for (const char* other : {"--replay", "--json", "--suggest-config"}) {
@@ -134,7 +132,7 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
 }
 
 int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
-  // Live, a signal ends the listening; of a log it ends the doctor.
+  // Live, a signal ends the observation; with a log it ends the program.
   const auto* const stop = arguments.replay.empty() ? handle_stop_signals() : nullptr;
   const LocatedRadars located =
       stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
@@ -184,7 +182,7 @@ const RadarConfiguration& ars408_named(const std::string& name,
       names += (names.empty() ? "" : ", ") + radar.name;
     }
   }
-  throw UsageError("'" + name + "' is no ARS408 of the configuration; it has " +
+  throw UsageError("'" + name + "' is not an ARS408 of the configuration, which has " +
                    (names.empty() ? "none" : names));
 }
 
@@ -202,7 +200,7 @@ std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {
   return filters;
 }
 
-/// Opens the interface, or says why that cannot be.
+/// Opens the interface; throws with the reason if that fails.
 bool open_bus(const std::string& interface, CanSocket& socket) {
   Observation observation;
   observation.is_live = true;
@@ -221,12 +219,12 @@ bool open_bus(const std::string& interface, CanSocket& socket) {
   return false;
 }
 
-/// Where that radar is. Of the others nothing is said.
+/// Searches for that radar only.
 LocatedRadars locate_asked(const std::string& name, const Configuration& configuration) {
   if (!is_auto(ars408_named(name, configuration))) {
     return {configuration, {}};
   }
-  const volatile std::sig_atomic_t stop = 0;  // A signal ends the doctor.
+  const volatile std::sig_atomic_t stop = 0;  // A signal ends the program.
   LocatedRadars located = locate_live(configuration, &stop);
   std::erase_if(located.findings,
                 [&](const Finding& finding) { return !finding.what.starts_with(name + ": "); });
@@ -253,19 +251,12 @@ int run_talk(const Arguments& arguments, const Configuration& asked) {
   return result == TalkResult::took ? good : failure;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Explains why there is no odometry: one finding a line, with what mends it",
-               "cremed-doctor"};
-  app.set_version_flag("--version", "cremed-doctor " CREMED_VERSION);
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   add_diagnosis_options(app, arguments);
   add_other_outputs(app, arguments);
   add_talk_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? good : bad_usage;
-  }
+  app.parse(argc, argv);
   if (arguments.lcm_url && !is_lcm_url(*arguments.lcm_url)) {
     throw UsageError("--lcm-url: '" + *arguments.lcm_url + "' is not " + kLcmUrlWanted);
   }
@@ -283,18 +274,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const UsageError& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return bad_usage;
-  } catch (const ConfigurationError& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return bad_usage;
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-doctor: " << error.what() << '\n';
-    return failure;
-  }
+  return cremed::run_program("cremed-doctor",
+                             "Explains missing odometry: one finding and its remedy per line", run,
+                             argc, argv);
 }

@@ -16,7 +16,7 @@
 namespace cremed {
 namespace {
 
-/// Two rounds of the search: a radar that is there is seen in the second at the latest.
+/// Two rounds of the search: the second sees every radar that is present.
 constexpr std::int64_t kListenUs = 3'000'000;
 
 Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>& sightings,
@@ -24,13 +24,14 @@ Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>&
   const auto sighting = std::find_if(sightings.begin(), sightings.end(),
                                      [&](const Sighting& s) { return s.radar == index; });
   return sighting == sightings.end()
-             ? Finding{Severity::error, concat({radar.name, ": its interface was not looked for"}),
-                       "let the doctor listen to its end"}
+             ? Finding{Severity::error,
+                       concat({radar.name, ": its interface was not searched for"}),
+                       "do not interrupt the doctor"}
              : Finding{Severity::error, concat({radar.name, ": ", sighting->place.problem}),
                        sighting->place.remedy};
 }
 
-/// `found`: the configuration with the interfaces that were found.
+/// `found`: the configuration with the interfaces found.
 LocatedRadars located(const Configuration& found, const std::vector<Sighting>& sightings) {
   LocatedRadars result{found, {}};
   std::vector<RadarConfiguration>& radars = result.configuration.radars;
@@ -52,7 +53,7 @@ void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
     return known.interface == line.interface_name;
   });
   if (bus == buses.end()) {
-    if (buses.size() >= kMostBuses) {
+    if (buses.size() >= kMaxBuses) {
       return;
     }
     bus = buses.emplace(buses.end());

@@ -11,19 +11,18 @@
 
 namespace cremed {
 
-/// A configuration without interface = "auto".
+/// A configuration with "auto" resolved.
 struct LocatedRadars {
-  Configuration configuration;    ///< Interfaces that were found are written in it.
-  std::vector<Finding> findings;  ///< Of the radars that were not found: they are left out of it.
+  Configuration configuration;    ///< With the interfaces found.
+  std::vector<Finding> findings;  ///< One for each radar not found, which `configuration` omits.
 };
 
-/// Puts every radar where the live buses show it, as the daemon does: listens for some seconds
-/// where that is needed.
+/// Finds every radar's interface as the daemon does; listens for a few seconds if needed.
 LocatedRadars locate_live(const Configuration& configuration,
                           const volatile std::sig_atomic_t* stop);
 
-/// The same of a candump log, which is read once more for it: standard input cannot be. Throws
-/// std::runtime_error.
+/// The same for a candump log, which is read an extra time and so must not be standard input.
+/// Throws std::runtime_error.
 LocatedRadars locate_in_log(const Configuration& configuration, const std::string& path);
 
 }  // namespace cremed

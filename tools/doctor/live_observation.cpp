@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kPollMs = 100;
 
-/// An interface that is listened to.
+/// An observed interface.
 struct Ear {
   std::string interface;
   std::unique_ptr<CanSocket> socket;
@@ -40,10 +40,10 @@ std::set<std::string> interfaces_to_hear(const Configuration& configuration) {
   return names;
 }
 
-/// Notes what the kernel says about the interface; opens it if it can be read.
+/// Notes the kernel's state of the interface; opens it if possible.
 std::unique_ptr<CanSocket> open(const CanSocketOptions& options, BusObservation& bus) {
   bus.state = state_of(bus.interface);
-  // One that is bus-off may come back meanwhile.
+  // A bus-off interface may recover meanwhile.
   if (bus.state != InterfaceState::up && bus.state != InterfaceState::bus_off) {
     return nullptr;
   }
@@ -68,7 +68,7 @@ std::vector<Ear> open_all(const Configuration& configuration, Observer& observer
   return ears;
 }
 
-/// Takes what is there now; false if the interface went away.
+/// Reads the available frames; false if the interface was removed.
 bool receive(const Ear& ear, Observer& observer) {
   const CanReceiveResult result = ear.socket->receive();
   for (const ReceivedFrame& received : result.frames) {
@@ -91,7 +91,7 @@ void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
     observer.note_time(realtime_us());
     for (std::size_t i = 0; i < polled.size(); ++i) {
       if (polled[i].revents != 0 && !receive(ears[i], observer)) {
-        ears[i].socket->close();  // poll() passes over a negative descriptor.
+        ears[i].socket->close();  // poll() ignores a negative descriptor.
       }
     }
   }
@@ -109,7 +109,7 @@ Observation observe_live(const Configuration& configuration, double seconds,
     observer.note_time(realtime_us());
     listen(ears, begin_us + std::llround(seconds * 1e6), stop, observer);
     for (const Ear& ear : ears) {
-      observer.bus(ear.interface).state = state_of(ear.interface);  // As it is by now.
+      observer.bus(ear.interface).state = state_of(ear.interface);  // Its final state.
     }
   }
   Observation observation = observer.finish();

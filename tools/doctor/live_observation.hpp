@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// Listens for `seconds` to the interfaces of the configuration, and to other CAN interfaces there
-/// are: a radar may be on one of those. Sends nothing. Ends early when `*stop` is set.
+/// Observes for `seconds` the interfaces of the configuration and all other CAN interfaces, where a
+/// radar may be by mistake. Sends nothing. Ends early when `*stop` is set.
 Observation observe_live(const Configuration& configuration, double seconds,
                          const volatile std::sig_atomic_t* stop);
 

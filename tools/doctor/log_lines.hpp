@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// Hands out the lines of a candump log, "-" is standard input. Throws std::runtime_error if it
-/// cannot be read or is of another format.
+/// Reads the lines of a candump log; "-" is standard input. Throws std::runtime_error if it cannot
+/// be read or has another format.
 void read_log(const std::string& path, const std::function<void(const CandumpLine&)>& take);
 
 }  // namespace cremed

@@ -11,19 +11,19 @@
 
 namespace cremed {
 
-/// The scans of one radar that were not whole: what their headers announced, what came.
+/// The incomplete scans of one radar: targets announced and received.
 struct IncompleteScans {
   std::uint64_t announced_targets = 0;
-  std::uint64_t whole_targets = 0;  ///< All messages came.
+  std::uint64_t whole_targets = 0;  ///< With all messages.
   std::uint16_t most_announced = 0;
 };
 
-/// When scans came, in seconds of traffic.
+/// Times of scans, in seconds of traffic.
 struct ScanTimes {
   double last_s = 0.0;  ///< The latest; 0: none yet.
   double longest_pause_s = 0.0;
   double pause_begin_s = 0.0;
-  bool is_paused = false;  ///< At the end of the observation: the longest pause lasts.
+  bool is_paused = false;  ///< The longest pause lasts until the end of the observation.
 
   void note(double now_s) {
     is_paused = now_s - last_s > longest_pause_s;
@@ -35,21 +35,21 @@ struct ScanTimes {
   }
 };
 
-/// What the pipeline made of one radar's frames.
+/// The pipeline's results for one radar.
 struct RadarObservation {
   RadarStatus status;
   ScanTimes times;
   IncompleteScans incomplete;
 };
 
-/// All that a diagnosis rests on.
+/// Input of the diagnosis.
 struct Observation {
   bool is_live = false;
   bool kernel_has_can = true;
   double seconds = 0.0;  ///< Of traffic.
   std::string lcm_problem;
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
-  std::uint64_t frames_left_out = 0;     ///< Of more interfaces than are looked at.
+  std::uint64_t frames_left_out = 0;     ///< Of interfaces beyond kMaxBuses.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
 };
 

@@ -11,9 +11,9 @@
 namespace cremed {
 namespace {
 
-/// A longer step is a clock that was set, or a log that was paused.
+/// A longer step is a clock that was set, or a paused log.
 constexpr std::int64_t kClockJumpUs = 10'000'000;
-/// Frames of two buses may be so much out of order.
+/// Frames of two buses may be out of order by this much.
 constexpr std::int64_t kOutOfOrderUs = 1'000'000;
 
 std::int64_t no_clock() { return 0; }
@@ -38,7 +38,7 @@ std::size_t Observer::index_of(std::string_view interface) const {
   return static_cast<std::size_t>(found - buses.begin());
 }
 
-bool Observer::is_full() const { return observation_.buses.size() >= kMostBuses; }
+bool Observer::is_full() const { return observation_.buses.size() >= kMaxBuses; }
 
 BusObservation& Observer::bus(std::string_view interface) {
   const std::size_t index = index_of(interface);
@@ -87,7 +87,7 @@ void Observer::note_time(std::int64_t now_us) {
 }
 
 Observation Observer::finish() {
-  std::vector<ScanTimes> times;  // Before scans are closed because all is at an end.
+  std::vector<ScanTimes> times;  // Taken before finish() closes the open scans.
   times.reserve(observation_.radars.size());
   for (const RadarObservation& radar : observation_.radars) {
     times.push_back(radar.times);

@@ -14,31 +14,31 @@
 
 namespace cremed {
 
-/// A vehicle has fewer; a log may name any number.
-inline constexpr std::size_t kMostBuses = 64;
+/// More than any vehicle has; a log may name any number.
+inline constexpr std::size_t kMaxBuses = 64;
 
-/// Turns frames, live or from a log, into an observation: counts what is on each bus and runs the
-/// daemon's own pipeline.
+/// Converts frames, live or from a log, to an observation: counts the traffic of each bus and runs
+/// the daemon's pipeline.
 class Observer {
  public:
   explicit Observer(const Configuration& configuration);
   Observer(const Observer&) = delete;
   Observer& operator=(const Observer&) = delete;
 
-  /// The bus of an interface; made at its first mention.
+  /// The bus of an interface; created on first use.
   BusObservation& bus(std::string_view interface);
 
   void add(std::string_view interface, CanFrame frame);
   void add_lost(std::string_view interface, std::uint64_t frames);
 
-  /// Time passes, by the clock of the stamps: frames tell it, and whoever listens in silence.
+  /// Advances the time, in the clock of the stamps, by frames or by silence.
   void note_time(std::int64_t now_us);
 
-  /// No more frames.
+  /// End of input.
   Observation finish();
 
  private:
-  /// The pipeline reads counters from its source; here they come from whoever calls add().
+  /// The pipeline's source of counters, which the caller of add() provides.
   class Source final : public FrameSource {
    public:
     SourceEvent next(CanFrame& /*frame*/) override { return SourceEvent::end; }

@@ -29,7 +29,7 @@ void erase(const RadarSettings& radar, std::vector<RadarSettings>& radars) {
   std::erase_if(radars, [&](const RadarSettings& other) { return other.is_same_radar(radar); });
 }
 
-/// Radars on a bus that no radar of the configuration is meant to be.
+/// Radars on a bus that match no radar of the configuration.
 std::vector<RadarSettings> unclaimed(const BusObservation& bus,
                                      const Configuration& configuration) {
   std::vector<RadarSettings> radars = seen_radars(bus.traffic);
@@ -48,7 +48,7 @@ bool contains(const std::vector<RadarSettings>& radars, const RadarSettings& wan
 
 std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.name); }
 
-/// Another radar of the same kind is more likely than one of the other kind.
+/// A radar of the same family is the likelier one.
 std::optional<RadarSettings> most_likely(const std::vector<RadarSettings>& radars,
                                          const RadarSettings& expected) {
   for (const RadarSettings& radar : radars) {
@@ -81,8 +81,7 @@ Finding other_radar(const RadarConfiguration& radar, const RadarSettings& seen) 
                   quoted_name(radar)})};
 }
 
-/// Radars on a bus that may be the one that is missing there: none that another radar of the
-/// configuration is looking for.
+/// Radars on a bus that may be the missing one: not claimed by another radar of the configuration.
 std::vector<RadarSettings> candidates(const Configuration& configuration,
                                       const Observation& observation, const BusObservation& bus) {
   std::vector<RadarSettings> radars = unclaimed(bus, configuration);
@@ -94,7 +93,7 @@ std::vector<RadarSettings> candidates(const Configuration& configuration,
   return radars;
 }
 
-/// The configured radar is not on its bus: what is there instead.
+/// The configured radar is not on its bus; names what is there instead.
 Findings identify(const Configuration& configuration, const Observation& observation,
                   const RadarConfiguration& radar) {
   const BusObservation& bus = bus_of(radar, observation);
@@ -108,7 +107,7 @@ Findings identify(const Configuration& configuration, const Observation& observa
                    " has power and is on this bus, and its type, sensor_id or base_id"})}};
 }
 
-/// Cluster or object lists without the message that says how good each target is.
+/// Cluster or object lists without quality messages.
 bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
   const auto* const ars408 = radar.decoder.as<Ars408Options>();
   const auto seen = [&](std::uint32_t id) {
@@ -118,25 +117,25 @@ bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
 }
 
 std::string quality_off(const RadarConfiguration& radar) {
-  return concat(
-      {"the sensor sends targets without quality on ", radar.interface, ", so no scan is whole"});
+  return concat({"the sensor sends targets without quality on ", radar.interface,
+                 ", so no scan is complete"});
 }
 
-/// The first and the last scan are cut by the beginning and the end of the observation.
+/// The first and the last scan are cut by the observation.
 bool are_many(const AssemblerCounters& scans) {
   constexpr std::uint64_t kCut = 2;
   return scans.incomplete_scans > kCut && scans.incomplete_scans * 50 > scans.scans;
 }
 
-/// A step of the clock may spoil the scans on either side of it.
+/// A step of the clock may damage the scans on either side.
 bool is_of_clock(const AssemblerCounters& scans) {
   return scans.stamps_backwards != 0 && scans.incomplete_scans <= 2 * scans.stamps_backwards + 2;
 }
 
 void add_incomplete(const RadarConfiguration& radar, const RadarObservation& observation,
                     Findings& findings) {
-  // More clusters with quality than this do not fit in a cycle at 500 kbit/s, whatever their bits.
-  constexpr std::uint16_t kMostThatFit = 150;
+  // More clusters with quality do not fit in a cycle at 500 kbit/s, whatever their stuff bits.
+  constexpr std::uint16_t kMaxTargetsPerCycle = 150;
   const AssemblerCounters& scans = observation.status.assembler;
   const IncompleteScans& incomplete = observation.incomplete;
   if (!are_many(scans) || is_of_clock(scans)) {
@@ -145,12 +144,13 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   const Severity severity =
       scans.incomplete_scans == scans.scans ? Severity::error : Severity::warning;
   const bool has_header = radar.decoder.make_decoder()->framing().has_header;
-  const std::string what =
-      concat({number(scans.incomplete_scans), " of ", number(scans.scans), " scans are not whole: ",
-              has_header ? "their headers say " + number(incomplete.announced_targets) +
-                               " targets, " + number(incomplete.whole_targets) + " came whole"
-                         : counted(scans.missing_parts, "frame") + " missing"});
-  if (radar.decoder.as<Ars408Options>() != nullptr && incomplete.most_announced > kMostThatFit) {
+  const std::string what = concat(
+      {number(scans.incomplete_scans), " of ", number(scans.scans), " scans are incomplete: ",
+       has_header ? "their headers announce " + number(incomplete.announced_targets) +
+                        " targets, " + number(incomplete.whole_targets) + " complete"
+                  : counted(scans.missing_parts, "frame") + " missing"});
+  if (radar.decoder.as<Ars408Options>() != nullptr &&
+      incomplete.most_announced > kMaxTargetsPerCycle) {
     findings.push_back(
         {severity, what,
          concat({"up to ", number(incomplete.most_announced),
@@ -164,7 +164,7 @@ void add_incomplete(const RadarConfiguration& radar, const RadarObservation& obs
   }
 }
 
-/// Lists of targets that came with the radar's identifiers.
+/// Rate of target lists with the radar's identifiers.
 std::uint64_t lists_of(const RadarSettings& radar, const BusTraffic& bus) {
   if (const auto* gpr = radar.as<BoschGprOptions>()) {
     return bus.ids[gpr->base_id].frames;
@@ -180,7 +180,7 @@ std::uint64_t lists_of(const RadarSettings& radar, const BusTraffic& bus) {
 
 std::string twin_remedy(const RadarConfiguration& radar, bool is_echo) {
   if (is_echo) {
-    return "look for a gateway that repeats frames; do not merge two logs of one bus";
+    return "find the gateway that repeats frames; do not merge two logs of one bus";
   }
   const auto* const ars408 = radar.decoder.as<Ars408Options>();
   return ars408 == nullptr
@@ -189,8 +189,8 @@ std::string twin_remedy(const RadarConfiguration& radar, bool is_echo) {
                        sensor_id_command(radar, *ars408), ")"});
 }
 
-/// Two ARS408 or GPRs with one id, by how often their lists come. An ARS408 sends 13 to 17 a
-/// second; of a GPR the rate is less certain, so its scans have to be spoilt as well.
+/// Two radars with one id, by the rate of their lists. An ARS408 sends 13 to 17 a second; the rate
+/// of a GPR is less certain, so its scans must also be damaged.
 Findings find_twin(const RadarConfiguration& radar, const RadarObservation& observed,
                    const BusObservation& bus, double seconds) {
   constexpr double kShortestS = 0.5;
@@ -200,7 +200,7 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
   const std::uint64_t lists = lists_of(radar.decoder, bus.traffic);
   const double lists_hz = static_cast<double>(lists) / std::max(seconds - pause_s, kShortestS);
   const bool is_twin = lists_hz > (is_gpr ? 15.0 : 22.0);
-  // Counters of two that come in turn skip to and fro.
+  // The counters of two alternating sensors jump back and forth.
   const bool is_spoilt = 2 * (scans.incomplete_scans + scans.missed_scans) >= scans.scans;
   if (!is_twin || (is_gpr && !is_spoilt)) {
     return {};
@@ -213,7 +213,7 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
            twin_remedy(radar, is_echo)}};
 }
 
-/// It was there, and is not any more, or not all the time.
+/// The radar sent scans, but stopped or paused.
 void add_pause(const RadarObservation& observed, double seconds, Findings& findings) {
   if (!fell_silent(observed, seconds)) {
     return;
@@ -226,7 +226,7 @@ void add_pause(const RadarObservation& observed, double seconds, Findings& findi
                times.is_paused
                    ? concat({"in the last ", tenths(times.longest_pause_s)})
                    : concat({"from ", tenths(times.pause_begin_s), " to ", tenths(end_s)}),
-               " of ", tenths(seconds), " s, though it sent them ",
+               " of ", tenths(seconds), " s, although it sent scans ",
                times.pause_begin_s > 0.0 ? "before" : "after that"}),
        "check its supply and plug for loose contacts; it may have restarted"});
 }
@@ -264,7 +264,7 @@ void add_bad_frames(const RadarConfiguration& radar, const RadarStatus& status,
   }
 }
 
-/// Do its targets come at all? A few of a GPR's identifiers may be those of others.
+/// Whether its targets arrive at all. Another device may use a few of a GPR's identifiers.
 bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
   constexpr std::size_t kFirstArs408List = 0x600;
   const IdSet ids = radar.decoder.sent_ids();
@@ -273,7 +273,7 @@ bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
                                                       : heard.count() > ids.count() / 2;
 }
 
-/// What remains if nothing else explains that there is no estimate.
+/// Findings if nothing else explains a missing estimate.
 void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
                      Findings& findings) {
   if (status.assembler.scans == 0) {

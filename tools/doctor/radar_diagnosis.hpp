@@ -11,15 +11,15 @@
 
 namespace cremed {
 
-/// What is wrong with one radar whose bus carries frames.
+/// Faults of one radar whose bus carries frames.
 std::vector<Finding> diagnose_radar(const Configuration& configuration,
                                     const Observation& observation, std::size_t radar);
 
-/// The radar was seen, but on another bus; empty if not.
+/// Finding that the radar is on another bus; empty if it is not.
 std::vector<Finding> find_elsewhere(const Configuration& configuration,
                                     const Observation& observation, std::size_t radar);
 
-/// It sent scans, but for much of the time none came.
+/// Finding that it sent no scans for much of the time.
 bool fell_silent(const RadarObservation& observed, double seconds);
 
 }  // namespace cremed

@@ -16,19 +16,16 @@ namespace cremed {
 namespace {
 
 constexpr std::string_view kHeading =
-    "# What cremed-doctor saw on the buses. Fill in where each radar is mounted, give it a name "
-    "that\n"
-    "# tells you so, and check the file: `cremed --check-config FILE`. config/cremed.toml of "
-    "cremed\n"
-    "# explains these keys and all others.\n";
+    "# Radars found by cremed-doctor. Fill in the mounts, choose names, and check the file:\n"
+    "# `cremed --check-config FILE`. config/cremed.toml of cremed explains all keys.\n";
 
 constexpr std::string_view kMount =
     "[radar.mount]  # From the middle of the rear axle.\n"
     "x_m = \"FILL IN\"      # m, forward\n"
     "y_m = \"FILL IN\"      # m, to the left\n"
-    "yaw_rad = \"FILL IN\"  # rad, where it looks to: 0 ahead, 1.5708 to the left, 3.1416 back\n";
+    "yaw_rad = \"FILL IN\"  # rad, direction of view: 0 ahead, 1.5708 to the left, 3.1416 back\n";
 
-/// One that can be written as a TOML string as it is.
+/// A name that needs no escapes in a TOML string.
 bool is_suggestible(const std::string& interface) {
   return std::all_of(interface.begin(), interface.end(),
                      [](char c) { return c > ' ' && c < '\x7F' && c != '"' && c != '\\'; });
@@ -46,7 +43,7 @@ std::vector<const BusObservation*> by_name(const Observation& observation) {
   return buses;
 }
 
-/// What to do about an ARS408 that does not send clusters.
+/// Advice for an ARS408 that does not send clusters.
 std::string output_line(const BusObservation& bus, const RadarSettings& radar) {
   const auto* const ars408 = radar.as<Ars408Options>();
   const auto has = [&](Ars408Message message) {

@@ -9,13 +9,13 @@
 
 namespace cremed {
 
-/// A first configuration, from the radars that give themselves away on the buses: name, type,
-/// interface, identifiers. No bus tells where a radar is mounted: until that is filled in, the file
-/// is refused. Empty if no radar was seen.
+/// A first configuration of the radars recognised on the buses: name, type, interface, identifiers.
+/// Mounts cannot be observed: the file is refused until they are filled in. Empty if no radar was
+/// recognised.
 std::string suggested_configuration(const Observation& observation,
                                     RadarFamilies families = radar_families());
 
-/// What was seen where there is nothing to suggest, and what to do.
+/// The traffic and advice if nothing can be suggested.
 std::string no_suggestion(const Observation& observation);
 
 }  // namespace cremed

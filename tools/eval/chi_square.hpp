@@ -11,8 +11,8 @@ struct Interval {
   double high = 0.0;
 };
 
-/// Where the ANEES of `count` consistent estimates lies with probability `confidence`: n d ANEES is
-/// chi-square with n d degrees of freedom. NaN for no estimate.
+/// Interval that contains the ANEES of `count` consistent estimates with probability `confidence`:
+/// n d ANEES is chi-square with n d degrees of freedom. NaN for no estimate.
 Interval anees_interval(std::size_t count, int degrees_of_freedom, double confidence);
 
 }  // namespace cremed

@@ -51,7 +51,6 @@ void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& co
     }
     const double normalised = error(axis) / std::sqrt(covariance(axis, axis));
     const auto index = static_cast<std::size_t>(axis);
-    normalised_sum_[index] += normalised;
     for (std::size_t k = 0; k < 3; ++k) {
       within_[index][k] += std::abs(normalised) <= static_cast<double>(k + 1) ? 1U : 0U;
     }
@@ -76,10 +75,6 @@ double Credibility::coverage(int axis, int sigmas) const {
       static_cast<double>(
           within_.at(static_cast<std::size_t>(axis)).at(static_cast<std::size_t>(sigmas - 1))),
       count_);
-}
-
-double Credibility::normalised_bias(int axis) const {
-  return mean(normalised_sum_.at(static_cast<std::size_t>(axis)), count_);
 }
 
 std::string to_line(const Credibility& credibility) {

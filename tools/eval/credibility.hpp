@@ -14,13 +14,13 @@ namespace cremed {
 Eigen::Vector3d estimation_error(const Eigen::Vector3d& estimate, const Eigen::Vector3d& truth);
 
 /// e' C^-1 e over the estimated states of e = estimation_error(): chi-square with as many degrees
-/// of freedom, if the covariance is credible.
+/// of freedom if the covariance is credible.
 double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                                 const Eigen::Vector3d& truth, int degrees_of_freedom);
 
-/// How well a set of estimates, each with its covariance, agrees with truth. Order of states:
-/// (x_m, y_m, yaw_rad). In two degrees of freedom y is estimated as 0 and not part of the ANEES,
-/// but its error counts in the RMSE.
+/// Agreement of estimates and their covariances with truth. Order of states: (x_m, y_m, yaw_rad).
+/// In two degrees of freedom y is estimated as 0 and excluded from the ANEES, but its error counts
+/// in the RMSE.
 class Credibility {
  public:
   explicit Credibility(int degrees_of_freedom) : degrees_of_freedom_(degrees_of_freedom) {}
@@ -37,8 +37,6 @@ class Credibility {
   /// Share of errors within `sigmas` (1, 2, 3) standard deviations of `axis` (0 x, 1 y, 2 yaw);
   /// NaN for an axis that is not estimated. Gaussian: 0.683, 0.954, 0.997.
   [[nodiscard]] double coverage(int axis, int sigmas) const;
-  /// Error's mean over its standard error's unit: average of error / sigma. 0 if unbiased.
-  [[nodiscard]] double normalised_bias(int axis) const;
 
  private:
   [[nodiscard]] bool is_estimated(int axis) const { return degrees_of_freedom_ == 3 || axis != 1; }
@@ -49,7 +47,6 @@ class Credibility {
   double squared_yaw_rad2_ = 0.0;
   double nees_ = 0.0;
   std::array<std::array<std::size_t, 3>, 3> within_{};
-  std::array<double, 3> normalised_sum_{};
 };
 
 /// "n rmse_m rmse_deg anees x_1s x_2s x_3s y_1s ... yaw_3s", in columns, without line end.

@@ -62,7 +62,7 @@ Number CsvTable::parse(std::size_t row, std::size_t column) const {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) {
     throw std::runtime_error("row " + std::to_string(row + 1) + ", " + header_[column] + ": '" +
-                             cell + "' is no number");
+                             cell + "' is not a number");
   }
   return value;
 }

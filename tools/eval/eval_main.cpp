@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -11,12 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/command_line.hpp"
-#include "daemon/configuration/configuration.hpp"
 #include "daemon/process/file_aliases.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
-#include "daemon/process/usage_error.hpp"
-#include "daemon/version.hpp"
 #include "tools/eval/calibrate/calibrate_command.hpp"
 #include "tools/eval/drive/drive_command.hpp"
 #include "tools/eval/drive/drive_options.hpp"
@@ -30,6 +24,7 @@
 #include "tools/eval/report_file.hpp"
 #include "tools/eval/table/table_command.hpp"
 #include "tools/eval/temporary_folder.hpp"
+#include "tools/program.hpp"
 
 namespace {
 
@@ -43,7 +38,7 @@ struct PairsArguments {
   std::string file;
   std::string profile;
   std::string method = "msm";
-  std::string covariance = "exclusive";
+  std::string likelihood = "exclusive";
   std::string output;
   std::string plot;
   bool doppler = false;
@@ -98,10 +93,8 @@ void print_pairs(const PairsArguments& arguments, const cremed::PairsFigures& fi
 
 int run_pairs(const PairsArguments& arguments) {
   const cremed::RegistrationMethod method = cremed::registration_method(arguments.method);
-  const auto options =
-      cremed::profile(arguments.profile, arguments.doppler,
-                      arguments.covariance == "exclusive" ? cremed::Likelihood::exclusive
-                                                          : cremed::Likelihood::max_sum_mixture);
+  const auto options = cremed::profile(arguments.profile, arguments.doppler,
+                                       cremed::likelihood_named(arguments.likelihood));
   const auto pairs = cremed::with_input(arguments.file, cremed::read_registration_pairs);
   if (pairs.empty()) {
     throw std::runtime_error(arguments.file + ": no pairs");
@@ -123,13 +116,13 @@ int run_pairs(const PairsArguments& arguments) {
 CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
   cremed::PaperTableOptions& options = arguments.options;
   CLI::App* command =
-      app.add_subcommand("table", "The paper's simulated problems: its figures beside ours");
+      app.add_subcommand("table", "The paper's simulated problems: its figures and ours");
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--runs", options.runs, "Runs with each set (as the paper: 1000, Sim 500)")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  command->add_option("--threads", options.threads, "Threads; the figures do not depend on it")
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  command->add_option("--threads", options.threads, "Number of threads; no effect on the figures")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)");
@@ -149,13 +142,13 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
                    "msm (Max-Sum-Mixture), sa (summing approximation) or icp (without Doppler)")
       ->check(CLI::IsMember({"msm", "sa", "icp"}));
   command
-      ->add_option("--covariance", arguments.covariance,
-                   "Of msm: exclusive (one partner a target) or gauss_newton (the paper)")
-      ->check(CLI::IsMember({"exclusive", "gauss_newton"}))
+      ->add_option("--likelihood", arguments.likelihood,
+                   "Of msm: exclusive (one partner per target) or max_sum_mixture (the paper's)")
+      ->check(CLI::IsMember({"exclusive", "max_sum_mixture"}))
       ->capture_default_str();
   command->add_option("--output", arguments.output, "Write each pair's result as CSV");
   command->add_option("--plot", arguments.plot,
-                      "Draw how many targets have a partner, by the true motion (PNG, SVG)");
+                      "Draw the number of targets with a partner by the true motion (PNG, SVG)");
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }
@@ -166,13 +159,13 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
   command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
   command->add_option("--config", arguments.config, "Configuration to start from")->required();
   command->add_option("--truth", arguments.truth,
-                      "CSV, if there is one: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
+                      "CSV: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
   command->add_flag("--write", arguments.write,
-                    "Change the configuration too: only what the drive tells better");
+                    "Also change the configuration, where the drive gives better values");
   return command;
 }
 
-/// Of the commands that were not given, all names are empty.
+/// Commands that were not given have empty names.
 void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs,
                         const cremed::DriveFiles& drive,
                         const cremed::CalibrateArguments& calibrate) {
@@ -193,10 +186,8 @@ void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs
                                   {"--truth-tum", drive.truth_tum}});
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Figures of cremed's credibility: RMSE, ANEES and coverage", "cremed-eval"};
+int run(CLI::App& app, int argc, char** argv) {
   app.set_help_all_flag("--help-all", "Print the help of all subcommands and exit");
-  app.set_version_flag("--version", "cremed-eval " CREMED_VERSION);
   app.require_subcommand(1);
   TableArguments table;
   PairsArguments pairs;
@@ -206,11 +197,7 @@ int run(int argc, char** argv) {
   const CLI::App* pairs_command = add_pairs(app, pairs);
   const CLI::App* calibrate_command = add_calibrate(app, calibrate);
   cremed::add_drive(app, drive);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  app.parse(argc, argv);
   refuse_overwriting(table, pairs, drive, calibrate);
   if (table_command->parsed()) {
     cremed::run_table(table.options, table.plot, table.as_json);
@@ -230,18 +217,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const cremed::ConfigurationError& error) {
-    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
-    return 2;
-  } catch (const cremed::UsageError& error) {
-    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "cremed-eval: %s\n", error.what());
-    return 1;
-  }
+  return cremed::run_program(
+      "cremed-eval", "Figures of cremed's credibility: RMSE, ANEES and coverage", run, argc, argv);
 }

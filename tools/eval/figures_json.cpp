@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of 1, 2 and 3 sigma.
+/// For 1, 2 and 3 sigma.
 Json coverage_json(const Credibility& credibility, int axis) {
   return Json::array({credibility.coverage(axis, 1), credibility.coverage(axis, 2),
                       credibility.coverage(axis, 3)});

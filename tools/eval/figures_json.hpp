@@ -13,17 +13,17 @@
 
 namespace cremed {
 
-/// What cremed-eval pairs prints.
+/// The result of cremed-eval pairs.
 struct PairsFigures {
   std::string method;
   Credibility credibility;
-  double iterations = 0.0;  ///< A pair,
-  double solve_us = 0.0;    ///< and its time.
+  double iterations = 0.0;  ///< Mean per pair.
+  double solve_us = 0.0;    ///< Mean per pair.
   std::size_t no_convergence = 0;
   std::size_t left_out = 0;
 };
 
-/// For scripts; NaN becomes null. Members keep the order in which they are written.
+/// For scripts; NaN becomes null. Members keep their order.
 nlohmann::ordered_json credibility_json(const Credibility& credibility);
 std::string pairs_json(const PairsFigures& figures);
 std::string table_json(const std::vector<TableRow>& rows);

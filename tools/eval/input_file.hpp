@@ -9,7 +9,7 @@
 
 namespace cremed {
 
-/// Opens a file ("-": standard input) and hands it to `read`; errors name the file.
+/// Opens a file ("-": standard input) and passes it to `read`; errors name the file.
 template <typename Read>
 auto with_input(const std::string& path, Read read) {
   std::ifstream file;

@@ -10,7 +10,7 @@
 
 namespace cremed {
 
-/// Calls body(i) once for every i < count on `threads` threads, in no order. The body must not
+/// Calls body(i) once for every i < count on `threads` threads, in any order. The body must not
 /// throw.
 template <typename Body>
 void parallel_for(std::size_t count, unsigned threads, const Body& body) {

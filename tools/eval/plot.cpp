@@ -20,7 +20,7 @@
 namespace cremed {
 namespace {
 
-/// Beside an installed cremed-eval, or in the source tree that it was built from.
+/// Beside an installed cremed-eval, or in its source tree.
 std::filesystem::path script_path(const std::string& script) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
   auto installed = program.parent_path().parent_path() / "share/cremed" / script;
@@ -28,7 +28,7 @@ std::filesystem::path script_path(const std::string& script) {
                                             : std::filesystem::path(CREMED_PLOT_SCRIPTS) / script;
 }
 
-/// Runs a command to its good end; throws.
+/// Runs a command; throws if it fails.
 void run_command(std::vector<std::string> command, const std::string& picture) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);

@@ -7,9 +7,8 @@
 
 namespace cremed {
 
-/// Draws a picture by one of the scripts (Python, matplotlib) that are installed with cremed-eval:
-/// `script` is its name, `inputs` the files it reads, and the picture comes last on its command
-/// line. Throws std::runtime_error.
+/// Draws a picture with one of the installed scripts (Python, matplotlib): `script` is its name,
+/// `inputs` the files it reads, and the picture is its last argument. Throws std::runtime_error.
 void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
                const std::string& picture);
 

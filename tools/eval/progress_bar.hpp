@@ -8,16 +8,16 @@
 
 namespace cremed {
 
-/// A line on standard error that grows with the work done, if that is a terminal.
+/// A progress bar on standard error, if that is a terminal.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::size_t total);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  /// Wipes the line.
+  /// Clears the line.
   ~ProgressBar();
 
-  /// One more is done; from any thread.
+  /// Adds one; callable from any thread.
   void advance();
 
  private:

@@ -42,7 +42,7 @@ class RecordingSink final : public OdometrySink {
     }
   }
 
-  /// Of clusters: the velocity across of an object is measured.
+  /// Clusters only: an object's velocity across is measured.
   [[nodiscard]] double told_yaw_rate_radps(std::size_t radar, const RadarScan& scan) const {
     const auto* ars408 = configuration_.radars[radar].decoder.as<Ars408Options>();
     return ars408 != nullptr && ars408->output == Ars408Output::clusters
@@ -91,7 +91,8 @@ std::vector<RecordedRadar> record_drive(const Configuration& configuration,
   std::vector<RecordedRadar> radars = sink.take();
   if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(
-        concat({logs.front(), ": no whole scan of any radar; `cremed-doctor --replay` says why"}));
+        concat({logs.front(),
+                ": no complete scan of any radar; `cremed-doctor --replay` shows the cause"}));
   }
   return radars;
 }

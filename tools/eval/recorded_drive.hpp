@@ -12,23 +12,23 @@
 
 namespace cremed {
 
-/// The targets of one scan that an estimate would use, in the radar's own frame: their bearing is
-/// the azimuth.
+/// The targets of one scan that an estimate would use, in the radar's frame: their bearing is the
+/// azimuth.
 struct RecordedScan {
   std::int64_t stamp_us = 0;
   std::vector<Target> targets;
-  /// What the sensor itself takes for the vehicle's yaw rate (estimator/scan/rotation_lead.hpp); 0:
-  /// it is not told.
+  /// The vehicle's yaw rate as the sensor receives it (estimator/scan/rotation_lead.hpp); 0: it
+  /// receives none.
   double told_yaw_rate_radps = 0.0;
 };
 
-/// What the pipeline makes of one radar's frames.
+/// The pipeline's results for one radar.
 struct RecordedRadar {
   std::vector<RecordedScan> scans;  ///< Complete ones.
   std::vector<EgoMotion> motions;   ///< Estimates only.
 };
 
-/// Sends recorded drives through the pipeline: one RecordedRadar for each of the configuration.
+/// Runs recorded drives through the pipeline: one RecordedRadar per radar of the configuration.
 /// Throws std::runtime_error if a log cannot be read or no radar sent a scan.
 std::vector<RecordedRadar> record_drive(const Configuration& configuration,
                                         const std::vector<std::string>& logs);

@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// A text file to write, there at once when it is closed; every failure is a std::runtime_error
-/// that names it.
+/// A text file, written atomically when it is closed; every failure is a std::runtime_error that
+/// names it.
 class ReportFile {
  public:
   explicit ReportFile(std::string path);
@@ -19,7 +19,7 @@ class ReportFile {
   ReportFile& operator=(const ReportFile&) = delete;
 
   [[nodiscard]] std::FILE* stream() const { return file_.get(); }
-  /// Writes the file; throws if that cannot be.
+  /// Writes the file; throws on failure.
   void close();
 
  private:
@@ -27,7 +27,7 @@ class ReportFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::string path_;
-  char* text_ = nullptr;  // The stream's, grows with it.
+  char* text_ = nullptr;  // Buffer of the stream.
   std::size_t size_ = 0;
   std::unique_ptr<std::FILE, Close> file_;
 };

@@ -7,7 +7,7 @@
 
 namespace cremed {
 
-/// A new folder below the system's temporary one, removed with all it holds at the end.
+/// A new folder below the system's temporary one, removed with its content by the destructor.
 class TemporaryFolder {
  public:
   /// Throws std::runtime_error.

@@ -25,7 +25,7 @@ constexpr std::string_view kMotionChannel = "CREMED_EGO_MOTION";
 constexpr std::string_view kOdometryChannel = "CREMED_ODOMETRY";
 constexpr std::size_t kLongestSource = 15;
 
-/// The daemon's names have no comma and fit a row; others must not break one.
+/// A source name that would break a CSV row is refused; the daemon writes none.
 bool is_source(std::string_view name) {
   return !name.empty() && name.size() <= kLongestSource &&
          std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c != ','; });
@@ -47,7 +47,7 @@ std::optional<Message> decode(const lcm::LogEvent& event) {
     if (message.decode(event.data, 0, event.datalen) != event.datalen) {
       return std::nullopt;
     }
-  } catch (const std::length_error&) {  // The generated code takes a string length of 0 for -1.
+  } catch (const std::length_error&) {  // The generated code turns a string length of 0 into -1.
     return std::nullopt;
   }
   return is_good(message) ? std::optional(message) : std::nullopt;
@@ -70,7 +70,7 @@ EgoMotion ego_motion(const ego_motion_t& message) {
   return motion;
 }
 
-/// What a row holds of it.
+/// The row of a message.
 Odometry odometry(const odometry_t& message) {
   Odometry odometry;
   odometry.utime_us = message.utime;
@@ -87,7 +87,7 @@ Odometry odometry(const odometry_t& message) {
   return odometry;
 }
 
-/// Writes the event's message as the row that `to_row` makes of it; counts it, or that it is bad.
+/// Writes the message as the row that `to_row` makes; counts it, or counts it as bad.
 template <typename Message, typename ToRow>
 void convert(const lcm::LogEvent& event, const ToRow& to_row, std::ostream& csv,
              std::uint64_t& count, std::uint64_t& bad) {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <exception>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -11,26 +10,20 @@
 
 #include "daemon/command_line.hpp"
 #include "daemon/process/file_aliases.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
-#include "daemon/process/usage_error.hpp"
-#include "daemon/version.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 #include "tools/line_stream.hpp"
+#include "tools/program.hpp"
 
 namespace {
-
-constexpr int kRunTimeFailure = 1;
-constexpr int kBadUsage = 2;
 
 struct Arguments {
   std::string log;
   std::string output = "-";
-  std::string odometry;  // Empty: not asked for.
+  std::string odometry;  // Empty: none.
 };
 
 cremed::LcmLogCounters convert(const Arguments& arguments) {
-  if (!std::ifstream(arguments.log)) {  // Before an output is emptied.
+  if (!std::ifstream(arguments.log)) {  // Checked before an output is truncated.
     throw std::runtime_error("cannot read " + arguments.log);
   }
   cremed::LineStream motions(arguments.output);
@@ -47,19 +40,19 @@ cremed::LcmLogCounters convert(const Arguments& arguments) {
   return counters;
 }
 
-/// Whether the log was as it should be.
+/// Whether the log had no faults.
 bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) {
   const std::string& log = arguments.log;
   const bool has_odometry = arguments.odometry.empty() || counters.odometries != 0;
   if (counters.bad_messages != 0) {
-    std::cerr << log << ": left out " << counters.bad_messages
-              << " messages that are not of this version's type of their channel\n";
+    std::cerr << log << ": ignored " << counters.bad_messages
+              << " messages of another type than their channel's in this version\n";
   }
   if (!has_odometry) {
     std::cerr << log << ": no odometry on CREMED_ODOMETRY\n";
   }
   if (counters.ends_inside_message) {
-    std::cerr << log << ": is no LCM log or ends inside a message\n";
+    std::cerr << log << ": not an LCM log, or it ends inside a message\n";
   }
   if (counters.motions == 0) {
     std::cerr << log << ": no motion on CREMED_EGO_MOTION; record with lcm-logger\n";
@@ -68,40 +61,25 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
          has_odometry;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{
-      "Writes an LCM log as CSV\n"
-      "Ego-motions and odometry become the rows that cremed --output-csv and --output-odometry "
-      "write.",
-      "cremed-lcm-to-csv"};
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
-  app.set_version_flag("--version", "cremed-lcm-to-csv " CREMED_VERSION);
   app.add_option("LOG", arguments.log, "Log of lcm-logger")->required();
   app.add_option("--output", arguments.output, "CSV file of the ego-motions; '-': standard output")
       ->capture_default_str();
   app.add_option("--odometry", arguments.odometry, "CSV file of the vehicle's state");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
-  }
+  app.parse(argc, argv);
   cremed::refuse_aliases({{"LOG", arguments.log}},
                          {{"--output", arguments.output}, {"--odometry", arguments.odometry}});
-  return report(arguments, convert(arguments)) ? 0 : kRunTimeFailure;
+  return report(arguments, convert(arguments)) ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const cremed::UsageError& error) {
-    std::cerr << "cremed-lcm-to-csv: " << error.what() << '\n';
-    return kBadUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-lcm-to-csv: " << error.what() << '\n';
-    return kRunTimeFailure;
-  }
+  return cremed::run_program(
+      "cremed-lcm-to-csv",
+      "Writes an LCM log as CSV\n"
+      "Ego-motions and odometry become the rows that cremed --output-csv and --output-odometry "
+      "write.",
+      run, argc, argv);
 }

@@ -8,7 +8,7 @@
 namespace cremed {
 namespace {
 
-/// How a physical value becomes the unsigned number in a frame.
+/// Conversion of a physical value to the raw number in a frame.
 struct Scale {
   double step;
   double least;

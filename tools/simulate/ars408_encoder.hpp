@@ -16,8 +16,8 @@ inline constexpr double kArs408SpeedStepMps = 0.25;
 /// The smallest index of table R that covers a standard deviation, at most 30.
 std::uint8_t ars408_rms_code(double standard_deviation);
 
-/// The messages of the sensor as frames without stamp and interface; `sensor_id` shifts the
-/// identifier. A value beyond what a frame can carry becomes the nearest one that it can.
+/// The sensor's messages as frames without stamp and interface; `sensor_id` shifts the identifier.
+/// Values are clamped to the range of the frame.
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterStatus& status);
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterQuality& quality);
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ObjectStatus& status);

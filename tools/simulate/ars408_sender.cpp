@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-/// Beam and resolution from the data sheet, near scan; far targets are as well resolved here.
+/// Beam and resolution of the near scan from the data sheet; also used for the far scan.
 constexpr RadarCharacter kCharacter{
     .zones = {{{9.0 * kRadPerDeg, 200.0}, {45.0 * kRadPerDeg, 90.0}, {60.0 * kRadPerDeg, 20.0}}},
     .least_range_m = 1.0,
@@ -28,21 +28,21 @@ constexpr std::uint32_t kCounterStep = 2;
 constexpr std::uint8_t kInterfaceVersion = 1;
 constexpr double kNearScanM = 70.0;
 
-// Accuracy of the radar before its standard deviations become codes, which round them up.
+// The radar's accuracy before it is rounded up to codes.
 constexpr double kRangeStdM = 0.2;
 constexpr double kRangeStdPerMetre = 0.003;
 constexpr double kAzimuthStdRad = 0.014;
 constexpr double kDopplerStdMps = 0.28;
 constexpr double kObjectVyStdMps = 0.45;
 
-/// Below this the grid of 0.2 m would no longer be hidden in the noise: targets that move little
-/// would keep the same rounding error from scan to scan.
+/// Lower bound: with less noise the grid of 0.2 m would show, and slow targets would keep the same
+/// rounding error from scan to scan.
 constexpr double kLeastPositionStdM = 0.135;
 
-/// The hardware reports one and the same lateral code for all clusters: 0.011 m/s.
+/// The hardware reports the same lateral code for all clusters: 0.011 m/s.
 constexpr std::uint8_t kClusterVyCode = 3;
 
-/// What a radar has against clusters, about as frequent as on the road.
+/// InvalidState codes, about as frequent as on the road.
 using State = Ars408InvalidState;
 constexpr std::array<State, 7> kDoubts{State::low_rcs,
                                        State::low_rcs,
@@ -53,16 +53,16 @@ constexpr std::array<State, 7> kDoubts{State::low_rcs,
                                        State::high_multi_target_probability};
 constexpr double kDoubtShare = 0.35;
 
-/// A slower target counts as standing, as far as Doppler can tell.
+/// A target with less Doppler counts as standing.
 constexpr double kStandingDopplerMps = 0.5;
 
-/// A frame carries lateral velocities up to 64 m/s, which a turn of 0.5 rad/s exceeds at 130 m. No
-/// source says what the sensor does then; here it does not send the target.
+/// A frame carries lateral velocities up to 64 m/s, which a turn of 0.5 rad/s exceeds at 130 m. The
+/// real sensor's behaviour is unknown; here the target is not sent.
 constexpr double kGreatestSpeedMps = 63.0;
 
 double square(double value) { return value * value; }
 
-/// Variance that a code of table R stands for.
+/// Variance of a code of table R.
 double variance(std::uint8_t code) { return square(ars408_std(code).value_or(0.0)); }
 
 double rounding_variance(double step) { return step * step / 12.0; }
@@ -71,7 +71,7 @@ std::uint8_t position_code(double std_m) {
   return ars408_rms_code(std::max(std_m, kLeastPositionStdM));
 }
 
-/// A speed error that has the reported standard deviation once it is rounded to the grid.
+/// A speed error that has the reported standard deviation after rounding to the grid.
 double speed_noise_std(std::uint8_t code) {
   return std::sqrt(variance(code) - rounding_variance(kArs408SpeedStepMps));
 }
@@ -95,7 +95,7 @@ double Ars408Sender::static_across(double range_m, double azimuth_rad) const {
   return static_across_mps(told(), setup().stated_mount, range_m, azimuth_rad);
 }
 
-/// By the reported direction, which is what the reader takes them with.
+/// In the reported direction, which the reader uses.
 Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
   const double cos_azimuth = std::cos(reported_azimuth_rad(view.azimuth_rad));
   const double sin_azimuth = std::sin(reported_azimuth_rad(view.azimuth_rad));
@@ -104,15 +104,15 @@ Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
   Ars408RmsCodes codes;
   codes.x = position_code(std::hypot(cos_azimuth * along_m, sin_azimuth * across_m));
   codes.y = position_code(std::hypot(sin_azimuth * along_m, cos_azimuth * across_m));
-  // All of a cluster's Doppler accuracy is reported in x, as the hardware does.
+  // A cluster's Doppler accuracy is reported in x only, as by the hardware.
   codes.vx = ars408_rms_code(sends_objects() ? kDopplerStdMps : kDopplerStdMps / cos_azimuth);
   codes.vy = sends_objects() ? ars408_rms_code(kObjectVyStdMps) : kClusterVyCode;
   return codes;
 }
 
-/// The rounding of x and y to their grid adds the same variance along and across the line of sight,
-/// that of both velocities adds its own to Doppler, and so does the velocity across, of which a
-/// rounded line of sight makes a part of Doppler: what is drawn leaves room for it.
+/// Reduces the noise to draw by the rounding errors: of x and y along and across the line of sight,
+/// of both velocities on Doppler, and of the rounded line of sight, which turns a part of the
+/// velocity across into Doppler.
 PolarStd Ars408Sender::noise(const RadarView& view) const {
   const Ars408RmsCodes codes = rms_codes(view);
   const double azimuth_rad = reported_azimuth_rad(view.azimuth_rad);
@@ -192,8 +192,8 @@ void Ars408Sender::encode_objects(const std::vector<Measurement>& targets, std::
   }
 }
 
-/// A target whose velocity has these parts along and across the measured line of sight: where the
-/// sensor sees it is also where it takes that from, so an error of the azimuth is none of Doppler.
+/// A target whose velocity has these components along and across the measured line of sight: the
+/// sensor uses its measured azimuth for both, so azimuth errors do not enter Doppler.
 Ars408General Ars408Sender::general(const Measurement& measurement, double doppler_mps,
                                     double across_mps) {
   const double azimuth_rad = measurement.azimuth_rad;
@@ -213,7 +213,7 @@ Ars408General Ars408Sender::cluster(const Measurement& measurement) {
                  static_across(measurement.range_m, measurement.azimuth_rad));
 }
 
-/// An object's velocity is a vector; the error of each part is drawn from its own code.
+/// An object's velocity is a vector; each component has its own code and error.
 Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408RmsCodes& rms) {
   const RadarView& view = measurement.echo.view;
   const double across_mps =
@@ -224,7 +224,7 @@ Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408R
   return target;
 }
 
-/// Ghosts are not given away.
+/// Ghosts have the same quality as other clusters.
 Ars408ClusterQuality Ars408Sender::cluster_quality(const Ars408RmsCodes& rms) {
   Ars408ClusterQuality quality;
   quality.rms = rms;
@@ -234,8 +234,8 @@ Ars408ClusterQuality Ars408Sender::cluster_quality(const Ars408RmsCodes& rms) {
   return quality;
 }
 
-/// Doppler is all that tells a moving target: one that moves across looks as if it stood. Who is
-/// not told that the vehicle drives takes it for standing.
+/// Only Doppler shows motion: a target that moves across looks static. Without the vehicle's motion
+/// the sensor assumes standstill.
 Ars408DynProp Ars408Sender::dyn_prop(const Echo& echo) {
   const double doppler_mps =
       setup().is_told_motion ? echo.view.ground_doppler_mps : echo.view.doppler_mps;

@@ -12,21 +12,21 @@ namespace cremed {
 
 /// An ARS408 that sends clusters, or each of its targets as an object.
 ///
-/// The radar reports standard deviations of x, y and both velocities, but only as codes, and who
-/// reads them turns them into those of range, azimuth and Doppler by the Jacobian of the polar
-/// measurement, without the covariance of range and azimuth. So the simulator goes the same way:
-/// codes first, polar standard deviations from them, and independent errors of range, azimuth and
-/// Doppler with those. What the reader computes is then the truth about the errors.
+/// The radar reports standard deviations of x, y and both velocities as codes. The reader converts
+/// these to range, azimuth and Doppler with the Jacobian of the polar measurement, without the
+/// covariance of range and azimuth. The simulator does the same: codes first, polar standard
+/// deviations from them, and independent errors of range, azimuth and Doppler. The reader's noise
+/// is then the true noise.
 ///
 /// Measured on real drives (nuScenes, ten ARS408): a cluster's relative velocity is
 ///     V = D u + A t
 /// with the line of sight u when the scan was measured, t to its left, the Doppler D, and the
-/// velocity A across the line of sight that a static target there has by the speed and yaw rate w
-/// that the sensor is told (static_across_mps). The radar cannot measure A, so a moving target has
-/// it too. The reported position is ahead of that: turned by -w tau (calibration.rotation_lead_s,
-/// 40 ms), at the same range. A sensor that is told nothing reports A = 0 and does not turn, and
-/// what does not stand still to it is moving to it. An object's velocity is tracked: its part
-/// across is that of the target itself.
+/// velocity A across the line of sight of a static target there by the speed and yaw rate w that
+/// the sensor receives (static_across_mps). The radar cannot measure A, so moving targets have it
+/// too. The reported position is extrapolated: turned by -w tau (calibration.rotation_lead_s, 40
+/// ms), at the same range. Without speed and yaw rate the sensor reports A = 0, does not turn
+/// positions, and takes everything with Doppler for moving. An object's velocity is tracked: its
+/// component across is the target's own.
 class Ars408Sender : public RadarSender {
  public:
   static constexpr std::size_t kMaxClusters = 125;
@@ -51,7 +51,7 @@ class Ars408Sender : public RadarSender {
   Ars408ClusterQuality cluster_quality(const Ars408RmsCodes& rms);
   Ars408General general(const Measurement& measurement, double doppler_mps, double across_mps);
   Ars408DynProp dyn_prop(const Echo& echo);
-  /// What the reported azimuth is for a target that was measured at this one.
+  /// The reported azimuth of a target measured at this one.
   [[nodiscard]] double reported_azimuth_rad(double azimuth_rad) const;
   [[nodiscard]] double static_across(double range_m, double azimuth_rad) const;
   [[nodiscard]] Ars408RmsCodes rms_codes(const RadarView& view) const;

@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// Neither field of view nor resolution of this radar is published; these are ordinary ones.
+/// Field of view and resolution of this radar are not published; these are typical ones.
 constexpr RadarCharacter kCharacter{.zones = {{{0.35, 120.0}, {0.8, 70.0}, {1.05, 30.0}}},
                                     .least_range_m = 1.0,
                                     .range_resolution_m = 0.5,
@@ -19,24 +19,23 @@ constexpr RadarCharacter kCharacter{.zones = {{{0.35, 120.0}, {0.8, 70.0}, {1.05
 
 constexpr ScanCycle kCycle{99'000, 101'000};
 
-// Accuracy of the radar before its standard deviations are rounded up to what it can report.
+// The radar's accuracy before it is rounded up to reportable values.
 constexpr double kRangeStdM = 0.15;
 constexpr double kRangeStdPerMetre = 0.002;
 constexpr double kAzimuthStdRad = 0.0105;
 constexpr double kDopplerStdMps = 0.12;
 
-/// The smallest multiple of `step` that covers the standard deviation.
+/// The smallest multiple of `step` not below the standard deviation.
 double reported(double std, double step) { return std::ceil(std / step) * step; }
 
-/// What the radar reports about a target at this place. An antenna measures angles worse off its
-/// axis.
+/// The reported quality of a target here. An antenna's angular accuracy decreases off its axis.
 PolarStd reported_std(const RadarView& view) {
   return {reported(std::hypot(kRangeStdM, kRangeStdPerMetre * view.range_m), kGprRangeStepM),
           reported(kAzimuthStdRad / std::cos(view.azimuth_rad), kGprAzimuthStdStepRad),
           reported(kDopplerStdMps, kGprDopplerStepMps)};
 }
 
-/// What to draw, so that with the rounding to `step` the error is the reported one.
+/// Noise to draw, so that with the rounding to `step` the error is the reported one.
 double without_rounding(double std, double step) {
   return std::sqrt(std * std - step * step / 12.0);
 }

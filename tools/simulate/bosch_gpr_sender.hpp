@@ -10,8 +10,8 @@
 
 namespace cremed {
 
-/// A Bosch GPR: 48 slots, always sent all. It reports standard deviations of range, azimuth and
-/// Doppler; the errors drawn have exactly those, rounding to the frame's grid included.
+/// A Bosch GPR: always sends 48 slots. The drawn errors have exactly the reported standard
+/// deviations of range, azimuth and Doppler, rounding included.
 class BoschGprSender : public RadarSender {
  public:
   BoschGprSender(const BoschGprOptions& options, const Scene& scene, const SenderSetup& setup);

@@ -19,7 +19,7 @@ CanFrame PeriodicSender::send(std::int64_t /*stamp_us*/) {
 }
 
 std::int64_t frame_time_us(std::uint8_t length) {
-  // 47 bits around the data, one stuff bit in eight as on real buses, 2 us a bit.
+  // 47 bits of overhead, one stuff bit in eight as on real buses, 2 us a bit.
   const std::int64_t bits = 47 + 8 * std::int64_t{length};
   return bits * 9 / 4;
 }

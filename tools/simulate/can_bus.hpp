@@ -13,11 +13,11 @@
 
 namespace cremed {
 
-/// A frame that wants to go onto the bus.
+/// A frame waiting for the bus.
 struct FrameRequest {
   static constexpr std::int64_t kNeverUs = std::numeric_limits<std::int64_t>::max();
 
-  std::int64_t ready_us = kNeverUs;  ///< Not before.
+  std::int64_t ready_us = kNeverUs;  ///< Earliest time.
   std::uint32_t id = 0;
   std::uint8_t length = 0;
 };
@@ -29,7 +29,7 @@ class BusSender {
 
   [[nodiscard]] virtual FrameRequest request() const = 0;
 
-  /// The requested frame has won the bus and is complete at `stamp_us`.
+  /// The requested frame won arbitration and is complete at `stamp_us`.
   virtual CanFrame send(std::int64_t stamp_us) = 0;
 
  protected:
@@ -41,8 +41,8 @@ class BusSender {
 /// Sends state messages at a fixed period.
 class PeriodicSender : public BusSender {
  public:
-  /// One of the frames in turn goes out at `first_us` and every `period_us` after it, up to
-  /// `end_us`. There must be at least one.
+  /// Sends the frames in turn, one at `first_us` and every `period_us` after it, up to `end_us`.
+  /// There must be at least one.
   PeriodicSender(std::vector<CanFrame> frames, std::int64_t first_us, std::int64_t period_us,
                  std::int64_t end_us)
       : frames_(std::move(frames)), next_us_(first_us), period_us_(period_us), end_us_(end_us) {}
@@ -58,10 +58,10 @@ class PeriodicSender : public BusSender {
   std::int64_t end_us_;
 };
 
-/// How long a frame and the gap after it occupy a bus of 500 kbit/s.
+/// Duration of a frame and the gap after it at 500 kbit/s.
 std::int64_t frame_time_us(std::uint8_t length);
 
-/// A CAN bus of 500 kbit/s: one frame at a time, the smallest identifier first.
+/// A CAN bus at 500 kbit/s: one frame at a time, the smallest identifier first.
 class CanBus {
  public:
   explicit CanBus(std::uint8_t interface) : interface_(interface) {}

@@ -69,7 +69,7 @@ void RadarModel::detect_vehicles(double time_s) {
   }
 }
 
-/// Half of the ghosts stand (multipath of standing things), half move; none is seen twice.
+/// Half of the ghosts are static (multipath of static objects), half move; each is seen once.
 void RadarModel::add_ghosts() {
   const double widest_rad = character_.zones.back().half_angle_rad;
   for (std::size_t i = 0; i < 2 * character_.mean_ghosts; ++i) {
@@ -93,8 +93,7 @@ bool RadarModel::same_cell(const RadarView& a, const RadarView& b) const {
          std::abs(a.doppler_mps - b.doppler_mps) < character_.doppler_resolution_mps;
 }
 
-/// The stronger of two unresolved targets hides the weaker, so that every detection has one true
-/// place.
+/// The stronger of two unresolved targets hides the weaker, so every detection has one true place.
 void RadarModel::merge_unresolved() {
   std::stable_sort(echoes_.begin(), echoes_.end(),
                    [](const Echo& a, const Echo& b) { return a.rcs_dbm2 > b.rcs_dbm2; });

@@ -14,20 +14,20 @@
 
 namespace cremed {
 
-/// Seen up to `range_m` by a beam that opens `half_angle_rad` to both sides.
+/// Visible up to `range_m` within `half_angle_rad` to both sides.
 struct BeamZone {
   double half_angle_rad;
   double range_m;
 };
 
-/// What one radar family can see and tell apart.
+/// Field of view and resolution of a radar family.
 struct RadarCharacter {
   std::array<BeamZone, 3> zones;  ///< Narrow and far first.
   double least_range_m;
-  double range_resolution_m;  ///< Two targets nearer than all three resolutions are one.
+  double range_resolution_m;  ///< Targets closer than all three resolutions merge.
   double azimuth_resolution_rad;
   double doppler_resolution_mps;
-  std::size_t mean_ghosts;  ///< False alarms for each scan, each in one scan only.
+  std::size_t mean_ghosts;  ///< False alarms per scan, each in one scan only.
 };
 
 enum class EchoKind : std::uint8_t { fixed, vehicle, ghost };
@@ -41,7 +41,7 @@ struct Echo {
   double y_m = 0.0;
 };
 
-/// Which targets one radar detects: those in its beam that it can resolve, by chance.
+/// The targets that one radar detects: those in its beam that it can resolve, at random.
 class RadarModel {
  public:
   RadarModel(const RadarCharacter& character, const Pose2& vehicle_from_radar, const Scene& scene,

@@ -8,14 +8,14 @@
 namespace cremed {
 namespace {
 
-/// Streams of each radar, apart from those of the scene and of other radars.
+/// Random streams of each radar, separate from those of the scene and other radars.
 constexpr std::uint64_t kFirstStream = 16;
 constexpr std::uint64_t kOffsetStream = 256;
 
-/// No measured range is smaller: an azimuth must stay defined.
+/// Least measured range: the azimuth must stay defined.
 constexpr double kLeastMeasuredM = 0.3;
 
-/// Power-on is so many cycles before the start: the counters do not begin at 0.
+/// Cycles from power-on to the start: the counters do not begin at 0.
 constexpr std::size_t kGreatestFirstCycle = 65536;
 
 }  // namespace
@@ -38,7 +38,7 @@ RadarSender::RadarSender(const RadarCharacter& character, const ScanCycle& cycle
 
 FrameRequest RadarSender::request() const {
   if (sent_ < list_.size()) return {scan_stamp_us_, list_[sent_].id, list_[sent_].length};
-  // The frame must be complete, so its measurement done, before the end.
+  // The first frame must be complete, so the measurement done, before the end.
   if (next_scan_us_ + 10 * frame_time_us(8) > scene_.end_us()) return {};
   return {next_scan_us_, first_frame_.id, first_frame_.length};
 }

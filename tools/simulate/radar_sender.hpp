@@ -18,7 +18,7 @@
 
 namespace cremed {
 
-/// What a radar really saw: the truth behind the detections of one scan, in their order.
+/// The truth behind the detections of one scan, in their order.
 struct ScanTruth {
   std::size_t radar = 0;  ///< Index in the list of radars.
   std::int64_t stamp_us = 0;
@@ -27,19 +27,19 @@ struct ScanTruth {
 
 using ScanObserver = std::function<void(const ScanTruth&)>;
 
-/// Errors of all Doppler of one radar.
+/// Errors common to all Doppler of one radar.
 struct DopplerErrors {
   double factor = 1.0;          ///< Measured over true.
   double offset_mps = 0.0;      ///< Constant.
-  double offset_std_mps = 0.0;  ///< Of a further offset that varies slowly.
+  double offset_std_mps = 0.0;  ///< Of another offset, slowly varying.
 };
 
-/// All that is common to the radars of a simulation.
+/// Settings common to all radars of a simulation.
 struct SenderSetup {
   std::size_t radar = 0;
-  Pose2 vehicle_from_radar;      ///< Where it really is.
-  Pose2 stated_mount;            ///< Where it was told to be.
-  bool is_told_motion = true;    ///< Told speed and yaw rate, if it is of a kind that listens.
+  Pose2 vehicle_from_radar;      ///< True mount.
+  Pose2 stated_mount;            ///< Mount in the configuration.
+  bool is_told_motion = true;    ///< Receives speed and yaw rate, if its family supports that.
   double rotation_lead_s = 0.0;  ///< DetectionCorrection::rotation_lead_s
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
@@ -48,14 +48,14 @@ struct SenderSetup {
   ScanObserver observer;  ///< May be empty.
 };
 
-/// Standard deviations of a measurement's errors, which are independent of each other.
+/// Standard deviations of a measurement's independent errors.
 struct PolarStd {
   double range_m = 0.0;
   double azimuth_rad = 0.0;
   double doppler_mps = 0.0;
 };
 
-/// One target as the radar measured it, not yet rounded to what a frame can carry.
+/// One target as measured, before rounding to the frame.
 struct Measurement {
   Echo echo;
   double range_m = 0.0;
@@ -69,8 +69,8 @@ struct ScanCycle {
   std::int64_t greatest_us = 0;
 };
 
-/// A radar on the bus: measures once a cycle, at the moment that the first frame of the list is
-/// complete, and sends the list.
+/// A radar on the bus: measures once a cycle, when the first frame of the list is complete, and
+/// sends the list.
 class RadarSender : public BusSender {
  public:
   [[nodiscard]] FrameRequest request() const override;
@@ -81,17 +81,17 @@ class RadarSender : public BusSender {
   RadarSender(const RadarCharacter& character, const ScanCycle& cycle, const CanFrame& first_frame,
               const Scene& scene, const SenderSetup& setup);
 
-  /// Errors to draw, so that after rounding they have the reported standard deviations.
+  /// Noise to draw, so that after rounding the errors have the reported standard deviations.
   [[nodiscard]] virtual PolarStd noise(const RadarView& view) const = 0;
 
-  /// Whether the target fits into a frame; it is not sent otherwise.
+  /// Whether the target fits into a frame; otherwise it is not sent.
   [[nodiscard]] virtual bool can_report(const Measurement& /*measurement*/) const { return true; }
 
   /// Appends all frames of a scan. `cycle` counts the scans since power-on.
   virtual void encode(const std::vector<Measurement>& targets, std::uint32_t cycle,
                       std::vector<CanFrame>& list) = 0;
 
-  /// Last changes to a frame when it is sent, `age_us` after the measurement.
+  /// Final changes to a frame when it is sent, `age_us` after the measurement.
   virtual void finish(CanFrame& frame, std::int64_t age_us);
 
   [[nodiscard]] Random& random() { return random_; }
@@ -100,7 +100,7 @@ class RadarSender : public BusSender {
   [[nodiscard]] double with_shared_errors(double doppler_mps) const {
     return setup_.doppler.factor * doppler_mps + doppler_offset_mps_;
   }
-  /// What the radar was told when it measured the last scan; zero if nothing.
+  /// The motion received when the last scan was measured; zero if none.
   [[nodiscard]] const ToldMotion& told() const { return told_; }
 
  private:
@@ -121,8 +121,8 @@ class RadarSender : public BusSender {
   std::int64_t scan_stamp_us_ = 0;
   std::uint32_t cycle_count_ = 0;
   SlowError slow_offset_;
-  double doppler_offset_mps_ = 0.0;  // of the last scan
-  ToldMotion told_;                  // the same
+  double doppler_offset_mps_ = 0.0;  // Of the last scan.
+  ToldMotion told_;                  // Of the last scan.
   std::vector<Measurement> targets_;
   std::vector<CanFrame> list_;
   std::size_t sent_ = 0;

@@ -14,7 +14,7 @@ struct RadarState {
   double y_mps = 0.0;
 };
 
-/// A point in the world that may move.
+/// A point in the world, possibly moving.
 struct WorldPoint {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -22,14 +22,14 @@ struct WorldPoint {
   double y_mps = 0.0;
 };
 
-/// A point without any error, as seen from a radar (its frame: x forward, y left).
+/// Exact measurement of a point in the radar's frame: x forward, y left.
 struct RadarView {
   double range_m = 0.0;
   double azimuth_rad = 0.0;
   double doppler_mps = 0.0;  ///< d(range)/dt
   /// Velocity over ground relative to that of the radar, across the line of sight, to the left.
   double across_mps = 0.0;
-  double ground_doppler_mps = 0.0;  ///< The point's own share of the Doppler: 0 if it stands.
+  double ground_doppler_mps = 0.0;  ///< The point's own contribution to Doppler: 0 if it is static.
 };
 
 RadarState radar_state(const VehicleState& vehicle, const Pose2& vehicle_from_radar);

@@ -8,7 +8,7 @@
 namespace cremed {
 namespace {
 
-/// SplitMix64: neighbouring seeds and streams become unrelated engine seeds.
+/// SplitMix64: neighbouring seeds and streams give unrelated engine seeds.
 std::uint64_t scrambled(std::uint64_t value) {
   value += 0x9E3779B97F4A7C15U;
   value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;

@@ -8,11 +8,11 @@
 
 namespace cremed {
 
-/// Random numbers that are the same for a seed with every compiler and standard library: the
-/// engine is fully specified by the standard, its distributions are not.
+/// Random numbers that depend on the seed only, not on compiler or standard library: the standard
+/// specifies the engine fully, but not its distributions.
 class Random {
  public:
-  /// Streams of one seed are independent, so that one consumer's draws never shift another's.
+  /// Streams of one seed are independent: a consumer does not affect another's draws.
   Random(std::uint64_t seed, std::uint64_t stream);
 
   double uniform();  ///< [0, 1)

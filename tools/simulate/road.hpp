@@ -15,7 +15,7 @@ struct RoadPoint {
   double curvature_1pm = 0.0;
 };
 
-/// The vehicle's path by its length, straight on before its start and after its end.
+/// The vehicle's path by arc length, straight before its start and after its end.
 class Road {
  public:
   explicit Road(const VehicleCourse& course);
@@ -25,7 +25,8 @@ class Road {
 
  private:
   double length_m_ = 0.0;
-  std::vector<Pose2> samples_;  ///< One each kSpacingM, from 0 on; the last is the path's end.
+  /// At intervals of kSpacingM from 0; the last is the end of the path.
+  std::vector<Pose2> samples_;
 };
 
 /// The point `left_m` to the left of the centre line.

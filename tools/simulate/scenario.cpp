@@ -56,7 +56,7 @@ CoursePlan stop_and_go_course() {
 
 CoursePlan standing_course() { return {0.0, 0.0, {{10.0, 0.0, 0.0}}}; }
 
-/// A way through a town: lights, turns at crossings, a roundabout, a jam, a road out and back in.
+/// A drive through a town: traffic lights, turns, a roundabout, a jam, a road out and back in.
 CoursePlan city_course() {
   return {0.0, 0.0, {{4.0, 0.0, 0.0},   // red light
                      {8.0, 13.0, 0.0},  // main street
@@ -77,7 +77,7 @@ CoursePlan city_course() {
                      {4.0, 0.0, 0.0}}};
 }
 
-/// Out of a parking place, backwards round corners both ways, and forwards again.
+/// Out of a parking place, backwards round corners in both directions, and forwards again.
 CoursePlan reversing_course() {
   return {0.0,
           0.0,
@@ -93,7 +93,7 @@ CoursePlan reversing_course() {
            {3.0, 0.0, 0.0}}};
 }
 
-/// As hard as tyres allow: 8.7 m/s^2 at the peak.
+/// Near the tyres' limit: 8.7 m/s^2 at the peak.
 CoursePlan braking_course() {
   return {20.0,
           0.0,
@@ -107,7 +107,7 @@ CoursePlan braking_course() {
            {12.1, 20.0, 0.0}}};
 }
 
-/// The rear breaks out in bends both ways, by up to 14 degrees, and is caught again.
+/// Oversteers in bends in both directions, up to 14 degrees, and recovers.
 CoursePlan skid_course() {
   return {10.0,
           0.0,
@@ -145,7 +145,7 @@ CoursePlan jam_course() {
            {4.0, 0.0, 0.0}}};
 }
 
-/// Once round, turning at 0.27 to 0.35 rad/s for 20 s.
+/// A full circle at 0.27 to 0.35 rad/s for 20 s.
 CoursePlan roundabout_course() {
   return {10.0,
           0.0,
@@ -180,7 +180,7 @@ CoursePlan garage_course() {
            {2.0, 0.0, 0.0}}};
 }
 
-/// U-turns both ways, each at 0.5 rad/s.
+/// U-turns in both directions, each at 0.5 rad/s.
 CoursePlan u_turn_course() {
   return {8.0,
           0.0,
@@ -241,37 +241,36 @@ std::vector<Scenario> all_scenarios() {
   blind.blind_s = 0.25;
   return {
       drive("straight", "a straight road, 14 to 20 m/s", 60.0, straight_course()),
-      drive("bends", "bends both ways, wide and tight, at 5 to 16 m/s", 60.0, bends_course()),
+      drive("bends", "wide and tight bends in both directions, 5 to 16 m/s", 60.0, bends_course()),
       drive("stop-and-go", "starts, stops, creeping and standing", 60.0, stop_and_go_course()),
-      drive("standing", "never moves; others do", 30.0, standing_course()),
+      drive("standing", "standstill among moving cars", 30.0, standing_course()),
       drive("city", "a drive through a town: all of these", 150.0, city_course()),
       drive("crowd", "stop and go among so many cars that few targets stand still", 60.0,
             stop_and_go_course(), sparse, crowd),
-      drive("desert", "bends where there is next to nothing to see", 60.0, bends_course(), desert,
-            no_traffic),
-      drive("lossy", "the town, but one frame in a thousand is lost", 150.0, city_course(), {}, {},
+      drive("desert", "bends with almost no targets", 60.0, bends_course(), desert, no_traffic),
+      drive("lossy", "the town, with one frame in a thousand lost", 150.0, city_course(), {}, {},
             lossy),
-      drive("silent", "the town, but all radars are silent for 2 s out of 20", 150.0, city_course(),
-            {}, {}, silent),
-      drive("gaps", "the town, but all radars are silent for 0.3 s out of 1.5", 150.0,
-            city_course(), {}, {}, gaps),
-      drive("empty", "the town, but all radars see nothing for 0.25 s out of 2", 150.0,
-            city_course(), {}, {}, blind),
-      drive("field", "bends in an open field: a few things, here and there", 60.0, bends_course(),
-            field, no_traffic),
+      drive("silent", "the town, with all radars silent for 2 s in 20", 150.0, city_course(), {},
+            {}, silent),
+      drive("gaps", "the town, with all radars silent for 0.3 s in 1.5", 150.0, city_course(), {},
+            {}, gaps),
+      drive("empty", "the town, with no targets for 0.25 s in 2", 150.0, city_course(), {}, {},
+            blind),
+      drive("field", "bends in an open field with few targets", 60.0, bends_course(), field,
+            no_traffic),
       drive("tunnel", "smooth walls, at 15 to 20 m/s", 60.0, tunnel_course(), tunnel, no_traffic),
-      drive("jam", "creeping among cars that drive as we do; little stands still", 60.0,
+      drive("jam", "creeping among cars that drive as we do; few static targets", 60.0,
             jam_course(), sparse, jam),
-      drive("reversing", "backwards round corners both ways, and forwards again", 54.0,
+      drive("reversing", "backwards round corners in both directions, and forwards again", 54.0,
             reversing_course(), {}, no_traffic),
       drive("braking", "from 20 and 12 m/s to a stop with up to 8.7 m/s^2", 62.0, braking_course()),
-      drive("skid", "the rear breaks out; for degrees_of_freedom = 3", 46.0, skid_course(), {},
-            no_traffic),
-      drive("roundabout", "once round and again, turning at 0.27 to 0.35 rad/s for 20 s", 68.0,
+      drive("skid", "oversteer; for degrees_of_freedom = 3", 46.0, skid_course(), {}, no_traffic),
+      drive("roundabout", "a roundabout at 0.27 to 0.35 rad/s for 20 s, repeated", 68.0,
             roundabout_course()),
-      drive("garage", "spiral ramps of a parking garage at 0.4 to 0.5 rad/s, walls close by", 58.0,
+      drive("garage", "spiral ramps of a parking garage at 0.4 to 0.5 rad/s, close walls", 58.0,
             garage_course(), garage, no_traffic),
-      drive("u-turn", "U-turns both ways at 0.5 rad/s", 60.0, u_turn_course(), {}, no_traffic),
+      drive("u-turn", "U-turns in both directions at 0.5 rad/s", 60.0, u_turn_course(), {},
+            no_traffic),
       drive("slow-start", "creeps below 1.2 m/s for 12 s, then pulls away", 30.0,
             slow_start_course()),
   };

@@ -11,20 +11,20 @@
 
 namespace cremed {
 
-/// What goes wrong on purpose.
+/// Injected faults.
 struct FaultOptions {
   double frame_loss = 0.0;        ///< Probability that a frame does not reach the log.
-  double silence_period_s = 0.0;  ///< Every so often all radars send no scan; 0: never.
-  double silence_s = 0.0;         ///< For so long.
-  double blind_period_s = 0.0;    ///< Every so often all radars see nothing; 0: never.
-  double blind_s = 0.0;           ///< For so long.
+  double silence_period_s = 0.0;  ///< Period of times without any scan of any radar; 0: never.
+  double silence_s = 0.0;         ///< Their duration.
+  double blind_period_s = 0.0;    ///< Period of times when no radar sees anything; 0: never.
+  double blind_s = 0.0;           ///< Their duration.
 };
 
-/// One drive that can be asked for by name.
+/// One drive, selected by name.
 struct Scenario {
   std::string_view name;
   std::string_view description;
-  double duration_s = 60.0;  ///< Unless another one is asked for.
+  double duration_s = 60.0;  ///< Unless another duration is given.
   CoursePlan course;
   WorldOptions world;
   TrafficOptions traffic;
@@ -33,7 +33,7 @@ struct Scenario {
 
 const std::vector<Scenario>& scenarios();
 
-/// nullptr if there is none of that name.
+/// nullptr if the name is unknown.
 const Scenario* find_scenario(std::string_view name);
 
 }  // namespace cremed

@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// The course goes on after the end, for the car ahead of us.
+/// The course continues after the end, for the leading car.
 constexpr double kMarginS = 5.0;
 
 constexpr std::uint64_t kWorldStream = 1;

@@ -14,7 +14,7 @@
 
 namespace cremed {
 
-/// What is there to be seen, and when: the drive, what stands along it, and the other cars.
+/// Everything visible over time: the drive, static objects and other cars.
 class Scene {
  public:
   /// `body_velocity_std_mps`: see SimulationOptions.
@@ -29,10 +29,10 @@ class Scene {
   [[nodiscard]] std::int64_t start_us() const { return start_us_; }
   [[nodiscard]] std::int64_t end_us() const { return end_us_; }
   [[nodiscard]] const VehicleCourse& course() const { return course_; }
-  /// The vehicle's body, which the radars are fixed to: it pitches on its springs, and rolls when
-  /// it skids, so that its speed is not quite that of the rear axle.
+  /// The vehicle's body with the radars: it pitches on its springs and rolls in a skid, so its
+  /// velocity differs from the rear axle's.
   [[nodiscard]] VehicleState body(double time_s) const;
-  /// What the vehicle tells its sensors about its motion.
+  /// The motion that the vehicle sends to its sensors.
   [[nodiscard]] ToldMotion told_motion(double time_s) const { return vehicle_bus_.at(time_s); }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cstdint>
-#include <exception>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -14,19 +13,14 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/file_aliases.hpp"
-#include "daemon/process/plain_streams.hpp"
-#include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "daemon/source/candump.hpp"
-#include "daemon/version.hpp"
 #include "tools/line_stream.hpp"
+#include "tools/program.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace {
-
-constexpr int kRunTimeFailure = 1;
-constexpr int kBadUsage = 2;
 
 using cremed::UsageError;
 
@@ -40,46 +34,49 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
-  app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' names them all")
+  app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' prints all")
       ->required();
   app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
   app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
   app.add_option("--config", arguments.config,
-                 "Configuration of cremed with the radars to simulate; without it an ARS408 in "
-                 "front on can0 and a Bosch GPR at the rear on can1");
+                 "Configuration of cremed with the radars to simulate; default: an ARS408 in front "
+                 "on can0 and a Bosch GPR at the rear on can1");
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
-                 "Seconds to drive; without it as long as the scenario")
+                 "Seconds to drive; default: the scenario's")
       ->check(CLI::Range(0.5, 7200.0));
   app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
       ->capture_default_str();
-  app.add_option("--body-velocity-std", arguments.options.body_velocity_std_mps,
-                 "Standard deviation in m/s of the velocity of all radars over that of the rear "
-                 "axle while driving (pitch, suspension)")
+  app.add_option(
+         "--body-velocity-std", arguments.options.body_velocity_std_mps,
+         "Standard deviation in m/s of the velocity of all radars relative to the rear axle "
+         "while driving (pitch, suspension)")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  app.add_option("--doppler-offset-std", arguments.options.doppler_offset_std_mps,
-                 "Standard deviation in m/s of an error of all Doppler of a radar while driving, "
-                 "which no radar reports")
+  app.add_option(
+         "--doppler-offset-std", arguments.options.doppler_offset_std_mps,
+         "Standard deviation in m/s of an unreported offset of all Doppler of a radar while "
+         "driving")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
   app.add_option("--doppler-scale-std", arguments.options.doppler_scale_std,
-                 "Standard deviation of the factor on all Doppler of a radar, drawn once a drive")
+                 "Standard deviation of the factor on all Doppler of a radar, drawn once per drive")
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str();
-  app.add_option("--mount-yaw-std", arguments.options.mount_yaw_std_rad,
-                 "Standard deviation in rad of a radar's yaw from that of the configuration, drawn "
-                 "once a drive")
+  app.add_option(
+         "--mount-yaw-std", arguments.options.mount_yaw_std_rad,
+         "Standard deviation in rad of a radar's yaw from the configured one, drawn once per "
+         "drive")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   app.add_option("--mount-position-std", arguments.options.mount_position_std_m,
-                 "The same in m of x and of y of its mount")
+                 "The same for x and y of its mount, in m")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_flag("!--not-told", arguments.options.is_told_motion,
-               "ARS408s are not told the vehicle's speed and yaw rate: they take what stands for "
-               "moving, report radial velocities only and turn no positions");
+               "ARS408s do not receive the vehicle's speed and yaw rate: they take static targets "
+               "for moving, report radial velocities only and do not extrapolate positions");
 }
 
 void list_scenarios() {
@@ -91,7 +88,7 @@ void list_scenarios() {
 
 const cremed::Scenario& asked_scenario(const std::string& name) {
   if (const cremed::Scenario* scenario = cremed::find_scenario(name)) return *scenario;
-  throw UsageError("--scenario: there is no '" + name + "'; '--scenario list' names them all");
+  throw UsageError("--scenario: unknown scenario '" + name + "'; '--scenario list' prints all");
 }
 
 void write_log(cremed::Simulation& simulation, cremed::LineStream& log) {
@@ -130,16 +127,10 @@ void simulate(Arguments& arguments) {
   write_log(simulation, log);
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Simulates a drive as CAN frames of its radars, with truth", "cremed-simulate"};
-  app.set_version_flag("--version", "cremed-simulate " CREMED_VERSION);
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
-  }
+  app.parse(argc, argv);
   if (arguments.scenario == "list") {
     list_scenarios();
     return 0;
@@ -151,18 +142,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  cremed::make_standard_streams_plain();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const UsageError& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kBadUsage;
-  } catch (const cremed::ConfigurationError& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kBadUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-simulate: " << error.what() << '\n';
-    return kRunTimeFailure;
-  }
+  return cremed::run_program("cremed-simulate",
+                             "Simulates a drive as CAN frames of its radars, with truth", run, argc,
+                             argv);
 }

@@ -20,7 +20,7 @@ namespace cremed {
 namespace {
 
 constexpr std::uint64_t kLossStream = 3;
-/// First streams of each radar's own: one is added for each.
+/// First random streams of the radars; the radar's index is added.
 constexpr std::uint64_t kMountStream = 512;
 constexpr std::uint64_t kDopplerScaleStream = 768;
 constexpr double kArs408CycleUs = 72'000.0;
@@ -31,8 +31,8 @@ double asked_duration_s(const Scenario& scenario, const SimulationOptions& optio
   return options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
 }
 
-/// A list of an ARS408 takes most of its cycle; radars that share a bus must send less. No source
-/// says how real ones do that; here they share what is left of 90 % of the bus evenly.
+/// An ARS408 list takes most of its cycle; radars that share a bus must send less. How real ones do
+/// that is unknown; here they share what is left of 90 % of the bus evenly.
 std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
                            const RadarConfiguration& radar) {
   double share = 0.9;
@@ -52,7 +52,7 @@ std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
   return std::min(room, objects ? Ars408Sender::kMaxObjects : Ars408Sender::kMaxClusters);
 }
 
-/// Set up as the daemon needs it.
+/// As the daemon expects it.
 Ars408RadarState radar_state(const Ars408Options& options, bool is_told_motion) {
   Ars408RadarState state;
   state.nvm_read = true;
@@ -66,8 +66,8 @@ Ars408RadarState radar_state(const Ars408Options& options, bool is_told_motion) 
   return state;
 }
 
-/// An error that stays for a whole drive: one standard deviation to either side, so that a few
-/// drives have the variance that is asked for, which a few draws of a Gaussian have not.
+/// A constant error of one standard deviation with random sign, so that a few drives have the
+/// configured variance, unlike a few Gaussian draws.
 double constant_error(Random& random, double std) { return random.uniform() < 0.5 ? -std : std; }
 
 Pose2 real_mount(const Pose2& stated, const SimulationOptions& options, std::size_t radar) {
@@ -79,7 +79,7 @@ Pose2 real_mount(const Pose2& stated, const SimulationOptions& options, std::siz
   return real;
 }
 
-/// So that the configured correction puts it right, but for what is drawn.
+/// The inverse of the configured correction, times the drawn errors.
 DopplerErrors doppler_errors(const DetectionCorrection& correction,
                              const SimulationOptions& options, std::size_t radar) {
   Random random(options.seed, kDopplerScaleStream + radar);
@@ -105,13 +105,6 @@ std::vector<RadarConfiguration> default_radars() {
   RadarConfiguration rear = radar_at("rear", "can1", {-0.9, 0.0, std::numbers::pi});
   rear.decoder = BoschGprOptions{};
   return {front, rear};
-}
-
-SimulationOptions exactly_mounted(SimulationOptions options) {
-  options.mount_yaw_std_rad = 0.0;
-  options.mount_position_std_m = 0.0;
-  options.doppler_scale_std = 0.0;
-  return options;
 }
 
 Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
@@ -179,7 +172,7 @@ void Simulation::attach_gpr(const BoschGprOptions& options, const SenderSetup& s
   attach_state(bus, setup.radar, std::move(infos));
 }
 
-/// Once a second, which is no multiple of a cycle: some state frames fall inside lists.
+/// Once a second, not a multiple of the cycle: some state frames fall inside lists.
 void Simulation::attach_state(CanBus& bus, std::size_t radar, std::vector<CanFrame> frames) {
   const std::int64_t first_us =
       scene_.start_us() + 130'000 + 137'000 * static_cast<std::int64_t>(radar);

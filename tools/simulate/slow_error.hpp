@@ -8,8 +8,8 @@
 
 namespace cremed {
 
-/// An error that varies with time, smoothly and at random: a sum of sines of 0.3 to 2 Hz, so that
-/// it is another one after some tenths of a second.
+/// An error that varies smoothly and randomly with time: a sum of sines of 0.3 to 2 Hz,
+/// uncorrelated after some tenths of a second.
 class SlowError {
  public:
   SlowError(double standard_deviation, Random random);
@@ -25,7 +25,7 @@ class SlowError {
   std::array<Sine, 12> sines_;
 };
 
-/// How much of a driving vehicle's errors shows at a speed: none when it stands, all from 1 m/s.
+/// Share of a driving vehicle's errors at a speed: 0 at standstill, 1 from 1 m/s.
 double rolling_share(double speed_mps);
 
 }  // namespace cremed

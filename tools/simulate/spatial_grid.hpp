@@ -10,8 +10,8 @@
 
 namespace cremed {
 
-/// Finds points near a place without looking at all of them. Order of the answers depends on the
-/// order of insertion only.
+/// Finds points near a place without visiting all. The order of the results depends on the order of
+/// insertion only.
 class SpatialGrid {
  public:
   explicit SpatialGrid(double cell_m) : cell_m_(cell_m) {}

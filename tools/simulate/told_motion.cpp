@@ -10,16 +10,16 @@
 namespace cremed {
 namespace {
 
-/// A value is measured and sent every 10 ms and is 10 ms old when it arrives, so 10 to 20 ms old
-/// while it is in use.
+/// A value is measured and sent every 10 ms and is 10 ms old on arrival, so 10 to 20 ms old in use.
 constexpr double kPeriodS = 0.01;
 constexpr double kDelayS = 0.01;
 
-/// Wheel encoders and gyro of a real car against each other and its map-based pose (nuScenes).
+/// From wheel encoders and gyro of a real car compared with each other and with its map-based pose
+/// (nuScenes).
 constexpr double kSpeedStdMps = 0.02;
 constexpr double kYawRateStdRadps = 0.15 * kRadPerDeg;
 
-/// Grids of 0x300 and 0x301.
+/// Resolution of 0x300 and 0x301.
 constexpr double kSpeedStepMps = 0.02;
 constexpr double kYawRateStepRadps = 0.01 * kRadPerDeg;
 

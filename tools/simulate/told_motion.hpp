@@ -9,26 +9,26 @@
 
 namespace cremed {
 
-/// Motion of the vehicle as its own bus tells it to a sensor (0x300, 0x301). A sensor that is told
-/// nothing assumes that the vehicle stands.
+/// Motion that the vehicle's bus sends to a sensor (0x300, 0x301). Without it the sensor assumes
+/// standstill.
 struct ToldMotion {
   double speed_mps = 0.0;       ///< Of the rear axle along x.
   double yaw_rate_radps = 0.0;  ///< Positive to the left.
 };
 
-/// Velocity across the line of sight, positive to the left, that a static target at this place
-/// (radar's frame) has in the frame of a radar on a vehicle that moves so:
+/// Velocity across the line of sight, positive to the left, of a static target at this place in the
+/// frame of a radar on a vehicle with this motion:
 ///     v_t - w r,   v_t = -(v + w x l) . t
 /// with the yaw rate w, the radar's lever arm l and t to the left of the line of sight.
 double static_across_mps(const ToldMotion& told, const Pose2& vehicle_from_radar, double range_m,
                          double azimuth_rad);
 
-/// What wheel encoders and gyro of the vehicle measure, and its bus makes of it.
+/// Wheel encoders and gyro of the vehicle, as sent on its bus.
 class VehicleBus {
  public:
   VehicleBus(const VehicleCourse& course, Random speed, Random yaw_rate);
 
-  /// The last values that a sensor has received by then.
+  /// The last values received by then.
   [[nodiscard]] ToldMotion at(double time_s) const;
 
  private:

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kOncomingLaneM = 7.0;
 constexpr double kSameWayLaneM = 3.5;
-constexpr double kSightM = 250.0;  ///< Cars farther along the road are left out.
+constexpr double kSightM = 250.0;  ///< Cars farther along the road are omitted.
 constexpr double kLeaderTimeS = 2.0;
-constexpr double kLeaderGapM = 9.0;  ///< Distance to the leader when all stand.
+constexpr double kLeaderGapM = 9.0;  ///< Distance to the leader at standstill.
 constexpr double kJamMomentS =
     0.7;  ///< Cars of a jam drive as we do up to so much later or sooner.
 
-/// Where a car reflects: its corners, from its centre, forward and left.
+/// Reflectors of a car: its corners, from its centre, forward and left.
 constexpr std::array<std::array<double, 2>, 4> kCornersM{
     {{2.1, 0.8}, {2.1, -0.8}, {-2.1, 0.8}, {-2.1, -0.8}}};
 
@@ -31,7 +31,7 @@ Traffic::Traffic(const VehicleCourse& course, const Road& road, const TrafficOpt
   add_jam(options.jam_cars, random);
 }
 
-/// On our lane and both to the left of it, before and behind us in turn.
+/// On our lane and both lanes to the left, alternately before and behind us.
 void Traffic::add_jam(int count, Random& random) {
   for (int i = 0; i < count; ++i) {
     const double left_m = kSameWayLaneM * (i / 2 % 3);

@@ -20,31 +20,30 @@ struct MovingReflector {
 };
 
 struct TrafficOptions {
-  double oncoming_interval_s = 8.0;   ///< Mean time between two oncoming cars; 0: none.
-  double same_way_interval_s = 20.0;  ///< Mean time between two cars beside us; 0: none.
-  bool leader = true;                 ///< A car in front drives as we do, two seconds ahead.
-  int jam_cars = 0;                   ///< So many around us drive as we do, a moment off.
+  double oncoming_interval_s = 8.0;   ///< Mean time between oncoming cars; 0: none.
+  double same_way_interval_s = 20.0;  ///< Mean time between cars beside us; 0: none.
+  bool leader = true;                 ///< A car two seconds ahead drives as we do.
+  int jam_cars = 0;  ///< Cars around us that drive as we do, slightly shifted in time.
 };
 
-/// Other cars on the road: oncoming and same direction, each at its own constant speed, one that we
-/// follow, and those of a jam.
+/// Other cars: oncoming and same direction at constant speeds, a leader, and those of a jam.
 class Traffic {
  public:
   Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
           Random random);
 
-  /// All moving reflectors at the time, far away or not. Overwrites `reflectors`.
+  /// All moving reflectors at the time, at any distance. Overwrites `reflectors`.
   void reflectors_at(double time_s, std::vector<MovingReflector>& reflectors) const;
 
  private:
   struct Car {
     double meeting_s;  ///< When it is beside us.
     double meeting_m;  ///< Where on the road.
-    double left_m;     ///< Its lane: distance from ours.
+    double left_m;     ///< Distance of its lane from ours.
     double speed_mps;  ///< Along the road, negative when oncoming.
   };
 
-  /// One that drives as we do.
+  /// A car that drives as we do.
   struct JamCar {
     double ahead_m;
     double ahead_s;

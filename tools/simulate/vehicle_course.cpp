@@ -9,8 +9,8 @@
 namespace cremed {
 namespace {
 
-/// From 0 to 1 with zero slope and curvature at both ends: neither acceleration nor steering rate
-/// ever jumps.
+/// From 0 to 1 with zero slope and curvature at both ends: acceleration and steering rate are
+/// continuous.
 double smooth_step(double fraction) {
   const double f = std::clamp(fraction, 0.0, 1.0);
   return f * f * f * (f * (6.0 * f - 15.0) + 10.0);
@@ -76,7 +76,7 @@ VehicleState VehicleCourse::Leg::at(double time_s) const {
   return state;
 }
 
-/// One Runge-Kutta step of fourth order: over 10 ms its error is below a nanometre.
+/// One Runge-Kutta step of fourth order: its error over 10 ms is below a nanometre.
 VehicleState VehicleCourse::advanced(const Leg& leg, const VehicleState& from, double from_s,
                                      double step_s) {
   const VehicleState begin = leg.at(from_s);

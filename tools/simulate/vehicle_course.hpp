@@ -9,16 +9,15 @@
 
 namespace cremed {
 
-/// Speeds and curvature that the vehicle reaches at the end of a leg, starting smoothly from those
-/// at its beginning.
+/// Speeds and curvature at the end of a leg, reached smoothly from those at its beginning.
 struct CourseLeg {
   double duration_s = 0.0;      ///< A multiple of VehicleCourse::kStepS.
   double speed_mps = 0.0;       ///< Along x, negative when reversing.
   double curvature_1pm = 0.0;   ///< Yaw rate over speed, positive to the left.
-  double side_speed_mps = 0.0;  ///< Of the rear axle to the left: it skids.
+  double side_speed_mps = 0.0;  ///< Of the rear axle to the left, in a skid.
 };
 
-/// Driven leg after leg, and from the first leg again until the time is over.
+/// The legs are repeated until the time is over.
 struct CoursePlan {
   double start_speed_mps = 0.0;
   double start_curvature_1pm = 0.0;
@@ -31,7 +30,7 @@ struct VehicleState {
   double speed_mps = 0.0;       ///< Along x.
   double side_speed_mps = 0.0;  ///< Along y; 0 unless it skids.
   double yaw_rate_radps = 0.0;
-  double distance_m = 0.0;  ///< Length of the way since the start, forwards and backwards.
+  double distance_m = 0.0;  ///< Path length since the start, forwards and backwards.
 };
 
 /// How a car drives a plan, starting at the world's origin along x.
@@ -39,13 +38,13 @@ class VehicleCourse {
  public:
   static constexpr double kStepS = 0.01;
 
-  /// Throws std::invalid_argument if the plan has no leg or a leg has no whole number of steps.
+  /// Throws std::invalid_argument if the plan has no leg or a leg is not a multiple of the step.
   VehicleCourse(const CoursePlan& plan, double least_duration_s);
 
-  /// Times outside 0 .. duration_s() are moved to its nearer end.
+  /// Times outside 0 .. duration_s() are clamped.
   [[nodiscard]] VehicleState at(double time_s) const;
 
-  /// The states at 0, kStepS, 2 kStepS ...; the last one is at or after the asked duration.
+  /// The states at 0, kStepS, 2 kStepS ...; the last is at or after the given duration.
   [[nodiscard]] const std::vector<VehicleState>& steps() const { return steps_; }
   [[nodiscard]] double duration_s() const;
 

@@ -11,26 +11,26 @@
 namespace cremed {
 namespace {
 
-constexpr double kReachM = 120.0;        ///< The world goes on before and after the road.
+constexpr double kMarginM = 120.0;       ///< Length of the world before and after the road.
 constexpr double kClearanceM = 3.0;      ///< Free space on both sides of the path of the rear axle.
 constexpr double kLeftLanesM = 6.0;      ///< More free space on the left, for the traffic there.
-constexpr double kClutterReachM = 80.0;  ///< To both sides: something is to be seen in turns, too.
+constexpr double kClutterReachM = 80.0;  ///< To both sides, so that turns have targets too.
 constexpr double kRoadSpacingM = 1.0;
 constexpr double kCellM = 25.0;
 
-/// A tunnel's wall reflects at a few of very many places, at others in each scan.
+/// A tunnel's wall reflects at a few of many places, at others in each scan.
 constexpr double kTunnelSpacingM = 0.25;
 constexpr double kTunnelOffsetM = 1.5;
 constexpr double kTunnelProbability = 0.03;
 
-/// A stretch of one side of the road that is built in one way.
+/// A stretch of one side of the road of one kind.
 struct BlockKind {
   double least_length_m;
   double greatest_length_m;
   double least_offset_m;  ///< From the edge of the free space.
   double greatest_offset_m;
   double spacing_m;  ///< Of the reflectors along the road.
-  double jitter_m;   ///< Uniform, both ways: no structure is perfectly regular.
+  double jitter_m;   ///< Uniform, in both directions: no structure is perfectly regular.
   double rcs_dbm2;
   double detection_probability;
 };
@@ -52,9 +52,9 @@ class Builder {
  public:
   Builder(const Road& road, const WorldOptions& options, Random& random)
       : road_(road), options_(options), random_(random), road_grid_(kCellM) {
-    const auto count = static_cast<int>((road_.length_m() + 2.0 * kReachM) / kRoadSpacingM);
+    const auto count = static_cast<int>((road_.length_m() + 2.0 * kMarginM) / kRoadSpacingM);
     for (int i = 0; i <= count; ++i) {
-      const Pose2 pose = road_.at(i * kRoadSpacingM - kReachM).pose;
+      const Pose2 pose = road_.at(i * kRoadSpacingM - kMarginM).pose;
       road_grid_.insert(pose.x_m, pose.y_m, road_points_.size());
       road_points_.push_back(pose);
     }
@@ -72,8 +72,8 @@ class Builder {
   }
 
   void scatter_clutter() {
-    const double begin_m = -kReachM;
-    const double end_m = road_.length_m() + kReachM;
+    const double begin_m = -kMarginM;
+    const double end_m = road_.length_m() + kMarginM;
     const auto count = static_cast<std::size_t>((end_m - begin_m) * options_.clutter_per_m);
     for (std::size_t i = 0; i < count; ++i) {
       const RoadPoint point = road_.at(random_.uniform(begin_m, end_m));
@@ -93,8 +93,8 @@ class Builder {
   }
 
   void build_blocks(std::span<const BlockKind> kinds, double share, double side) {
-    double start_m = -kReachM;
-    while (start_m < road_.length_m() + kReachM) {
+    double start_m = -kMarginM;
+    while (start_m < road_.length_m() + kMarginM) {
       const BlockKind& kind = kinds[random_.index(kinds.size())];
       const double length_m = random_.uniform(kind.least_length_m, kind.greatest_length_m);
       if (random_.chance(share)) build_block(kind, side, start_m, length_m);
@@ -104,7 +104,7 @@ class Builder {
 
   void build_tunnel_side(double side) {
     const double offset_m = edge_m(side) + kTunnelOffsetM;
-    for (double along_m = -kReachM; along_m < road_.length_m() + kReachM;
+    for (double along_m = -kMarginM; along_m < road_.length_m() + kMarginM;
          along_m += kTunnelSpacingM) {
       const RoadPoint point = road_.at(along_m + random_.uniform(0.0, kTunnelSpacingM));
       place(beside(point, side * offset_m), -2.0 + 3.0 * random_.normal(), kTunnelProbability);

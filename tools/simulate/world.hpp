@@ -11,7 +11,7 @@
 
 namespace cremed {
 
-/// Something that reflects, as a point.
+/// A point reflector.
 struct Reflector {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -21,18 +21,18 @@ struct Reflector {
 
 enum class Roadside : std::uint8_t {
   street,  ///< Walls of houses, guard rails, parked cars, trees.
-  tunnel,  ///< Smooth walls on both sides: no place of them stands out.
-  garage,  ///< Pillars, parked cars and walls, close by on both sides.
+  tunnel,  ///< Smooth walls on both sides without fixed reflectors.
+  garage,  ///< Pillars, parked cars and walls, close on both sides.
 };
 
 struct WorldOptions {
-  double built_share = 0.8;    ///< Share of a street's sides that is built.
-  double clutter_per_m = 1.2;  ///< Single reflectors for each metre of the road.
+  double built_share = 0.8;    ///< Share of a street's sides with structures.
+  double clutter_per_m = 1.2;  ///< Single reflectors per metre of the road.
   Roadside roadside = Roadside::street;
 };
 
-/// All that stands still: walls, guard rails, parked cars and trees along the road, and clutter
-/// around it. Nothing stands on the road itself, even where it crosses its own course.
+/// All static objects: walls, guard rails, parked cars and trees along the road, and clutter around
+/// it. The road itself is free, also where it crosses itself.
 class World {
  public:
   World(const Road& road, const WorldOptions& options, Random random);

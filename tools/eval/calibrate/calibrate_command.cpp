@@ -36,7 +36,7 @@ constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegPerRad, 2},
                                {kLead, "rotation lead ms", 1e3, 1},
                                {kPositionLead, "positions ahead ms", 1e3, 1}};
 
-/// What the configuration says already of a lead, which the fit is on top of.
+/// The configured part of a lead, to which the fit adds.
 double configured_part(const RadarConfiguration& radar, CalibrationState state) {
   const bool is_lead = state == kLead || state == kPositionLead;
   return is_lead ? radar.ego_motion.correction.rotation_lead_s : 0.0;
@@ -57,7 +57,7 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
     return (value + configured_part(configured, state)) * column.unit;
   };
   if (fit.prior_std[state] == 0.0 && state == kLead) {
-    return;  // Of no other type.
+    return;  // The radar's type has no such state.
   }
   std::fprintf(stderr, "  %-22s", column.label);
   if (fit.prior_std[state] == 0.0) {
@@ -80,7 +80,7 @@ void print_factor(const char* label, const StdFactor& factor) {
 
 void print_vehicle(const FittedVehicle& vehicle) {
   if (vehicle.prior_std[kRoll] == 0.0) {
-    std::fprintf(stderr, "mounts are relative to the direction the vehicle rolls in\n");
+    std::fprintf(stderr, "mounts are relative to the rolling direction of the vehicle\n");
   } else {
     std::fprintf(stderr,
                  "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
@@ -91,7 +91,7 @@ void print_vehicle(const FittedVehicle& vehicle) {
 }
 
 void print_table(const Configuration& configuration, const Calibration& calibration) {
-  std::fprintf(stderr, "kept: the drive does not tell better\n");
+  std::fprintf(stderr, "kept: the drive gives no better value\n");
   print_vehicle(calibration.vehicle);
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
     const RadarCalibration& radar = calibration.radars[i];
@@ -117,14 +117,15 @@ Values found_values(const Configuration& configuration, const Calibration& calib
   return values;
 }
 
-/// Tables of their own: a radar's [radar.mount] may be written in ways that take no further key.
+/// Separate tables: a [radar.mount] may be in a form that accepts no further key.
 void print_toml(const Configuration& configuration, const Calibration& calibration,
                 const Values& values) {
   const FittedVehicle& vehicle = calibration.vehicle;
   std::printf(
-      "# Found by cremed-eval calibrate. Goes above or below any table, in place of older ones.\n");
+      "# Results of cremed-eval calibrate; put them before or after any table, replacing older "
+      "ones.\n");
   if (vehicle.prior_std[kRoll] == 0.0) {
-    std::printf("# yaw_rad is relative to the direction the vehicle rolls in.\n");
+    std::printf("# yaw_rad is relative to the rolling direction of the vehicle.\n");
   } else {
     std::printf(
         "# yaw_rad is in the frame of truth, in which the vehicle rolls at %.4f +- %.4f rad.\n",

@@ -11,11 +11,11 @@ struct CalibrateArguments {
   std::vector<std::string> logs;
   std::string config;
   std::string truth;   ///< Empty: none.
-  bool write = false;  ///< What is found goes into the configuration as well.
+  bool write = false;  ///< Writes the result into the configuration too.
 };
 
-/// cremed-eval calibrate: a table for people on standard error, TOML to paste on standard output.
-/// Throws std::runtime_error.
+/// cremed-eval calibrate: a table on standard error, TOML on standard output. Throws
+/// std::runtime_error.
 void run_calibrate(const CalibrateArguments& arguments);
 
 }  // namespace cremed

@@ -16,24 +16,25 @@
 namespace cremed {
 namespace {
 
-/// How well a radar is known beforehand, in the order of CalibrationState.
+/// Prior standard deviations of a radar, in the order of CalibrationState.
 constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.01, 0.05, 0.05, 0.01, 0.03};
-/// Known no better, the configured value is kept: a tape measure does as well.
+/// With a larger standard deviation the configured value is kept: a tape measure is as good.
 constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.05, 0.007, 0.002, 0.005};
-/// States that are told; the others are nuisances or checks.
+/// States that are reported; the others are nuisance parameters or checks.
 constexpr std::array kTold = {kYaw, kX, kY, kOffset, kStamp, kScale, kLead};
-/// The frame's direction, and the slip of a rear axle: 0.005 rad s^2/m is 800 kg on tyres whose
-/// cornering stiffness is 160 kN/rad.
+/// Priors of the rolling direction and the slip of the rear axle: 0.005 rad s^2/m is 800 kg on
+/// tyres with a cornering stiffness of 160 kN/rad.
 constexpr std::array<double, kRollingStates> kVehiclePriorStd = {0.05, 0.005};
-/// Errors of a scan's velocity that no target tells of, of one radar: four nuScenes drives, front
-/// and rear.
+/// Errors of a scan's velocity that all its targets share: four nuScenes drives, front and rear
+/// radars.
 constexpr double kSharedVelocityStdMps = 0.04;
 constexpr double kSignificant = 3.0;  // Standard deviations.
 constexpr int kRounds = 3;
-constexpr int kRegisteredRounds = 2;  // Then mounts are so good that registrations stay the same.
-constexpr double kSlowestMps = 0.5;   // Slower, Doppler has no direction.
+// Afterwards the mounts are accurate enough that registrations no longer change.
+constexpr int kRegisteredRounds = 2;
+constexpr double kSlowestMps = 0.5;  // At lower speeds Doppler gives no direction.
 constexpr double kSlackMps = 0.1;
-constexpr double kLeastYawRateStdRadps = 0.002;  // When the vehicle stands.
+constexpr double kLeastYawRateStdRadps = 0.002;  // At standstill.
 
 CalibrationVector configured(const RadarConfiguration& radar) {
   const Pose2& mount = radar.ego_motion.vehicle_from_radar;
@@ -77,8 +78,8 @@ MotionPrior motion_prior(const Configuration& configuration) {
           errors.velocity_std_mps};
 }
 
-/// A mount's yaw is what odometry errs by most: it is better as soon as it is known as well as the
-/// configuration says of its own, `yaw_std_rad`.
+/// Odometry depends most on the mount's yaw: an estimate replaces it as soon as its standard
+/// deviation reaches `yaw_std_rad`, the configured one.
 bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad) {
   const double change = std::abs(radar.value[state] - radar.prior[state]);
   const bool is_good_yaw = state == kYaw && radar.std[kYaw] <= yaw_std_rad;
@@ -86,13 +87,13 @@ bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_
          (is_good_yaw || change > kSignificant * radar.std[state]);
 }
 
-/// What scatters less than it says is left alone: a few large errors count more than many small
-/// ones, and estimates would promise too much.
+/// A factor below one is ignored: a few large errors matter more than many small ones, and
+/// estimates would become overconfident.
 double above_one(const StdFactor& factor) {
   return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
 }
 
-/// One calibration on its way.
+/// State of one calibration.
 class Calibrator {
  public:
   Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
@@ -145,7 +146,7 @@ DopplerNoise Calibrator::noise(std::size_t radar) const {
           kSharedVelocityStdMps};
 }
 
-/// At first a scan's own targets have to agree, later all radars know how the vehicle moves.
+/// In the first round a scan's own targets must agree; later the fitted motion decides.
 std::optional<DopplerState> Calibrator::state_of(std::size_t radar,
                                                  const RecordedScan& scan) const {
   return is_started_ ? fit_.expected(radar, scan.stamp_us) : agreed_velocity(scan.targets);
@@ -166,9 +167,9 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
   return result;
 }
 
-/// Registers positions alone, in the frame of the direction that the vehicle rolls in. A wrong
-/// mount would turn into yaw. So sideways motion is free until the mounts are about right; then it
-/// would only cost yaw its precision.
+/// Registers positions alone, in the frame of the rolling direction. Lateral motion is free in the
+/// first round, because a wrong mount would otherwise turn into yaw; later it would only make yaw
+/// less precise.
 Configuration Calibrator::trial() const {
   Configuration result = calibrated(configuration_, radars_);
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
@@ -205,7 +206,7 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
                         (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
                         0.0});
     }
-    // Some radars promise more than they hold.
+    // Some radars report too small standard deviations.
     const double factor = std::max(noise_factor(errors).value, 1.0);
     for (std::size_t i = first; i < result.size(); ++i) {
       result[i].std_radps *= factor;
@@ -246,7 +247,7 @@ void Calibrator::choose_changes() {
   }
 }
 
-/// What is kept is known as well as by a tape measure.
+/// A value that is kept is known as well as by a tape measure.
 void Calibrator::finish() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     for (const CalibrationState state : kTold) {

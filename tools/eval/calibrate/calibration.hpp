@@ -14,11 +14,11 @@
 
 namespace cremed {
 
-/// What a recorded drive says about a radar. Offset, stamp and factors are on top of those that the
-/// configuration has.
+/// Result of a recorded drive for one radar. Offset, stamp and factors are relative to the
+/// configured ones.
 struct RadarCalibration {
   FittedRadar free;  ///< With all states unknown.
-  FittedRadar fit;   ///< With the configured value where the drive does not say better.
+  FittedRadar fit;   ///< With the configured value held where it is not improved.
   /// false: the configured value was kept.
   std::array<bool, kCalibrationStates> is_changed{};
   SensorNoise noise;
@@ -30,14 +30,13 @@ struct Calibration {
   FittedVehicle vehicle;
 };
 
-/// Calibrates all radars of the configuration together. With `truth`, mounts are in its frame, and
-/// the direction the vehicle rolls in is found as well. It may be null: then mounts are relative to
-/// that direction, and the first radar's y, stamps and scale are what those of the others are
-/// compared with. Throws std::runtime_error.
+/// Calibrates all radars of the configuration together. With `truth`, mounts are in its frame and
+/// the rolling direction is estimated. If `truth` is null, mounts are relative to the rolling
+/// direction, and y, stamps and scale relative to the first radar's. Throws std::runtime_error.
 Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
                       const TrueTrajectory* truth);
 
-/// The configuration with what was found.
+/// The configuration with the results.
 Configuration calibrated(const Configuration& configuration,
                          const std::vector<RadarCalibration>& calibrations);
 

@@ -21,19 +21,19 @@ constexpr std::int64_t kNodeUs = 100'000;  // kNodeS
 constexpr std::int64_t kBlockUs = 4'000'000;
 constexpr double kTruthSpeedStdMps = 0.03;
 constexpr double kTruthYawRateStdRadps = 0.005;
-/// Next to nothing is known of the motion.
-constexpr double kAnySpeedMps = 100.0;
-constexpr double kAnyYawRateRadps = 10.0;
-/// Blocks that the jackknife is taken to have at least: fewer have no variance to tell.
-constexpr double kFewestBlocks = 5.0;
+/// Prior of the motion: practically none.
+constexpr double kPriorSpeedStdMps = 100.0;
+constexpr double kPriorYawRateStdRadps = 10.0;
+/// Least number of blocks of the jackknife: fewer have no useful variance.
+constexpr double kMinBlocks = 5.0;
 constexpr double kHuber = 3.0;
 constexpr std::int64_t kSlopeNodes = 5;  // To both sides.
-/// The motion may change by so much more than it does. Lever arms times yaw rate is what Doppler
-/// tells; were smoothness worth much, the fit would turn less and have longer lever arms (4 % of
-/// them with a factor of 1 on simulated drives, less than 0.5 % with this one).
+/// Factor on the standard deviation of the motion's change. Doppler measures lever arm times yaw
+/// rate; a strong smoothness prior would reduce the turns and lengthen the lever arms (by 4 % with
+/// a factor of 1 on simulated drives, less than 0.5 % with this one).
 constexpr double kChangeFactor = 5.0;
 
-/// Rows that the covariance takes as one: those of one block of time, or a prior.
+/// A group of rows for the covariance: one block of time, or a prior.
 struct Group {
   int rows;
   std::int64_t block;
@@ -42,7 +42,7 @@ constexpr std::int64_t kNoBlock = -1;
 
 }  // namespace
 
-/// The terms of one solve(). Ceres owns what is added.
+/// The terms of one solve(). Ceres owns them.
 struct CalibrationProblem {
   CalibrationFit& fit;
   ceres::Problem problem;
@@ -107,7 +107,8 @@ void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
 }
 
 void CalibrationProblem::add_changes() {
-  const MotionNode std = {kAnySpeedMps, kAnyYawRateRadps, fit.prior_.body_velocity_std_mps};
+  const MotionNode std = {kPriorSpeedStdMps, kPriorYawRateStdRadps,
+                          fit.prior_.body_velocity_std_mps};
   for (auto& [number, node] : fit.nodes_) {
     add_prior<3>({}, std, node);
     if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
@@ -184,8 +185,8 @@ std::map<std::int64_t, RowMatrix> blocks_of(const RowMatrix& jacobian,
   return blocks;
 }
 
-/// Variances of the last `wanted` unknowns by leaving out one block after the other; each new
-/// solution is one Gauss-Newton step away.
+/// Jackknife variances of the last `wanted` unknowns: each block is left out in turn, and the new
+/// solution found by one Gauss-Newton step.
 Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& residuals,
                           const std::vector<Group>& groups, Eigen::Index wanted) {
   const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
@@ -198,13 +199,13 @@ Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& resi
     const Eigen::VectorXd step = rest.solve(gradient);
     squares += step.tail(wanted).cwiseAbs2();
   }
-  const double count = std::max(static_cast<double>(blocks.size()), kFewestBlocks);
+  const double count = std::max(static_cast<double>(blocks.size()), kMinBlocks);
   const double students_t = (count - 1.0) / (count - 3.0);
   return squares * ((count - 1.0) / count) * students_t;
 }
 
-/// What the priors, which belong to no block, add to the variances; `effects` are the covariances
-/// of the rows with the wanted unknowns.
+/// Contribution of the priors, which belong to no block; `effects` are the covariances of the rows
+/// with the wanted unknowns.
 Eigen::VectorXd by_priors(const Eigen::MatrixXd& effects, const std::vector<Group>& groups) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(effects.cols());
   Eigen::Index row = 0;
@@ -273,7 +274,7 @@ MotionPlace CalibrationFit::place(std::size_t radar, std::int64_t stamp_us, doub
   return {node, static_cast<double>(shifted_us - node * kNodeUs) / kNodeUs, shift_s, slope(node)};
 }
 
-/// By least squares over the nodes around.
+/// By least squares over the neighbouring nodes.
 MotionNode CalibrationFit::slope(std::int64_t number) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();

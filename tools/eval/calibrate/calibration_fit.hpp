@@ -17,27 +17,28 @@
 
 namespace cremed {
 
-/// What is estimated of a radar, in this order.
+/// Estimated states of a radar, in this order.
 enum CalibrationState : std::size_t {
   kYaw,           ///< Of the mount, rad.
   kX,             ///< Of the mount, m.
   kY,             ///< Of the mount, m.
   kOffset,        ///< Of all Doppler, m/s.
-  kStamp,         ///< To add to the radar's stamps, s.
+  kStamp,         ///< Added to the radar's stamps, s.
   kScale,         ///< Doppler over true Doppler - 1.
-  kLead,          ///< Rotation lead that Doppler shows, s.
-  kPositionLead,  ///< The same that registrations show: how late w is by them, s.
-  kAzimuth,       ///< Azimuth over true azimuth - 1; a nuisance, which is not told.
-  kTurn,          ///< Yaw rate of its registrations over the true one - 1; the same.
+  kLead,          ///< Rotation lead from Doppler, s.
+  kPositionLead,  ///< Rotation lead from registrations: delay of their yaw rate, s.
+  kAzimuth,       ///< Azimuth over true azimuth - 1; a nuisance parameter, not reported.
+  /// Yaw rate of its registrations over the true one - 1; a nuisance parameter, not reported.
+  kTurn,
 };
 inline constexpr std::size_t kCalibrationStates = 10;
 using CalibrationVector = std::array<double, kCalibrationStates>;
 
-/// What is estimated of the vehicle, in this order.
+/// Estimated states of the vehicle, in this order.
 enum RollingState : std::size_t {
-  kRoll,  ///< Direction the rear axle rolls in, from the x axis of the mounts' frame, rad.
-  kSlip,  ///< What that changes by, to the outside of a turn, with acceleration to its inside;
-          ///< rad s^2/m.
+  kRoll,  ///< Rolling direction of the rear axle, from the x axis of the mounts' frame, rad.
+  /// Change of that direction, to the outside of a turn, per centripetal acceleration; rad s^2/m.
+  kSlip,
 };
 inline constexpr std::size_t kRollingStates = 2;
 
@@ -45,24 +46,24 @@ inline constexpr std::size_t kRollingStates = 2;
 template <std::size_t N>
 struct Fitted {
   std::array<double, N> prior{};
-  std::array<double, N> prior_std{};  ///< 0: held as it is.
+  std::array<double, N> prior_std{};  ///< 0: held constant.
   std::array<double, N> value{};      ///< Start and result.
   std::array<double, N> std{};        ///< Result.
 };
 using FittedRadar = Fitted<kCalibrationStates>;
 using FittedVehicle = Fitted<kRollingStates>;
 
-/// The vehicle's motion at one time: forward velocity v, yaw rate w, and what the body moves to the
-/// left beside the rear axle, u.
+/// The vehicle's motion at one time: forward velocity v, yaw rate w, and the body's velocity u to
+/// the left relative to the rear axle.
 using MotionNode = std::array<double, 3>;
 
-/// When a measurement is, between the nodes of the motion.
+/// Time of a measurement between the nodes of the motion.
 struct MotionPlace {
-  std::int64_t node = 0;  ///< The one before.
-  double share = 0.0;     ///< Of the way to the next one.
-  double shift_s = 0.0;   ///< What the stamp was shifted by for this.
-  /// How the motion changes around, over a second: of the last solution, smoothed. The slope
-  /// between two nodes is mostly noise; as a regressor it would promise times that nothing tells.
+  std::int64_t node = 0;  ///< The preceding node.
+  double share = 0.0;     ///< Fraction of the interval to the next node.
+  double shift_s = 0.0;   ///< Applied shift of the stamp.
+  /// Rate of change of the motion, from the last solution, smoothed over a second. The slope
+  /// between two nodes is mostly noise and would make time offsets overconfident.
   MotionNode slope{};
 };
 
@@ -81,7 +82,7 @@ struct YawRateMeasurement {
   double std_radps = 0.0;
 };
 
-/// How freely the vehicle's motion may change, and how its body may move on the axles.
+/// Priors of the change of the vehicle's motion and of its body's motion.
 struct MotionPrior {
   double acceleration_std_mps2 = 3.0;
   double yaw_acceleration_std_radps2 = 0.5;
@@ -89,31 +90,30 @@ struct MotionPrior {
 };
 
 /// All radars and the vehicle in one least-squares problem. The vehicle has a forward velocity v, a
-/// yaw rate w and a motion u of its body to the left at nodes 0.1 s apart, linear in between; its
-/// rear axle rolls in the direction s, and slips to the outside of a turn by an angle proportional
-/// to the acceleration v w. A radar at (x, y) with yaw p moves in its own frame by
+/// yaw rate w and a lateral velocity u of its body at nodes 0.1 s apart, linear in between; its
+/// rear axle rolls in the direction s and slips to the outside of a turn by an angle proportional
+/// to the acceleration v w. The velocity of a radar at (x, y) with yaw p is, in its own frame,
 ///
 ///     R(-p) (v - w y, v (s - slip v w) + u + w x) (1 + scale)
 ///
-/// at the times of its scans, shifted by its stamp offset. Registrations of positions measure w, by
-/// the position lead later. The motion is unknown: Doppler of several radars, or truth, fixes it.
-/// Without truth s is not: mounts are then relative to the direction that the vehicle rolls in.
+/// at the times of its scans, shifted by its stamp offset. Registrations of positions measure w,
+/// delayed by the position lead. The motion is determined by the Doppler of several radars, or by
+/// truth. Without truth s is unobservable: mounts are then relative to the rolling direction.
 ///
-/// Variances of what measurements tell come from leaving out one block of 4 s after the other
-/// (jackknife): errors last for up to a second, which the variances of least squares do not know.
-/// They are widened by what so few blocks leave open (variance of Student's t); what priors tell is
-/// added.
+/// Variances come from a jackknife over blocks of 4 s, because errors are correlated for up to a
+/// second, which least squares ignores. They are widened for the small number of blocks (variance
+/// of Student's t); the contribution of the priors is added.
 class CalibrationFit {
  public:
   CalibrationFit(std::vector<FittedRadar> radars, const FittedVehicle& vehicle,
                  const MotionPrior& prior);
 
-  /// For what is measured next, on top of what is measured already.
+  /// Sets the measurements of the next solve(); the states keep their values.
   void set_measurements(std::vector<VelocityMeasurement> velocities,
                         std::vector<YawRateMeasurement> yaw_rates);
-  /// Truth is at the rear axle, in the frame of the mounts.
+  /// Truth refers to the rear axle, in the frame of the mounts.
   void set_truth(const TrueTrajectory* truth) { truth_ = truth; }
-  /// Sets the prior's standard deviation for the next solve(); values stay.
+  /// Sets the prior standard deviation for the next solve(); values stay.
   void limit(std::size_t radar, CalibrationState state, double std) {
     radars_[radar].prior_std[state] = std::min(radars_[radar].prior_std[state], std);
   }
@@ -122,10 +122,10 @@ class CalibrationFit {
 
   [[nodiscard]] const std::vector<FittedRadar>& radars() const { return radars_; }
   [[nodiscard]] const FittedVehicle& vehicle() const { return vehicle_; }
-  /// (v, w, u) at a time of a radar's stamps, `lead_s` later; nothing where nothing was measured.
+  /// (v, w, u) at a stamp of the radar, `lead_s` later; nothing outside of the measurements.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::size_t radar, std::int64_t stamp_us,
                                                       double lead_s = 0.0) const;
-  /// The state that is expected in a scan.
+  /// The expected state of a scan.
   [[nodiscard]] std::optional<DopplerState> expected(std::size_t radar,
                                                      std::int64_t stamp_us) const;
 
@@ -140,7 +140,7 @@ class CalibrationFit {
   const TrueTrajectory* truth_ = nullptr;
   std::vector<VelocityMeasurement> velocities_;
   std::vector<YawRateMeasurement> yaw_rates_;
-  std::map<std::int64_t, MotionNode> nodes_;  // By number.
+  std::map<std::int64_t, MotionNode> nodes_;  // By index.
 };
 
 }  // namespace cremed

@@ -10,21 +10,21 @@
 
 namespace cremed {
 
-/// A number of the configuration that calibration may find better.
+/// A key of the configuration that calibration can change.
 struct CalibratedKey {
-  std::string_view table;  ///< Of [[radar]].
+  std::string_view table;  ///< Below [[radar]].
   std::string_view key;
   double (*get)(const RadarConfiguration&);
-  int decimals;  ///< As printed: below what any drive can tell.
+  int decimals;  ///< As printed: finer than any drive can determine.
 };
 
-/// A key and what to write for it.
+/// A key and its text.
 struct CalibratedValue {
   const CalibratedKey* key = nullptr;
   std::string text;
 };
 
-/// Values of `after` that are others than in `before`.
+/// The values of `after` that differ from `before`.
 std::vector<CalibratedValue> changed_values(const RadarConfiguration& before,
                                             const RadarConfiguration& after);
 

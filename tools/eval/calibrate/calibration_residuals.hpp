@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The terms of CalibrationFit's least squares, as Ceres differentiates them.
+// The terms of CalibrationFit's least squares, for automatic differentiation by Ceres.
 
 #include <algorithm>
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace cremed {
 
-inline constexpr double kNodeS = 0.1;     // From node to node.
-inline constexpr double kHeldStd = 1e-6;  // Of a state that is held.
+inline constexpr double kNodeS = 0.1;     // Time between nodes.
+inline constexpr double kHeldStd = 1e-6;  // Of a state held constant.
 
-/// Motion at the time of a measurement, `later_s` after the time that `at` was made for.
+/// Motion at the time of a measurement, shifted by `later_s`.
 template <typename T>
 std::array<T, 3> motion_at(const MotionPlace& at, const T* before, const T* after,
                            const T& later_s) {
@@ -36,7 +36,7 @@ T sideways(const T& v, const T& w, const T* vehicle) {
   return v * (vehicle[kRoll] - vehicle[kSlip] * v * w);
 }
 
-/// The radar's for the motion (v, w, u) of the vehicle.
+/// The radar's velocity for the motion (v, w, u) of the vehicle.
 template <typename T>
 Eigen::Matrix<T, kDopplerStates, 1> doppler_state(const T* motion, const T* vehicle,
                                                   const T* radar) {
@@ -80,7 +80,7 @@ struct YawRateResidual {
   }
 };
 
-/// Two nodes that follow on each other: the vehicle cannot change at will.
+/// Smoothness of two neighbouring nodes.
 struct ChangeResidual {
   double v_std;
   double w_std;
@@ -93,7 +93,7 @@ struct ChangeResidual {
   }
 };
 
-/// What truth says of a node: forward velocity, yaw rate and velocity to the left.
+/// Truth at a node: forward velocity, yaw rate and velocity to the left.
 struct TruthResidual {
   MotionNode motion;
   MotionNode std;
@@ -107,7 +107,7 @@ struct TruthResidual {
   }
 };
 
-/// Of a node or of the states of a radar or the vehicle.
+/// Prior of a node or of the states of a radar or the vehicle.
 template <std::size_t N>
 struct PriorResidual {
   std::array<double, N> prior;

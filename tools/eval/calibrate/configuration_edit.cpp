@@ -30,7 +30,7 @@ std::string dotted(const CalibratedValue& value) {
   return std::string(value.key->table) + "." + assignment(value);
 }
 
-/// Collects the edits of one text without a byte order mark; toml++ tells where its nodes are.
+/// Collects the edits of one text without byte order mark; toml++ gives the positions of its nodes.
 class ConfigurationEditor {
  public:
   ConfigurationEditor(std::string_view text, const toml::table& document);
@@ -100,7 +100,7 @@ void ConfigurationEditor::replace_number(const toml::node& node, const Calibrate
   edits_.push_back({begin, end - begin, value.text});
 }
 
-/// A table of dotted keys is where its first key is.
+/// A table of dotted keys begins at its first key.
 void ConfigurationEditor::add_to_table(const toml::table& table, const CalibratedValue& value) {
   if (table.is_inline()) {
     add_to_inline(table, assignment(value));
@@ -114,7 +114,7 @@ void ConfigurationEditor::add_to_table(const toml::table& table, const Calibrate
   }
 }
 
-/// Later edits at one place come to stand before earlier ones.
+/// Later edits at one position are placed before earlier ones.
 void ConfigurationEditor::add_to_inline(const toml::table& table, const std::string& assigned) {
   const std::size_t inside = offset_of(table.source().begin) + 1;
   const bool is_first = table.empty() && std::none_of(edits_.begin(), edits_.end(),
@@ -132,7 +132,7 @@ void ConfigurationEditor::add_to_section(std::size_t header, const CalibratedVal
   add_line_after(header, assignment(value));
 }
 
-/// "#key = default" made "key = value".
+/// Replaces "#key = default" by "key = value".
 std::optional<Edit> ConfigurationEditor::uncommented(std::size_t index,
                                                      const CalibratedValue& value) const {
   const std::string_view content = line(index);
@@ -153,7 +153,7 @@ std::optional<Edit> ConfigurationEditor::uncommented(std::size_t index,
   return Edit{starts_[index] + sign, end - sign, assignment(value)};
 }
 
-/// Dotted keys can stand wherever keys of the radar itself can.
+/// Dotted keys may stand among the radar's own keys.
 void ConfigurationEditor::add_table(const toml::table& radar, const CalibratedValue& value) {
   if (radar.is_inline()) {
     add_to_inline(radar, dotted(value));
@@ -213,7 +213,7 @@ std::string edited_configuration(std::string_view text,
     if (reads_as(edited, text, radars)) {
       return edited;
     }
-  } catch (const ConfigurationError&) {  // Told below.
+  } catch (const ConfigurationError&) {  // Reported below.
   }
   throw std::runtime_error(
       "the configuration is written in a way that cannot be edited; nothing was written: paste the "

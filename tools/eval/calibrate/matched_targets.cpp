@@ -37,7 +37,7 @@ struct PolarError {
   double azimuth = 0.0;
 };
 
-/// Nothing outside of the gate.
+/// Zero outside of the gate.
 std::optional<PolarError> error_of(const PolarTarget& previous, const PolarTarget& current) {
   const double turn_rad =
       std::remainder(current.azimuth_rad - previous.azimuth_rad, 2.0 * std::numbers::pi);

@@ -10,7 +10,7 @@
 
 namespace cremed {
 
-/// Errors of targets that were found in two scans, in standard deviations of both.
+/// Errors of targets found in two scans, in standard deviations of both.
 struct MatchErrors {
   std::vector<ScaledError> range;
   std::vector<ScaledError> azimuth;
@@ -22,8 +22,8 @@ struct AssumedFactors {
   double azimuth = 1.0;
 };
 
-/// Adds the errors of pairs that have no other candidate within the gate. `motion` is the pose of
-/// the radar at the current scan in its frame at the previous one.
+/// Adds the errors of pairs without another candidate in the gate. `motion` is the pose of the
+/// radar at the current scan in its frame at the previous one.
 void add_match_errors(const RecordedScan& previous, const RecordedScan& current,
                       const Pose2& motion, const AssumedFactors& assumed, MatchErrors& errors);
 

@@ -11,13 +11,13 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kBlockUs = 2'000'000;
-constexpr std::size_t kFewestErrors = 200;
-constexpr std::size_t kFewestInBlock = 20;
+constexpr std::size_t kMinErrors = 200;
+constexpr std::size_t kMinBlockErrors = 20;
 constexpr int kSteps = 50;
 constexpr double kLeastVariance = 1e-4;
 constexpr double kLeastFactor = 0.1;
 
-/// Expectation maximisation; each step raises the likelihood.
+/// Expectation maximisation; each step increases the likelihood.
 double most_likely_factor(const std::vector<ScaledError>& errors) {
   double variance = 1.0;
   double share = 0.9;
@@ -43,7 +43,7 @@ double most_likely_factor(const std::vector<ScaledError>& errors) {
 }  // namespace
 
 StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
-  if (errors.size() < kFewestErrors) {
+  if (errors.size() < kMinErrors) {
     return {};
   }
   std::map<std::int64_t, std::vector<ScaledError>> blocks;
@@ -52,19 +52,19 @@ StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed) {
   }
   const double value = most_likely_factor(errors);
   if (value < kLeastFactor) {
-    return {};  // Other errors explain all there is.
+    return {};  // Other errors explain the whole scatter.
   }
   double squares = 0.0;
   double weights = 0.0;
   for (const auto& [number, block] : blocks) {
-    if (block.size() >= kFewestInBlock) {
+    if (block.size() >= kMinBlockErrors) {
       const auto weight = static_cast<double>(block.size());
       const double difference = most_likely_factor(block) - value;
       squares += weight * weight * difference * difference;
       weights += weight;
     }
   }
-  // Beside it, what as many independent errors would leave.
+  // At least the standard deviation of as many independent errors.
   const double least = value / std::sqrt(2.0 * static_cast<double>(errors.size()));
   const double by_blocks = weights > 0.0 ? std::sqrt(squares) / weights : value;
   return {assumed * value, assumed * std::max(least, by_blocks)};

@@ -7,26 +7,26 @@
 
 namespace cremed {
 
-/// An error and what was said of it beforehand.
+/// An error and its predicted variance.
 struct ScaledError {
   std::int64_t stamp_us = 0;
   double error = 0.0;           ///< In reported standard deviations.
-  double other_variance = 0.0;  ///< Of a part that the report does not speak of, in the same unit.
+  double other_variance = 0.0;  ///< Variance of a part not in the report, in the same unit.
 };
 
-/// How many reported standard deviations make a true one.
+/// Ratio of true to reported standard deviation.
 struct StdFactor {
   double value = 1.0;
-  double std = 0.0;  ///< 0: not known.
+  double std = 0.0;  ///< 0: unknown.
 };
 
-/// Greatest error, in reported standard deviations, that noise_factor() takes.
+/// Largest error, in reported standard deviations, that noise_factor() uses.
 inline constexpr double kErrorGate = 5.0;
 
-/// Errors are Gaussian with `factor` for standard deviation, or nonsense (evenly spread up to the
-/// gate): the most likely factor and share of nonsense. Its standard deviation comes from how
-/// blocks of 2 s disagree. `assumed` is a factor that the errors' standard deviations already have;
-/// the result includes it.
+/// Maximum likelihood of a mixture: Gaussian errors with standard deviation `factor`, and outliers
+/// uniform up to the gate. The result's standard deviation comes from the scatter between blocks of
+/// 2 s. `assumed` is a factor that the errors' standard deviations already contain; the result
+/// includes it.
 StdFactor noise_factor(const std::vector<ScaledError>& errors, double assumed = 1.0);
 
 }  // namespace cremed

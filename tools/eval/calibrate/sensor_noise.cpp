@@ -18,9 +18,9 @@ namespace {
 
 constexpr double kLongestS = 0.5;  // Between two scans that are compared.
 constexpr double kSlackMps = 0.1;
-constexpr std::size_t kFewestTargets = 12;  // In a scan whose Doppler is compared.
+constexpr std::size_t kMinTargets = 12;  // In a scan whose Doppler is compared.
 
-constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not see all kinds.
+constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not contain all kinds.
 
 StdFactor of_any_drive(const StdFactor& factor) {
   return {factor.value, factor.std > 0.0 ? std::hypot(factor.std, kLeastFactorStd) : 0.0};
@@ -56,7 +56,7 @@ MatchErrors match_errors(const std::vector<RecordedScan>& scans, const Calibrati
   return errors;
 }
 
-/// The state that fits one scan best; too little of it shows in one scan to fit the rotation lead.
+/// The state that fits one scan best; one scan determines the rotation lead too poorly to fit it.
 constexpr int kFitted = kDopplerStates - 1;
 DopplerState nearest_state(const DopplerEquations& equations, const DopplerState& expected) {
   DopplerState state = expected;
@@ -70,7 +70,7 @@ void add_doppler_errors(const RecordedScan& scan, const DopplerState& expected,
                         const DopplerNoise& noise, std::vector<ScaledError>& errors) {
   const double gate = noise.doppler_std_factor * kErrorGate / kGateSigma;
   const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kSlackMps);
-  if (fixed.targets.size() < kFewestTargets) {
+  if (fixed.targets.size() < kMinTargets) {
     return;
   }
   const DopplerState state = nearest_state(doppler_equations(fixed, expected, noise), expected);

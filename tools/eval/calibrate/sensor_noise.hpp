@@ -11,16 +11,16 @@
 
 namespace cremed {
 
-/// Factors on the standard deviations that a sensor reports.
+/// Factors on the standard deviations reported by a sensor.
 struct SensorNoise {
   StdFactor range;
   StdFactor azimuth;
   StdFactor doppler;
 };
 
-/// Range and azimuth: of targets found again, moved as `fit` says. Doppler: of a scan's targets
-/// against the motion that fits this scan best, as errors that they share are no noise. `before` is
-/// what the call before found: where noise is far greater than reported it takes some calls.
+/// Range and azimuth: of targets found again, with the motion of `fit`. Doppler: of a scan's
+/// targets against the motion that fits this scan best, which removes shared errors. `before` is
+/// the result of the last call: much larger noise than reported takes several calls.
 SensorNoise measured_noise(const std::vector<RecordedScan>& scans, const CalibrationFit& fit,
                            std::size_t radar, const SensorNoise& before);
 

@@ -11,9 +11,9 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kFewestTargets = 6;
+constexpr std::size_t kMinTargets = 6;
 constexpr int kTrials = 60;
-constexpr double kNarrowestRad = 0.1;  // Between two targets that shall tell a velocity.
+constexpr double kNarrowestRad = 0.1;  // Least angle between two targets that determine a velocity.
 constexpr double kFastestMps = 100.0;
 
 double std_mps(const Target& target, const DopplerState& state, const DopplerNoise& noise) {
@@ -25,7 +25,7 @@ double residual_mps(const Target& target, const DopplerState& state, double told
   return target.doppler_mps - doppler_row(target, state, told_yaw_rate_radps) * state;
 }
 
-/// The velocity that two targets fix.
+/// The velocity determined by two targets.
 std::optional<DopplerState> velocity_of(const Target& a, const Target& b) {
   const double determinant = std::sin(b.bearing_rad - a.bearing_rad);
   if (std::abs(determinant) < kNarrowestRad) {
@@ -45,8 +45,8 @@ double disagreement(std::span<const Target> targets, const DopplerState& state) 
   return sum;
 }
 
-/// Information and its right-hand side once errors of the first three states that have these
-/// standard deviations are unknowns too, eliminated.
+/// Information and its right-hand side with errors of the first three states, of these standard
+/// deviations, as marginalised unknowns.
 void add_shared_errors(const Eigen::Vector3d& std, DopplerMatrix& information,
                        DopplerState& right) {
   const Eigen::Matrix<double, kDopplerStates, 3> along =
@@ -74,7 +74,7 @@ double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& stat
 }
 
 std::optional<DopplerState> agreed_velocity(std::span<const Target> targets) {
-  if (targets.size() < kFewestTargets) {
+  if (targets.size() < kMinTargets) {
     return std::nullopt;
   }
   std::minstd_rand random(1);
@@ -122,7 +122,7 @@ DopplerEquations doppler_equations(const RecordedScan& scan, const DopplerState&
   const DopplerState root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   DopplerEquations equations;
   for (int i = 0; i < kDopplerStates; ++i) {
-    // Less is rounding: few targets leave directions open.
+    // Smaller eigenvalues are rounding: few targets leave directions undetermined.
     if (root[i] > 1e-6 * root[kDopplerStates - 1]) {
       equations.root.row(i) = root[i] * eigen.eigenvectors().col(i).transpose();
       equations.measured[i] = eigen.eigenvectors().col(i).dot(right) / root[i];

@@ -22,7 +22,7 @@ double divisor(std::size_t count) {
 struct AxisErrors {
   double estimate = 0.0;
   double truth = 0.0;
-  double variance = 0.0;  ///< The estimate's own.
+  double variance = 0.0;  ///< Of the estimate.
   double wheels_variance = 0.0;
 };
 
@@ -64,7 +64,7 @@ struct SquareSums {
     way_by_y_m2 += wheels.x() * error.y();
   }
 
-  /// The direction that fits best is way_by_y / ways; a vehicle that stands has none.
+  /// The best fitting direction is way_by_y / ways; undefined at standstill.
   [[nodiscard]] TruthAgainstWheels means(double interval_s) const {
     const double explained_m2 = ways_m2 > 0.0 ? way_by_y_m2 * way_by_y_m2 / ways_m2 : 0.0;
     const double n = divisor(count);

@@ -14,12 +14,12 @@
 namespace cremed {
 
 /// One axis of a source's motions against the wheels. With e the error against the wheels, t that
-/// of truth against them and C the estimate's own variance, NEES against truth is the mean of
-/// (e - t)^2 / C and splits into e^2 / C + t^2 / C - 2 e t / C: how much of it is the estimate's
-/// doing and how much truth's. NaN if there is no estimate that truth and wheels cover.
+/// of truth against them and C the estimate's variance, NEES against truth is the mean of (e - t)^2
+/// / C = e^2 / C + t^2 / C - 2 e t / C: the contributions of the estimate, of truth and of both.
+/// NaN if truth and wheels cover no estimate.
 struct AxisAgainstWheels {
   std::size_t count = 0;
-  double nees = 0.0;  ///< e^2 over C and the variance that the wheels are said to have.
+  double nees = 0.0;  ///< e^2 over the sum of C and the wheels' variance.
   double nees_estimate = 0.0;
   double nees_truth = 0.0;
   double nees_cross = 0.0;
@@ -33,7 +33,7 @@ struct AxisAgainstWheels {
 };
 
 struct MotionsAgainstWheels {
-  AxisAgainstWheels x;    ///< Way along the vehicle's axis, against the wheels' speed.
+  AxisAgainstWheels x;    ///< Distance along the vehicle's axis, against the wheels' speed.
   AxisAgainstWheels yaw;  ///< Against the gyro.
 };
 
@@ -41,15 +41,15 @@ MotionsAgainstWheels against_wheels(const std::vector<RecordedEstimate>& estimat
                                     const TrueTrajectory& truth, const WheelReference& wheels);
 
 /// Truth against the wheels over all intervals of one length that both cover, one each 10 ms. Where
-/// the wheels' own error is much smaller (a second or less for wheels good to 0.02 m/s), x and yaw
-/// are the noise of truth's relative poses: what TruthNoise asks for. NaN if there is no such
+/// the wheels' own error is much smaller (a second or less for wheels accurate to 0.02 m/s), x and
+/// yaw are the noise of truth's relative poses, as needed for TruthNoise. NaN if there is no such
 /// interval.
 struct TruthAgainstWheels {
   double interval_s = 0.0;
   std::size_t count = 0;
   double rms_x_m = 0.0;
-  /// Truth's y less that of a vehicle that rolls in the one direction that fits best: at least the
-  /// noise of y, for slip in bends, which the wheels do not tell, is in it too.
+  /// Truth's y against a vehicle that rolls in the best fitting constant direction: an upper bound
+  /// on the noise of y, because it includes slip in bends.
   double rms_y_m = 0.0;
   double rms_yaw_rad = 0.0;
 };

@@ -10,9 +10,9 @@
 
 namespace cremed {
 
-/// What others make of the same scans, selected and corrected as the configuration says, from one
-/// scan of the first radar to the next: "kellner" (kellner_velocity), the mean velocity of both
-/// times; "submap" (SubmapOdometry). Without a velocity at both there is no estimate. Throws
+/// Other methods on the same scans, selected and corrected as configured, from one scan of the
+/// first radar to the next: "kellner" (kellner_velocity), the mean of the velocities at both times;
+/// "submap" (SubmapOdometry). No estimate without a velocity at both times. Throws
 /// std::runtime_error if a log cannot be read.
 std::vector<RecordedOdometry> baselines(const Configuration& configuration,
                                         const std::vector<std::string>& logs);

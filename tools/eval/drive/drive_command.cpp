@@ -38,7 +38,7 @@ void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
   }
 }
 
-/// From a scan pair of a fast radar to where the wheels' own error takes over.
+/// From the interval of a fast radar's scans to where the wheels' own error dominates.
 constexpr std::array<std::int64_t, 6> kTruthIntervalsUs{75'000,    150'000,   300'000,
                                                         1'000'000, 2'000'000, 5'000'000};
 

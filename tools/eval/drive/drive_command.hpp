@@ -11,21 +11,19 @@
 namespace cremed {
 
 struct DriveFiles {
-  std::string odometry;    ///< CSV that cremed wrote.
-  std::string truth;       ///< CSV: utime,x_m,y_m,yaw_rad.
-  std::string wheels;      ///< CSV: utime,speed_mps,yaw_rate_radps; empty: none.
-  WheelStd wheels_std;     ///< How far the wheels may be off.
-  TruthNoise truth_noise;  ///< How far truth may be off.
-  std::string plot;        ///< Picture to draw; empty: none.
-  std::string truth_tum;   ///< Truth to write in TUM format; empty: none.
-  std::vector<std::string>
-      baselines;         ///< candump logs that other methods are run on; may be empty.
-  std::string config;    ///< Configuration of the radars in these.
-  bool as_json = false;  ///< Prints JSON in place of the tables.
+  std::string odometry;                ///< CSV that cremed wrote.
+  std::string truth;                   ///< CSV: utime,x_m,y_m,yaw_rad.
+  std::string wheels;                  ///< CSV: utime,speed_mps,yaw_rate_radps; empty: none.
+  WheelStd wheels_std;                 ///< Error of the wheels.
+  TruthNoise truth_noise;              ///< Error of truth.
+  std::string plot;                    ///< Picture to draw; empty: none.
+  std::string truth_tum;               ///< Truth to write in TUM format; empty: none.
+  std::vector<std::string> baselines;  ///< candump logs for other methods; may be empty.
+  std::string config;                  ///< Configuration for these logs.
+  bool as_json = false;                ///< Prints JSON instead of tables.
 };
 
-/// cremed-eval drive: prints how far the odometry of a drive is from truth and draws it. Throws
-/// std::runtime_error.
+/// cremed-eval drive: prints and draws the errors of a drive's odometry. Throws std::runtime_error.
 void run_drive(const DriveFiles& files);
 
 }  // namespace cremed

@@ -25,14 +25,14 @@
 
 namespace cremed {
 
-/// What a drive is compared with.
+/// The reference of a drive.
 struct DriveReference {
   TrueTrajectory truth;
-  TruthNoise truth_noise;                ///< Added to covariances that are compared with truth.
-  std::optional<WheelReference> wheels;  ///< If there are any.
+  TruthNoise truth_noise;                ///< Added to covariances compared with truth.
+  std::optional<WheelReference> wheels;  ///< If available.
 };
 
-/// Of a motion, over its time.
+/// Time interval of a motion.
 struct MeanRates {
   double forward_mps = 0.0;
   double yaw_radps = 0.0;
@@ -42,7 +42,7 @@ struct MeanRates {
 struct EstimateError {
   std::int64_t utime_us = 0;
   Eigen::Vector3d error;
-  Eigen::Vector3d sigma;  ///< With the noise of truth.
+  Eigen::Vector3d sigma;  ///< Including the noise of truth.
   double nees = 0.0;      ///< Per degree of freedom.
   MeanRates estimate;
   MeanRates truth;
@@ -53,27 +53,26 @@ struct SourceEvaluation {
   std::string source;
   int degrees_of_freedom = 2;
   Credibility credibility{2};
-  std::size_t without_estimate = 0;    ///< Rows whose status says that there is no estimate.
-  std::size_t outside_truth = 0;       ///< Estimates that truth does not cover in time.
-  std::vector<EstimateError> errors;   ///< Of the others.
+  std::size_t without_estimate = 0;    ///< Rows whose status has no estimate.
+  std::size_t outside_truth = 0;       ///< Estimates outside of truth's time.
+  std::vector<EstimateError> errors;   ///< Of all other estimates.
   std::vector<RunningNees> mean_nees;  ///< For each error, over kNeesWindowUs.
   std::vector<PathPose> path;
   std::vector<PathDrift> drift;
   std::vector<SegmentErrors> segments;
-  std::optional<MotionsAgainstWheels> wheels;  ///< If there are wheels, like the next.
+  std::optional<MotionsAgainstWheels> wheels;  ///< With wheels only, as is twist.
   std::optional<TwistAgainstWheels> twist;     ///< Of the vehicle's state only.
 };
 
 inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
-/// Compares every estimate of a source with the reference. One whose cov_yy is 0 throughout is
-/// taken as 2 DoF.
+/// Compares every estimate of a source with the reference. A source whose cov_yy is always 0 has 2
+/// DoF.
 SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference);
 
-/// Reads what cremed wrote and compares every estimate with the reference: odometry CSV, "fused"
-/// first, then the others in order of appearance, or, told by its header, the vehicle's state
-/// (--output-odometry), one source "odometry" whose motions are those since their anchors. Throws
-/// std::runtime_error.
+/// Compares the estimates in a file of cremed with the reference. Odometry CSV: "fused" first, then
+/// the other sources in order of appearance. The vehicle's state (--output-odometry), recognised by
+/// its header: one source "odometry" with the motions since the anchors. Throws std::runtime_error.
 std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
                                              const DriveReference& reference);
 

@@ -11,7 +11,7 @@
 namespace cremed {
 namespace {
 
-/// Keeps the order in which members are written; NaN becomes null.
+/// Keeps the order of members; NaN becomes null.
 using Json = nlohmann::ordered_json;
 
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }

@@ -9,9 +9,9 @@
 
 namespace cremed {
 
-/// All that cremed-eval drive prints, as one JSON object for scripts: "sources" in order of
-/// appearance, with "drift", "segments" and, where there are wheels, "wheels" and "twist"; then
-/// "truth_std" and "truth_against_wheels". Names carry units; what has no value is null.
+/// The output of cremed-eval drive as one JSON object: "sources" in order of appearance, with
+/// "drift", "segments" and, with wheels, "wheels" and "twist"; then "truth_std" and
+/// "truth_against_wheels". Names carry units; missing values are null.
 void print_json(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                 const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth);
 

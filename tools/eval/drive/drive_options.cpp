@@ -10,19 +10,19 @@
 namespace cremed {
 namespace {
 
-/// Numbers from 0 up with commas between them, as many as that; a bad option otherwise.
+/// Exactly `count` non-negative numbers separated by commas; CLI::ValidationError otherwise.
 std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t least,
                             std::size_t most) {
   std::vector<double> values;
   for (const std::string& cell : CLI::detail::split(text, ',')) {
     double value = 0.0;
     if (!CLI::detail::lexical_cast(cell, value) || !(value >= 0.0)) {
-      throw CLI::ValidationError(option, "'" + cell + "' is no number from 0 up");
+      throw CLI::ValidationError(option, "'" + cell + "' is not a number >= 0");
     }
     values.push_back(value);
   }
   if (values.size() < least || values.size() > most) {
-    throw CLI::ValidationError(option, "'" + text + "' has too few or too many numbers");
+    throw CLI::ValidationError(option, "'" + text + "' has the wrong number of values");
   }
   return values;
 }
@@ -36,11 +36,12 @@ RelativePoseStd relative_pose_std(const std::string& text) {
   return {values[0], values[0], values[1], values.size() == 3 ? values[2] : 0.0};
 }
 
-/// A second reference, and how good both are.
+/// Options of the second reference and of the accuracy of both.
 void add_references(CLI::App& command, DriveFiles& files) {
-  command.add_option("--wheels", files.wheels,
-                     "CSV: utime,speed_mps,yaw_rate_radps; x and yaw against it, and the split of "
-                     "NEES: what is the estimate's error and what truth's");
+  command.add_option(
+      "--wheels", files.wheels,
+      "CSV: utime,speed_mps,yaw_rate_radps; compares x and yaw with it and splits NEES "
+      "into the errors of the estimate and of truth");
   command
       .add_option_function<std::string>(
           "--wheels-std",
@@ -48,7 +49,8 @@ void add_references(CLI::App& command, DriveFiles& files) {
             const auto values = numbers("--wheels-std", text, 2, 2);
             files.wheels_std = {values[0], values[1]};
           },
-          "How far the wheels' speed and yaw rate are off, constant over an interval (0,0)")
+          "Standard deviations of the wheels' speed and yaw rate, constant over an interval "
+          "(0,0)")
       ->type_name("MPS,RADPS");
   command
       .add_option_function<std::vector<std::string>>(
@@ -58,9 +60,9 @@ void add_references(CLI::App& command, DriveFiles& files) {
             std::transform(texts.begin(), texts.end(), std::back_inserter(stds), relative_pose_std);
             files.truth_noise = TruthNoise(stds);
           },
-          "How far the relative pose of two of truth's stamps is off (x and y each, yaw): added to "
-          "covariances that are compared with it (0,0). Where it depends on the time between the "
-          "stamps give it for several, M,RAD,SECONDS or X_M,Y_M,RAD,SECONDS")
+          "Standard deviations of the relative pose of two of truth's stamps (x and y each, yaw), "
+          "added to the covariances (0,0). If they depend on the time between the stamps, give "
+          "them for several: M,RAD,SECONDS or X_M,Y_M,RAD,SECONDS")
       ->type_name("M,RAD")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -78,13 +80,13 @@ void add_drive(CLI::App& app, DriveFiles& files) {
   command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
   add_references(*command, files);
   auto* logs = command->add_option("--baselines", files.baselines,
-                                   "candump log of the drive: methods of others beside ours, "
-                                   "Kellner's velocity by Doppler and a submap of scans matched by "
-                                   "NDT as Kung et al. do; may repeat");
+                                   "candump log of the drive, for other methods: Kellner's "
+                                   "velocity by Doppler and a submap of scans matched by NDT "
+                                   "(Kung et al.); may repeat");
   auto* config = command->add_option("--config", files.config, "Configuration of its radars");
   logs->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->needs(config);
   config->needs(logs);
-  command->add_flag("--json", files.as_json, "Print one JSON object in place of the tables");
+  command->add_flag("--json", files.as_json, "Print one JSON object instead of the tables");
   command->add_option("--plot", files.plot,
                       "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");
   command->add_option("--truth-tum", files.truth_tum,

@@ -25,12 +25,12 @@ double seconds(std::int64_t utime_us, const TrueTrajectory& truth) {
 
 std::string text(std::size_t count) { return std::to_string(count); }
 
-/// "-" where there was no segment.
+/// "-" if there is no segment.
 std::string text(double value, int decimals) {
   return std::isnan(value) ? "-" : std::string(TextLine().fixed(value, decimals).view());
 }
 
-/// A row of the table of drift: what `cell` says of each length, then of all.
+/// A row of the drift table: `cell` of each length, then of all.
 template <typename Cell>
 void print_drift_row(std::FILE* file, const SourceEvaluation& source, const char* what, Cell cell) {
   std::fprintf(file, "# %-15s %-8s", source.source.c_str(), what);
@@ -47,7 +47,7 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
   row("segments", [](const PathDrift& d) { return text(d.segments); });
   if (gaps(source) != 0) {
     row("left out", [](const PathDrift& d) { return text(d.across_gaps); });
-    std::fprintf(file, "# %-15s left out: segments across a gap without estimate; gaps: %zu\n",
+    std::fprintf(file, "# %-15s omitted: segments across a gap without estimate; gaps: %zu\n",
                  source.source.c_str(), gaps(source));
   }
 }
@@ -59,9 +59,9 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
   const std::string note = noise.note();
   std::fprintf(
       file,
-      "# n estimates against truth: RMS errors; anees: the mean of (error / sigma)^2, 1 if "
-      "the covariance is true,\n# less if errors are smaller than it says; share of errors "
-      "within 1, 2, 3 sigma, of a Gaussian 0.683, 0.954, 0.997%s%s\n",
+      "# n estimates against truth: RMS errors; anees: mean of (error / sigma)^2, 1 if the "
+      "covariance is credible,\n# less if it is too large; share of errors within 1, 2, 3 sigma, "
+      "of a Gaussian 0.683, 0.954, 0.997%s%s\n",
       note.empty() ? "" : "; ", note.c_str());
   std::fprintf(file, "%-16s %s\n", "# source", kCredibilityColumns);
   for (const SourceEvaluation& source : sources) {

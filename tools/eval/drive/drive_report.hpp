@@ -10,22 +10,22 @@
 
 namespace cremed {
 
-/// Prints a line of figures a source, then, as comments, how far each drifts over distance.
+/// Prints a line of figures per source, then, as comments, its drift over distance.
 void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                  const TruthNoise& noise);
 
-/// Writes what plot_drive draws, as CSV files; throws std::runtime_error.
+/// Writes the input of plot_drive as CSV files; throws std::runtime_error.
 void write_truth_csv(const std::string& path, const TrueTrajectory& truth);
 void write_sources_csv(const std::string& path, const std::vector<SourceEvaluation>& sources);
-/// Seconds and metres are counted from truth's first pose, in these two as well.
+/// Seconds and metres count from truth's first pose, in both functions.
 void write_errors_csv(const std::string& path, const std::vector<SourceEvaluation>& sources,
                       const TrueTrajectory& truth);
 void write_path_csv(const std::string& path, const std::vector<SourceEvaluation>& sources,
                     const TrueTrajectory& truth);
 void write_drift_csv(const std::string& path, const std::vector<SourceEvaluation>& sources);
 
-/// Writes the true poses at the ends of all estimates in TUM format, so that a program that looks
-/// for equal times need not interpolate. Throws std::runtime_error.
+/// Writes the true poses at the ends of all estimates in TUM format, for programs that match equal
+/// times. Throws std::runtime_error.
 void write_truth_tum(const std::string& path, const std::vector<SourceEvaluation>& sources);
 
 }  // namespace cremed

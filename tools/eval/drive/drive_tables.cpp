@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// One axis' row; `unit` turns the rates' metres or radians into what is printed.
+/// One axis' row; `unit` converts metres or radians.
 void print_axis(std::FILE* file, const std::string& source, const char* name,
                 const AxisAgainstWheels& axis, double unit) {
   std::fprintf(file, "# %-15s %-10s %6zu %9.3f %9.3f %9.3f %9.3f %9.3f %9.4f %9.4f %9.4f\n",
@@ -27,10 +27,11 @@ void print_twist(std::FILE* file, const std::string& source, const TwistAgainstW
 }
 
 void print_truth(std::FILE* file, const std::vector<TruthAgainstWheels>& truth) {
-  std::fprintf(file,
-               "# truth against the wheels over intervals of one length, RMS; y: at most, slip in "
-               "bends is in it\n# %6s %9s %9s %9s %9s %9s %9s\n",
-               "s", "intervals", "x_m", "y_m", "yaw_rad", "x_m/s", "yaw_deg/s");
+  std::fprintf(
+      file,
+      "# truth against the wheels over intervals of one length, RMS; y: upper bound, includes "
+      "slip in bends\n# %6s %9s %9s %9s %9s %9s %9s\n",
+      "s", "intervals", "x_m", "y_m", "yaw_rad", "x_m/s", "yaw_deg/s");
   for (const TruthAgainstWheels& t : truth) {
     std::fprintf(file, "# %6.3f %9zu %9.4f %9.4f %9.6f %9.4f %9.4f\n", t.interval_s, t.count,
                  t.rms_x_m, t.rms_y_m, t.rms_yaw_rad, t.rms_x_m / t.interval_s,
@@ -50,7 +51,7 @@ void print_segment(std::FILE* file, const std::string& source, const SegmentErro
 void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                     const TruthNoise& noise) {
   const std::string note = noise.note();
-  std::fprintf(file, "# pose after a way or a time, motions chained as independent%s%s\n",
+  std::fprintf(file, "# pose after a distance or a time, motions chained as independent%s%s\n",
                note.empty() ? "" : "; ", note.c_str());
   std::fprintf(file, "# %-15s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "source", "after",
                "segments", "anees", "nees_x", "nees_y", "nees_yaw", "rmse_x_m", "rmse_y_m",
@@ -67,7 +68,7 @@ void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& source
 void print_wheels(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                   const WheelReference& wheels, const std::vector<TruthAgainstWheels>& truth) {
   std::fprintf(file,
-               "# against the wheels (their std %g m/s, %g rad/s counts in nees_wheels); NEES "
+               "# against the wheels (nees_wheels includes their std %g m/s, %g rad/s); NEES "
                "against truth = estimate + truth + cross\n",
                wheels.std().speed_mps, wheels.std().yaw_rate_radps);
   std::fprintf(file, "# %-15s %-10s %6s %9s %9s %9s %9s %9s %9s %9s %9s\n", "source", "axis", "n",

@@ -9,12 +9,12 @@
 
 namespace cremed {
 
-/// Tables below a drive's figures, as comments: the pose after a way or a time.
+/// Table below a drive's figures, as comments: the pose after a distance or a time.
 void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                     const TruthNoise& noise);
 
-/// Each source's x and yaw against the wheels with the split of NEES, the twist where there is one,
-/// and what truth itself is off the wheels.
+/// Each source's x and yaw against the wheels with the split of NEES, the twist if there is one,
+/// and truth against the wheels.
 void print_wheels(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                   const WheelReference& wheels, const std::vector<TruthAgainstWheels>& truth);
 

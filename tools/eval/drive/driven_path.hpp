@@ -12,18 +12,18 @@
 
 namespace cremed {
 
-/// Where the vehicle was at an end of an estimate.
+/// Position at the end of an estimate.
 struct PathPose {
   std::int64_t utime_us = 0;
   Pose2 truth;
-  Pose2 estimate;         ///< The estimates put together, beginning at the first true pose.
-  double driven_m = 0.0;  ///< True path since the first pose, straight from pose to pose.
-  std::size_t gaps = 0;   ///< Gaps before it.
+  Pose2 estimate;         ///< The chained estimates, beginning at the first true pose.
+  double driven_m = 0.0;  ///< True path length since the first pose.
+  std::size_t gaps = 0;   ///< Gaps before this pose.
 };
 
-/// Puts a source's estimates together. Where one does not begin where the one before ended there is
-/// a gap: a pose at its begin follows, moved on as truth moved, so that what the path drifts is the
-/// estimates' doing alone. Estimates outside of truth's time are left out.
+/// Chains a source's estimates. A gap is where an estimate does not begin at the end of the one
+/// before: a pose follows at its begin, moved by the true motion, so that drift is due to estimates
+/// only. Estimates outside of truth's time are omitted.
 std::vector<PathPose> driven_path(const std::vector<RecordedEstimate>& estimates,
                                   const TrueTrajectory& truth);
 

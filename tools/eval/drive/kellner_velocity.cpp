@@ -11,11 +11,11 @@
 namespace cremed {
 namespace {
 
-/// At half of the targets standing, a sample of three is good once in eight: all fail once in
-/// 10^11.
+/// With half of the targets static, a sample of three is good once in eight: all samples fail once
+/// in 10^11 scans.
 constexpr int kSamples = 200;
-/// Some three standard deviations of an ARS408's Doppler.
-constexpr double kMostResidualMps = 0.3;
+/// About three standard deviations of an ARS408's Doppler.
+constexpr double kMaxResidualMps = 0.3;
 constexpr std::size_t kLeastTargets = 10;
 constexpr int kRefinements = 3;
 
@@ -27,7 +27,7 @@ std::vector<std::size_t> fitting(const std::vector<SweepTarget>& targets,
                                  const Eigen::Vector3d& twist) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (std::abs(residual_mps(targets[i], twist)) <= kMostResidualMps) {
+    if (std::abs(residual_mps(targets[i], twist)) <= kMaxResidualMps) {
       result.push_back(i);
     }
   }
@@ -61,7 +61,7 @@ std::vector<std::size_t> largest_agreement(const std::vector<SweepTarget>& targe
   return best;
 }
 
-/// Least squares; their residuals tell the noise.
+/// Least squares; the residuals give the noise.
 void refine(const std::vector<SweepTarget>& targets, KellnerVelocity& velocity) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -12,17 +12,17 @@
 
 namespace cremed {
 
-/// The vehicle's (vx, vy, yaw rate) by the Doppler of all its radars at one time.
+/// The vehicle's (vx, vy, yaw rate) from the Doppler of all its radars at one time.
 struct KellnerVelocity {
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::vector<std::size_t> standing;  ///< Indices of the targets that fit.
+  std::vector<std::size_t> standing;  ///< Indices of the inliers.
 };
 
 /// Kellner et al., "Instantaneous ego-motion estimation using Doppler radar" (ITSC 2013) and "...
-/// using multiple Doppler radars" (ICRA 2014): random samples of three targets propose a motion,
-/// that which most targets fit is refined by least squares over these. The same targets give the
-/// same answer. Nothing if fewer than ten fit.
+/// using multiple Doppler radars" (ICRA 2014): RANSAC with samples of three targets; the motion
+/// with the most inliers is refined by least squares. Deterministic. Nothing if there are fewer
+/// than ten inliers.
 std::optional<KellnerVelocity> kellner_velocity(const std::vector<SweepTarget>& targets);
 
 }  // namespace cremed

@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-/// Times of one stamp may differ by their rounding to microseconds.
+/// Stamps may differ by their rounding to microseconds.
 constexpr std::int64_t kSameStampUs = 2;
 
 bool is_same(std::int64_t a_us, std::int64_t b_us) { return std::abs(a_us - b_us) <= kSameStampUs; }

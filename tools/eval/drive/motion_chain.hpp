@@ -16,38 +16,38 @@ struct UncertainPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// `motion`, seen in the frame of `start`, put behind it; their errors are taken as independent:
-/// covariance F P F' + G C G' with the derivatives F, G of the pose by start and by motion.
+/// Composition of `start` and `motion` with independent errors: covariance F P F' + G C G' with the
+/// derivatives F, G of the pose by start and by motion.
 UncertainPose chained(const UncertainPose& start, const UncertainPose& motion);
 
-/// Motions one behind the other. Those of one begin (rows that refer to the same anchor) tell poses
-/// along the way; where a motion begins at the end of the one before, that end is chained.
+/// Chained motions. Motions with one begin (rows with the same anchor) give poses along the path; a
+/// motion that begins at the end of the last one is chained there.
 class MotionChain {
  public:
   explicit MotionChain(std::int64_t begin_us) : joint_us_(begin_us), end_us_(begin_us) {}
 
-  /// False, and nothing is added, where the motion begins neither where those before it began nor
-  /// where they end: a gap.
+  /// False, and nothing is added, if the motion begins neither where the last ones began nor where
+  /// they ended: a gap.
   bool add(const RecordedEstimate& motion);
 
-  /// Where the last motion ended, in the frame of the chain's begin.
+  /// End of the last motion, in the frame of the chain's begin.
   [[nodiscard]] const UncertainPose& end() const { return end_; }
   [[nodiscard]] std::int64_t end_us() const { return end_us_; }
-  /// Straight from end to end of the motions, as estimated.
+  /// Sum of the straight distances between the ends of the motions, as estimated.
   [[nodiscard]] double driven_m() const { return driven_m_; }
 
  private:
   bool moves_to_joint(std::int64_t start_us);
 
-  UncertainPose joint_;  ///< Where the last motion began.
+  UncertainPose joint_;  ///< Begin of the last motion.
   UncertainPose end_;
   std::int64_t joint_us_;
   std::int64_t end_us_;
   double driven_m_ = 0.0;
 };
 
-/// Each motion from where the one before it ended, if both have one begin; else as it is. What
-/// refers to anchors becomes what joins; covariances are left as they are.
+/// Each motion from the end of the one before, if both have the same begin; otherwise unchanged.
+/// Converts poses relative to anchors to consecutive motions; covariances are unchanged.
 std::vector<RecordedEstimate> from_end_to_end(const std::vector<RecordedEstimate>& estimates);
 
 }  // namespace cremed

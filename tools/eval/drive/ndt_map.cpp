@@ -10,12 +10,12 @@ namespace cremed {
 namespace {
 
 constexpr int kGrids = 4;
-/// Wider cells blur what an ARS408 resolves, narrower ones hold one point each.
+/// Larger cells blur what an ARS408 resolves; smaller ones hold one point each.
 constexpr double kCellM = 3.0;
-/// One point tells no distribution.
+/// One point has no distribution.
 constexpr int kLeastPoints = 2;
 
-/// Of the cell that a point is in.
+/// Index of the cell of a point.
 std::int64_t key(int grid, const Eigen::Vector2d& point_m) {
   const Eigen::Vector2d shift(grid % 2 * 0.5, grid / 2 * 0.5);
   const Eigen::Vector2d cell = point_m / kCellM + shift;

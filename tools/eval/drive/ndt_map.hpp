@@ -15,15 +15,15 @@ struct UncertainPoint {
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
 };
 
-/// Normal distributions transform of points: each cell has the Gaussian of what is in it. Four
-/// grids, shifted by half a cell, so that cells overlap (Biber and Strasser, IROS 2003). A point
-/// counts with its own covariance (Kung et al., ICRA 2021).
+/// Normal distributions transform: each cell has the Gaussian of its points. Four grids, shifted by
+/// half a cell, overlap (Biber and Strasser, IROS 2003). A point counts with its own covariance
+/// (Kung et al., ICRA 2021).
 class NdtMap {
  public:
   void add(const UncertainPoint& point);
 
-  /// What the map says about points, as normal equations of a small motion (x, y, yaw) of them
-  /// about `centre`, each weighted by how likely it is where it is.
+  /// Normal equations of a small motion (x, y, yaw) of the points about `centre`, each weighted by
+  /// its likelihood.
   struct Equations {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();

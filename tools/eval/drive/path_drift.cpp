@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-/// Sums while they are being added up, means after.
+/// Sums during accumulation, means afterwards.
 void divide_by_segments(PathDrift& drift) {
   const double count = drift.segments == 0 ? std::numeric_limits<double>::quiet_NaN()
                                            : static_cast<double>(drift.segments);

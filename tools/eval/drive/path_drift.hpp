@@ -10,13 +10,13 @@
 
 namespace cremed {
 
-/// How far the path drifts over segments of one length.
+/// Drift of the path over segments of one length.
 struct PathDrift {
   double length_m = 0.0;
   std::size_t segments = 0;
-  std::size_t across_gaps = 0;       ///< Further segments, left out because of a gap in them.
+  std::size_t across_gaps = 0;       ///< Segments omitted because of a gap.
   double translation_percent = 0.0;  ///< Mean over the segments; NaN if there is none.
-  double rotation_deg_per_m = 0.0;   ///< The same.
+  double rotation_deg_per_m = 0.0;   ///< Likewise.
 };
 
 inline constexpr std::array kDriftLengthsM{10.0, 20.0, 30.0, 40.0, 50.0,
@@ -29,13 +29,14 @@ inline constexpr std::array kDriftLengthsM{10.0, 20.0, 30.0, 40.0, 50.0,
 /// D = inverse(E) T: a translation |D| = |T - E| and a rotation |yaw of T - yaw of E|. Both are
 /// divided by the true path from a to b and averaged over all segments of that length.
 ///
-/// Two things differ from KITTI's program, for segments that are a tenth as long: it begins at each
-/// tenth pose, here at each one; and it divides by L, which one scan's motion beyond L would make
-/// wrong by up to a tenth. A constant error of scale s is thus s at every L; a constant error k of
-/// curvature on a straight road is k in rotation, about k L / 2 in translation.
+/// Two deviations from KITTI's program, because segments are ten times shorter: segments begin at
+/// every pose instead of every tenth; and errors are divided by the true path instead of L, which
+/// one scan's motion beyond L would make wrong by up to a tenth. A constant scale error s is thus s
+/// at every L; a constant curvature error k on a straight road is k in rotation and about k L / 2
+/// in translation.
 std::vector<PathDrift> path_drift(const std::vector<PathPose>& path);
 
-/// Over all segments of all lengths, the one figure KITTI ranks by; its length is 0.
+/// Over all segments of all lengths, KITTI's ranking figure; its length is 0.
 PathDrift mean_drift(const std::vector<PathDrift>& drifts);
 
 }  // namespace cremed

@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-constexpr double kMostApartS = 0.05;
+constexpr double kMaxTimeDifferenceS = 0.05;
 
 SweepTarget seen_from_vehicle(const Target& target, const Pose2& mount) {
   const Eigen::Matrix2d turn = rotation_matrix(mount.yaw_rad);
@@ -32,7 +32,7 @@ const RecordedScan* nearest(const std::vector<RecordedScan>& scans, std::int64_t
   const auto best = std::min_element(scans.begin(), scans.end(), [&](const auto& a, const auto& b) {
     return distance_s(a) < distance_s(b);
   });
-  return best != scans.end() && distance_s(*best) <= kMostApartS ? &*best : nullptr;
+  return best != scans.end() && distance_s(*best) <= kMaxTimeDifferenceS ? &*best : nullptr;
 }
 
 }  // namespace

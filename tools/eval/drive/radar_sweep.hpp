@@ -16,14 +16,14 @@ namespace cremed {
 struct SweepTarget {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
-  /// Its Doppler over the vehicle's (vx, vy, yaw rate), if it stands.
+  /// Its Doppler per vehicle (vx, vy, yaw rate), if it is static.
   Eigen::RowVector3d doppler_by_twist = Eigen::RowVector3d::Zero();
   double doppler_mps = 0.0;
-  double age_s = 0.0;  ///< Its scan is older than the sweep by so much; may be negative.
+  double age_s = 0.0;  ///< Age of its scan relative to the sweep; may be negative.
 };
 
-/// What all radars saw at about one time: at each scan of the first radar, of every other radar the
-/// scan that is nearest in time, if it is within 50 ms.
+/// The targets of all radars at about one time: for each scan of the first radar, the nearest scan
+/// in time of every other radar within 50 ms.
 struct Sweep {
   std::int64_t stamp_us = 0;
   std::vector<SweepTarget> targets;

@@ -21,14 +21,14 @@ struct RecordedEstimate {
   Eigen::Matrix3d covariance;
 };
 
-/// What one source wrote, in order of its rows.
+/// The rows of one source, in order.
 struct RecordedOdometry {
   std::string source;
   std::vector<RecordedEstimate> estimates;
-  std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
+  std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
 };
 
-/// Whether a row of that status holds an estimate.
+/// Whether rows with that status have an estimate.
 bool is_estimate(const std::string& status);
 
 /// Odometry CSV as cremed writes it; sources in order of appearance. Throws std::runtime_error.

@@ -25,7 +25,7 @@ struct RecordedState {
 
 struct RecordedStates {
   std::vector<RecordedState> states;
-  std::size_t without_estimate = 0;  ///< Rows whose status says that there is no estimate.
+  std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
 };
 
 /// Whether the table's header is that of the vehicle's state.
@@ -34,8 +34,8 @@ bool holds_states(const CsvTable& table);
 /// Throws std::runtime_error.
 RecordedStates read_states(const CsvTable& table);
 
-/// Each state's pose as a motion since its anchor; a state at its own anchor's time is none. The
-/// state at the time of a new anchor still refers to the old one, so that the anchors make a chain.
+/// Each state's pose as a motion since its anchor; none for a state at its own anchor's time. The
+/// state at the time of a new anchor still refers to the old one, so that the anchors form a chain.
 RecordedOdometry motions_since_anchors(const RecordedStates& states);
 
 }  // namespace cremed

@@ -14,14 +14,14 @@ struct TimedNees {
   double nees = 0.0;  ///< Per degree of freedom.
 };
 
-/// Mean of NEES over a window, and where 95 % of such means lie if the covariances are credible and
-/// the estimates independent. (Neighbours share a scan, so a few more lie outside.)
+/// Mean of NEES over a window, and the 95 % interval of such means for credible, independent
+/// estimates. (Neighbours share a scan, so slightly more lie outside.)
 struct RunningNees {
   double mean = 0.0;
   Interval interval;
 };
 
-/// For each of them, in order of time, the mean of those at most half a window away.
+/// For each estimate, in order of time, the mean of those at most half a window away.
 std::vector<RunningNees> running_nees(const std::vector<TimedNees>& estimates,
                                       int degrees_of_freedom, std::int64_t window_us);
 

@@ -13,10 +13,10 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kSweeps = 10;
-constexpr int kMostSteps = 30;
+constexpr int kMaxIterations = 30;
 constexpr double kStepTolerance = 1e-5;
 
-/// Targets that stand, as seen from where the vehicle was at the sweep's time.
+/// Static targets, seen from the vehicle's pose at the sweep's time.
 std::vector<UncertainPoint> standing_points(const Sweep& sweep, const KellnerVelocity& velocity) {
   std::vector<UncertainPoint> points;
   for (const std::size_t i : velocity.standing) {
@@ -39,11 +39,11 @@ std::vector<UncertainPoint> placed(const std::vector<UncertainPoint>& points, co
   return result;
 }
 
-/// Of the velocity: what mounts, offsets and azimuths err by, not the noise of targets. With a yaw
-/// rate of 0.02 rad/s its error turns the path (0061: 0.040 in place of 0.020 deg/m).
+/// Systematic error of the velocity by mounts, offsets and azimuths, not the noise of targets. With
+/// a yaw rate of 0.02 rad/s its error turns the path (0061: 0.040 instead of 0.020 deg/m).
 const Eigen::Vector3d kTwistStd(0.1, 0.1, 0.1);  // m/s, m/s, rad/s
 
-/// What the motion by velocity says, in the frame that poses are given in.
+/// The velocity's motion as a measurement in the frame of the poses.
 struct Expectation {
   Pose2 pose;
   Eigen::Matrix3d information;
@@ -65,7 +65,7 @@ Match matched(const NdtMap& map, const std::vector<UncertainPoint>& points,
               const Expectation& expected) {
   Match match;
   Pose2 pose = expected.pose;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector3d off(expected.pose.x_m - pose.x_m, expected.pose.y_m - pose.y_m,
                               expected.pose.yaw_rad - pose.yaw_rad);
     match = {pose, {expected.information, expected.information * off, 0.0}};

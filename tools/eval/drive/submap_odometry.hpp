@@ -15,16 +15,16 @@
 namespace cremed {
 
 /// Matches each sweep with a map of the last ten, after Kung et al., "A normal distribution
-/// transform-based radar odometry designed for scanning and automotive radars" (ICRA 2021): targets
-/// that stand by their Doppler only (Kellner), where the vehicle was at their scan's time by its
-/// velocity; matching starts where that velocity leads, and takes it as a measurement.
+/// transform-based radar odometry designed for scanning and automotive radars" (ICRA 2021). Uses
+/// only targets that are static by Doppler (Kellner), with the motion between scans compensated by
+/// the velocity; the velocity gives the initial guess and a measurement.
 class SubmapOdometry {
  public:
   struct Result {
-    Eigen::Vector3d motion = Eigen::Vector3d::Zero();  ///< Since the sweep before, in its frame.
+    Eigen::Vector3d motion = Eigen::Vector3d::Zero();  ///< Since the last sweep, in its frame.
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
-  /// `motion`: by velocity, since the sweep before, `dt_s` ago.
+  /// `motion`: from the velocity, since the last sweep `dt_s` ago.
   Result update(const Sweep& sweep, const KellnerVelocity& velocity, const Eigen::Vector3d& motion,
                 double dt_s);
 

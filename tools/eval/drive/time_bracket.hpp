@@ -10,11 +10,11 @@
 
 namespace cremed {
 
-/// Between which two of a table's times another one lies.
+/// The two neighbours of a time in a table.
 struct TimeBracket {
   std::size_t left = 0;
-  std::size_t right = 0;  ///< The same as left where the time is one of the table's.
-  double share = 0.0;     ///< Of the way from left to right.
+  std::size_t right = 0;  ///< Equal to left if the time is in the table.
+  double share = 0.0;     ///< Fraction of the interval from left to right.
 };
 
 /// Nothing outside of the table's time; its times must increase.

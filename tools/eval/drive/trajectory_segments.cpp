@@ -23,10 +23,10 @@ constexpr std::array kLengths{SegmentLength{10.0, kNoLimit},  SegmentLength{50.0
                               SegmentLength{kNoLimit, 5.0},   SegmentLength{kNoLimit, 10.0},
                               SegmentLength{kNoLimit, 30.0}};
 
-/// Neighbouring segments say nearly the same; every fifth begin is enough.
+/// Neighbouring segments are nearly equal; every fifth begin is enough.
 constexpr std::size_t kMotionsPerSegment = 5;
 
-/// One motion in 2 degrees of freedom has no variance of y; a micrometre makes it invertible.
+/// In 2 degrees of freedom y has no variance; a micrometre makes the matrix invertible.
 constexpr double kLeastVariance = 1e-12;
 
 /// First motion of each begin.
@@ -54,7 +54,7 @@ class LengthErrors {
  public:
   explicit LengthErrors(const SegmentLength& length) { errors_.length = length; }
 
-  /// Whether the segment that grows is not yet as long.
+  /// Whether the growing segment is shorter.
   [[nodiscard]] bool is_open() const { return is_open_; }
   void open() { is_open_ = true; }
 
@@ -100,7 +100,7 @@ class LengthErrors {
 
 using AllLengths = std::vector<LengthErrors>;
 
-/// The segments of all lengths that begin at one motion, until a gap or until all are long enough.
+/// The segments of all lengths that begin at one motion, up to a gap or the largest length.
 void add_segments(const std::vector<RecordedEstimate>& estimates, std::size_t first,
                   const TrueTrajectory& truth, const TruthNoise& noise, AllLengths& lengths) {
   const std::int64_t begin_us = estimates[first].start_us;

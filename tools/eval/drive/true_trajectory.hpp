@@ -19,16 +19,16 @@ class TrueTrajectory {
   /// Reads CSV with the columns utime (us), x_m, y_m, yaw_rad; throws std::runtime_error, also if
   /// the times do not increase.
   explicit TrueTrajectory(std::istream& input);
-  /// Of poses and their times, which must increase; throws std::runtime_error.
+  /// From poses and their times, which must increase; throws std::runtime_error.
   TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses);
   TrueTrajectory() = default;
 
-  /// Pose at a time, nothing outside of the recorded time.
+  /// Pose at a time; nothing outside of the recorded time.
   [[nodiscard]] std::optional<Pose2> at(std::int64_t utime_us) const;
   /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
-  /// All that was recorded, and when.
+  /// All recorded poses and their times.
   [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }
   [[nodiscard]] const std::vector<std::int64_t>& utime_us() const { return utime_us_; }
 
@@ -39,7 +39,7 @@ class TrueTrajectory {
 
 /// Pose `end` in the frame of pose `start`: (x_m, y_m, yaw_rad).
 Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end);
-/// Its inverse: where `motion`, seen in the frame of `start`, leads.
+/// Inverse of it: the pose reached from `start` by `motion`.
 Pose2 moved(const Pose2& start, const Eigen::Vector3d& motion);
 
 }  // namespace cremed

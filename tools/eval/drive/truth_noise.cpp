@@ -37,7 +37,7 @@ TruthNoise::TruthNoise(std::vector<RelativePoseStd> stds) : stds_(std::move(stds
 }
 
 Eigen::Matrix3d TruthNoise::covariance(std::int64_t interval_us) const {
-  if (is_zero()) {
+  if (stds_.empty()) {
     return Eigen::Matrix3d::Zero();
   }
   const RelativePoseStd std = at(stds_, std::abs(static_cast<double>(interval_us)) * 1e-6);

@@ -10,28 +10,27 @@
 
 namespace cremed {
 
-/// Standard deviation of the reference's own error in the relative pose of two of its stamps.
+/// Standard deviation of the reference's error in the relative pose of two of its stamps.
 struct RelativePoseStd {
   double x_m = 0.0;
   double y_m = 0.0;
   double yaw_rad = 0.0;
-  double interval_s = 0.0;  ///< Between the stamps it was found for.
+  double interval_s = 0.0;  ///< Time between the stamps.
 };
 
-/// The true poses' own noise, which is no error of an estimate that is compared with them. Errors
-/// of poses that were matched to a map vary slowly: what they do to a relative pose grows with the
-/// time between its stamps until it is that of two independent poses. So it may be given for more
-/// than one interval; between them it is interpolated linearly, beyond them it stays.
+/// Noise of the true poses, which is not an error of the estimate. Errors of poses matched to a map
+/// vary slowly: their effect on a relative pose grows with the interval until the two poses are
+/// independent. It may therefore be given for several intervals, with linear interpolation between
+/// and constant values beyond.
 class TruthNoise {
  public:
   TruthNoise() = default;  ///< None.
   explicit TruthNoise(std::vector<RelativePoseStd> stds);
 
-  [[nodiscard]] bool is_zero() const { return stds_.empty(); }
   [[nodiscard]] const std::vector<RelativePoseStd>& stds() const { return stds_; }
-  /// To add to the covariance (x_m, y_m, yaw_rad) of a motion over that time.
+  /// Covariance to add to that of a motion (x_m, y_m, yaw_rad) over that time.
   [[nodiscard]] Eigen::Matrix3d covariance(std::int64_t interval_us) const;
-  /// For the header of a table, with what was done: empty if there is none.
+  /// Text for the header of a table: empty if there is none.
   [[nodiscard]] std::string note() const;
 
  private:

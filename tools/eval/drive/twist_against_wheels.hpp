@@ -10,8 +10,8 @@
 
 namespace cremed {
 
-/// The state's forward speed and yaw rate against those of the wheels at the same time; variances
-/// are the state's and the wheels' together. NaN if there is no state that the wheels cover.
+/// The state's forward speed and yaw rate against the wheels at the same time; variances are the
+/// sum of the state's and the wheels'. NaN if the wheels cover no state.
 struct TwistAgainstWheels {
   std::size_t count = 0;
   double nees_speed = 0.0;

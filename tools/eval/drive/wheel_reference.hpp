@@ -12,14 +12,14 @@
 
 namespace cremed {
 
-/// How far a wheel reference may be off, one sigma, constant over the interval that is compared.
+/// Errors of a wheel reference, one sigma, constant over the compared interval.
 struct WheelStd {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
 };
 
-/// A second reference beside the true poses: the rear axle's speed along the vehicle's x axis, by
-/// wheel encoders, and the yaw rate of a gyro. It does not tell y.
+/// A second reference: the rear axle's speed along the vehicle's x axis from wheel encoders, and
+/// the yaw rate of a gyro. It does not measure y.
 class WheelReference {
  public:
   /// Reads CSV with the columns utime (us), speed_mps, yaw_rate_radps; throws std::runtime_error,
@@ -27,8 +27,7 @@ class WheelReference {
   explicit WheelReference(std::istream& input, const WheelStd& std = {});
 
   /// Pose at `end_us` in the vehicle's frame at `start_us`, (x_m, y_m, yaw_rad): speed and yaw rate
-  /// integrated by the trapezoid rule. y is that of a vehicle that does not slip. Nothing outside
-  /// of the recorded time.
+  /// integrated by the trapezoid rule, y without slip. Nothing outside of the recorded time.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
   /// (speed_mps, yaw_rate_radps) at a time, interpolated linearly.

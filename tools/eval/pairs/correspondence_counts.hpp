@@ -12,12 +12,12 @@
 
 namespace cremed {
 
-/// Distance of two normal distributions: 1/8 d' S^-1 d + 1/2 log(det S / sqrt(det A det B)) with d
-/// the difference of their means and S = (A + B) / 2.
+/// Bhattacharyya distance of two normal distributions: 1/8 d' S^-1 d + 1/2 log(det S / sqrt(det A
+/// det B)) with d the difference of their means and S = (A + B) / 2.
 double bhattacharyya_distance(const Eigen::Vector2d& difference, const Eigen::Matrix2d& a,
                               const Eigen::Matrix2d& b);
 
-/// How the current scan of a pair, moved by the true motion, fits the previous one.
+/// Overlap of the current scan of a pair, moved by the true motion, with the previous one.
 struct CorrespondenceCounts {
   std::size_t correspondences = 0;  ///< Targets within distance 1 of some previous target.
   std::size_t outliers = 0;         ///< All others.
@@ -25,7 +25,7 @@ struct CorrespondenceCounts {
 
 CorrespondenceCounts count_correspondences(const RegistrationPair& pair);
 
-/// One line a pair: `pair,correspondences,outliers`. Throws std::runtime_error.
+/// One line per pair: `pair,correspondences,outliers`. Throws std::runtime_error.
 void write_correspondences_csv(const std::string& path, const std::vector<RegistrationPair>& pairs);
 
 }  // namespace cremed

@@ -36,7 +36,7 @@ Points nearest_of(const Points& candidates, const Points& points) {
   return nearest;
 }
 
-/// The motion that brings the points closest to their partners, in closed form (Umeyama 1991).
+/// The least-squares motion of points onto their partners, in closed form (Umeyama 1991).
 Eigen::Isometry2d best_motion(const Points& points, const Points& partners) {
   const Eigen::Vector2d from_m = points.rowwise().mean();
   const Eigen::Vector2d to_m = partners.rowwise().mean();

@@ -14,7 +14,7 @@ namespace cremed {
 /// J = 1/2 sum |R p_i + t - q_i|^2 over each target p_i of the current scan and the nearest q_i of
 /// the previous one,
 ///     cov = H^-1 (d2J/dzdx) cov(z) (d2J/dzdx)' H^-1, H = d2J/dx2, z = all p_i and q_i,
-/// where every correspondence is taken as independent. Nothing if H is not positive definite.
+/// with all correspondences independent. Nothing if H is not positive definite.
 std::optional<Eigen::Matrix3d> icp_covariance(const TargetSet& previous, const TargetSet& current,
                                               const Eigen::Vector3d& motion);
 

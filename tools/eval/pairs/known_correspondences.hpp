@@ -7,10 +7,10 @@
 
 namespace cremed {
 
-/// The bound of any registration: the least squares that knows which targets correspond (equal
-/// ids), with covariance C_ij = S_j + R S_i R' of each difference and, if `options` say so, the
-/// Doppler of all targets of the current scan without the component for moving ones. Gauss-Newton
-/// from zero; degrees of freedom and Doppler's standard deviations are those of `options`.
+/// A bound for any registration: least squares with known correspondences (equal ids), with
+/// covariance C_ij = S_j + R S_i R' of each difference and, if enabled in `options`, the Doppler of
+/// all targets of the current scan without a component for moving ones. Gauss-Newton from zero;
+/// degrees of freedom and Doppler noise are those of `options`.
 RegistrationResult register_known(const RegistrationPair& pair, const RegistrationOptions& options);
 
 }  // namespace cremed

@@ -15,13 +15,13 @@ namespace cremed {
 /// One pair's solution.
 struct PairResult {
   RegistrationResult registration;
-  std::int64_t solve_us = 0;  ///< Time of the processor, so that other programs do not count.
+  std::int64_t solve_us = 0;  ///< Processor time, independent of other programs.
 };
 
-/// Is there a motion with a covariance? Also where the search did not end.
+/// Whether there is a motion with a covariance, converged or not.
 bool has_solution(const RegistrationResult& result);
 
-/// Solves a pair; motion and covariance are NaN where there is no solution.
+/// Solves a pair; motion and covariance are NaN without a solution.
 PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& options,
                       RegisterFunction method = register_msm);
 
@@ -30,8 +30,8 @@ std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
                                     const RegistrationOptions& options,
                                     RegisterFunction method = register_msm);
 
-/// Compares the solutions with truth. Pairs without a covariance (degenerate, not finite) are not
-/// part of it; `left_out` counts them.
+/// Compares the solutions with truth. Pairs without a covariance (degenerate, not finite) are
+/// omitted and counted in `left_out`.
 Credibility evaluate_pairs(const std::vector<RegistrationPair>& pairs,
                            const std::vector<PairResult>& results, int degrees_of_freedom,
                            std::size_t& left_out);

@@ -13,7 +13,7 @@ std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
     options.doppler.stamp_std_s = 0.005;  // The paper's; all else is the default.
     return options;
   }
-  // The simulated problems have no errors that targets share, and Doppler in the current scan only.
+  // The simulated problems have no shared errors, and Doppler in the current scan only.
   options.shared_errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   options.doppler.both_scans = false;
   if (name == "psr") {
@@ -29,6 +29,10 @@ std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
     return options;
   }
   return std::nullopt;
+}
+
+Likelihood likelihood_named(std::string_view name) {
+  return name == "exclusive" ? Likelihood::exclusive : Likelihood::max_sum_mixture;
 }
 
 }  // namespace cremed

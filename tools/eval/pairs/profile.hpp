@@ -14,4 +14,7 @@ namespace cremed {
 std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
                                            Likelihood likelihood = Likelihood::exclusive);
 
+/// "exclusive" or "max_sum_mixture", as in cremed.toml.
+Likelihood likelihood_named(std::string_view name);
+
 }  // namespace cremed

@@ -8,7 +8,7 @@
 
 namespace cremed {
 
-/// What a registration has to know besides the targets of the two scans.
+/// Input of a registration besides the targets of the two scans.
 struct RegistrationContext {
   RegistrationOptions options;
   Pose2 vehicle_from_radar;
@@ -22,13 +22,13 @@ using RegisterFunction = RegistrationResult (*)(const TargetSet& previous, const
 struct RegistrationMethod {
   std::string_view name;  ///< On the command line.
   RegisterFunction solve = nullptr;
-  bool is_always_3dof = false;  ///< Estimates y even if the options say 2 DoF.
+  bool is_always_3dof = false;  ///< Estimates y even if the options have 2 DoF.
 };
 
 /// "msm", "sa" or "icp". Throws std::runtime_error for another name.
 RegistrationMethod registration_method(std::string_view name);
 
-/// The product's own: class Registration.
+/// The product's registration: class Registration.
 RegistrationResult register_msm(const TargetSet& previous, const TargetSet& current,
                                 const RegistrationContext& context);
 

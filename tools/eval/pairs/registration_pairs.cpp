@@ -12,7 +12,7 @@
 namespace cremed {
 namespace {
 
-/// The numbers behind the letter of a line; throws unless there are exactly `count`.
+/// The numbers after the letter of a line; throws unless there are exactly `count`.
 std::vector<double> numbers(std::string_view line, std::size_t count) {
   std::vector<double> values;
   const char* at = line.data() + 1;

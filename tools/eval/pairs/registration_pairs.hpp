@@ -19,7 +19,7 @@ struct RegistrationPair {
   std::vector<Detection> current;
 };
 
-/// Reads pairs as text, one item a line:
+/// Reads pairs as text, one item per line:
 ///     T,pair,x,y,yaw,dt                  true motion (m, rad) and time (s); begins a pair
 ///     M,pair,x,y,yaw                     mount, optional
 ///     D,pair,scan,id,range,azimuth,doppler,range_std,azimuth_std,doppler_std

@@ -113,7 +113,7 @@ class Cost {
     return {error * error / variance, variance};
   }
 
-  /// Relative to the nearest, so that nothing underflows.
+  /// Relative to the nearest, to avoid underflow.
   template <typename T>
   T minus_log_sum(const std::vector<Density<T>>& densities) const {
     using std::exp;
@@ -135,7 +135,7 @@ class Cost {
     return 0.5 * nearest - log(sum) + constant();
   }
 
-  /// Factors that all densities share: weight 1/F, 2 pi of the point and sqrt(2 pi) of Doppler.
+  /// Factors common to all densities: weight 1/F, 2 pi of the point and sqrt(2 pi) of Doppler.
   [[nodiscard]] double constant() const {
     const double two_pi = 2.0 * std::numbers::pi;
     return std::log(static_cast<double>(previous_.size()) * two_pi) +
@@ -178,7 +178,7 @@ Eigen::Matrix3d hessian(const Function<kStates>& function, const States<kStates>
   return result;
 }
 
-/// BFGS from `states`, which it moves to the minimum.
+/// BFGS from `states`, which become the minimum.
 template <int kStates>
 ceres::GradientProblemSolver::Summary minimise(std::unique_ptr<Cost<kStates>> cost,
                                                int max_iterations, States<kStates>& states) {

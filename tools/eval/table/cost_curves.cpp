@@ -22,7 +22,7 @@ constexpr double kAcrossStdM = 0.2;
 constexpr double kStepM = 0.01;
 constexpr double kSpanM = 4.0;
 
-/// Targets on the x axis at these ranges, all with the same round covariance.
+/// Targets on the x axis at these ranges, with the same isotropic covariance.
 TargetSet line_of_targets(const std::vector<double>& ranges_m) {
   TargetSet targets;
   for (const double range_m : ranges_m) {

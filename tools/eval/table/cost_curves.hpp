@@ -7,17 +7,17 @@
 
 namespace cremed {
 
-/// Costs of a small registration along a line, each relative to its own lowest value.
+/// Costs of a small registration along a line, each relative to its minimum.
 struct CostPoint {
   double translation_m = 0.0;
-  double likelihood = 0.0;         ///< Exact negative log likelihood, summed up directly.
+  double likelihood = 0.0;         ///< Exact negative log likelihood, summed directly.
   double sum_approximation = 0.0;  ///< See sum_approximation_cost().
-  double msm = 0.0;                ///< Max-Sum-Mixture, without a model of outliers,
-  double msm_with_ray = 0.0;       ///< and with one.
+  double msm = 0.0;                ///< Max-Sum-Mixture without outlier model.
+  double msm_with_ray = 0.0;       ///< Max-Sum-Mixture with outlier ray.
 };
 
 /// Figure 1 of the paper: a few targets on the radar's axis that moved by kCurveTruthM; with
-/// `outlier`, one more in the current scan that has no partner.
+/// `outlier`, one more in the current scan without a partner.
 std::vector<CostPoint> cost_curves(bool outlier);
 inline constexpr double kCurveTruthM = 0.5;
 

@@ -8,8 +8,8 @@
 
 namespace cremed {
 
-/// How often a normalised estimation error squared (NEES, not divided by the degrees of freedom)
-/// fell into each of kBins bins; the last one also holds everything above.
+/// Histogram of the normalised estimation error squared (NEES, not divided by the degrees of
+/// freedom) with kBins bins; the last one includes everything above.
 class NeesHistogram {
  public:
   static constexpr std::size_t kBins = 41;

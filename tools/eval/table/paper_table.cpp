@@ -26,7 +26,7 @@ RegistrationOptions our_options(std::string_view profile_name, bool doppler) {
   return *profile(profile_name, doppler, Likelihood::exclusive);
 }
 
-/// A method of the table; one with Doppler runs only on the problems that have it (2 DoF).
+/// A method of the table; methods with Doppler run on problems with Doppler (2 DoF) only.
 struct TableMethod {
   std::string_view name;
   std::string_view published;  // what the paper calls it
@@ -49,7 +49,7 @@ const std::vector<TableMethod>& table_methods() {
   return kMethods;
 }
 
-/// The pairs of one problem, made anew for every method: that is cheaper than to keep them.
+/// The pairs of one problem, regenerated for every method: cheaper than storing them.
 struct PairSource {
   SimulatedProblem problem;
   std::uint64_t seed;
@@ -73,7 +73,7 @@ struct Outcome {
   Eigen::Vector3d truth;
 };
 
-/// `solve`(pair) for every pair, in the order of the pairs whatever the number of threads.
+/// `solve`(pair) for every pair, in their order for any number of threads.
 template <typename Solve>
 std::vector<Outcome> run(const PairSource& source, unsigned threads, std::string_view name,
                          const Solve& solve) {

@@ -15,7 +15,7 @@
 
 namespace cremed {
 
-/// Size of the evaluation; 0: as many as in the paper.
+/// Size of the evaluation; 0: the paper's.
 struct PaperTableOptions {
   std::size_t sets = 0;
   std::size_t runs = 0;
@@ -23,30 +23,30 @@ struct PaperTableOptions {
   unsigned threads = 1;
 };
 
-/// One method on one simulated problem, with what the paper states and what a registration that
-/// knows the correspondences gets out of the same pairs.
+/// One method on one simulated problem, with the paper's figures and the bound of known
+/// correspondences on the same pairs.
 struct TableRow {
   std::string_view problem;
   std::string_view method;
   int degrees_of_freedom = 0;
   std::size_t count = 0;  ///< Estimates.
   Figures ours;
-  Interval consistent;  ///< 95 % of consistent estimators have their ANEES in it.
+  Interval consistent;  ///< 95 % interval of the ANEES of consistent estimators.
   double iterations = 0.0;
-  double milliseconds = 0.0;       ///< A pair, of one processor.
-  std::size_t left_out = 0;        ///< Pairs without an estimate,
-  std::size_t ambiguous = 0;       ///< and how many of them for another motion that fits as well.
-  std::size_t no_convergence = 0;  ///< Estimates at which the search had not ended.
+  double milliseconds = 0.0;       ///< Per pair, of one processor.
+  std::size_t left_out = 0;        ///< Pairs without an estimate.
+  std::size_t ambiguous = 0;       ///< Of these, pairs where another motion fits as well.
+  std::size_t no_convergence = 0;  ///< Estimates whose search did not converge.
   std::size_t gross = 0;           ///< Estimates with NEES > kGrossNees.
   Figures paper;
   Figures bound;
   NeesHistogram nees;
 };
 
-/// Chance brings a consistent estimate of 3 (2) DoF above it in 2e-5 (4e-6) of all cases.
+/// A consistent estimate of 3 (2) DoF exceeds it with probability 2e-5 (4e-6).
 inline constexpr double kGrossNees = 25.0;
 
-/// All problems with all methods. The figures, apart from time, depend on sets, runs and seed only.
+/// All problems with all methods. All figures but the times depend on sets, runs and seed only.
 std::vector<TableRow> paper_table(const PaperTableOptions& options);
 
 }  // namespace cremed

@@ -14,8 +14,8 @@ struct Figures {
   double anees = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What the paper states (Haggag, Lange, Pfeifer, Protzel, RA-L 2022) for a problem ("PSR",
-/// "PSR-C", "Sim", "Sim-C") and a method ("MSM", "MSM-D", "SA", "SA-D", "ICP").
+/// The paper's figures (Haggag, Lange, Pfeifer, Protzel, RA-L 2022) for a problem ("PSR", "PSR-C",
+/// "Sim", "Sim-C") and a method ("MSM", "MSM-D", "SA", "SA-D", "ICP").
 Figures published_figures(std::string_view problem, std::string_view method);
 
 }  // namespace cremed

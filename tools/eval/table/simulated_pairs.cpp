@@ -32,7 +32,7 @@ constexpr SimulatedProblemSettings kSimC{
     "Sim-C", "sim", 2, 2.5, 37.5, 55.0 * kRadPerDeg, 40.0 * kRadPerDeg, 0.13,
     0.0157,  0.3,   8, 50,  500};
 
-/// Number of the random stream; run 0 stands for the landmarks.
+/// Index of the random stream; run 0 is for the landmarks.
 std::uint64_t stream(SimulatedProblem problem, std::size_t set, std::size_t run) {
   return (static_cast<std::uint64_t>(problem) << 60U) | (static_cast<std::uint64_t>(set) << 32U) |
          static_cast<std::uint64_t>(run);
@@ -124,7 +124,7 @@ RegistrationPair simulated_pair(SimulatedProblem problem, std::uint64_t seed, st
   RegistrationPair pair;
   pair.dt_s = kPeriodS;
   pair.truth = draw_motion(chosen, random);
-  // As the Doppler model has it: the motion's direction counts in the current radar's frame.
+  // As in the Doppler model: the direction of motion is in the current radar's frame.
   const Eigen::Vector2d velocity_mps = Eigen::Vector2d(pair.truth.x_m, pair.truth.y_m) / kPeriodS;
   pair.previous = observe_all(chosen, landmarks, Pose2{}, velocity_mps, random);
   pair.current = observe_all(chosen, landmarks, pair.truth, velocity_mps, random);

@@ -18,10 +18,10 @@ enum class SimulatedProblem : std::uint8_t { psr, psr_c, sim, sim_c };
 inline constexpr std::array kSimulatedProblems{SimulatedProblem::psr, SimulatedProblem::psr_c,
                                                SimulatedProblem::sim, SimulatedProblem::sim_c};
 
-/// What makes up a simulated problem.
+/// Parameters of a simulated problem.
 struct SimulatedProblemSettings {
   std::string_view name;     ///< As the paper calls it.
-  std::string_view profile;  ///< Its settings of the registration, see profile().
+  std::string_view profile;  ///< Name for profile().
   int degrees_of_freedom;    ///< 2: the vehicle moves along x only.
   double min_range_m;        ///< Of the landmarks, uniform.
   double max_range_m;
@@ -30,15 +30,15 @@ struct SimulatedProblemSettings {
   double range_std_m;
   double azimuth_std_rad;
   double doppler_std_mps;
-  std::size_t clusters;  ///< As many of the landmarks get two more each beside them.
+  std::size_t clusters;  ///< This many landmarks have two more beside them.
   std::size_t sets;      ///< Sets of landmarks in the paper's evaluation,
   std::size_t runs;      ///< and runs (motion and noise) with each.
 };
 
 const SimulatedProblemSettings& settings(SimulatedProblem problem);
 
-/// One pair: the landmarks depend on (problem, seed, set), motion and noise on `run` as well.
-/// Detection::id is the landmark's number, so that equal ids correspond.
+/// One pair: the landmarks depend on (problem, seed, set), motion and noise also on `run`.
+/// Detection::id is the landmark's number, so equal ids correspond.
 RegistrationPair simulated_pair(SimulatedProblem problem, std::uint64_t seed, std::size_t set,
                                 std::size_t run);
 

@@ -8,8 +8,8 @@
 
 namespace cremed {
 
-/// cremed-eval table: prints the paper's table, for people or as JSON, and draws it into `picture`,
-/// unless that is empty. Throws std::runtime_error.
+/// cremed-eval table: prints the paper's table as text or JSON, and draws it into `picture` unless
+/// that is empty. Throws std::runtime_error.
 void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json);
 
 }  // namespace cremed

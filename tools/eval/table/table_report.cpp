@@ -13,10 +13,10 @@ namespace {
 
 constexpr const char* kNotes =
     "# RMSE counts x and y; ANEES is over the estimated states (x, yaw; PSR and ICP: x, y, yaw);\n"
-    "# low, high: 95 % of consistent estimators have their ANEES there; bound: the least squares\n"
-    "# that knows the correspondences.\n";
+    "# low, high: 95 % interval of the ANEES of consistent estimators; bound: least squares with\n"
+    "# known correspondences.\n";
 
-/// Names above the columns: text and, for the row of groups, where a group begins.
+/// Column titles: text and, for the row of groups, the start of a group.
 std::string header() {
   std::array<char, 320> buffer{};
   std::snprintf(buffer.data(), buffer.size(),
@@ -39,7 +39,7 @@ std::string text(double value, int width, int decimals, std::string_view unknown
   return buffer.data();
 }
 
-/// A cell with a space before it. Large figures, of methods that fail, need no decimals.
+/// A cell with a leading space. Large figures, of methods that fail, need no decimals.
 std::string cell(double value, int width, int decimals) {
   return text(value, width + 1, value >= 1000.0 ? 0 : decimals, "-");
 }

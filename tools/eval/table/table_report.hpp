@@ -10,7 +10,7 @@
 
 namespace cremed {
 
-/// Prints the rows as aligned columns, "-" for what is unknown; lines of the header begin with #.
+/// Prints the rows as aligned columns, "-" if unknown; header lines begin with #.
 void print_table(std::FILE* stream, const std::vector<TableRow>& rows);
 
 /// The rows as CSV, and their NEES histograms as `problem,method,dof,low,count`; an empty cell is

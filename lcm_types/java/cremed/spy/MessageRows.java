@@ -75,7 +75,7 @@ public final class MessageRows {
 
   private static String named(Code code, Field field, Object message)
       throws IllegalAccessException {
-    // Statuses of motions stand in the motion's own message.
+    // The constants of a motion's status are in the motion's message.
     Class<?> holder =
         field.getName().equals("last_motion_status") ? ego_motion_t.class : message.getClass();
     int value = ((Number) field.get(message)).intValue();

@@ -80,7 +80,7 @@ public final class MessageTable implements SpyPlugin {
       if (isLonger) {
         fireTableDataChanged();
       } else if (!rows.isEmpty()) {
-        fireTableRowsUpdated(0, rows.size() - 1); // Keeps selection and place.
+        fireTableRowsUpdated(0, rows.size() - 1); // Keeps selection and scroll position.
       }
     }
 

@@ -206,7 +206,7 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
 }
 
 /// A radar in doubt is used only if all radars are in doubt.
-bool Pipeline::is_believed(const RadarChannel& radar) const {
+bool Pipeline::is_trusted(const RadarChannel& radar) const {
   return radar.self_check.is_trusted() ||
          std::none_of(radars_.begin(), radars_.end(),
                       [](const auto& other) { return other->self_check.is_trusted(); });
@@ -267,7 +267,7 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   radar.held_us.reset();
   publish_predictions(stamp_us);
   const std::int64_t begin_us = clock_.now_us();
-  const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_believed(radar));
+  const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_trusted(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
   if (!odometry.is_new) {
     return;

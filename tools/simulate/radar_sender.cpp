@@ -69,7 +69,7 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
   told_ = setup_.is_told_motion ? scene_.told_motion(time_s) : ToldMotion{};
   doppler_offset_mps_ =
       setup_.doppler.offset_mps +
-      rolling_share(scene_.course().at(time_s).speed_mps) * slow_offset_.at(time_s);
+      driving_share(scene_.course().at(time_s).speed_mps) * slow_offset_.at(time_s);
   targets_.clear();
   for (const Echo& echo : echoes) {
     const PolarStd std = noise(echo.view);

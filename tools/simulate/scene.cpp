@@ -35,8 +35,8 @@ Scene::Scene(const Scenario& scenario, double duration_s, std::int64_t start_us,
 
 VehicleState Scene::body(double time_s) const {
   VehicleState state = course_.at(time_s);
-  state.speed_mps += rolling_share(state.speed_mps) * body_speed_.at(time_s);
-  state.side_speed_mps += rolling_share(state.side_speed_mps) * body_side_speed_.at(time_s);
+  state.speed_mps += driving_share(state.speed_mps) * body_speed_.at(time_s);
+  state.side_speed_mps += driving_share(state.side_speed_mps) * body_side_speed_.at(time_s);
   return state;
 }
 

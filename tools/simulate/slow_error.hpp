@@ -26,6 +26,6 @@ class SlowError {
 };
 
 /// Share of a driving vehicle's errors at a speed: 0 at standstill, 1 from 1 m/s.
-double rolling_share(double speed_mps);
+double driving_share(double speed_mps);
 
 }  // namespace cremed

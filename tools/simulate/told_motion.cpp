@@ -43,7 +43,7 @@ VehicleBus::VehicleBus(const VehicleCourse& course, Random speed, Random yaw_rat
 ToldMotion VehicleBus::at(double time_s) const {
   const double measured_s = kPeriodS * std::floor(time_s / kPeriodS) - kDelayS;
   const VehicleState state = course_.at(measured_s);
-  const double rolling = rolling_share(state.speed_mps);
+  const double rolling = driving_share(state.speed_mps);
   return {on_grid(state.speed_mps + rolling * speed_.at(measured_s), kSpeedStepMps),
           on_grid(state.yaw_rate_radps + rolling * yaw_rate_.at(measured_s), kYawRateStepRadps)};
 }

@@ -170,5 +170,5 @@ TEST_CASE("A bus that is standard input gives no consent") {
   CHECK(set_up_ars408({configuration, configuration.radars[0], options, sensors.socket(), out},
                       {}) == TalkResult::not_sent);
   CHECK(sensors.all_received().empty());
-  CHECK_THAT(out.str(), Catch::Contains("to agree, add --yes"));
+  CHECK_THAT(out.str(), Catch::Contains("add --yes to give consent"));
 }

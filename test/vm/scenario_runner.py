@@ -21,6 +21,8 @@ PASSED, FAILED, SKIPPED = 0, 1, 77
 SYSCTL = pathlib.Path(__file__).resolve().parents[2] / "systemd" / "sysctl.conf"
 # A scan is on the bus for up to 0.05 s, and the guest shares its processor.
 SLOWEST_ODOMETRY_S = 0.8
+# On an idle computer it ends in hundredths of a second; the guest shares the processors with other work.
+SLOWEST_END_S = 5
 
 
 def scenario(function=None, owns_kernel=False):
@@ -88,7 +90,8 @@ class Vehicle:
             if daemon.process.poll() is None:
                 status, took_s = daemon.stop()
                 check(status == 0, f"exit status 0 after SIGTERM, not {status}")
-                check(took_s < 1, f"an end within 1 s, not {took_s:.2f} s")
+                check(took_s < SLOWEST_END_S,
+                      f"an end within {SLOWEST_END_S} s, not {took_s:.2f} s")
 
 
 DRIVES = {  # Name: scenario, seconds, radars.

@@ -59,7 +59,7 @@ std::string printed(const RealTable& table) {
 
 }  // namespace
 
-TEST_CASE("The table of real drives has the paper's rows beside ours, and a robot's") {
+TEST_CASE("The table of real drives has the paper's figures and ours, and those of a robot") {
   const TemporaryFolder folder;
   write_drive(folder, "scene-0001", 1);
   write_drive(folder, "scene-0002", 2);
@@ -123,7 +123,7 @@ TEST_CASE("Truth's own noise widens the covariances of the drives") {
   CHECK(with.second - without.second == Approx(0.0625));
 }
 
-TEST_CASE("It is about the radar named front, else the first") {
+TEST_CASE("The evaluated radar is that named front, otherwise the first") {
   const TemporaryFolder folder;
   std::ofstream(folder.file("a.toml")) << kArs408;
   CHECK(paired_radar(load_configuration(folder.file("a.toml"))) == 1);
@@ -137,8 +137,8 @@ TEST_CASE("A folder without drives, or with a broken one, is named") {
   };
   CHECK(run(folder.file("none")).status == 2);
   CHECK_THAT(run(folder.file("none")).error,
-             Catch::Contains("holds no folder with can.log, truth.csv and cremed.toml; must be "
-                             "what `cremed-convert nuscenes` wrote"));
+             Catch::Contains("has no folder with can.log, truth.csv and cremed.toml; must be "
+                             "the --output of `cremed-convert nuscenes`"));
   CHECK_THAT(run("x --runs 3").error, Catch::Contains("--real excludes --runs"));
   CHECK_THAT(run_tool("cremed-eval", folder, "table --truth-std 0.1,0.1").error,
              Catch::Contains("--truth-std requires --real"));
@@ -146,7 +146,7 @@ TEST_CASE("A folder without drives, or with a broken one, is named") {
   std::ofstream(folder.file("drives/one/can.log")) << "";
   const ToolRun empty = run(folder.file("drives"));
   CHECK(empty.status == 1);
-  CHECK_THAT(empty.error, Catch::Contains("one/can.log: no estimate that "));
+  CHECK_THAT(empty.error, Catch::Contains("one/can.log: no estimate within the time of "));
   std::ofstream(folder.file("drives/one/cremed.toml")) << "radar = 1\n";
   CHECK(run(folder.file("drives")).status == 2);
 }

@@ -55,7 +55,7 @@ CarLimits limits_of(std::string_view name) {
   }
   // A turning circle of 12 m, measured at the outer front wheel.
   if (name == "garage" || name == "u-turn") limits.curvature_1pm = 0.18;
-  // No car, but a robot that turns about a point beside it.
+  // A robot, not a car.
   if (name == "campus") limits.curvature_1pm = 1.31;
   if (name == "skid") {
     limits.sideways_mps = 2.51;

@@ -1,28 +1,28 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Clusters of ARS408s as the frames that the sensors would have sent, in candump's format."""
+"""Writes clusters of ARS408s as CAN frames, in candump's format."""
 import dataclasses
 import heapq
 import math
 
 FRAME_US = 250  # 8 bytes at 500 kbit/s.
 SECOND_US = 1_000_000
-COUNTER_STEP = 2  # MeasCounter's, of a cycle.
+COUNTER_STEP = 2  # Of MeasCounter, per cycle.
 MOST_CLUSTERS = 250
-# Made up, once a second: set to clusters with quality, told speed and yaw rate, no fault; version 4.30.2.
+# Constant, once a second: configured to clusters with quality, told speed and yaw rate, no fault; version 4.30.2.
 STATE_FRAMES = ((0x201, bytes.fromhex("4019000010180000")), (0x700, bytes.fromhex("041E0200")))
 
 RMS_INVALID = 31
 
 
 def rms_code(std):
-    """Of the table of standard deviations (m, m/s): the least that is not below."""
+    """Smallest code whose bound (m, m/s) is at least `std`."""
     return min(max(math.ceil(30 * math.log(std / 0.005) / math.log(2000) - 1e-9), 0), 30)
 
 
 @dataclasses.dataclass
 class Cluster:
-    """As messages 0x701 and 0x702 have it: rms and states are the sensor's codes."""
+    """Content of messages 0x701 and 0x702; rms and states are the sensor's codes."""
     id: int
     x_m: float
     y_m: float
@@ -41,17 +41,17 @@ class Scan:
     interface: str
     stamp_us: int
     clusters: list
-    cycle: int = 0  # Since the log's begin, those that are missing counted.
+    cycle: int = 0  # Number since the begin of the log; missing scans count.
     spacing_us: int = FRAME_US
 
 
 @dataclasses.dataclass
 class Losses:
-    """What frames cannot carry as it was."""
+    """Counts of scans and of what the frames cannot represent."""
     scans: int = 0
     clusters: int = 0
-    rounded: int = 0   # Off the grid of the messages (0.2 m, 0.25 m/s, 0.5 dB).
-    left_out: int = 0  # Out of the messages' range (y +-102 m, vx +-128 m/s, vy +-64 m/s), or too many.
+    rounded: int = 0   # Not on the grid of the messages (0.2 m, 0.25 m/s, 0.5 dB).
+    left_out: int = 0  # Outside the range of the messages (y +-102 m, vx +-128 m/s, vy +-64 m/s), or too many.
 
     def __str__(self):
         return (f"{self.scans} scans, {self.clusters} clusters, {self.rounded} of them rounded; "
@@ -59,7 +59,7 @@ class Losses:
 
 
 class Grid:
-    """An unsigned number of `bits` for least, least + step, ..."""
+    """Unsigned integer of `bits` bits with scale `step` and offset `least`."""
 
     def __init__(self, step, least, bits):
         self.step, self.least, self.most = step, least, (1 << bits) - 1
@@ -84,7 +84,7 @@ def values(cluster):
 
 
 def carried(clusters, losses):
-    """Those that frames can carry, the nearest first to stay."""
+    """Clusters within the range of the messages; if too many, the nearest."""
     fit = [cluster for cluster in clusters
            if all(math.isfinite(value) and grid.holds(value) for grid, value in values(cluster))]
     if len(fit) > MOST_CLUSTERS:
@@ -120,7 +120,8 @@ def header(scan):
 
 
 def number_cycles(scans):
-    """Of one radar. A missing scan shows as a step of the counter; frames of one scan end before the next."""
+    """Numbers the scans of one radar, with gaps for missing scans, and spaces their frames so that each list
+    ends before the next scan."""
     gaps = [later.stamp_us - scan.stamp_us for scan, later in zip(scans, scans[1:])]
     if any(gap <= 0 for gap in gaps):
         raise ValueError(f"stamps of {scans[0].interface} do not increase")
@@ -131,7 +132,7 @@ def number_cycles(scans):
 
 
 def scan_frames(scans):
-    """(stamp, interface, identifier, payload) of one radar's scans: a list's header, all 0x701, all 0x702."""
+    """(stamp, interface, identifier, payload) of one radar's scans: header, all 0x701, all 0x702."""
     for scan in scans:
         frames = [(0x600, header(scan)), *((0x701, general(one)) for one in scan.clusters),
                   *((0x702, quality(one)) for one in scan.clusters)]
@@ -146,7 +147,7 @@ def state_frames(scans):
 
 
 def write_log(file, radars):
-    """`radars`: the scans of each, in the order of their stamps."""
+    """`radars`: scans per radar, in the order of their stamps."""
     sources = []
     for scans in filter(None, radars):
         number_cycles(scans)

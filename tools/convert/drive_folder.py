@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A converted drive: can.log, truth.csv and cremed.toml in a folder of its name."""
+"""Writes a converted drive: a folder with can.log, truth.csv and cremed.toml."""
 import dataclasses
 import os
 import pathlib
@@ -23,8 +23,8 @@ class Radar:
 @dataclasses.dataclass
 class Drive:
     name: str
-    heading: str   # Of the configuration, as comments.
-    settings: str  # Of each radar, TOML.
+    heading: str   # Comments at the begin of the configuration.
+    settings: str  # TOML keys of each radar.
     radars: list
     truth: list    # (utime, x, y, yaw)
 
@@ -43,14 +43,14 @@ def write_configuration(file, drive):
 
 
 def write_truth(file, poses):
-    """Once a time, in order."""
+    """One row per time, in order."""
     file.write("utime,x_m,y_m,yaw_rad\n")
     for utime, (x_m, y_m, yaw_rad) in sorted({pose[0]: pose[1:] for pose in poses}.items()):
         file.write(f"{utime},{x_m:.6f},{y_m:.6f},{yaw_rad:.9f}\n")
 
 
 def write(drive, output):
-    """The folder's files are there when they are whole."""
+    """Files appear in the folder only when all are complete."""
     folder = pathlib.Path(output) / drive.name
     folder.mkdir(parents=True, exist_ok=True)
     parts = {"can.log": lambda file: ars408_log.write_log(file, [radar.scans for radar in drive.radars]),
@@ -71,7 +71,7 @@ def tell(drive, folder, losses, progress):
 
 
 class Progress:
-    """A line on standard error that grows with the work done, if that is a terminal."""
+    """A progress bar on standard error, if that is a terminal."""
     WIDTH = 40
 
     def __init__(self, label, total):

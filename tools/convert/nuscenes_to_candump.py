@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes of nuScenes as drives of cremed.
+"""Converts scenes of nuScenes to drives.
 
-Fields, units and frames are those of the data set's schema: poses are of the rear axle's centre, x and y
-of a cluster in the radar's frame, its velocities, states and rms as the ARS408 sent them."""
+Fields, units and frames as in the schema of the data set: poses are those of the rear axle's centre, clusters
+are in the radar's frame, with velocities, states and rms codes of the ARS408."""
 import collections
 import json
 import math
@@ -29,10 +29,9 @@ Point = collections.namedtuple("Point", PCD_FORM["FIELDS"])
 
 HEADING = """# Scene {name} of nuScenes (vehicle {vehicle}, {location}), made by cremed-convert.
 #
-# Mounts are the data set's; config/nuscenes-*.toml of cremed have yaws of the same cars that were
-# calibrated, which lower the error. What the keys mean is in cremed.toml, why they have these values in
-# config/nuscenes-*.toml. The velocity across the line of sight is as the sensor sent it, so
-# rotation_lead_s has its default.
+# Mounts are those of the data set; config/nuscenes-*.toml have calibrated yaws for the same cars, with
+# lower errors. cremed.toml explains the keys, config/nuscenes-*.toml their values. The log has the
+# velocities across the line of sight as sent by the sensor, so rotation_lead_s has its default.
 """
 SETTINGS = """keep_invalid_states = [0, 4, 8, 9, 10, 11, 12, 15, 16, 17]
 keep_dyn_props = [1, 3, 5]
@@ -42,7 +41,7 @@ calibration.azimuth_std_factor = 0.7
 
 
 def rows(path):
-    """Row by row: tables of the whole data set are gigabytes."""
+    """Reads a table row by row: those of the whole data set are gigabytes."""
     decode, separator, text = json.JSONDecoder().raw_decode, re.compile(r"[\[,\s]*"), ""
     with open(path, encoding="utf-8") as file:
         for chunk in iter(lambda: file.read(1 << 20), ""):
@@ -60,7 +59,7 @@ def rows(path):
 
 
 def tables_of(folder):
-    """The folder with the tables, and the one that file names in them are relative to."""
+    """Folder of the tables, and the base of the file names in them."""
     folder = pathlib.Path(folder)
     if (folder / "sample_data.json").exists():
         found = folder
@@ -108,7 +107,7 @@ def read_points(path):
     if len(data) < begin + size:
         raise ValueError(f"{path}: ends after {len(data)} bytes; must have {begin + size} for its POINTS")
     points = [Point._make(values) for values in POINT.iter_unpack(data[begin:begin + size])]
-    return [] if points and math.isnan(points[0].x) else points  # So an empty cloud is marked.
+    return [] if points and math.isnan(points[0].x) else points  # NaN marks an empty cloud.
 
 
 def cluster_of(point, path):
@@ -123,7 +122,7 @@ def cluster_of(point, path):
 
 
 class DataSet:
-    """The tables' rows that radars need, and no more."""
+    """The rows of the tables that radars need."""
 
     def __init__(self, folder, names):
         self.folder, self.root = tables_of(folder)
@@ -162,12 +161,12 @@ class DataSet:
                              "sweeps of radars; sample_data.json is of another version")
 
     def missing(self, scene):
-        """A file of the scene that is not here: the whole data set comes in parts."""
+        """A missing file of the scene, if any: the whole data set comes in parts."""
         paths = (self.root / row["filename"] for _, row in self.sweeps[scene])
         return next((path for path in paths if not path.exists()), None)
 
     def there(self):
-        """Scenes with all of their files."""
+        """Scenes whose files are all present."""
         scenes = []
         for token, row in sorted(self.scenes.items(), key=lambda item: item[1]["name"]):
             missing = self.missing(token) if self.sweeps[token] else "any sweep of a radar"
@@ -205,7 +204,7 @@ class DataSet:
 
 
 def convert(folder, output, names):
-    """Scenes of these names, all where there is none. Returns the folders written."""
+    """Converts the named scenes, without names all. Returns the folders."""
     data, folders = DataSet(folder, names), []
     scenes = data.there()
     with drive_folder.Progress("nuscenes", sum(len(data.sweeps[scene]) for scene in scenes)) as progress:
@@ -215,5 +214,5 @@ def convert(folder, output, names):
             folders.append(drive_folder.write(drive, output))
             drive_folder.tell(drive, folders[-1], losses, progress)
     if len(scenes) < len(data.scenes):
-        print(f"{len(data.scenes) - len(scenes)} scenes were left out: files of their radars are not here")
+        print(f"{len(data.scenes) - len(scenes)} scenes were left out: files of their radars are missing")
     return folders

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sequences of RadarScenes as drives of cremed.
+"""Converts sequences of RadarScenes to drives.
 
-Its radars are no ARS408s: they measure range, azimuth and radial velocity, and say nothing of noise or of
-what moves. Frames carry them on the ARS408's grid, with noise by the radars' stated resolution
-(radar-scenes.com/dataset/sensors), the velocity across as 0 and every target as "unknown"."""
+Its radars are not ARS408s: they report range, azimuth and radial velocity, without noise or motion flags.
+The frames have them on the grid of the ARS408, with noise from the stated resolution
+(radar-scenes.com/dataset/sensors), zero velocity across and DynProp "unknown"."""
 import json
 import math
 import pathlib
@@ -13,20 +13,20 @@ import drive_folder
 from ars408_log import Cluster, Losses, Scan, carried, rms_code
 
 UNKNOWN = 4  # DynProp.
-# One sigma is taken as large as the resolution, plus the grid's rounding.
+# One sigma is assumed to be the resolution, plus the rounding to the grid.
 RANGE_STD_M = math.hypot(0.15, 0.2 / math.sqrt(12.0))
 DOPPLER_STD_MPS = math.hypot(0.1 / 3.6, 0.25 / math.sqrt(12.0))
 AZIMUTH_STD_RAD = (math.radians(0.5), math.radians(2.0))  # At boresight, at the edge of the view.
 VIEW_RAD = math.radians(60.0)
-# Of the checks that this program and the data set mean the same.
+# Tolerances of check_conventions.
 MOST_POSITION_ERROR_M = 0.1
 MOST_SPEED_ERROR_MPS = 0.3
 
-HEADING = """# {name} of RadarScenes, made by cremed-convert. What the keys mean is in cremed.toml.
+HEADING = """# {name} of RadarScenes, made by cremed-convert. cremed.toml explains the keys.
 #
-# These radars are no ARS408s: frames carry their targets on its grid of 0.2 m and 0.25 m/s, with noise by
-# the stated resolution (0.15 m, 0.5 to 2 degrees, 0.1 km/h). They flag no movers, so all targets are kept,
-# and report no velocity across, so there is no rotation lead.
+# These radars are not ARS408s: the frames have their targets on a grid of 0.2 m and 0.25 m/s, with noise
+# from the stated resolution (0.15 m, 0.5 to 2 degrees, 0.1 km/h). There are no motion flags, so all targets
+# are kept, and no velocities across, so there is no rotation lead.
 """
 SETTINGS = """keep_dyn_props = [4]
 calibration.rotation_lead_s = 0.0
@@ -42,7 +42,7 @@ def h5py():
 
 
 def sequences_of(folder, names):
-    """The data set's folder is the one with sensors.json, or the one above it."""
+    """Folder with sensors.json (`folder` or its data), and names of sequences."""
     folder = pathlib.Path(folder)
     root = next((path for path in (folder, folder / "data") if (path / "sensors.json").exists()), None)
     if root is None:
@@ -103,8 +103,8 @@ def cluster_of(number, detection):
 
 
 def check_conventions(path, mount, detections, odometry):
-    """Azimuths are counter-clockwise from where the sensor looks, and a target that comes nearer has a
-    negative velocity: both follow from other columns of the file."""
+    """Checks the signs of azimuth (counter-clockwise) and velocity (negative when closing) with other columns
+    of the file."""
     _, _, _, _, speed_mps, yaw_rate_radps = odometry
     for range_m, azimuth_rad, _, doppler_mps, static_mps, x_m, y_m in detections:
         bearing = azimuth_rad + mount["yaw"]
@@ -142,7 +142,7 @@ def drive_of(folder, mounts, progress, losses):
 
 
 def convert(folder, output, names):
-    """Sequences of these names, all where there is none. Returns the folders written."""
+    """Converts the named sequences, without names all. Returns the folders."""
     h5py()
     root, names = sequences_of(folder, names)
     mounts, folders = read_json(root / "sensors.json"), []

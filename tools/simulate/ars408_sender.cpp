@@ -23,7 +23,7 @@ constexpr RadarCharacter kCharacter{
     .doppler_resolution_mps = 0.12,
     .mean_ghosts = 4};
 
-/// Of an ARS404 its reach alone is known (kArs404MaxRangeM); the rest is taken to be the same.
+/// Of an ARS404 only the range is known (kArs404MaxRangeM); the rest is that of an ARS408.
 RadarCharacter character(Ars408Model model) {
   RadarCharacter character = kCharacter;
   if (model == Ars408Model::ars404_21) {

@@ -210,7 +210,7 @@ CoursePlan slow_start_course() {
            {7.0, 0.0, 0.0}}};
 }
 
-/// Paths between buildings at a walk, round corners that a car could not take.
+/// Walking speed on footpaths, with turns that are too tight for a car.
 CoursePlan campus_course() {
   return {0.0,
           0.0,
@@ -299,7 +299,7 @@ std::vector<Scenario> all_scenarios() {
             no_traffic),
       drive("slow-start", "creeps below 1.2 m/s for 12 s, then pulls away", 30.0,
             slow_start_course()),
-      drive("campus", "a mobile robot at about 1 m/s, tight turns, few things to see", 120.0,
+      drive("campus", "a mobile robot at about 1 m/s, tight turns, few targets", 120.0,
             campus_course(), campus, no_traffic),
   };
 }

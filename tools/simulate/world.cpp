@@ -100,7 +100,7 @@ class Builder {
   std::vector<Reflector> take() { return std::move(reflectors_); }
 
  private:
-  /// Of the road itself, and as far to both sides as clutter goes.
+  /// Range of a coordinate of the road, extended by kClutterReachM.
   [[nodiscard]] std::pair<double, double> range_of(double Pose2::*coordinate) const {
     std::pair<double, double> range{INFINITY, -INFINITY};
     for (double along_m = 0.0; along_m <= road_.length_m(); along_m += kRoadSpacingM) {

@@ -29,8 +29,8 @@ struct WorldOptions {
   double built_share = 0.8;    ///< Share of a street's sides with structures.
   double clutter_per_m = 1.2;  ///< Single reflectors per metre of the road.
   Roadside roadside = Roadside::street;
-  /// Single reflectors for each square metre of the box around the road, for ways that wind so much
-  /// that "beside" them is anywhere.
+  /// Single reflectors per square metre of the box around the road, for roads that wind in a small
+  /// area.
   double clutter_per_m2 = 0.0;
 };
 

@@ -20,7 +20,7 @@
 namespace cremed {
 namespace {
 
-/// Scans further apart are no pair.
+/// Longest time between the two scans of a pair.
 constexpr double kMaxGapS = 0.5;
 
 struct UsableScan {
@@ -28,7 +28,7 @@ struct UsableScan {
   std::vector<Detection> detections;
 };
 
-/// Keeps what the pipeline tells of one radar, and the odometry.
+/// Collects scans and motions of one radar, and the odometry.
 class PairingSink final : public OdometrySink {
  public:
   explicit PairingSink(std::size_t radar) : radar_(radar) {}
@@ -64,7 +64,7 @@ class PairingSink final : public OdometrySink {
   std::size_t radar_;
 };
 
-/// That radar alone, with nothing of cremed's own: no correction, no limits, no odometry.
+/// That radar alone, with default options: no correction, no limits, no odometry.
 Configuration as_in_paper(const Configuration& configuration) {
   const RadarConfiguration& own = configuration.radars[paired_radar(configuration)];
   Configuration paper;
@@ -80,8 +80,8 @@ Configuration as_in_paper(const Configuration& configuration) {
   return paper;
 }
 
-/// The paper takes an ARS408's codes as standard deviations, of which they are upper bounds, and
-/// lets errors of position count in Doppler, which is projected on the line of sight.
+/// The paper uses the rms codes of an ARS408, which are upper bounds, as standard deviations, and
+/// adds the error of the line of sight to that of Doppler.
 void take_codes_as_std(std::vector<UsableScan>& scans) {
   const double factor = ars408_rms(0).value() / ars408_std(0).value();
   for (UsableScan& scan : scans) {
@@ -179,8 +179,8 @@ DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
   result.odometry =
       trajectory_segments(motions_since_anchors(sink.states).estimates, truth, drive.truth_noise);
   if (result.own.motions.empty()) {
-    throw std::runtime_error(drive.log + ": no estimate that " + drive.truth +
-                             " covers; `cremed-doctor --replay` says why");
+    throw std::runtime_error(drive.log + ": no estimate within the time of " + drive.truth +
+                             "; `cremed-doctor --replay` reports the reason");
   }
   return result;
 }

@@ -23,14 +23,14 @@ struct DriveToPair {
   TruthNoise truth_noise{};  ///< Added to the covariances of all methods.
 };
 
-/// An estimate beside truth, in the order (x_m, y_m, yaw_rad).
+/// An estimate with the true motion, in the order (x_m, y_m, yaw_rad).
 struct PairedMotion {
   Eigen::Vector3d motion;
   Eigen::Matrix3d covariance;
   Eigen::Vector3d truth;
 };
 
-/// What one method made of the pairs of scans.
+/// Results of one method for the pairs of scans.
 struct PairedMotions {
   std::vector<PairedMotion> motions;
   std::size_t left_out = 0;  ///< Pairs without an estimate.
@@ -38,17 +38,17 @@ struct PairedMotions {
 
 /// One radar's motions from scan to scan, and the odometry of the whole drive.
 struct DrivePairs {
-  PairedMotions paper;          ///< The paper's estimator, by positions only,
-  PairedMotions paper_doppler;  ///< and with Doppler.
-  PairedMotions own;            ///< As the daemon estimates them.
+  PairedMotions paper;          ///< The paper's estimator without Doppler.
+  PairedMotions paper_doppler;  ///< The paper's estimator with Doppler.
+  PairedMotions own;            ///< The daemon's estimates.
   std::vector<SegmentErrors> odometry;
 };
 
-/// The radar that it is about: the one named "front", else the first.
+/// The evaluated radar: the one named "front", otherwise the first.
 std::size_t paired_radar(const Configuration& configuration);
 
-/// The paper's estimator has the settings of `profile` (profile.hpp), takes from an ARS408 what the
-/// paper takes (invalid states 0, 4 and 11, stationary targets), and corrects nothing. Throws
+/// The paper's estimator has the settings of `profile` (profile.hpp), uses the paper's selection of
+/// ARS408 clusters (invalid states 0, 4 and 11, stationary) and no corrections. Throws
 /// std::runtime_error.
 DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile);
 

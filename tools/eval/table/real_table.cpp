@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kRobotDrives = 3;
 
-/// Makes the i-th drive's pairs.
+/// Evaluates the i-th drive.
 using PairOne = std::function<DrivePairs(std::size_t)>;
 
 std::vector<DrivePairs> pair_all(std::size_t count, unsigned threads, const std::string& label,
@@ -77,7 +77,7 @@ RealRow row_of(std::string_view problem, const RealMethod& method,
   return row;
 }
 
-/// Means over all segments of that time, whatever their drive.
+/// Means over the segments of that length of all drives.
 SegmentErrors joined(double time_s, const std::vector<DrivePairs>& drives) {
   SegmentErrors all{.length = {INFINITY, time_s}, .nees = {0, 0, 0}, .rmse = {0, 0, 0}};
   for (const DrivePairs& drive : drives) {
@@ -114,7 +114,7 @@ bool is_drive(const std::filesystem::path& folder) {
          exists(folder / "cremed.toml");
 }
 
-/// In the order of their names.
+/// Sorted by name.
 std::vector<std::filesystem::path> drives_in(const std::string& folder) {
   std::vector<std::filesystem::path> drives;
   std::error_code ignored;
@@ -125,8 +125,8 @@ std::vector<std::filesystem::path> drives_in(const std::string& folder) {
   }
   if (drives.empty()) {
     throw UsageError("--real: " + folder +
-                     " holds no folder with can.log, truth.csv and cremed.toml; must be what "
-                     "`cremed-convert nuscenes` wrote");
+                     " has no folder with can.log, truth.csv and cremed.toml; must be the "
+                     "--output of `cremed-convert nuscenes`");
   }
   std::sort(drives.begin(), drives.end());
   return drives;

@@ -15,9 +15,9 @@
 
 namespace cremed {
 
-/// Drives of radars on vehicles, instead of simulated pairs.
+/// Drives to evaluate.
 struct RealTableOptions {
-  std::string folder;  ///< What cremed-convert wrote: a folder a drive.
+  std::string folder;  ///< Output of cremed-convert: one folder per drive.
   std::uint64_t seed = 1;
   unsigned threads = 1;
   TruthNoise truth_noise{};  ///< Of the drives in the folder.
@@ -42,14 +42,14 @@ struct RealTable {
   };
 
   std::size_t drives = 0;  ///< In the folder.
-  std::string note;        ///< What was done to their covariances; may be empty.
+  std::string note;        ///< On the truth noise in their covariances; may be empty.
   std::vector<RealRow> rows;
   std::vector<Odometry> odometry;  ///< Over the drives: after 1 s, 10 s.
 };
 
-/// The paper's fourth experiment on the drives of the folder, and its mobile robot on simulated
-/// ones (`cremed-simulate --scenario campus`). Throws UsageError if the folder has no drive,
-/// std::runtime_error if one of them cannot be read.
+/// The paper's fourth experiment with the drives of the folder, and its mobile robot with simulated
+/// drives (`cremed-simulate --scenario campus`). Throws UsageError if the folder has no drive,
+/// std::runtime_error if a drive cannot be read.
 RealTable real_table(const RealTableOptions& options);
 
 }  // namespace cremed

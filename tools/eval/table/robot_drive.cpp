@@ -12,10 +12,10 @@
 namespace cremed {
 namespace {
 
-/// In front of the axle that it turns about.
+/// In front of the axis of rotation.
 constexpr Pose2 kMount{0.3, 0.0, 0.0};
 
-/// The default of 20 is a car's: here are hardly more.
+/// The default, 20, is for cars; the campus has about 20 targets in view.
 constexpr int kMinTargets = 8;
 
 Configuration robot() {

@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// A simulated mobile robot on a campus with a Bosch GPR in front, in the place of the paper's,
-/// whose recording is not public. Its files exist as long as it does.
+/// A simulated mobile robot with a Bosch GPR on a campus, as the paper's recording is not public.
+/// The destructor removes its files.
 class RobotDrive {
  public:
   /// Throws std::runtime_error.

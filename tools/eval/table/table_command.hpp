@@ -13,7 +13,7 @@ namespace cremed {
 /// that is empty. Throws std::runtime_error.
 void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json);
 
-/// cremed-eval table --real: the same of drives.
+/// cremed-eval table --real: the same for drives.
 void run_real_table(const RealTableOptions& options, bool as_json);
 
 }  // namespace cremed

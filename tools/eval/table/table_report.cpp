@@ -71,14 +71,11 @@ void print_row(std::FILE* stream, const TableRow& row) {
 }
 
 constexpr const char* kRealNotes =
-    "# Front radar, from scan to scan. MSM(paper), MSM-D(paper): the paper's estimator, without "
-    "and\n"
-    "# with Doppler, on what it takes of the sensor; cremed: as configured. ANEES: 2 DoF (x, yaw); "
-    "95 %\n"
-    "# of consistent estimators are between low and high. Robot: SIMULATED (cremed-simulate "
-    "--scenario\n"
-    "# campus, Bosch GPR, three drives), beside the paper's real one, whose recording is not "
-    "public.\n";
+    "# Front radar, from scan to scan. MSM(paper), MSM-D(paper): estimator and selection of "
+    "targets\n"
+    "# as in the paper, without and with Doppler; cremed: as configured. ANEES is over x and yaw;\n"
+    "# 95 % of consistent estimators have it between low and high. Robot: SIMULATED, three drives\n"
+    "# (cremed-simulate --scenario campus, Bosch GPR); the paper's recording is not public.\n";
 
 void print_row(std::FILE* stream, const RealRow& row) {
   const std::string ours = cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) +
@@ -113,10 +110,11 @@ void print_real_table(std::FILE* stream, const RealTable& table) {
   for (const RealRow& row : table.rows) {
     print_row(stream, row);
   }
-  std::fprintf(stream,
-               "# The odometry of all radars, chained from anchor to anchor: the pose after that "
-               "time.\n"
-               "# problem time        segments   rmse_m rmse_deg    anees  percent_of_way\n");
+  std::fprintf(
+      stream,
+      "# Odometry of all radars, chained from anchor to anchor: error of the pose after that "
+      "time.\n"
+      "# problem time        segments   rmse_m rmse_deg    anees  percent_of_way\n");
   for (const RealTable::Odometry& row : table.odometry) {
     print_row(stream, row);
   }

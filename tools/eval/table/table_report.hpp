@@ -14,7 +14,7 @@ namespace cremed {
 /// Prints the rows as aligned columns, "-" if unknown; header lines begin with #.
 void print_table(std::FILE* stream, const std::vector<TableRow>& rows);
 
-/// The same of drives.
+/// The same for drives.
 void print_real_table(std::FILE* stream, const RealTable& table);
 
 /// The rows as CSV, and their NEES histograms as `problem,method,dof,low,count`; an empty cell is

@@ -12,6 +12,15 @@
 
 namespace cremed {
 
+/// The interface document (V1.0, V1.91) describes both: same identifiers, messages and settings.
+enum class Ars408Model : std::uint8_t { ars408_21, ars404_21 };
+
+/// Maximum range of an ARS404. Source: a public driver of both sensors expects 190 m in the 0x201
+/// of an ARS404 (ContiRadarConfig_200.h, CrossOcean). No public source was found for its field of
+/// view; so there is no azimuth limit. The sensor itself marks clusters outside it (InvalidState
+/// 7).
+inline constexpr double kArs404MaxRangeM = 190.0;
+
 /// The output type of an ARS408 (RadarState OutputTypeCfg: 1 objects, 2 clusters).
 enum class Ars408Output : std::uint8_t { clusters, objects };
 
@@ -31,13 +40,14 @@ struct Ars408Options {
   /// Objects with a smaller ProbOfExist code (table P, 0..7) are rejected. Default: 5, >= 90 %.
   std::uint8_t min_existence_code = 5;
   bool motion_feedback = false;  ///< The daemon sends the estimate to the sensor (0x300, 0x301).
+  Ars408Model model = Ars408Model::ars408_21;
 };
 
 const RadarFamily& family_of(const Ars408Options& options);
 
-/// One Continental ARS408. A scan is its list of clusters (0x600, 0x701, 0x702) or of objects
-/// (0x60A, 0x60B, 0x60C); a target's slot is its id. All other messages of the sensor, including
-/// 0x60D and 0x60E, are counted as state.
+/// One Continental ARS408 or ARS404. A scan is its list of clusters (0x600, 0x701, 0x702) or of
+/// objects (0x60A, 0x60B, 0x60C); a target's slot is its id. All other messages of the sensor,
+/// including 0x60D and 0x60E, are counted as state.
 ///
 /// A frame is checked in this order: identifier, kind, length, mode. Extended frames, error frames
 /// and frames of another sensor are ignored and not counted.

@@ -21,8 +21,14 @@ std::uint32_t id_of(Ars408Message message, std::uint8_t sensor) {
   return ars408_id(static_cast<std::uint32_t>(message), sensor);
 }
 
+template <Ars408Model model>
+constexpr std::string_view kName = "ARS408";
+template <>
+constexpr std::string_view kName<Ars408Model::ars404_21> = "ARS404";
+
+template <Ars408Model model>
 RadarSettings read(OptionReader& reader) {
-  Ars408Options options;
+  Ars408Options options{.model = model};
   reader.integer("sensor_id", options.sensor_id, 0, kSensors - 1);
   if (const auto output = reader.choice("output", kOutputs)) {
     options.output = static_cast<Ars408Output>(*output);
@@ -60,12 +66,14 @@ double rotation_lead_s(const Ars408Options& options) {
   return options.output == Ars408Output::clusters ? kArs408RotationLeadS : 0.0;
 }
 
+template <Ars408Model model>
 std::string label(const Ars408Options& options) {
-  return "ARS408 " + std::to_string(options.sensor_id);
+  return std::string(kName<model>) + " " + std::to_string(options.sensor_id);
 }
 
+template <Ars408Model model>
 std::string describe(const Ars408Options& options) {
-  return "an ARS408 with sensor id " + std::to_string(options.sensor_id);
+  return "an " + std::string(kName<model>) + " with sensor id " + std::to_string(options.sensor_id);
 }
 
 std::string key(const Ars408Options& options) {
@@ -103,20 +111,36 @@ std::vector<RadarSettings> recognise(const BusTraffic& bus, IdSet& unexplained) 
   return radars;
 }
 
+template <Ars408Model model>
+constexpr RadarFamily row(std::string_view type) {
+  return {.type = type,
+          .read = read<model>,
+          .make_decoder = kOfSettings<make_decoder>,
+          .sent_ids = kOfSettings<sent_ids>,
+          .label = kOfSettings<label<model>>,
+          .describe = kOfSettings<describe<model>>,
+          .key = kOfSettings<key>,
+          .obeyed_ids = kOfSettings<obeyed_ids>,
+          .rotation_lead_s = kOfSettings<rotation_lead_s>};
+}
+
+constexpr RadarFamily kArs408 = [] {
+  RadarFamily family = row<Ars408Model::ars408_21>("ars408");
+  family.recognise = recognise;
+  return family;
+}();
+
+constexpr RadarFamily kArs404 = [] {
+  RadarFamily family = row<Ars408Model::ars404_21>("ars404");
+  family.sends_like = &kArs408;
+  family.max_range_m = kArs404MaxRangeM;
+  return family;
+}();
+
 }  // namespace
 
-const RadarFamily& family_of(const Ars408Options& /*options*/) {
-  static constexpr RadarFamily kArs408{.type = "ars408",
-                                       .read = read,
-                                       .make_decoder = kOfSettings<make_decoder>,
-                                       .sent_ids = kOfSettings<sent_ids>,
-                                       .label = kOfSettings<label>,
-                                       .describe = kOfSettings<describe>,
-                                       .key = kOfSettings<key>,
-                                       .recognise = recognise,
-                                       .obeyed_ids = kOfSettings<obeyed_ids>,
-                                       .rotation_lead_s = kOfSettings<rotation_lead_s>};
-  return kArs408;
+const RadarFamily& family_of(const Ars408Options& options) {
+  return options.model == Ars408Model::ars404_21 ? kArs404 : kArs408;
 }
 
 }  // namespace cremed

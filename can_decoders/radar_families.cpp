@@ -13,6 +13,7 @@ RadarFamilies radar_families() {
   static const std::array kFamilies{
       &family_of(BoschGprOptions{}),
       &family_of(Ars408Options{}),
+      &family_of(Ars408Options{.model = Ars408Model::ars404_21}),
   };
   return kFamilies;
 }
@@ -21,6 +22,9 @@ std::vector<RadarSettings> seen_radars(const BusTraffic& bus, RadarFamilies fami
   IdSet unexplained = bus.seen();
   std::vector<RadarSettings> radars;
   for (const RadarFamily* family : families) {
+    if (family->recognise == nullptr) {
+      continue;
+    }
     for (RadarSettings& radar : family->recognise(bus, unexplained)) {
       radars.push_back(std::move(radar));
     }

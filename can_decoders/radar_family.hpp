@@ -33,9 +33,13 @@ struct RadarFamily {
 
   /// Finds radars of this family on a bus by identifiers, lengths and, where needed, contents, with
   /// the options these determine. Uses identifiers in `unexplained` only and removes those of the
-  /// radars found.
-  std::vector<RadarSettings> (*recognise)(const BusTraffic& bus, IdSet& unexplained);
+  /// radars found. Null: radars of this family are recognised as those of `sends_like`.
+  std::vector<RadarSettings> (*recognise)(const BusTraffic& bus, IdSet& unexplained) = nullptr;
 
+  /// The family with the same keys, identifiers and messages, and the same type of options; null:
+  /// none.
+  const RadarFamily* sends_like = nullptr;
+  double max_range_m = 0.0;  ///< Default of limits.max_range_m; 0: that of all radars.
   /// Identifiers of commands to the radar; null: none.
   IdSet (*obeyed_ids)(const RadarSettings&) = nullptr;
   /// Default time by which the radar extrapolates positions with the yaw rate it receives
@@ -52,6 +56,12 @@ struct OfSettings<function> {
 };
 template <auto function>
 inline constexpr auto kOfSettings = &OfSettings<function>::call;
+
+/// Whether radars of the two families cannot be distinguished on a bus.
+inline bool is_alike(const RadarFamily& a, const RadarFamily& b) {
+  return (a.sends_like == nullptr ? &a : a.sends_like) ==
+         (b.sends_like == nullptr ? &b : b.sends_like);
+}
 
 using RadarFamilies = std::span<const RadarFamily* const>;
 

@@ -25,10 +25,14 @@ std::string RadarSettings::label() const { return family_->label(*this); }
 
 std::string RadarSettings::describe() const { return family_->describe(*this); }
 
+std::string RadarSettings::describe_to(const RadarSettings& wanted) const {
+  return is_alike(*family_, *wanted.family_) ? wanted.family_->describe(*this) : describe();
+}
+
 std::string RadarSettings::key() const { return family_->key(*this); }
 
 bool RadarSettings::is_same_radar(const RadarSettings& other) const {
-  return family_ == other.family_ && key() == other.key();
+  return is_alike(*family_, *other.family_) && key() == other.key();
 }
 
 }  // namespace cremed

@@ -39,6 +39,8 @@ class RadarSettings {
   [[nodiscard]] std::optional<double> rotation_lead_s() const;
   [[nodiscard]] std::string label() const;
   [[nodiscard]] std::string describe() const;
+  /// The same, with the name of `wanted`'s family if the two cannot be distinguished on a bus.
+  [[nodiscard]] std::string describe_to(const RadarSettings& wanted) const;
   [[nodiscard]] std::string key() const;
 
   /// Whether both are the same radar if they are on one bus. Options that only select targets are

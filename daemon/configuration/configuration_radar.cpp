@@ -69,19 +69,30 @@ const RadarFamily* read_type(TomlReader& reader, const std::vector<const RadarFa
   return type ? families[*type] : nullptr;
 }
 
+/// "ars404" or "ars408": the types with the keys of `family`.
+std::string types_like(const RadarFamily& family, const std::vector<const RadarFamily*>& families) {
+  std::vector<std::string_view> types;
+  for (const RadarFamily* other : families) {
+    if (is_alike(family, *other)) {
+      types.push_back(other->type);
+    }
+  }
+  return list_text(types);
+}
+
 /// Keys of the radar's type, or of all types if that is unknown. Keys of other types are reported
 /// by name.
 void read_decoder(TomlReader& reader, RadarFamilies families, RadarConfiguration& radar) {
   const std::vector<const RadarFamily*> sorted = by_type(families);
   const RadarFamily* const type = read_type(reader, sorted);
   for (const RadarFamily* family : sorted) {
-    if (type == nullptr || family == type) {
+    if (type == nullptr ? family->sends_like == nullptr : family == type) {
       radar.decoder = family->read(reader);
     }
   }
   for (const RadarFamily* family : sorted) {
-    reader.refuse(keys_of(*family),
-                  concat({"is a key of type ", quoted(family->type), "; must be left out here"}));
+    reader.refuse(keys_of(*family), concat({"is a key of type ", types_like(*family, sorted),
+                                            "; must be left out here"}));
   }
 }
 
@@ -155,6 +166,9 @@ PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults,
   reader.number("scan_timeout_s", radar.scan_timeout_s, {0.001, 0.06});
   read_decoder(reader, families, radar);
   read_calibrated(reader, radar);
+  if (const double max_range_m = radar.decoder.family().max_range_m; max_range_m != 0.0) {
+    radar.ego_motion.limits.max_range_m = max_range_m;
+  }
   read_limits(reader.table("limits"), radar.ego_motion.limits);
   read_estimator(reader.table("estimator"), radar.ego_motion);
   reader.finish();

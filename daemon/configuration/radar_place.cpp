@@ -18,12 +18,12 @@ bool shows(const HeardBus& bus, const RadarSettings& wanted) {
 }
 
 /// "can0: a Bosch GPR with base id 0x200; can1: no radar"
-std::string heard_text(const std::vector<HeardBus>& buses) {
+std::string heard_text(const std::vector<HeardBus>& buses, const RadarSettings& wanted) {
   std::string text;
   for (const HeardBus& bus : buses) {
     std::string radars;
     for (const RadarSettings& radar : seen_radars(bus.traffic)) {
-      radars += concat({radars.empty() ? "" : ", ", radar.describe()});
+      radars += concat({radars.empty() ? "" : ", ", radar.describe_to(wanted)});
     }
     text += concat({text.empty() ? "" : "; ", printable(bus.interface), ": ",
                     radars.empty() ? "no radar" : radars});
@@ -32,10 +32,10 @@ std::string heard_text(const std::vector<HeardBus>& buses) {
 }
 
 RadarPlace absent(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
-  return {
-      PlaceStatus::absent, "",
-      concat({"no CAN interface shows ", radar.decoder.describe(), " (", heard_text(buses), ")"}),
-      "check its power and cable, and that its interface is up"};
+  return {PlaceStatus::absent, "",
+          concat({"no CAN interface shows ", radar.decoder.describe(), " (",
+                  heard_text(buses, radar.decoder), ")"}),
+          "check its power and cable, and that its interface is up"};
 }
 
 /// Checks a known interface for clashes with other radars.

@@ -243,9 +243,10 @@ TEST_CASE("unknown keys are refused with the nearest known one") {
 
 TEST_CASE("keys of the other radar type are refused as such") {
   check_refused({
-      {kGpr + "sensor_id = 0\n", 6, "radar.sensor_id", "is a key of type \"ars408\"", "left out"},
-      {kGpr + "keep_dyn_props = [1]\n", 6, "radar.keep_dyn_props", "is a key of type \"ars408\"",
+      {kGpr + "sensor_id = 0\n", 6, "radar.sensor_id", "is a key of type \"ars404\" or \"ars408\"",
        "left out"},
+      {kGpr + "keep_dyn_props = [1]\n", 6, "radar.keep_dyn_props",
+       "is a key of type \"ars404\" or \"ars408\"", "left out"},
       {kArs408 + "base_id = 0x200\n", 6, "radar.base_id", "is a key of type \"bosch_gpr\"",
        "left out"},
       {kArs408 + "min_existence = 0.5\n", 6, "radar.min_existence",
@@ -263,7 +264,7 @@ TEST_CASE("what is missing is named") {
       {"\n[[radar]]\ntype = \"ars408\"\ninterface = \"a\"\nmount = {x_m=1,y_m=1,yaw_rad=1}\n", 2,
        "radar.name", "is missing", "1 to 15 letters"},
       {"[[radar]]\nname = \"a\"\ninterface = \"a\"\nmount = {x_m=1,y_m=1,yaw_rad=1}\n", 1,
-       "radar.type", "is missing", "\"ars408\" or \"bosch_gpr\""},
+       "radar.type", "is missing", "\"ars404\", \"ars408\" or \"bosch_gpr\""},
       {"[[radar]]\ntype = \"ars408\"\nname = \"a\"\nmount = {x_m=1,y_m=1,yaw_rad=1}\n", 1,
        "radar.interface", "is missing", "1 to 15 characters"},
       {"[[radar]]\ntype = \"ars408\"\nname = \"a\"\ninterface = \"a\"\n\n[radar.mount]\nx_m = 1\n"

@@ -55,6 +55,8 @@ CarLimits limits_of(std::string_view name) {
   }
   // A turning circle of 12 m, measured at the outer front wheel.
   if (name == "garage" || name == "u-turn") limits.curvature_1pm = 0.18;
+  // A robot, not a car.
+  if (name == "campus") limits.curvature_1pm = 1.31;
   if (name == "skid") {
     limits.sideways_mps = 2.51;
     limits.across_mps2 = 7.0;

@@ -219,11 +219,14 @@ TEST_CASE("Its keys are checked and told from those of others") {
   CHECK_THAT(
       refusal("[[radar]]\nname = \"a\"\ntype = \"fun\"\ninterface = \"can0\"\n"
               "mount = { x_m = 0.0, y_m = 0.0, yaw_rad = 0.0 }\n"),
-      Catch::Contains("radar.type: is \"fun\"; must be \"ars408\", \"bosch_gpr\" or \"fan\""));
+      Catch::Contains(
+          "radar.type: is \"fun\"; must be \"ars404\", \"ars408\", \"bosch_gpr\" or \"fan\""));
   CHECK_THAT(refusal(kText + "sensor_id = 1\n"),
-             Catch::Contains("sensor_id: is a key of type \"ars408\"; must be left out here"));
-  CHECK_THAT(refusal(kText + "calibration = { rotation_lead_s = 0.1 }\n"),
-             Catch::Contains("is a key of type \"ars408\", which receives the yaw rate"));
+             Catch::Contains(
+                 "sensor_id: is a key of type \"ars404\" or \"ars408\"; must be left out here"));
+  CHECK_THAT(
+      refusal(kText + "calibration = { rotation_lead_s = 0.1 }\n"),
+      Catch::Contains("is a key of type \"ars404\" or \"ars408\", which receives the yaw rate"));
   CHECK_THAT(refusal("[[radar]]\nname = \"a\"\ntype = \"ars408\"\ninterface = \"can0\"\n"
                      "channel = 1\nmount = { x_m = 0.0, y_m = 0.0, yaw_rad = 0.0 }\n"),
              Catch::Contains("channel: is a key of type \"fan\"; must be left out here"));

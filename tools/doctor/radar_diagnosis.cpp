@@ -52,7 +52,7 @@ std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.n
 std::optional<RadarSettings> most_likely(const std::vector<RadarSettings>& radars,
                                          const RadarSettings& expected) {
   for (const RadarSettings& radar : radars) {
-    if (&radar.family() == &expected.family()) {
+    if (is_alike(radar.family(), expected.family())) {
       return radar;
     }
   }
@@ -66,9 +66,9 @@ std::string sensor_id_command(const RadarConfiguration& radar, const Ars408Optio
 }
 
 Finding other_radar(const RadarConfiguration& radar, const RadarSettings& seen) {
-  const std::string what = concat(
-      {"not ", radar.decoder.describe(), " but ", seen.describe(), " is on ", radar.interface});
-  if (&seen.family() == &radar.decoder.family()) {
+  const std::string what = concat({"not ", radar.decoder.describe(), " but ",
+                                   seen.describe_to(radar.decoder), " is on ", radar.interface});
+  if (is_alike(seen.family(), radar.decoder.family())) {
     const auto* const ars408 = seen.as<Ars408Options>();
     return {Severity::error, what,
             concat({"set ", seen.key(), " for radar ", quoted_name(radar),

@@ -59,10 +59,23 @@ std::string output_line(const BusObservation& bus, const RadarSettings& radar) {
              : "# It sends no targets now: `cremed-doctor --configure-ars408`.\n";
 }
 
-std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number) {
+/// A comment with the types that cannot be distinguished from `family`; empty: none.
+std::string others_like(const RadarFamily& family, RadarFamilies families) {
+  std::string types;
+  for (const RadarFamily* other : families) {
+    if (other != &family && is_alike(*other, family)) {
+      types += concat({types.empty() ? "  # or " : ", ", quoted(other->type)});
+    }
+  }
+  return types.empty() ? "" : types + " (see the label of the sensor): the frames are the same";
+}
+
+std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number,
+                  RadarFamilies families) {
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
-                 radar.family().type, "\"\ninterface = \"", bus.interface, "\"\n", radar.key(),
-                 "\n", output_line(bus, radar), kMount});
+                 radar.family().type, "\"", others_like(radar.family(), families),
+                 "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n",
+                 output_line(bus, radar), kMount});
 }
 
 }  // namespace
@@ -72,7 +85,7 @@ std::string suggested_configuration(const Observation& observation, RadarFamilie
   std::size_t count = 0;
   for (const BusObservation* bus : by_name(observation)) {
     for (const RadarSettings& radar : seen_radars(bus->traffic, families)) {
-      tables += count < kMaxRadars ? table(*bus, radar, ++count) : "";
+      tables += count < kMaxRadars ? table(*bus, radar, ++count, families) : "";
     }
   }
   return tables.empty() ? "" : concat({kHeading, tables});

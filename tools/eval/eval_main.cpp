@@ -30,6 +30,8 @@ namespace {
 
 struct TableArguments {
   cremed::PaperTableOptions options{.threads = std::max(std::thread::hardware_concurrency(), 1U)};
+  std::string real;
+  cremed::TruthNoise truth_noise;
   std::string plot;
   bool as_json = false;
 };
@@ -115,17 +117,24 @@ int run_pairs(const PairsArguments& arguments) {
 
 CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
   cremed::PaperTableOptions& options = arguments.options;
-  CLI::App* command =
-      app.add_subcommand("table", "The paper's simulated problems: its figures and ours");
+  CLI::App* command = app.add_subcommand("table", "The paper's problems: its figures and ours");
+  CLI::Option* real = command->add_option(
+      "--real", arguments.real,
+      "Folder with drives from cremed-convert nuscenes: the paper's real problems in place of the "
+      "simulated ones, with a simulated mobile robot");
+  cremed::add_truth_std(*command, arguments.truth_noise)->needs(real);
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
+      ->excludes(real)
       ->check(CLI::Range(1, 1000000));
   command->add_option("--runs", options.runs, "Runs with each set (as the paper: 1000, Sim 500)")
+      ->excludes(real)
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
   command->add_option("--threads", options.threads, "Number of threads; no effect on the figures")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)");
+  command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)")
+      ->excludes(real);
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }
@@ -133,9 +142,9 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
 CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
   CLI::App* command = app.add_subcommand("pairs", "Register pairs of scans with known truth");
   command->add_option("FILE", arguments.file, "Pairs as text, - for standard input")->required();
-  command->add_option("--profile", arguments.profile, "Settings: psr, sim or nuscenes")
+  command->add_option("--profile", arguments.profile, "Settings: psr, sim, nuscenes or robot")
       ->required()
-      ->check(CLI::IsMember({"psr", "sim", "nuscenes"}));
+      ->check(CLI::IsMember({"psr", "sim", "nuscenes", "robot"}));
   command->add_flag("--doppler", arguments.doppler, "Use Doppler");
   command
       ->add_option("--method", arguments.method,
@@ -199,6 +208,11 @@ int run(CLI::App& app, int argc, char** argv) {
   cremed::add_drive(app, drive);
   app.parse(argc, argv);
   refuse_overwriting(table, pairs, drive, calibrate);
+  if (table_command->parsed() && !table.real.empty()) {
+    cremed::run_real_table(
+        {table.real, table.options.seed, table.options.threads, table.truth_noise}, table.as_json);
+    return 0;
+  }
   if (table_command->parsed()) {
     cremed::run_table(table.options, table.plot, table.as_json);
     return 0;

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/figures_json.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
+
+#include "cremed/estimator/scan/degrees.hpp"
 
 namespace cremed {
 namespace {
@@ -36,6 +40,29 @@ Json to_json(const TableRow& row) {
           {"bound", to_json(row.bound)}};
 }
 
+Json to_json(const RealRow& row) {
+  return {{"problem", row.problem},
+          {"method", row.method},
+          {"is_simulated", row.problem == "Robot"},
+          {"n", row.count},
+          {"left_out", row.left_out},
+          {"ours", to_json(row.ours)},
+          {"consistent_anees", Json::array({row.consistent.low, row.consistent.high})},
+          {"paper", to_json(row.paper)},
+          {"paper_trainval", to_json(row.paper_850)}};
+}
+
+Json to_json(const RealTable::Odometry& row) {
+  const SegmentErrors& errors = row.errors;
+  return {{"problem", row.problem},
+          {"time_s", errors.length.time_s},
+          {"segments", errors.segments},
+          {"rmse_m", std::hypot(errors.rmse.x(), errors.rmse.y())},
+          {"rmse_deg", errors.rmse.z() * kDegPerRad},
+          {"anees", errors.anees},
+          {"percent_of_way", errors.position_percent}};
+}
+
 }  // namespace
 
 Json credibility_json(const Credibility& c) {
@@ -62,6 +89,20 @@ std::string table_json(const std::vector<TableRow>& rows) {
   Json json{{"rows", Json::array()}};
   for (const TableRow& row : rows) {
     json["rows"].push_back(to_json(row));
+  }
+  return json.dump(2);
+}
+
+std::string real_table_json(const RealTable& table) {
+  Json json{{"drives", table.drives},
+            {"note", table.note},
+            {"rows", Json::array()},
+            {"odometry", Json::array()}};
+  for (const RealRow& row : table.rows) {
+    json["rows"].push_back(to_json(row));
+  }
+  for (const RealTable::Odometry& row : table.odometry) {
+    json["odometry"].push_back(to_json(row));
   }
   return json.dump(2);
 }

@@ -10,6 +10,7 @@
 
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/table/paper_table.hpp"
+#include "tools/eval/table/real_table.hpp"
 
 namespace cremed {
 
@@ -27,5 +28,6 @@ struct PairsFigures {
 nlohmann::ordered_json credibility_json(const Credibility& credibility);
 std::string pairs_json(const PairsFigures& figures);
 std::string table_json(const std::vector<TableRow>& rows);
+std::string real_table_json(const RealTable& table);
 
 }  // namespace cremed

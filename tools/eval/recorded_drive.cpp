@@ -73,8 +73,8 @@ void check_logs(const Replay& replay) {
 
 }  // namespace
 
-std::vector<RecordedRadar> record_drive(const Configuration& configuration,
-                                        const std::vector<std::string>& logs) {
+void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
+                OdometrySink& sink) {
   require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
@@ -82,12 +82,17 @@ std::vector<RecordedRadar> record_drive(const Configuration& configuration,
     sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
   }
   Replay replay(std::move(sources), 0.0, &stop);
-  RecordingSink sink(configuration);
   Pipeline pipeline(configuration, replay, {&sink}, {&no_clock});
   while (pipeline.take_next(replay)) {
   }
   pipeline.finish();
   check_logs(replay);
+}
+
+std::vector<RecordedRadar> record_drive(const Configuration& configuration,
+                                        const std::vector<std::string>& logs) {
+  RecordingSink sink(configuration);
+  play_drive(configuration, logs, sink);
   std::vector<RecordedRadar> radars = sink.take();
   if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(

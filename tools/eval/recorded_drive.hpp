@@ -9,6 +9,7 @@
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/output/odometry_sink.hpp"
 
 namespace cremed {
 
@@ -27,6 +28,11 @@ struct RecordedRadar {
   std::vector<RecordedScan> scans;  ///< Complete ones.
   std::vector<EgoMotion> motions;   ///< Estimates only.
 };
+
+/// Runs recorded drives through the pipeline with `sink`. Throws std::runtime_error if a log cannot
+/// be read.
+void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
+                OdometrySink& sink);
 
 /// Runs recorded drives through the pipeline: one RecordedRadar per radar of the configuration.
 /// Throws std::runtime_error if a log cannot be read or no radar sent a scan.

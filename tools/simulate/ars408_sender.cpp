@@ -23,6 +23,17 @@ constexpr RadarCharacter kCharacter{
     .doppler_resolution_mps = 0.12,
     .mean_ghosts = 4};
 
+/// Of an ARS404 only the range is known (kArs404MaxRangeM); the rest is that of an ARS408.
+RadarCharacter character(Ars408Model model) {
+  RadarCharacter character = kCharacter;
+  if (model == Ars408Model::ars404_21) {
+    for (BeamZone& zone : character.zones) {
+      zone.range_m = std::min(zone.range_m, kArs404MaxRangeM);
+    }
+  }
+  return character;
+}
+
 constexpr ScanCycle kCycle{72'000, 75'000};
 constexpr std::uint32_t kCounterStep = 2;
 constexpr std::uint8_t kInterfaceVersion = 1;
@@ -80,7 +91,7 @@ double speed_noise_std(std::uint8_t code) {
 
 Ars408Sender::Ars408Sender(const Ars408Options& options, const Scene& scene,
                            const SenderSetup& setup)
-    : RadarSender(kCharacter, kCycle,
+    : RadarSender(character(options.model), kCycle,
                   options.output == Ars408Output::objects
                       ? encode_ars408(options.sensor_id, Ars408ObjectStatus{})
                       : encode_ars408(options.sensor_id, Ars408ClusterStatus{}),

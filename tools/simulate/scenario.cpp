@@ -210,6 +210,31 @@ CoursePlan slow_start_course() {
            {7.0, 0.0, 0.0}}};
 }
 
+/// Walking speed on footpaths, with turns that are too tight for a car.
+CoursePlan campus_course() {
+  return {0.0,
+          0.0,
+          {{2.0, 0.0, 0.0},
+           {2.0, 1.1, 0.0},
+           {12.0, 1.1, 0.0},
+           {1.5, 0.7, 0.9},
+           {1.5, 0.8, 0.9},
+           {1.5, 1.1, 0.0},
+           {8.0, 1.2, 0.1},
+           {6.0, 1.0, -0.15},
+           {1.5, 0.6, -1.2},
+           {2.0, 0.6, -1.2},
+           {1.5, 1.0, 0.0},
+           {9.0, 1.2, 0.0},
+           {2.0, 0.0, 0.0},
+           {3.0, 0.0, 0.0},
+           {2.0, 0.9, 0.0},
+           {1.5, 0.6, 1.3},
+           {3.0, 0.6, 1.3},
+           {1.5, 1.0, -0.1},
+           {8.0, 1.1, 0.05}}};
+}
+
 Scenario drive(std::string_view name, std::string_view description, double duration_s,
                CoursePlan course, const WorldOptions& world = {},
                const TrafficOptions& traffic = {}, const FaultOptions& faults = {}) {
@@ -220,6 +245,7 @@ std::vector<Scenario> all_scenarios() {
   const WorldOptions sparse{.built_share = 0.3, .clutter_per_m = 0.1};
   const WorldOptions desert{.built_share = 0.03, .clutter_per_m = 0.01};
   const WorldOptions field{.built_share = 0.0, .clutter_per_m = 0.5};
+  const WorldOptions campus{.built_share = 0.0, .clutter_per_m = 0.0, .clutter_per_m2 = 0.008};
   const WorldOptions tunnel{.clutter_per_m = 0.0, .roadside = Roadside::tunnel};
   const WorldOptions garage{.clutter_per_m = 0.1, .roadside = Roadside::garage};
   const TrafficOptions crowd{
@@ -273,6 +299,8 @@ std::vector<Scenario> all_scenarios() {
             no_traffic),
       drive("slow-start", "creeps below 1.2 m/s for 12 s, then pulls away", 30.0,
             slow_start_course()),
+      drive("campus", "a mobile robot at about 1 m/s, tight turns, few targets", 120.0,
+            campus_course(), campus, no_traffic),
   };
 }
 

@@ -56,7 +56,7 @@ std::size_t ars408_targets(const std::vector<RadarConfiguration>& radars,
 Ars408RadarState radar_state(const Ars408Options& options, bool is_told_motion) {
   Ars408RadarState state;
   state.nvm_read = true;
-  state.max_distance_m = 200.0;
+  state.max_distance_m = options.model == Ars408Model::ars404_21 ? kArs404MaxRangeM : 200.0;
   state.sort_code = 1;
   state.sensor_id = options.sensor_id;
   state.sends_quality = true;

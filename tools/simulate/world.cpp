@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/world.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -83,9 +84,32 @@ class Builder {
     }
   }
 
+  void fill_area() {
+    const auto [least_x, most_x] = range_of(&Pose2::x_m);
+    const auto [least_y, most_y] = range_of(&Pose2::y_m);
+    const double area_m2 = (most_x - least_x) * (most_y - least_y);
+    const auto count = static_cast<std::size_t>(area_m2 * options_.clutter_per_m2);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x_m = random_.uniform(least_x, most_x);
+      const double y_m = random_.uniform(least_y, most_y);
+      const double rcs_dbm2 = random_.uniform(-8.0, 6.0);
+      place({x_m, y_m, 0.0}, rcs_dbm2, random_.uniform(0.3, 0.8));
+    }
+  }
+
   std::vector<Reflector> take() { return std::move(reflectors_); }
 
  private:
+  /// Range of a coordinate of the road, extended by kClutterReachM.
+  [[nodiscard]] std::pair<double, double> range_of(double Pose2::*coordinate) const {
+    std::pair<double, double> range{INFINITY, -INFINITY};
+    for (double along_m = 0.0; along_m <= road_.length_m(); along_m += kRoadSpacingM) {
+      const double value = road_.at(along_m).pose.*coordinate;
+      range = {std::min(range.first, value), std::max(range.second, value)};
+    }
+    return {range.first - kClutterReachM, range.second + kClutterReachM};
+  }
+
   /// Distance of the edge of the free space from the path of the rear axle.
   [[nodiscard]] double edge_m(double side) const {
     const bool has_left_lanes = side > 0.0 && options_.roadside != Roadside::garage;
@@ -152,6 +176,7 @@ World::World(const Road& road, const WorldOptions& options, Random random) : gri
   Builder builder(road, options, random);
   for (const double side : {1.0, -1.0}) builder.build_side(side);
   builder.scatter_clutter();
+  builder.fill_area();
   reflectors_ = builder.take();
   for (std::size_t i = 0; i < reflectors_.size(); ++i) {
     grid_.insert(reflectors_[i].x_m, reflectors_[i].y_m, i);

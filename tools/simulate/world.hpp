@@ -29,6 +29,9 @@ struct WorldOptions {
   double built_share = 0.8;    ///< Share of a street's sides with structures.
   double clutter_per_m = 1.2;  ///< Single reflectors per metre of the road.
   Roadside roadside = Roadside::street;
+  /// Single reflectors per square metre of the box around the road, for roads that wind in a small
+  /// area.
+  double clutter_per_m2 = 0.0;
 };
 
 /// All static objects: walls, guard rails, parked cars and trees along the road, and clutter around

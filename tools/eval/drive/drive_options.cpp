@@ -52,13 +52,18 @@ void add_references(CLI::App& command, DriveFiles& files) {
           "Standard deviations of the wheels' speed and yaw rate, constant over an interval "
           "(0,0)")
       ->type_name("MPS,RADPS");
-  command
+}
+
+}  // namespace
+
+CLI::Option* add_truth_std(CLI::App& command, TruthNoise& noise) {
+  return command
       .add_option_function<std::vector<std::string>>(
           "--truth-std",
           [&](const std::vector<std::string>& texts) {
             std::vector<RelativePoseStd> stds;
             std::transform(texts.begin(), texts.end(), std::back_inserter(stds), relative_pose_std);
-            files.truth_noise = TruthNoise(stds);
+            noise = TruthNoise(stds);
           },
           "Standard deviations of the relative pose of two of truth's stamps (x and y each, yaw), "
           "added to the covariances (0,0). If they depend on the time between the stamps, give "
@@ -67,8 +72,6 @@ void add_references(CLI::App& command, DriveFiles& files) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
-
-}  // namespace
 
 void add_drive(CLI::App& app, DriveFiles& files) {
   CLI::App* command = app.add_subcommand("drive", "Compare the odometry of a drive with truth");
@@ -79,6 +82,7 @@ void add_drive(CLI::App& app, DriveFiles& files) {
       ->required();
   command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
   add_references(*command, files);
+  add_truth_std(*command, files.truth_noise);
   auto* logs = command->add_option("--baselines", files.baselines,
                                    "candump log of the drive, for other methods: Kellner's "
                                    "velocity by Doppler and a submap of scans matched by NDT "

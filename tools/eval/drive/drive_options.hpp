@@ -9,6 +9,9 @@
 namespace cremed {
 
 /// The command line of cremed-eval drive.
+/// --truth-std, for commands that compare with truth.
+CLI::Option* add_truth_std(CLI::App& command, TruthNoise& noise);
+
 void add_drive(CLI::App& app, DriveFiles& files);
 
 }  // namespace cremed

@@ -22,6 +22,11 @@ std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
     options.start_scale = 1.0;
     return options;
   }
+  if (name == "robot") {
+    options.outlier_ray.weight = 0.2;
+    options.start_scale = 2.0;
+    return options;
+  }
   if (name == "sim") {
     options.outlier_ray.weight = 0.2;
     options.start_scale = 6.0;

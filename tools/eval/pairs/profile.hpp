@@ -9,8 +9,8 @@
 
 namespace cremed {
 
-/// The paper's settings for a family of problems: "psr", "sim" or "nuscenes"; nothing for another
-/// name.
+/// The paper's settings for a family of problems: "psr", "sim", "nuscenes" or "robot"; nothing for
+/// another name.
 std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
                                            Likelihood likelihood = Likelihood::exclusive);
 

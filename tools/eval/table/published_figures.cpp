@@ -16,7 +16,7 @@ struct PublishedRow {
   Figures figures;
 };
 
-constexpr std::array<PublishedRow, 10> kPublished{{
+constexpr std::array<PublishedRow, 16> kPublished{{
     {"PSR", "MSM", {0.121, 0.99, 1.07}},
     {"PSR", "SA", {0.266, 10.6, kUnknown}},
     {"PSR", "ICP", {0.200, 1.30, 1.31}},
@@ -27,6 +27,12 @@ constexpr std::array<PublishedRow, 10> kPublished{{
     {"Sim", "SA", {0.266, 8.6, kUnknown}},
     {"Sim-C", "MSM", {0.044, 0.29, 1.26}},
     {"Sim-C", "MSM-D", {0.012, 0.28, 1.09}},
+    {"NuSc", "MSM", {0.163, 0.154, 1.61}},
+    {"NuSc", "MSM-D", {0.0116, 0.105, 3.36}},
+    {"NuSc-850", "MSM", {0.168, 0.152, 1.63}},
+    {"NuSc-850", "MSM-D", {0.0122, 0.096, 4.49}},
+    {"Robot", "MSM", {0.107, 1.12, 2.53}},
+    {"Robot", "MSM-D", {0.0110, 1.11, 1.68}},
 }};
 
 }  // namespace

@@ -15,7 +15,8 @@ struct Figures {
 };
 
 /// The paper's figures (Haggag, Lange, Pfeifer, Protzel, RA-L 2022) for a problem ("PSR", "PSR-C",
-/// "Sim", "Sim-C") and a method ("MSM", "MSM-D", "SA", "SA-D", "ICP").
+/// "Sim", "Sim-C", "NuSc": ten scenes of nuScenes mini, "NuSc-850": trainval, "Robot") and a method
+/// ("MSM", "MSM-D", "SA", "SA-D", "ICP").
 Figures published_figures(std::string_view problem, std::string_view method);
 
 }  // namespace cremed

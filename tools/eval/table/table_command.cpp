@@ -32,4 +32,13 @@ void run_table(const PaperTableOptions& options, const std::string& picture, boo
   draw_plot("plot_table", {table, nees, costs}, picture);
 }
 
+void run_real_table(const RealTableOptions& options, bool as_json) {
+  const RealTable table = real_table(options);
+  if (as_json) {
+    std::printf("%s\n", real_table_json(table).c_str());
+  } else {
+    print_real_table(stdout, table);
+  }
+}
+
 }  // namespace cremed

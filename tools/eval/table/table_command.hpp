@@ -5,11 +5,15 @@
 #include <string>
 
 #include "tools/eval/table/paper_table.hpp"
+#include "tools/eval/table/real_table.hpp"
 
 namespace cremed {
 
 /// cremed-eval table: prints the paper's table as text or JSON, and draws it into `picture` unless
 /// that is empty. Throws std::runtime_error.
 void run_table(const PaperTableOptions& options, const std::string& picture, bool as_json);
+
+/// cremed-eval table --real: the same for drives.
+void run_real_table(const RealTableOptions& options, bool as_json);
 
 }  // namespace cremed

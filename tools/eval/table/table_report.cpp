@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "cremed/estimator/scan/degrees.hpp"
 #include "tools/eval/report_file.hpp"
 
 namespace cremed {
@@ -69,7 +70,55 @@ void print_row(std::FILE* stream, const TableRow& row) {
                figures(row.bound, 7, 5, 6, 3).c_str());
 }
 
+constexpr const char* kRealNotes =
+    "# Front radar, from scan to scan. MSM(paper), MSM-D(paper): estimator and selection of "
+    "targets\n"
+    "# as in the paper, without and with Doppler; cremed: as configured. ANEES is over x and yaw;\n"
+    "# 95 % of consistent estimators have it between low and high. Robot: SIMULATED, three drives\n"
+    "# (cremed-simulate --scenario campus, Bosch GPR); the paper's recording is not public.\n";
+
+void print_row(std::FILE* stream, const RealRow& row) {
+  const std::string ours = cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) +
+                           cell(row.ours.anees, 8, 3) + cell(row.consistent.low, 8, 3) +
+                           cell(row.consistent.high, 8, 3);
+  std::fprintf(stream, "%-9s %-12s %7zu%s %8zu |%s |%s\n", row.problem.data(), row.method.data(),
+               row.count, ours.c_str(), row.left_out, figures(row.paper, 6, 4, 6, 3).c_str(),
+               figures(row.paper_850, 6, 4, 6, 3).c_str());
+}
+
+void print_row(std::FILE* stream, const RealTable::Odometry& row) {
+  const SegmentErrors& errors = row.errors;
+  std::fprintf(stream, "%-9s %-12s %8zu%s%s%s%s\n", row.problem.data(),
+               ("after " + to_text(errors.length)).c_str(), errors.segments,
+               cell(std::hypot(errors.rmse.x(), errors.rmse.y()), 8, 4).c_str(),
+               cell(errors.rmse.z() * kDegPerRad, 8, 3).c_str(), cell(errors.anees, 8, 3).c_str(),
+               cell(errors.position_percent, 8, 2).c_str());
+}
+
 }  // namespace
+
+void print_real_table(std::FILE* stream, const RealTable& table) {
+  std::fputs(kRealNotes, stream);
+  if (!table.note.empty()) {
+    std::fprintf(stream, "# NuSc: %s.\n", table.note.c_str());
+  }
+  std::fprintf(stream,
+               "# %-20s %-50s %8s | paper (NuSc: mini) | paper (NuSc: trainval)\n"
+               "# problem method      pairs   rmse_m rmse_deg    anees      low     high left_out |"
+               "     m    deg  anees |     m    deg  anees\n",
+               "", (std::to_string(table.drives) + " drives in the folder").c_str(), "");
+  for (const RealRow& row : table.rows) {
+    print_row(stream, row);
+  }
+  std::fprintf(
+      stream,
+      "# Odometry of all radars, chained from anchor to anchor: error of the pose after that "
+      "time.\n"
+      "# problem time        segments   rmse_m rmse_deg    anees  percent_of_way\n");
+  for (const RealTable::Odometry& row : table.odometry) {
+    print_row(stream, row);
+  }
+}
 
 void print_table(std::FILE* stream, const std::vector<TableRow>& rows) {
   std::fputs(kNotes, stream);

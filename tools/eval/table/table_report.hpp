@@ -7,11 +7,15 @@
 #include <vector>
 
 #include "tools/eval/table/paper_table.hpp"
+#include "tools/eval/table/real_table.hpp"
 
 namespace cremed {
 
 /// Prints the rows as aligned columns, "-" if unknown; header lines begin with #.
 void print_table(std::FILE* stream, const std::vector<TableRow>& rows);
+
+/// The same for drives.
+void print_real_table(std::FILE* stream, const RealTable& table);
 
 /// The rows as CSV, and their NEES histograms as `problem,method,dof,low,count`; an empty cell is
 /// unknown. Throws std::runtime_error.

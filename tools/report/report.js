@@ -68,7 +68,7 @@ function drawMap(plane) {
   plane.ellipse(pose, [path.cov_xx[i], path.cov_xy[i], path.cov_yy[i]], HUES[0]);
   plane.vehicle(pose, DARK);
   byId("pose").textContent = `x ${fixed(pose.x, 2, " m")}, y ${fixed(pose.y, 2, " m")}, yaw ` +
-    `${fixed(pose.yaw * 180 / Math.PI, 1, "°")}; sigma ${fixed(Math.sqrt(path.cov_xx[i]), 3)} and ` +
+    `${fixed(degrees(pose.yaw), 1, "°")}; sigma ${fixed(Math.sqrt(path.cov_xx[i]), 3)} and ` +
     `${fixed(Math.sqrt(path.cov_yy[i]), 3, " m")}; ${fixed(path.vx[i], 2, " m/s")}`;
 }
 
@@ -99,14 +99,21 @@ function showPlanes() {
     {text: "odometry", color: DARK, mark: "━"}, {text: "where it is with 95 %", color: HUES[0], mark: "◯"},
     ...(truth ? [{text: "truth, laid on at the start", color: TRUTH, mark: "━"}] : [])]);
   map.fit(boxOf(truth ? [path, truth.path] : [path]));
-  const far = data.scans.slice(0, 200).flatMap((scan) => [...targetsOf(scan)])
+  const every = Math.ceil(data.scans.length / 200);
+  const far = data.scans.filter((_, i) => i % every === 0).flatMap((scan) => [...targetsOf(scan)])
     .filter(({role}) => role === "used").map(({x, y}) => Math.max(Math.abs(x), Math.abs(y)))
     .sort((a, b) => a - b);
-  const reach = Math.max(20, far[Math.floor(0.95 * far.length)] ?? 20);
+  const reach = Math.max(20, far[Math.floor(0.9 * far.length)] ?? 20);
   around.fit([-reach, -reach, reach, reach]);
-  byId("scans-note").textContent = data.scans.length
-    ? "Outlier: its Doppler is more than 3 sigma off that of a standing target at the odometry's velocity."
+  byId("scans-note").textContent = data.scans.length ? OUTLIER_MEANS + keptScans()
     : "This log has no scans: they are published with output.publish_scans = true.";
+}
+
+/** Of a long drive not every scan is in the file. */
+function keptScans() {
+  const kept = Math.max(...Object.values(scansOf).map(({times}) => times.length));
+  const period = figures.duration_s / kept;
+  return period > 0.5 ? ` Of so long a drive one scan of each radar is kept every ${fixed(period, 1)} s.` : "";
 }
 
 function setTime(time) {

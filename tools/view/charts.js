@@ -17,6 +17,14 @@ const STATUS_COLORS = {
 const NINETY_FIVE_PERCENT = 5.991;  // Of chi-square with two degrees of freedom.
 const USABLE = 0, FLAGGED_MOVING = 3;  // radar_scan_t.DETECTION_*
 
+const OUTLIER_MEANS =
+  "Outlier: its Doppler is more than 3 sigma off that of a standing target at the odometry's velocity.";
+
+/** From -180 to 180. */
+function degrees(radians) {
+  return Math.atan2(Math.sin(radians), Math.cos(radians)) * 180 / Math.PI;
+}
+
 function hues(radars) {
   return Object.fromEntries(radars.map((radar, i) => [radar, HUES[i % HUES.length]]));
 }

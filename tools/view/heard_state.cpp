@@ -95,6 +95,29 @@ Json twist_json(const std::optional<odometry_t>& m) {
            : Json();
 }
 
+Json scan_json(const radar_scan_t& m, const std::optional<odometry_t>& odometry) {
+  return {{"source", m.source},
+          {"utime", m.utime},
+          {"mount",
+           {m.mount_x_in_vehicle_frame_m, m.mount_y_in_vehicle_frame_m,
+            m.mount_yaw_in_vehicle_frame_rad}},
+          {"twist", twist_json(odometry)},
+          {"targets", targets_json(m)}};
+}
+
+Json radar_json(const std::string& name, const std::optional<ego_motion_t>& motion,
+                const std::optional<status_t>& status) {
+  Json json{{"name", name}, {"motion", Json()}, {"targets", 0}, {"status", Json()}};
+  if (motion) {
+    json["motion"] = status_name<MotionStatus>(motion->status, kMotionStatusCount);
+    json["targets"] = motion->num_targets;
+  }
+  if (status) {
+    json["status"] = status_json(*status);
+  }
+  return json;
+}
+
 }  // namespace
 
 void HeardState::take(const odometry_t& message) {
@@ -166,16 +189,12 @@ void HeardState::take(const radar_scan_t& message) {
   }
 }
 
-std::string HeardState::json() const {
-  const std::scoped_lock lock(mutex_);
-  Json json{{"messages", messages_},
-            {"pose", odometry_ ? pose_json(*odometry_) : Json()},
-            {"path", path_json(path_.points())}};
-  Json& rates = json["rates"] = {{"t", Json::array()},
-                                 {"vx", Json::array()},
-                                 {"vx_sigma", Json::array()},
-                                 {"yaw_rate", Json::array()},
-                                 {"yaw_rate_sigma", Json::array()}};
+nlohmann::json HeardState::motions_json() const {
+  Json rates{{"t", Json::array()},
+             {"vx", Json::array()},
+             {"vx_sigma", Json::array()},
+             {"yaw_rate", Json::array()},
+             {"yaw_rate_sigma", Json::array()}};
   for (const Motion& motion : motions_) {
     rates["t"].push_back(seconds(motion.utime_us - odometry_->utime));
     rates["vx"].push_back(motion.vx_mps);
@@ -183,30 +202,31 @@ std::string HeardState::json() const {
     rates["yaw_rate"].push_back(kDegPerRad * motion.yaw_rate_radps);
     rates["yaw_rate_sigma"].push_back(kDegPerRad * motion.yaw_rate_std_radps);
   }
-  json["radars"] = Json::array();
-  json["scans"] = Json::array();
+  return rates;
+}
+
+nlohmann::json HeardState::scans_json() const {
+  Json scans = Json::array();
   for (const Radar& radar : radars_) {
-    Json entry{{"name", radar.name}, {"motion", Json()}, {"targets", 0}, {"status", Json()}};
-    if (radar.motion) {
-      entry["motion"] = status_name<MotionStatus>(radar.motion->status, kMotionStatusCount);
-      entry["targets"] = radar.motion->num_targets;
-    }
-    if (radar.status) {
-      entry["status"] = status_json(*radar.status);
-    }
-    json["radars"].push_back(std::move(entry));
     if (radar.scan && odometry_ && radar.scan->utime > odometry_->utime - kOldScanUs) {
-      const radar_scan_t& scan = *radar.scan;
-      json["scans"].push_back(
-          {{"source", radar.name},
-           {"utime", scan.utime},
-           {"mount",
-            {scan.mount_x_in_vehicle_frame_m, scan.mount_y_in_vehicle_frame_m,
-             scan.mount_yaw_in_vehicle_frame_rad}},
-           {"twist", twist_json(radar.odometry_at_scan)},
-           {"targets", targets_json(scan)}});
+      scans.push_back(scan_json(*radar.scan, radar.odometry_at_scan));
     }
   }
+  return scans;
+}
+
+std::string HeardState::json() const {
+  const std::scoped_lock lock(mutex_);
+  Json radars = Json::array();
+  for (const Radar& radar : radars_) {
+    radars.push_back(radar_json(radar.name, radar.motion, radar.status));
+  }
+  const Json json{{"messages", messages_},
+                  {"pose", odometry_ ? pose_json(*odometry_) : Json()},
+                  {"path", path_json(path_.points())},
+                  {"rates", motions_json()},
+                  {"radars", std::move(radars)},
+                  {"scans", scans_json()}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

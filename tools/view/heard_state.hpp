@@ -13,6 +13,7 @@
 #include <cremed/odometry_t.hpp>
 #include <cremed/radar_scan_t.hpp>
 #include <cremed/status_t.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "tools/view/thinned_path.hpp"
 
@@ -49,6 +50,8 @@ class HeardState {
   Radar* radar(const std::string& name);
   void begin_anew();
   void keep_motion(const odometry_t& message);
+  [[nodiscard]] nlohmann::json motions_json() const;
+  [[nodiscard]] nlohmann::json scans_json() const;
 
   mutable std::mutex mutex_;
   std::int64_t messages_ = 0;

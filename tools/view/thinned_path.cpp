@@ -7,9 +7,8 @@
 namespace cremed {
 
 void ThinnedPath::add(const PathPoint& point) {
-  const bool is_far =
-      points_.empty() || std::hypot(point.x_m - points_.back().x_m,
-                                    point.y_m - points_.back().y_m) >= spacing_m_;
+  const bool is_far = points_.empty() || std::hypot(point.x_m - points_.back().x_m,
+                                                    point.y_m - points_.back().y_m) >= spacing_m_;
   if (!is_far) {
     return;
   }

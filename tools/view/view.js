@@ -45,7 +45,7 @@ function showPose({pose, rates: {vx, yaw_rate: yawRate}}) {
   fillTiles([
     ["speed", fixed(last(vx), 2, " m/s")], ["yaw rate", fixed(last(yawRate), 1, " °/s")],
     ["x", fixed(pose.x, 1, " m")], ["y", fixed(pose.y, 1, " m")],
-    ["yaw", fixed(pose.yaw * 180 / Math.PI, 1, "°")],
+    ["yaw", fixed(degrees(pose.yaw), 1, "°")],
     ["sigma of x and y",
      `${fixed(sigma(pose.covariance[0]), 2)}, ${fixed(sigma(pose.covariance[2]), 2, " m")}`]]);
 }
@@ -95,8 +95,7 @@ function showRadars(radars) {
 }
 
 function show() {
-  byId("scans-note").textContent = state.scans.length
-    ? "Outlier: its Doppler is more than 3 sigma off that of a standing target at the odometry's velocity."
+  byId("scans-note").textContent = state.scans.length ? OUTLIER_MEANS
     : "No scans: run cremed with --publish-scans, or output.publish_scans = true.";
   showRadars(state.radars);
   around.redraw();

@@ -59,8 +59,7 @@ int show(const Arguments& arguments) {
   std::printf("http://%s:%d/ shows what is heard at %s\n", arguments.address.host.c_str(),
               server.port(), arguments.lcm_url.c_str());
   std::fflush(stdout);
-  const std::jthread listener(
-      [&](const std::stop_token& stop) { listen(stop, ear, server); });
+  const std::jthread listener([&](const std::stop_token& stop) { listen(stop, ear, server); });
   server.run();
   return cremed::stop_requested() ? 0 : kRunTimeFailure;
 }

@@ -21,7 +21,8 @@ constexpr int kNotFound = 404;
 constexpr int kMethodNotAllowed = 405;
 /// Nothing comes from elsewhere, and nobody frames the page.
 constexpr const char* kPolicy =
-    "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; frame-ancestors 'none'";
+    "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
+    "frame-ancestors 'none'";
 
 /// As installed, and in a build.
 std::filesystem::path shared_folder() {
@@ -80,45 +81,55 @@ bool is_own_host(const std::string& header, const std::string& host) {
 
 ViewServer::ViewServer(const HeardState& state, const ViewAddress& address)
     : server_(std::make_unique<httplib::Server>()) {
-  server_->set_socket_options(set_socket_options);
+  refuse_what_is_not_ours(address.host);
+  serve_page();
+  server_->Get(pattern_of("/state.json"), [&state](const auto&, auto& response) {
+    response.set_content(state.json(), "application/json");
+  });
+  bind(address);
+}
+
+void ViewServer::refuse_what_is_not_ours(const std::string& own_host) {
   server_->set_keep_alive_max_count(kMostRequests);
   server_->set_payload_max_length(0);
   server_->set_default_headers({{"Content-Security-Policy", kPolicy},
                                 {"X-Content-Type-Options", "nosniff"},
                                 {"Cache-Control", "no-store"}});
-  server_->set_pre_routing_handler([host = address.host](const auto& request, auto& response) {
+  server_->set_pre_routing_handler([own_host](const auto& request, auto& response) {
     if (request.method != "GET") {
       response.set_header("Allow", "GET");
       refuse(response, kMethodNotAllowed, "only GET: nothing can be changed here");
-    } else if (!is_own_host(request.get_header_value("Host"), host)) {
+    } else if (!is_own_host(request.get_header_value("Host"), own_host)) {
       refuse(response, kForbidden, "Host must be this computer's address or localhost");
     } else {
       return httplib::Server::HandlerResponse::Unhandled;
     }
     return httplib::Server::HandlerResponse::Handled;
   });
-  const std::filesystem::path folder = shared_folder();
-  const std::filesystem::path dygraphs = "/usr/share/javascript/dygraphs";
-  serve("/", "text/html", content_of(folder / "view.html", "cremed-tools"));
-  serve("/view.js", "text/javascript", content_of(folder / "view.js", "cremed-tools"));
-  serve("/charts.js", "text/javascript", content_of(folder / "charts.js", "cremed-tools"));
-  serve("/style.css", "text/css", content_of(folder / "style.css", "cremed-tools"));
-  for (const char* name : {"dygraph.min.js", "dygraph.min.css"}) {
-    serve(std::string("/") + name, std::string(name).ends_with("js") ? "text/javascript" : "text/css",
-          content_of(dygraphs / name, "libjs-dygraphs"));
-  }
-  server_->Get(pattern_of("/state.json"), [&state](const auto&, auto& response) {
-    response.set_content(state.json(), "application/json");
-  });
   server_->set_error_handler([](const auto&, auto& response) {
     if (response.status == kNotFound) {
       refuse(response, kNotFound, "there is no such page");
     }
   });
-  port_ = address.port == 0                                          ? server_->bind_to_any_port(address.host)
-          : server_->bind_to_port(address.host, address.port) ? address.port
-                                                              : -1;
-  if (port_ < 0) {
+}
+
+void ViewServer::serve_page() {
+  constexpr const char* kScript = "text/javascript";
+  const std::filesystem::path ours = shared_folder();
+  const std::filesystem::path dygraphs = "/usr/share/javascript/dygraphs";
+  serve("/", "text/html", content_of(ours / "view.html", "cremed-tools"));
+  serve("/view.js", kScript, content_of(ours / "view.js", "cremed-tools"));
+  serve("/charts.js", kScript, content_of(ours / "charts.js", "cremed-tools"));
+  serve("/style.css", "text/css", content_of(ours / "style.css", "cremed-tools"));
+  serve("/dygraph.min.js", kScript, content_of(dygraphs / "dygraph.min.js", "libjs-dygraphs"));
+  serve("/dygraph.min.css", "text/css", content_of(dygraphs / "dygraph.min.css", "libjs-dygraphs"));
+}
+
+void ViewServer::bind(const ViewAddress& address) {
+  server_->set_socket_options(set_socket_options);
+  const bool is_any = address.port == 0;
+  port_ = is_any ? server_->bind_to_any_port(address.host) : address.port;
+  if (port_ < 0 || (!is_any && !server_->bind_to_port(address.host, port_))) {
     throw std::runtime_error("cannot listen on " + address.host + " port " +
                              std::to_string(address.port) +
                              ": is another cremed-view running? --port says another");

@@ -32,6 +32,9 @@ class ViewServer {
   void stop();
 
  private:
+  void refuse_what_is_not_ours(const std::string& own_host);
+  void serve_page();
+  void bind(const ViewAddress& address);
   void serve(const std::string& path, const std::string& type, std::string content);
 
   std::unique_ptr<httplib::Server> server_;

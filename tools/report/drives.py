@@ -127,6 +127,9 @@ def make_pages(drives, programs, share, jobs, version):
             made.append(result.result())
         else:
             print(f"cremed-report: {result.result()}", file=sys.stderr)
+    if len(made) < len(drives) > 1:
+        print(f"cremed-report: {len(drives) - len(made)} of {len(drives)} drives have no report",
+              file=sys.stderr)
     if len(drives) > 1 and drives[0].page:
         with replaced_file(os.path.join(os.path.dirname(drives[0].page), "index.html")) as file:
             file.write(index(made).encode())

@@ -140,7 +140,7 @@ ViewServer::~ViewServer() = default;
 
 void ViewServer::serve(const std::string& path, const std::string& type, std::string content) {
   server_->Get(pattern_of(path), [type, content = std::move(content)](const auto&, auto& response) {
-    response.set_content(content, type.c_str());
+    response.set_content(content, type);
   });
 }
 

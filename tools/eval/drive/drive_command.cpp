@@ -19,7 +19,7 @@ namespace {
 std::vector<std::string> write_tables(const std::string& folder,
                                       const std::vector<SourceEvaluation>& sources,
                                       const TrueTrajectory& truth) {
-  const std::vector<std::string> paths = table_paths(folder);
+  std::vector<std::string> paths = table_paths(folder);
   write_sources_csv(paths[0], sources);
   write_truth_csv(paths[1], truth);
   write_path_csv(paths[2], sources, truth);

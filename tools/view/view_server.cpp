@@ -72,6 +72,16 @@ void refuse(httplib::Response& response, int status, const std::string& reason) 
   response.set_content(reason + "\n", "text/plain");
 }
 
+/// The library would compress other content, for longer than it takes to make this one.
+void send_as_it_is(std::string json, httplib::Response& response) {
+  const std::size_t size = json.size();
+  response.set_content_provider(
+      size, "application/json",
+      [json = std::move(json)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(json.data() + offset, length);
+      });
+}
+
 }  // namespace
 
 bool is_own_host(const std::string& header, const std::string& host) {
@@ -83,9 +93,8 @@ ViewServer::ViewServer(const HeardState& state, const ViewAddress& address)
     : server_(std::make_unique<httplib::Server>()) {
   refuse_what_is_not_ours(address.host);
   serve_page();
-  server_->Get(pattern_of("/state.json"), [&state](const auto&, auto& response) {
-    response.set_content(state.json(), "application/json");
-  });
+  server_->Get(pattern_of("/state.json"),
+               [&state](const auto&, auto& response) { send_as_it_is(state.json(), response); });
   bind(address);
 }
 

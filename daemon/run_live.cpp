@@ -75,8 +75,7 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
 }
 
 /// The new configuration of the file, or nothing if it is invalid.
-std::unique_ptr<Configuration> reload(const std::string& path,
-                                      const CommandLine& command_line) {
+std::unique_ptr<Configuration> reload(const std::string& path, const CommandLine& command_line) {
   try {
     return std::make_unique<Configuration>(load_configuration(path, command_line));
   } catch (const ConfigurationError& error) {

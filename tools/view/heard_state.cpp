@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cremed/estimator/fusion/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/configuration.hpp"

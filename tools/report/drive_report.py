@@ -53,12 +53,12 @@ class DriveReport:
 
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
-        way = sum(math.hypot(x1 - x0, y1 - y0) for x0, x1, y0, y1 in zip(
+        length = sum(math.hypot(x1 - x0, y1 - y0) for x0, x1, y0, y1 in zip(
             odometry["x"], odometry["x"][1:], odometry["y"], odometry["y"][1:]))
         return {"begin_utime": drive.begin_us,
                 "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
-                "way_m": round(way, 2),
-                "greatest_speed_mps": round(max(odometry["vx"], default=0), 3),
+                "path_length_m": round(length, 2),
+                "maximum_speed_mps": round(max(odometry["vx"], default=0), 3),
                 "odometry": self.odometry_figures(),
                 "sources": {source: {"motions": len(times),
                                      "statuses": counted(statuses, MOTION_STATUSES)}

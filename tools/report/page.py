@@ -36,7 +36,7 @@ def page(data, share):
 def index(drives):
     rows = "".join(
         f'<tr><td><a href="{html.escape(os.path.basename(drive.page))}">{html.escape(drive.logs[0])}</a>'
-        f'<td>{drive.figures["duration_s"]:.1f}<td>{drive.figures["way_m"]:.0f}'
+        f'<td>{drive.figures["duration_s"]:.1f}<td>{drive.figures["path_length_m"]:.0f}'
         f'<td>{html.escape(", ".join(in_doubt(drive.figures)) or "none")}' for drive in drives)
     return ('<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>cremed: drives</title>'
             '<style>body{font:15px sans-serif;margin:2em}td,th{padding:.2em 1em;text-align:left}</style>'

@@ -42,8 +42,8 @@ function showTiles() {
     element(made, "span", text);
   };
   tile("duration", fixed(figures.duration_s, 1, " s"));
-  tile("way", fixed(figures.way_m, 0, " m"));
-  tile("greatest speed", fixed(figures.greatest_speed_mps * 3.6, 1, " km/h"));
+  tile("path length", fixed(figures.path_length_m, 0, " m"));
+  tile("maximum speed", fixed(figures.maximum_speed_mps * 3.6, 1, " km/h"));
   if (figures.odometry) {
     tile("odometry ok or standing still",
          fixed(share(figures.odometry.statuses, ["ok", "standing_still"]), 1, " %"));
@@ -53,7 +53,7 @@ function showTiles() {
   tile("radars in doubt at some time", doubted.join(", ") || "none");
   const odometry = truth?.figures.find(({source}) => source === "odometry");
   const late = odometry?.segments.find(({after}) => after === "10 s");
-  if (late?.segments) tile("off truth after 10 s, of the way", fixed(late.position_percent, 2, " %"));
+  if (late?.segments) tile("position error after 10 s, of the path", fixed(late.position_percent, 2, " %"));
   if (odometry) tile("ANEES of the odometry", fixed(odometry.anees, 2));
 }
 
@@ -96,8 +96,8 @@ const around = new Plane(byId("scans"), drawScansNow,
 
 function showPlanes() {
   fillLegend(byId("map-legend"), [
-    {text: "odometry", color: DARK, mark: "━"}, {text: "where it is with 95 %", color: HUES[0], mark: "◯"},
-    ...(truth ? [{text: "truth, laid on at the start", color: TRUTH, mark: "━"}] : [])]);
+    {text: "odometry", color: DARK, mark: "━"}, {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"},
+    ...(truth ? [{text: "truth, aligned at the start", color: TRUTH, mark: "━"}] : [])]);
   map.fit(boxOf(truth ? [path, truth.path] : [path]));
   const every = Math.ceil(data.scans.length / 200);
   const far = data.scans.filter((_, i) => i % every === 0).flatMap((scan) => [...targetsOf(scan)])
@@ -106,14 +106,14 @@ function showPlanes() {
   const reach = Math.max(20, far[Math.floor(0.9 * far.length)] ?? 20);
   around.fit([-reach, -reach, reach, reach]);
   byId("scans-note").textContent = data.scans.length ? OUTLIER_MEANS + keptScans()
-    : "This log has no scans: they are published with output.publish_scans = true.";
+    : "The log has no scans: set output.publish_scans = true.";
 }
 
 /** Of a long drive not every scan is in the file. */
 function keptScans() {
   const kept = Math.max(...Object.values(scansOf).map(({times}) => times.length));
   const period = figures.duration_s / kept;
-  return period > 0.5 ? ` Of so long a drive one scan of each radar is kept every ${fixed(period, 1)} s.` : "";
+  return period > 0.5 ? ` For a drive of this length the file holds one scan of each radar per ${fixed(period, 1)} s.` : "";
 }
 
 function setTime(time) {
@@ -179,7 +179,7 @@ function showRadars() {
   addForRadars("innovations", "motion/the next", "innovation_next",
                {...log, marks: [3], xlabel: "time [s]"});
   addLearned("mount yaw error [°]", "mount_yaw_deg");
-  addLearned("Doppler too great [%]", "doppler_scale_percent");
+  addLearned("Doppler scale error [%]", "doppler_scale_percent");
   fillLegend(byId("radars-legend"), radars.map((text) => ({text, color: hueOf[text], mark: "━"})));
 }
 
@@ -266,7 +266,7 @@ function showTruthOf(source) {
                {xlabel: "time [s]"});
     showNees(errors, color);
   }
-  fillTable(byId("segments"), ["pose after", "segments", "off [% of the way]", "yaw [°]", "ANEES"],
+  fillTable(byId("segments"), ["pose after", "segments", "error [% of the path]", "yaw [°]", "ANEES"],
             segmentRows(source));
   charts.showTime(now);
 }
@@ -276,7 +276,7 @@ function showTruth() {
   truth.figures.sort((a, b) => place(a) - place(b));
   byId("truth").hidden = false;
   byId("truth-std").textContent = truth.truth_std.length
-    ? `Truth itself may be off by (M,RAD,SECONDS): ${truth.truth_std.join("; ")}; ANEES counts that.`
+    ? `Sigma of truth: ${truth.truth_std.join("; ")} (M,RAD,SECONDS), included in ANEES.`
     : "Truth is taken as exact.";
   showTruthTable();
   const names = truth.figures.map(({source}) => source), select = byId("truth-source");

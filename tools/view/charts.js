@@ -18,7 +18,7 @@ const NINETY_FIVE_PERCENT = 5.991;  // Of chi-square with two degrees of freedom
 const USABLE = 0, FLAGGED_MOVING = 3;  // radar_scan_t.DETECTION_*
 
 const OUTLIER_MEANS =
-  "Outlier: its Doppler is more than 3 sigma off that of a standing target at the odometry's velocity.";
+  "Outlier: its Doppler differs by more than 3 sigma from that of a stationary target, given the odometry.";
 
 /** From -180 to 180. */
 function degrees(radians) {
@@ -230,9 +230,9 @@ function boxOf(paths, least = 10) {
 }
 
 /** The targets of a scan {mount, targets, twist} in the vehicle frame. Of each five numbers: range in
-    cm, azimuth in 0.1 mrad, Doppler and its sigma in cm/s, validity. Moving is what the radar calls so,
-    outlier whose Doppler is more than 3 sigma off that of a standing target at the odometry's
-    velocity. */
+    cm, azimuth in 0.1 mrad, Doppler and its sigma in cm/s, validity. Moving: flagged by the radar.
+    Outlier: its Doppler differs by more than 3 sigma from that of a stationary target, given the
+    odometry's velocity. */
 function* targetsOf({mount: [mountX, mountY, mountYaw], targets, twist}) {
   for (let i = 0; i < targets.length; i += 5) {
     const range = targets[i] / 100, angle = targets[i + 1] / 1e4 + mountYaw;
@@ -241,8 +241,8 @@ function* targetsOf({mount: [mountX, mountY, mountYaw], targets, twist}) {
       targets[i + 4] === FLAGGED_MOVING ? "moving" : "left out";
     if (role === "used" && twist) {
       const [vx, vy, yawRate] = twist;
-      const standing = -((vx - yawRate * mountY) * cos + (vy + yawRate * mountX) * sin);
-      if (Math.abs(targets[i + 2] / 100 - standing) > 3 * targets[i + 3] / 100) role = "outlier";
+      const stationary = -((vx - yawRate * mountY) * cos + (vy + yawRate * mountX) * sin);
+      if (Math.abs(targets[i + 2] / 100 - stationary) > 3 * targets[i + 3] / 100) role = "outlier";
     }
     yield {x: mountX + range * cos, y: mountY + range * sin, role};
   }

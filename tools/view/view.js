@@ -83,9 +83,9 @@ const ROWS = [
   ["NIS: positions against Doppler", nis("innovation_doppler")],
   ["NIS: a motion against the next", nis("innovation_next")],
   ["learned: yaw of the mount", ({status}) => learned(status.mount_yaw_deg, status.mount_yaw_sigma_deg, "°")],
-  ["learned: Doppler too great by",
+  ["learned: Doppler scale error",
    ({status}) => learned(status.doppler_scale_percent, status.doppler_scale_sigma_percent, " %")],
-  ["latency, 50 % / 99 % / greatest [ms]", ({status}) => latency(status)],
+  ["latency, 50 % / 99 % / maximum [ms]", ({status}) => latency(status)],
 ];
 
 function showRadars(radars) {
@@ -108,7 +108,7 @@ function show() {
 
 function showAge() {
   const silent = Date.now() - heardAt;
-  byId("about").textContent = !state?.messages ? "no message of cremed heard yet"
+  byId("about").textContent = !state?.messages ? "no message from cremed yet"
     : silent < SILENT_MS ? `live, ${new Date(state.pose ? state.pose.utime / 1000 : heardAt).toISOString()}`
       : `silent for ${(silent / 1000).toFixed(0)} s`;
   byId("about").className = state?.messages && silent < SILENT_MS ? "muted" : "bad";
@@ -131,6 +131,6 @@ async function ask() {
 }
 
 fillLegend(byId("map-legend"), [{text: "odometry", color: DARK, mark: "━"},
-                                {text: "where it is with 95 %", color: HUES[0], mark: "◯"}]);
+                                {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"}]);
 around.fit([-80, -80, 80, 80]);
 ask();

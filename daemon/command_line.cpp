@@ -66,6 +66,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
   app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");
+  app.add_flag("--publish-scans", c.publish_scans,
+               "Publish each scan too, as output.publish_scans = true does");
   app.add_flag("--timing", c.timing,
                "Measure solve_us in a replay (output is then no longer byte-identical)");
   try {
@@ -77,6 +79,12 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
     return {std::nullopt, app.exit(error) == 0 ? 0 : kBadUsage};
   }
   return {c, 0};
+}
+
+Configuration load_configuration(const std::string& path, const CommandLine& command_line) {
+  Configuration configuration = load_configuration(path);
+  configuration.output.publish_scans |= command_line.publish_scans;
+  return configuration;
 }
 
 }  // namespace cremed

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "daemon/configuration/configuration.hpp"
+
 namespace cremed {
 
 /// The parsed command line.
@@ -20,6 +22,7 @@ struct CommandLine {
   std::optional<std::string> output_odometry;
   std::optional<std::string> output_tum;
   std::optional<std::string> lcm_url;
+  bool publish_scans = false;  ///< Whatever output.publish_scans says.
 };
 
 /// Result of parsing: a command line, or the exit status of the process (help, version and usage
@@ -30,5 +33,9 @@ struct CommandLineResult {
 };
 
 CommandLineResult parse_command_line(int argc, const char* const* argv);
+
+/// The configuration in a file, with scans published if the command line asks for them. Throws
+/// ConfigurationError.
+Configuration load_configuration(const std::string& path, const CommandLine& command_line);
 
 }  // namespace cremed

@@ -40,7 +40,7 @@ int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
     log.drop_when_full();
   }
   const std::string path = cremed::configuration_path(command_line.config);
-  const auto configuration = cremed::load_configuration(path);
+  const auto configuration = cremed::load_configuration(path, command_line);
   spdlog::set_level(spdlog::level::from_str(configuration.logging.level));
   spdlog::info("cremed {}", CREMED_VERSION);
   cremed::log_configuration(path, configuration);

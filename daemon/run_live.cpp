@@ -75,9 +75,9 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
 }
 
 /// The new configuration of the file, or nothing if it is invalid.
-std::unique_ptr<Configuration> reload(const std::string& path) {
+std::unique_ptr<Configuration> reload(const std::string& path, const CommandLine& command_line) {
   try {
-    return std::make_unique<Configuration>(load_configuration(path));
+    return std::make_unique<Configuration>(load_configuration(path, command_line));
   } catch (const ConfigurationError& error) {
     spdlog::error("{}\nthe configuration is kept as it was", error.what());
     return nullptr;
@@ -108,7 +108,7 @@ int run_live(const CommandLine& command_line, const std::string& path,
     }
     if (take_reload_request()) {
       notifier.reloading();
-      if (const auto changed = reload(path)) {
+      if (const auto changed = reload(path, command_line)) {
         session.reset();  // Two sessions must not use the same buses.
         session = begin(command_line, *changed, stop);
         spdlog::set_level(spdlog::level::from_str(changed->logging.level));

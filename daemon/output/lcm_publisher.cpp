@@ -29,6 +29,12 @@ void reserve(radar_scan_t& scan) {
   }
 }
 
+void fill_mount(const Pose2& vehicle_from_radar, radar_scan_t& scan) {
+  scan.mount_x_in_vehicle_frame_m = vehicle_from_radar.x_m;
+  scan.mount_y_in_vehicle_frame_m = vehicle_from_radar.y_m;
+  scan.mount_yaw_in_vehicle_frame_rad = vehicle_from_radar.yaw_rad;
+}
+
 void clear(radar_scan_t& scan) {
   scan.id.clear();
   scan.validity.clear();
@@ -167,6 +173,7 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     messages.motion_channel = channel_of(kMotionChannel, name);
     messages.scan_channel = channel_of("CREMED_SCAN", name);
     messages.status_channel = channel_of(kStatusChannel, name);
+    fill_mount(configuration.radars[i].ego_motion.vehicle_from_radar, messages.scan);
     reserve(messages.scan);
   }
 }

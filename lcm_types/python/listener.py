@@ -82,8 +82,8 @@ def _stamp_us(ancillary):
     raise OSError("a datagram has no stamp")
 
 
-def read_log(path):
-    """Iterates over cremed's messages of a log that lcm-logger, or cremed itself, has written."""
+def read_events(path):
+    """Iterates over all of such a log as (channel, received_us, payload), not decoded."""
     with open(path, "rb") as log:
         while len(header := log.read(28)) == 28:
             magic, _, received_us, channel_length, length = struct.unpack(">IqqII", header)
@@ -91,6 +91,11 @@ def read_log(path):
                 raise ValueError(f"{path}: is no LCM log, or damaged before byte {log.tell()}")
             channel, payload = log.read(channel_length), log.read(length)
             if len(payload) == length:
-                heard = decoded(channel.decode(errors="replace"), received_us, payload)
-                if heard is not None:
-                    yield heard
+                yield channel.decode(errors="replace"), received_us, payload
+
+
+def read_log(path):
+    """Iterates over cremed's messages of a log that lcm-logger, or cremed itself, has written."""
+    for event in read_events(path):
+        if (heard := decoded(*event)) is not None:
+            yield heard

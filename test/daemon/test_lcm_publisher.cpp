@@ -237,7 +237,9 @@ TEST_CASE("The statuses of the message are those of the estimator") {
 }
 
 TEST_CASE("A full scan and then an empty one go out on the radar's own channel") {
-  LcmPublisher publisher("memq://", two_radars());
+  Configuration configuration = two_radars();
+  configuration.radars[1].ego_motion.vehicle_from_radar = {-0.9, 0.4, 3.0};
+  LcmPublisher publisher("memq://", configuration);
   REQUIRE(publisher.connect().empty());
   RadarScan full;
   full.stamp_us = 7;
@@ -260,6 +262,9 @@ TEST_CASE("A full scan and then an empty one go out on the radar's own channel")
   CHECK(message.id[200] == 200);
   CHECK(message.validity[0] == radar_scan_t::DETECTION_MOVING);
   CHECK(message.counter == 65535);
+  CHECK(message.mount_x_in_vehicle_frame_m == -0.9);
+  CHECK(message.mount_y_in_vehicle_frame_m == 0.4);
+  CHECK(message.mount_yaw_in_vehicle_frame_rad == 3.0);
   CHECK(decode<radar_scan_t>(received[1]).num_detections == 0);
 }
 

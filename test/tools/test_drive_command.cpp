@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -206,6 +207,24 @@ TEST_CASE("cremed-eval drive draws one source and many, without an estimate too"
   CHECK((svg.find("error of x [m], 0.0 % outside 3 sigma") != std::string::npos) == has_estimates);
   CHECK((svg.find("ANEES 0.50 (95 % band") != std::string::npos) == has_estimates);
   CHECK((svg.find("drift 1.00 %, 0.0000 deg/m") != std::string::npos) == has_estimates);
+}
+
+TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front"});
+  REQUIRE(run(folder, drive + " --tables " + folder.file("")).status == 0);
+  CHECK(content(folder.file("sources.csv")).starts_with("source,dof,estimates,"));
+  CHECK(content(folder.file("errors.csv")).find("\nfront,") != std::string::npos);
+  CHECK(content(folder.file("true_path.csv")).starts_with("x_m,y_m\n0.0000,0.0000\n"));
+  for (const char* name : {"path.csv", "drift.csv"}) {
+    CHECK(std::filesystem::file_size(folder.file(name)) > 0);
+  }
+  CHECK(run(folder, drive + " --tables /no/such/folder").status == 1);
+  const ToolRun refused =
+      run(folder, "drive " + folder.file("path.csv") + " " + folder.file("truth.csv") +
+                      " --tables " + folder.file(""));
+  CHECK(refused.status == 2);
+  CHECK(refused.error.find("--tables") != std::string::npos);
 }
 
 TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM") {

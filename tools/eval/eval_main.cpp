@@ -188,11 +188,17 @@ void refuse_overwriting(const TableArguments& table, const PairsArguments& pairs
   for (const std::string& log : calibrate.logs) {
     inputs.push_back({"LOG", log});
   }
-  cremed::refuse_aliases(inputs, {{"--output", pairs.output},
-                                  {"--plot", pairs.plot},
-                                  {"--plot", table.plot},
-                                  {"--plot", drive.plot},
-                                  {"--truth-tum", drive.truth_tum}});
+  std::vector<cremed::NamedFile> outputs = {{"--output", pairs.output},
+                                            {"--plot", pairs.plot},
+                                            {"--plot", table.plot},
+                                            {"--plot", drive.plot},
+                                            {"--truth-tum", drive.truth_tum}};
+  if (!drive.tables.empty()) {
+    for (const std::string& table_path : cremed::table_paths(drive.tables)) {
+      outputs.push_back({"--tables", table_path});
+    }
+  }
+  cremed::refuse_aliases(inputs, outputs);
 }
 
 int run(CLI::App& app, int argc, char** argv) {

@@ -3,6 +3,7 @@
 #include "tools/eval/drive/drive_command.hpp"
 
 #include <array>
+#include <filesystem>
 
 #include "tools/eval/drive/baselines.hpp"
 #include "tools/eval/drive/drive_json.hpp"
@@ -15,18 +16,22 @@
 namespace cremed {
 namespace {
 
+std::vector<std::string> write_tables(const std::string& folder,
+                                      const std::vector<SourceEvaluation>& sources,
+                                      const TrueTrajectory& truth) {
+  std::vector<std::string> paths = table_paths(folder);
+  write_sources_csv(paths[0], sources);
+  write_truth_csv(paths[1], truth);
+  write_path_csv(paths[2], sources, truth);
+  write_errors_csv(paths[3], sources, truth);
+  write_drift_csv(paths[4], sources);
+  return paths;
+}
+
 void plot_drive(const std::vector<SourceEvaluation>& sources, const TrueTrajectory& truth,
                 const std::string& picture) {
   const TemporaryFolder folder;
-  const std::vector<std::string> inputs{folder.file("sources.csv"), folder.file("truth.csv"),
-                                        folder.file("path.csv"), folder.file("errors.csv"),
-                                        folder.file("drift.csv")};
-  write_sources_csv(inputs[0], sources);
-  write_truth_csv(inputs[1], truth);
-  write_path_csv(inputs[2], sources, truth);
-  write_errors_csv(inputs[3], sources, truth);
-  write_drift_csv(inputs[4], sources);
-  draw_plot("plot_drive", inputs, picture);
+  draw_plot("plot_drive", write_tables(folder.file(""), sources, truth), picture);
 }
 
 void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
@@ -84,6 +89,14 @@ void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
 
 }  // namespace
 
+std::vector<std::string> table_paths(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const char* name : {"sources.csv", "true_path.csv", "path.csv", "errors.csv", "drift.csv"}) {
+    paths.push_back(std::filesystem::path(folder) / name);
+  }
+  return paths;
+}
+
 void run_drive(const DriveFiles& files) {
   const DriveReference reference = read_reference(files);
   auto sources = with_input(files.odometry,
@@ -97,6 +110,9 @@ void run_drive(const DriveFiles& files) {
   say_what_is_missing(sources);
   if (!files.truth_tum.empty()) {
     write_truth_tum(files.truth_tum, sources);
+  }
+  if (!files.tables.empty()) {
+    write_tables(files.tables, sources, reference.truth);
   }
   if (!files.plot.empty()) {
     plot_drive(sources, reference.truth, files.plot);

@@ -17,11 +17,15 @@ struct DriveFiles {
   WheelStd wheels_std;                 ///< Error of the wheels.
   TruthNoise truth_noise;              ///< Error of truth.
   std::string plot;                    ///< Picture to draw; empty: none.
+  std::string tables;                  ///< Folder for the plotted data as CSV; empty: none.
   std::string truth_tum;               ///< Truth to write in TUM format; empty: none.
   std::vector<std::string> baselines;  ///< candump logs for other methods; may be empty.
   std::string config;                  ///< Configuration for these logs.
   bool as_json = false;                ///< Prints JSON instead of tables.
 };
+
+/// The files that are written into DriveFiles::tables, in the order of plot_drive's arguments.
+std::vector<std::string> table_paths(const std::string& folder);
 
 /// cremed-eval drive: prints and draws the errors of a drive's odometry. Throws std::runtime_error.
 void run_drive(const DriveFiles& files);

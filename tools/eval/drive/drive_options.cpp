@@ -93,6 +93,8 @@ void add_drive(CLI::App& app, DriveFiles& files) {
   command->add_flag("--json", files.as_json, "Print one JSON object instead of the tables");
   command->add_option("--plot", files.plot,
                       "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");
+  command->add_option("--tables", files.tables,
+                      "Write what --plot draws as CSV files into this folder");
   command->add_option("--truth-tum", files.truth_tum,
                       "Write truth at the times of the estimates in TUM format, for evo");
 }

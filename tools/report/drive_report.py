@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A drive as the page draws it: what JSON can hold, times in seconds since the drive's begin."""
+import bisect
+import collections
+import math
+
+import cremed
+from heard_drive import names_of
+from thinning import extremes, rounded, runs
+
+DEG_PER_RAD = 180 / math.pi
+MOTION_STATUSES = names_of(cremed.ego_motion_t, "STATUS_")
+ODOMETRY_STATUSES = names_of(cremed.odometry_t, "STATUS_")
+DOUBTS = names_of(cremed.status_t, "DOUBT_")
+FAULTS = names_of(cremed.status_t, "FAULT_")
+# Of status_t, by time. 0: nothing to compare yet.
+INNOVATIONS = ("innovation_doppler", "innovation_next", "odometry_innovation_doppler",
+               "odometry_innovation_lateral", "odometry_innovation_yaw")
+COUNTERS = tuple(name for name in cremed.status_t.__slots__ if name != "bus_state" and name.startswith((
+    "frames_", "malformed_", "bus_", "clock_", "crc_", "counter_", "scans", "parts_", "stamps_",
+    "detections_", "motions_of_", "messages_")))
+
+
+def whole(value):
+    """What is not finite, of a target without position or noise, is 0; its validity says so."""
+    return round(value) if math.isfinite(value) else 0
+
+
+def names_in(bits, names):
+    return [name for bit, name in sorted(names.items()) if bits & bit]
+
+
+class DriveReport:
+    def __init__(self, drive):
+        self.drive = drive
+
+    def data(self):
+        drive = self.drive
+        return {"figures": self.figures(),
+                "path": self.path(),
+                "rates": {name: self.rate(name, factor) for name, factor in
+                          (("vx", 1), ("yaw_rate", DEG_PER_RAD))},
+                "statuses": self.status_runs(),
+                "doubts": {radar: self.doubt_runs(messages)
+                           for radar, messages in drive.statuses.items()},
+                "radars": {radar: self.radar_series(messages)
+                           for radar, messages in drive.statuses.items()},
+                "scans": [self.scan(message) for message in drive.scans()]}
+
+    def seconds(self, utimes):
+        return [round((utime - self.drive.begin_us) * 1e-6, 4) for utime in utimes]
+
+    def figures(self):
+        drive, odometry = self.drive, self.drive.odometry
+        length = sum(math.hypot(x1 - x0, y1 - y0) for x0, x1, y0, y1 in zip(
+            odometry["x"], odometry["x"][1:], odometry["y"], odometry["y"][1:]))
+        return {"begin_utime": drive.begin_us,
+                "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
+                "path_length_m": round(length, 2),
+                "maximum_speed_mps": round(max(odometry["vx"], default=0), 3),
+                "odometry": self.odometry_figures(),
+                "sources": {source: {"motions": len(times),
+                                     "statuses": counted(statuses, MOTION_STATUSES)}
+                            for source, (times, statuses) in drive.motions.items()},
+                "radars": {radar: self.radar_figures(messages)
+                           for radar, messages in drive.statuses.items()}}
+
+    def odometry_figures(self):
+        columns = self.drive.odometry
+        if not columns["utime"]:
+            return None
+        last = {name: column[-1] for name, column in columns.items()}
+        return {"messages": len(columns["utime"]),
+                "statuses": counted(map(int, columns["status"]), ODOMETRY_STATUSES),
+                "end": {"x_m": round(last["x"], 3), "y_m": round(last["y"], 3),
+                        "yaw_deg": round(last["yaw"] * DEG_PER_RAD, 3),
+                        "sigma_x_m": round(last["cov_xx"] ** 0.5, 3),
+                        "sigma_y_m": round(last["cov_yy"] ** 0.5, 3)}}
+
+    def radar_figures(self, messages):
+        last = messages[-1]
+        doubts = collections.Counter(name for message in messages
+                                     for name in names_in(message.doubts, DOUBTS))
+        return {"counters": {name: getattr(last, name) for name in COUNTERS},
+                "statuses_with_doubt": dict(doubts), "statuses": len(messages),
+                "faults": names_in(last.radar_faults, FAULTS),
+                "latency_max_us": max(message.latency_max_us for message in messages),
+                "mount_yaw_error_deg": rounded([last.odometry_mount_yaw_error_rad * DEG_PER_RAD])[0],
+                "mount_yaw_error_sigma_deg":
+                    rounded([last.odometry_mount_yaw_error_std_rad * DEG_PER_RAD])[0],
+                "doppler_scale_error": rounded([last.odometry_doppler_scale_error])[0],
+                "doppler_scale_error_sigma": rounded([last.odometry_doppler_scale_error_std])[0],
+                **{name: rounded([getattr(last, name)])[0] for name in INNOVATIONS}}
+
+    def path(self):
+        columns = self.drive.odometry
+        kept = extremes([columns["x"], columns["y"]])
+        return {"t": self.seconds(columns["utime"][i] for i in kept),
+                **{name: rounded((columns[name][i] for i in kept), 6)
+                   for name in ("x", "y", "yaw", "cov_xx", "cov_xy", "cov_yy", "vx", "vy", "yaw_rate")}}
+
+    def rate(self, name, factor):
+        columns = self.drive.odometry
+        value, sigma = columns[name], columns[f"sigma_{name}"]
+        kept = extremes([value, sigma])
+        return {"t": self.seconds(columns["utime"][i] for i in kept),
+                "value": rounded(value[i] * factor for i in kept),
+                "sigma": rounded((sigma[i] * factor for i in kept), 3)}
+
+    def status_runs(self):
+        odometry = self.drive.odometry
+        result = {}
+        if odometry["utime"]:
+            result["odometry"] = [(time, ODOMETRY_STATUSES.get(int(status), "unknown")) for time, status
+                                  in runs(self.seconds(odometry["utime"]), odometry["status"])]
+        for source, (times, statuses) in self.drive.motions.items():
+            result[source] = [(time, MOTION_STATUSES.get(status, "unknown"))
+                              for time, status in runs(self.seconds(times), statuses)]
+        return result
+
+    def doubt_runs(self, messages):
+        changes = runs(self.seconds(m.utime for m in messages), [m.doubts for m in messages])
+        return [(time, " + ".join(names_in(bits, DOUBTS))) for time, bits in changes]
+
+    def radar_series(self, messages):
+        columns = {name: [getattr(m, name) or math.nan for m in messages] for name in INNOVATIONS}
+        for name, field, factor in (("mount_yaw_deg", "odometry_mount_yaw_error", DEG_PER_RAD),
+                                    ("doppler_scale_percent", "odometry_doppler_scale_error", 100)):
+            unit = "_rad" if factor == DEG_PER_RAD else ""
+            sigmas = [getattr(m, f"{field}_std{unit}") * factor for m in messages]
+            columns[name] = [getattr(m, f"{field}{unit}") * factor if sigma else math.nan
+                             for m, sigma in zip(messages, sigmas)]
+            columns[f"{name}_sigma"] = sigmas
+        kept = extremes(list(columns.values()), 300)
+        return {"t": self.seconds(messages[i].utime for i in kept),
+                **{name: rounded((column[i] for i in kept), 4) for name, column in columns.items()}}
+
+    def scan(self, m):
+        """Of each target: range in cm, azimuth in 0.1 mrad, Doppler and its sigma in cm/s, validity."""
+        targets = []
+        for i in range(m.num_detections):
+            targets += [whole(100 * m.range_m[i]), whole(1e4 * m.azimuth_rad[i]),
+                        whole(100 * m.doppler_mps[i]), whole(100 * m.doppler_std_mps[i]), m.validity[i]]
+        return {"t": self.seconds([m.utime])[0], "source": m.source,
+                "mount": rounded([m.mount_x_in_vehicle_frame_m, m.mount_y_in_vehicle_frame_m,
+                                  m.mount_yaw_in_vehicle_frame_rad]),
+                "twist": self.twist_at(m.utime), "targets": targets}
+
+    def twist_at(self, utime):
+        """[vx, vy, yaw rate] of the odometry at that time or the next it tells; None if never."""
+        columns = self.drive.odometry
+        i = min(bisect.bisect_left(columns["utime"], utime), len(columns["utime"]) - 1)
+        return rounded(columns[name][i] for name in ("vx", "vy", "yaw_rate")) if i >= 0 else None
+
+
+def counted(statuses, names):
+    return {names.get(status, "unknown"): count
+            for status, count in sorted(collections.Counter(statuses).items())}

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an LCM log of cremed tells of a drive, as columns: an hour of it is a million messages."""
+import os
+import struct
+from array import array
+
+import cremed
+from thinning import evenly
+
+# Targets of a report: more than that, and scans are left out, evenly over the drive.
+TARGETS = 120_000
+ODOMETRY_COLUMNS = ("utime", "status", "x", "y", "yaw", "cov_xx", "cov_xy", "cov_yy", "vx", "sigma_vx",
+                    "vy", "yaw_rate", "sigma_yaw_rate")
+
+
+def names_of(kind, prefix):
+    """{0: "ok", ...}, of the constants STATUS_OK = 0, ..."""
+    return {getattr(kind, name): name.removeprefix(prefix).lower()
+            for name in dir(kind) if name.startswith(prefix)}
+
+
+def odometry_row(m):
+    pose, twist = (m.covariance_x_y_yaw_in_odom_frame_m_rad,
+                   m.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps)
+    return (m.utime, m.status, m.x_in_odom_frame_m, m.y_in_odom_frame_m, m.yaw_in_odom_frame_rad,
+            pose[0], pose[1], pose[4], m.vx_in_vehicle_frame_mps, max(twist[0], 0.0) ** 0.5,
+            m.vy_in_vehicle_frame_mps, m.yaw_rate_radps, max(twist[8], 0.0) ** 0.5)
+
+
+class HeardDrive:
+    """`told` is called with the part that is done, now and then."""
+
+    def __init__(self, path, told=lambda part: None):
+        self.path, self.told, self.size = path, told, max(os.path.getsize(path), 1)
+        self.odometry = {name: array("d") for name in ODOMETRY_COLUMNS}
+        self.motions = {}   # Source: (times, statuses).
+        self.statuses = {}  # Radar: its messages, one a second.
+        self.scan_times, self.targets = {}, 0
+        self._read()
+        self.begin_us, self.end_us = self._span()
+
+    def _read(self):
+        takers = {"CREMED_ODOMETRY": self._take_odometry, "CREMED_EGO_MOTION": self._take_motion,
+                  "CREMED_STATUS": self._take_status}
+        for channel, payload in self._events():
+            if channel in takers:
+                heard = cremed.decoded(channel, 0, payload)
+                # A status from before the first frame has no time.
+                if heard is not None and heard.message.utime != 0:
+                    takers[channel](heard.message)
+            elif channel.startswith("CREMED_SCAN_"):
+                self.scan_times.setdefault(channel, array("q")).append(scan_time(payload))
+                self.targets += len(payload) // 31  # Bytes of a target.
+
+    def _events(self):
+        done = 0
+        for number, (channel, _, payload) in enumerate(cremed.read_events(self.path)):
+            done += 28 + len(channel) + len(payload)
+            if number % 4096 == 0:
+                self.told(done / self.size)
+            yield channel, payload
+
+    def _take_odometry(self, message):
+        for column, value in zip(self.odometry.values(), odometry_row(message)):
+            column.append(value)
+
+    def _take_motion(self, message):
+        times, statuses = self.motions.setdefault(message.source, (array("q"), array("b")))
+        times.append(message.utime)
+        statuses.append(message.status)
+
+    def _take_status(self, message):
+        self.statuses.setdefault(message.source, []).append(message)
+
+    def _span(self):
+        columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]
+        ends = [time for column in columns if column for time in (column[0], column[-1])]
+        if not ends:
+            raise ValueError(f"{self.path}: has none of cremed's motions; record with lcm-logger, or give "
+                             "the candump log")
+        return int(min(ends)), int(max(ends))
+
+    def scans(self):
+        """[radar_scan_t], as many as a report holds."""
+        count = max((len(times) for times in self.scan_times.values()), default=0)
+        count = max(count * min(1, TARGETS / max(self.targets, 1)), 1)
+        wanted = {(channel, times[i]) for channel, times in self.scan_times.items()
+                  for i in evenly(times, self.begin_us, self.end_us, int(count))}
+        for channel, payload in self._events() if wanted else ():
+            if channel.startswith("CREMED_SCAN_") and (channel, scan_time(payload)) in wanted:
+                heard = cremed.decoded(channel, 0, payload)
+                if heard is not None:
+                    yield heard.message
+
+
+def scan_time(payload):
+    """utime, the first member behind the fingerprint."""
+    return struct.unpack_from(">q", payload, 8)[0] if len(payload) >= 16 else 0

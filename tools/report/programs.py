@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""cremed and cremed-eval, which the report's numbers come from."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import time
+
+MAGIC_LCM = bytes.fromhex("EDA1DA01")
+
+
+def is_lcm_log(path):
+    with open(path, "rb") as file:
+        return file.read(4) == MAGIC_LCM
+
+
+def is_lcm(paths):
+    kinds = {is_lcm_log(path) for path in paths}
+    if kinds == {True} and len(paths) > 1:
+        raise ValueError("several LCM logs cannot be one drive: --merge is for candump logs")
+    if len(kinds) > 1:
+        raise ValueError("candump and LCM logs cannot be one drive")
+    return kinds == {True}
+
+
+def part_read(process, paths):
+    """How much of its logs a process has read, as the kernel tells."""
+    done = 0
+    for link in pathlib.Path(f"/proc/{process.pid}/fd").glob("*"):
+        try:
+            if os.readlink(link) in paths:
+                text = pathlib.Path(f"/proc/{process.pid}/fdinfo/{link.name}").read_text(encoding="ascii")
+                done += int(text.split()[1])
+        except OSError:  # Closed since.
+            pass
+    return done / max(sum(os.path.getsize(path) for path in paths), 1)
+
+
+def replay(cremed, logs, config, folder, told):
+    """Runs candump logs through cremed; returns the LCM log and what cremed warned of. `told` is
+    called with the part that is done."""
+    lcm_log, words = folder / "heard.lcm", folder / "words"
+    command = [cremed, "--publish-scans", "--lcm-url", f"file://{lcm_log}?mode=w"]
+    command += ["--config", config] if config else []
+    for log in logs:
+        command += ["--replay", log]
+    paths = {os.path.realpath(log) for log in logs}
+    with open(words, "wb") as file, subprocess.Popen(command, stdin=subprocess.DEVNULL,
+                                                     stdout=file, stderr=file) as process:
+        try:
+            while process.poll() is None:
+                told(part_read(process, paths))
+                time.sleep(0.02)
+        except BaseException:
+            process.kill()
+            raise
+    told(1.0)
+    said = words.read_text(encoding="utf-8", errors="replace").splitlines()
+    if process.returncode != 0:
+        errors = [line for line in said if line.startswith("error: ")] or said[-5:]
+        raise ValueError("cremed said:\n" + "\n".join(errors))
+    return lcm_log, [line for line in said if not line.startswith("info: ")]
+
+
+def run(command):
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False)
+    if done.returncode != 0:
+        raise ValueError(done.stderr.strip() or f"{command[0]} failed")
+    return done.stdout
+
+
+def read_table(path):
+    """{source: {column: numbers}}; where there is no source all is that of ""."""
+    table = {}
+    with open(path, newline="", encoding="ascii") as file:
+        for row in csv.DictReader(file):
+            columns = table.setdefault(row.pop("source", ""), {})
+            for name, text in row.items():
+                columns.setdefault(name, []).append(float(text))
+    return table
+
+
+def evaluate(programs, lcm_log, drive, folder):
+    """(figures, errors, drift) of all sources against truth, those of the odometry first."""
+    motions, states = folder / "motions.csv", folder / "states.csv"
+    run([programs / "cremed-lcm-to-csv", lcm_log, "--output", motions, "--odometry", states])
+    stds = [word for std in drive.truth_stds for word in ("--truth-std", std)]
+    figures, errors, drift = [], {}, {}
+    for rows in states, motions:
+        tables = folder / rows.stem
+        tables.mkdir()
+        told = run([programs / "cremed-eval", "drive", rows, drive.truth, "--json", "--tables", tables,
+                    *stds])
+        figures += json.loads(told)["sources"]
+        errors |= read_table(tables / "errors.csv")
+        drift |= read_table(tables / "drift.csv")
+    return figures, errors, drift
+
+
+def read_poses(path):
+    """[(utime, x_m, y_m, yaw_rad)] of truth."""
+    with open(path, newline="", encoding="ascii") as file:
+        return [tuple(float(row[name]) for name in ("utime", "x_m", "y_m", "yaw_rad"))
+                for row in csv.DictReader(file)]

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/heard_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/configuration/configuration.hpp"
+
+namespace cremed {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::int64_t kMotionsUs = 60'000'000;
+constexpr std::int64_t kMotionSpacingUs = 100'000;
+constexpr std::int64_t kOldScanUs = 1'000'000;
+
+/// "unknown" for a number that is none of the type's.
+template <typename Status>
+std::string status_name(int number, std::size_t count) {
+  return number >= 0 && static_cast<std::size_t>(number) < count
+             ? std::string(to_string(static_cast<Status>(number)))
+             : "unknown";
+}
+
+double std_of(double variance) { return std::sqrt(std::max(variance, 0.0)); }
+
+double seconds(std::int64_t time_us) { return 1e-6 * static_cast<double>(time_us); }
+
+Json pose_json(const odometry_t& m) {
+  const auto& covariance = m.covariance_x_y_yaw_in_odom_frame_m_rad;
+  return {{"utime", m.utime},
+          {"status", status_name<OdometryStatus>(m.status, kOdometryStatusCount)},
+          {"x", m.x_in_odom_frame_m},
+          {"y", m.y_in_odom_frame_m},
+          {"yaw", m.yaw_in_odom_frame_rad},
+          {"covariance", {covariance[0], covariance[1], covariance[4]}}};
+}
+
+Json path_json(const std::vector<PathPoint>& points) {
+  Json x = Json::array();
+  Json y = Json::array();
+  for (const PathPoint& point : points) {
+    x.push_back(std::round(100.0 * point.x_m) / 100.0);
+    y.push_back(std::round(100.0 * point.y_m) / 100.0);
+  }
+  return {{"x", std::move(x)}, {"y", std::move(y)}};
+}
+
+double scaled(double factor, float value) { return factor * static_cast<double>(value); }
+
+Json status_json(const status_t& m) {
+  return {{"doubts", m.doubts},
+          {"innovation_doppler", m.innovation_doppler},
+          {"innovation_next", m.innovation_next},
+          {"odometry_innovation_doppler", m.odometry_innovation_doppler},
+          {"odometry_innovation_lateral", m.odometry_innovation_lateral},
+          {"odometry_innovation_yaw", m.odometry_innovation_yaw},
+          {"mount_yaw_deg", scaled(kDegPerRad, m.odometry_mount_yaw_error_rad)},
+          {"mount_yaw_sigma_deg", scaled(kDegPerRad, m.odometry_mount_yaw_error_std_rad)},
+          {"doppler_scale_percent", scaled(100.0, m.odometry_doppler_scale_error)},
+          {"doppler_scale_sigma_percent", scaled(100.0, m.odometry_doppler_scale_error_std)},
+          {"latency_p50_us", m.latency_p50_us},
+          {"latency_p99_us", m.latency_p99_us},
+          {"latency_max_us", m.latency_max_us},
+          {"scans", m.scans},
+          {"scans_incomplete", m.scans_incomplete},
+          {"left_out", m.odometry_leaves_out != 0}};
+}
+
+long hundredths(float value) { return std::isfinite(value) ? std::lround(100.0F * value) : 0; }
+
+/// As charts.js reads it.
+Json targets_json(const radar_scan_t& m) {
+  Json targets = Json::array();
+  for (std::size_t i = 0; i < m.range_m.size(); ++i) {
+    targets.push_back(hundredths(m.range_m[i]));
+    targets.push_back(hundredths(100.0F * m.azimuth_rad[i]));
+    targets.push_back(hundredths(m.doppler_mps[i]));
+    targets.push_back(hundredths(m.doppler_std_mps[i]));
+    targets.push_back(m.validity[i]);
+  }
+  return targets;
+}
+
+Json twist_json(const std::optional<odometry_t>& m) {
+  return m ? Json{m->vx_in_vehicle_frame_mps, m->vy_in_vehicle_frame_mps, m->yaw_rate_radps}
+           : Json();
+}
+
+Json scan_json(const radar_scan_t& m, const std::optional<odometry_t>& odometry) {
+  return {{"source", m.source},
+          {"utime", m.utime},
+          {"mount",
+           {m.mount_x_in_vehicle_frame_m, m.mount_y_in_vehicle_frame_m,
+            m.mount_yaw_in_vehicle_frame_rad}},
+          {"twist", twist_json(odometry)},
+          {"targets", targets_json(m)}};
+}
+
+Json radar_json(const std::string& name, const std::optional<ego_motion_t>& motion,
+                const std::optional<status_t>& status) {
+  Json json{{"name", name}, {"motion", Json()}, {"targets", 0}, {"status", Json()}};
+  if (motion) {
+    json["motion"] = status_name<MotionStatus>(motion->status, kMotionStatusCount);
+    json["targets"] = motion->num_targets;
+  }
+  if (status) {
+    json["status"] = status_json(*status);
+  }
+  return json;
+}
+
+}  // namespace
+
+void HeardState::take(const odometry_t& message) {
+  const std::scoped_lock lock(mutex_);
+  ++messages_;
+  if (odometry_ && (message.seq < odometry_->seq || message.utime < odometry_->utime)) {
+    begin_anew();
+  }
+  odometry_ = message;
+  path_.add({message.x_in_odom_frame_m, message.y_in_odom_frame_m});
+  keep_motion(message);
+}
+
+void HeardState::begin_anew() {
+  odometry_.reset();
+  path_.clear();
+  motions_.clear();
+  radars_.clear();
+}
+
+void HeardState::keep_motion(const odometry_t& message) {
+  if (!motions_.empty() && message.utime < motions_.back().utime_us + kMotionSpacingUs) {
+    return;
+  }
+  const auto& covariance = message.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps;
+  motions_.push_back({message.utime, message.vx_in_vehicle_frame_mps, std_of(covariance[0]),
+                      message.yaw_rate_radps, std_of(covariance[8])});
+  while (motions_.front().utime_us < message.utime - kMotionsUs) {
+    motions_.pop_front();
+  }
+}
+
+/// Null where there are more than a configuration may have.
+HeardState::Radar* HeardState::radar(const std::string& name) {
+  const auto found = std::find_if(radars_.begin(), radars_.end(),
+                                  [&](const Radar& radar) { return radar.name == name; });
+  if (found != radars_.end()) {
+    return &*found;
+  }
+  if (radars_.size() == kMaxRadars || name == kFusedSource) {
+    return nullptr;
+  }
+  radars_.push_back({name, {}, {}, {}, {}});
+  return &radars_.back();
+}
+
+void HeardState::take(const ego_motion_t& message) {
+  const std::scoped_lock lock(mutex_);
+  ++messages_;
+  if (Radar* const known = radar(message.source)) {
+    known->motion = message;
+  }
+}
+
+void HeardState::take(const status_t& message) {
+  const std::scoped_lock lock(mutex_);
+  ++messages_;
+  if (Radar* const known = radar(message.source)) {
+    known->status = message;
+  }
+}
+
+void HeardState::take(const radar_scan_t& message) {
+  const std::scoped_lock lock(mutex_);
+  ++messages_;
+  if (Radar* const known = radar(message.source)) {
+    known->scan = message;
+    known->odometry_at_scan = odometry_;
+  }
+}
+
+nlohmann::json HeardState::motions_json() const {
+  Json rates{{"t", Json::array()},
+             {"vx", Json::array()},
+             {"vx_sigma", Json::array()},
+             {"yaw_rate", Json::array()},
+             {"yaw_rate_sigma", Json::array()}};
+  for (const Motion& motion : motions_) {
+    rates["t"].push_back(seconds(motion.utime_us - odometry_->utime));
+    rates["vx"].push_back(motion.vx_mps);
+    rates["vx_sigma"].push_back(motion.vx_std_mps);
+    rates["yaw_rate"].push_back(kDegPerRad * motion.yaw_rate_radps);
+    rates["yaw_rate_sigma"].push_back(kDegPerRad * motion.yaw_rate_std_radps);
+  }
+  return rates;
+}
+
+nlohmann::json HeardState::scans_json() const {
+  Json scans = Json::array();
+  for (const Radar& radar : radars_) {
+    if (radar.scan && odometry_ && radar.scan->utime > odometry_->utime - kOldScanUs) {
+      scans.push_back(scan_json(*radar.scan, radar.odometry_at_scan));
+    }
+  }
+  return scans;
+}
+
+std::string HeardState::json() const {
+  const std::scoped_lock lock(mutex_);
+  Json radars = Json::array();
+  for (const Radar& radar : radars_) {
+    radars.push_back(radar_json(radar.name, radar.motion, radar.status));
+  }
+  const Json json{{"messages", messages_},
+                  {"pose", odometry_ ? pose_json(*odometry_) : Json()},
+                  {"path", path_json(path_.points())},
+                  {"rates", motions_json()},
+                  {"radars", std::move(radars)},
+                  {"scans", scans_json()}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace cremed

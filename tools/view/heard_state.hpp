@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <cremed/ego_motion_t.hpp>
+#include <cremed/odometry_t.hpp>
+#include <cremed/radar_scan_t.hpp>
+#include <cremed/status_t.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/view/thinned_path.hpp"
+
+namespace cremed {
+
+/// What has been heard of a vehicle, in bounded memory: its path, a minute of its motion, and the
+/// last of each radar. For a thread that hears and threads that ask. Where the daemon begins anew,
+/// so does this.
+class HeardState {
+ public:
+  void take(const odometry_t& message);
+  void take(const ego_motion_t& message);
+  void take(const status_t& message);
+  void take(const radar_scan_t& message);
+
+  /// One JSON object, as view.js reads it. What is not known is null.
+  [[nodiscard]] std::string json() const;
+
+ private:
+  struct Motion {
+    std::int64_t utime_us = 0;
+    double vx_mps = 0.0;
+    double vx_std_mps = 0.0;
+    double yaw_rate_radps = 0.0;
+    double yaw_rate_std_radps = 0.0;
+  };
+  struct Radar {
+    std::string name;
+    std::optional<ego_motion_t> motion;
+    std::optional<status_t> status;
+    std::optional<radar_scan_t> scan;
+    std::optional<odometry_t> odometry_at_scan;
+  };
+  Radar* radar(const std::string& name);
+  void begin_anew();
+  void keep_motion(const odometry_t& message);
+  [[nodiscard]] nlohmann::json motions_json() const;
+  [[nodiscard]] nlohmann::json scans_json() const;
+
+  mutable std::mutex mutex_;
+  std::int64_t messages_ = 0;
+  std::optional<odometry_t> odometry_;
+  ThinnedPath path_;
+  std::deque<Motion> motions_;
+  std::vector<Radar> radars_;  // In the order in which they were heard: that of the configuration.
+};
+
+}  // namespace cremed

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/lcm_url.hpp"
+#include "daemon/process/process_setup.hpp"
+#include "daemon/process/signals.hpp"
+#include "daemon/version.hpp"
+#include "tools/view/heard_state.hpp"
+#include "tools/view/lcm_ear.hpp"
+#include "tools/view/view_server.hpp"
+
+namespace {
+
+constexpr int kRunTimeFailure = 1;
+constexpr int kBadUsage = 2;
+constexpr int kHighestPort = 65535;
+constexpr std::chrono::milliseconds kPause{100};
+
+struct Arguments {
+  std::string lcm_url;
+  cremed::ViewAddress address;
+};
+
+/// Where LCM's own programs listen, if nothing else is asked for.
+std::string default_url() {
+  const char* const named = std::getenv("LCM_DEFAULT_URL");
+  return named != nullptr ? named : cremed::OutputConfiguration{}.lcm_url;
+}
+
+/// Listens until it is to stop, then ends the server. At the end of a log (file://) the page stays.
+void listen(const std::stop_token& stop, cremed::LcmEar& ear, cremed::ViewServer& server) {
+  bool hears = true;
+  while (!stop.stop_requested() && !cremed::stop_requested()) {
+    if (hears) {
+      hears = ear.listen();
+    } else {
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+  server.stop();
+}
+
+int show(const Arguments& arguments) {
+  cremed::handle_stop_signals();
+  cremed::HeardState state;
+  cremed::LcmEar ear(arguments.lcm_url, state);
+  cremed::ViewServer server(state, arguments.address);
+  std::printf("http://%s:%d/ shows what is heard at %s\n", arguments.address.host.c_str(),
+              server.port(), arguments.lcm_url.c_str());
+  std::fflush(stdout);
+  const std::jthread listener([&](const std::stop_token& stop) { listen(stop, ear, server); });
+  server.run();
+  return cremed::stop_requested() ? 0 : kRunTimeFailure;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "Shows in a browser what cremed tells over LCM\n"
+      "Path, motion, targets and radars, on a page that needs no other network. It only listens: "
+      "nothing can be changed through it.",
+      "cremed-view"};
+  Arguments arguments;
+  arguments.lcm_url = default_url();
+  app.set_version_flag("--version", "cremed-view " CREMED_VERSION);
+  app.add_option("--lcm-url", arguments.lcm_url,
+                 "Where to listen (default: $LCM_DEFAULT_URL, or LCM's default group); "
+                 "file://LOG plays a log of lcm-logger");
+  app.add_option("--address", arguments.address.host,
+                 "Address to serve on; 0.0.0.0: whoever reaches this computer may look")
+      ->capture_default_str();
+  app.add_option("--port", arguments.address.port, "Port to serve on; 0: any that is free")
+      ->check(CLI::Range(0, kHighestPort))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+    if (arguments.lcm_url == "none" || !cremed::is_lcm_url(arguments.lcm_url)) {
+      throw CLI::ValidationError("--lcm-url", "'" + arguments.lcm_url + "' is no URL such as " +
+                                                  cremed::OutputConfiguration{}.lcm_url);
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+  return show(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cremed::set_up_process();
+  try {
+    return cremed::finish_process(run(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "cremed-view: " << error.what() << '\n';
+    return kRunTimeFailure;
+  }
+}

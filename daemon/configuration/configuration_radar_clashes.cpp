@@ -31,14 +31,21 @@ void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostic
   }
 }
 
+/// " are both an ARS408 with sensor id 0", or the two if their types differ.
+std::string alike_text(const RadarSettings& earlier, const RadarSettings& later) {
+  return &earlier.family() == &later.family()
+             ? concat({" are both ", later.describe()})
+             : concat({" cannot be distinguished: ", earlier.describe(), ", ", later.describe()});
+}
+
 /// Radars with interface "auto" must be distinguishable by their identifiers.
 void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
   if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
-    diagnostics.add(is_auto(later.radar) ? later.interface_line : earlier.interface_line,
-                    "radar.interface",
-                    concat({"is \"auto\", but radars ", quoted(earlier.radar.name), " and ",
-                            quoted(later.radar.name), " are both ", later.radar.decoder.describe(),
-                            "; must be the name of an interface for both"}));
+    diagnostics.add(
+        is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
+        concat({"is \"auto\", but radars ", quoted(earlier.radar.name), " and ",
+                quoted(later.radar.name), alike_text(earlier.radar.decoder, later.radar.decoder),
+                "; must be the name of an interface for both"}));
   }
 }
 

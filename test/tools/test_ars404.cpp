@@ -76,8 +76,8 @@ TEST_CASE("It shares identifiers with an ARS408, and a search cannot distinguish
              Catch::Contains("both use CAN identifier 0x200"));
   CHECK_THAT(
       refusal(radar_text("a", "ars404", "auto") + radar_text("b", "ars408", "can0")),
-      Catch::Contains("an ARS408 with sensor id 0 is looked for where radars \"a\" and \"b\" "
-                      "are alike"));
+      Catch::Contains("radars \"a\" and \"b\" cannot be distinguished: an ARS404 with sensor "
+                      "id 0, an ARS408 with sensor id 0; must be the name"));
 }
 
 TEST_CASE("interface = \"auto\" finds it by what an ARS408 sends") {

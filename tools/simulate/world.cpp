@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -18,6 +19,7 @@ constexpr double kLeftLanesM = 6.0;      ///< More free space on the left, for t
 constexpr double kClutterReachM = 80.0;  ///< To both sides, so that turns have targets too.
 constexpr double kRoadSpacingM = 1.0;
 constexpr double kCellM = 25.0;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// A tunnel's wall reflects at a few of many places, at others in each scan.
 constexpr double kTunnelSpacingM = 0.25;
@@ -102,7 +104,7 @@ class Builder {
  private:
   /// Range of a coordinate of the road, extended by kClutterReachM.
   [[nodiscard]] std::pair<double, double> range_of(double Pose2::*coordinate) const {
-    std::pair<double, double> range{INFINITY, -INFINITY};
+    std::pair<double, double> range{kNoLimit, -kNoLimit};
     for (double along_m = 0.0; along_m <= road_.length_m(); along_m += kRoadSpacingM) {
       const double value = road_.at(along_m).pose.*coordinate;
       range = {std::min(range.first, value), std::max(range.second, value)};

@@ -3,10 +3,11 @@
 #include "tools/eval/table/real_table.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "daemon/process/usage_error.hpp"
@@ -77,9 +78,11 @@ RealRow row_of(std::string_view problem, const RealMethod& method,
   return row;
 }
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 /// Means over the segments of that length of all drives.
 SegmentErrors joined(double time_s, const std::vector<DrivePairs>& drives) {
-  SegmentErrors all{.length = {INFINITY, time_s}, .nees = {0, 0, 0}, .rmse = {0, 0, 0}};
+  SegmentErrors all{.length = {kNoLimit, time_s}, .nees = {0, 0, 0}, .rmse = {0, 0, 0}};
   for (const DrivePairs& drive : drives) {
     for (const SegmentErrors& one : drive.odometry) {
       if (one.length.time_s == time_s && one.segments > 0) {

@@ -43,6 +43,15 @@ public final class MessageRows {
     return rows;
   }
 
+  /** The name of the message's status, as "standing_still". */
+  static String status(Object message) {
+    try {
+      return text(message.getClass().getField("status"), message);
+    } catch (ReflectiveOperationException e) {
+      throw new IllegalStateException(e);
+    }
+  }
+
   private static String text(Field field, Object message) throws IllegalAccessException {
     Object value = field.get(message);
     if (value == null || value instanceof String || value instanceof Boolean) {

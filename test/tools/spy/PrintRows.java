@@ -5,7 +5,7 @@
 import cremed.ego_motion_t;
 import cremed.odometry_t;
 import cremed.spy.MessageRows;
-import cremed.spy.MessageTable;
+import cremed.spy.MessageWindow;
 import cremed.status_t;
 import java.io.EOFException;
 import lcm.logging.Log;
@@ -23,7 +23,7 @@ public final class PrintRows {
   }
 
   public static void main(String[] arguments) throws Exception {
-    if (!new MessageTable().canHandle(odometry_t.LCM_FINGERPRINT)) {
+    if (!new MessageWindow().canHandle(odometry_t.LCM_FINGERPRINT)) {
       throw new IllegalStateException("the plugin does not take odometry_t");
     }
     Log log = new Log(arguments[0], "r");

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
-#include <iostream>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -13,9 +11,8 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
-#include "daemon/process/process_setup.hpp"
 #include "daemon/process/signals.hpp"
-#include "daemon/version.hpp"
+#include "tools/program.hpp"
 #include "tools/view/heard_state.hpp"
 #include "tools/view/lcm_ear.hpp"
 #include "tools/view/view_server.hpp"
@@ -23,7 +20,6 @@
 namespace {
 
 constexpr int kRunTimeFailure = 1;
-constexpr int kBadUsage = 2;
 constexpr int kHighestPort = 65535;
 constexpr std::chrono::milliseconds kPause{100};
 
@@ -64,15 +60,9 @@ int show(const Arguments& arguments) {
   return cremed::stop_requested() ? 0 : kRunTimeFailure;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{
-      "Shows in a browser what cremed tells over LCM\n"
-      "Path, motion, targets and radars, on a page that needs no other network. It only listens: "
-      "nothing can be changed through it.",
-      "cremed-view"};
+int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   arguments.lcm_url = default_url();
-  app.set_version_flag("--version", "cremed-view " CREMED_VERSION);
   app.add_option("--lcm-url", arguments.lcm_url,
                  "Where to listen (default: $LCM_DEFAULT_URL, or LCM's default group); "
                  "file://LOG plays a log of lcm-logger");
@@ -82,14 +72,10 @@ int run(int argc, char** argv) {
   app.add_option("--port", arguments.address.port, "Port to serve on; 0: any that is free")
       ->check(CLI::Range(0, kHighestPort))
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-    if (arguments.lcm_url == "none" || !cremed::is_lcm_url(arguments.lcm_url)) {
-      throw CLI::ValidationError("--lcm-url", "'" + arguments.lcm_url + "' is no URL such as " +
-                                                  cremed::OutputConfiguration{}.lcm_url);
-    }
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
+  app.parse(argc, argv);
+  if (arguments.lcm_url == "none" || !cremed::is_lcm_url(arguments.lcm_url)) {
+    throw CLI::ValidationError("--lcm-url", "'" + arguments.lcm_url + "' is no URL such as " +
+                                                cremed::OutputConfiguration{}.lcm_url);
   }
   return show(arguments);
 }
@@ -97,11 +83,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cremed::set_up_process();
-  try {
-    return cremed::finish_process(run(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "cremed-view: " << error.what() << '\n';
-    return kRunTimeFailure;
-  }
+  return cremed::run_program(
+      "cremed-view",
+      "Shows in a browser what cremed tells over LCM\n"
+      "Path, motion, targets and radars, on a page that needs no other network. It only listens: "
+      "nothing can be changed through it.",
+      run, argc, argv);
 }

@@ -210,7 +210,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
     return false;
   }
   if (is_used) {
-    state_.gaussian.update();
+    state_.update();
     output_.add_radar(radar);
     condition_.use_scan(scan.is_clear);
   }
@@ -280,7 +280,7 @@ void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
   trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
   trust.position_noise.add(0.5 * nis);
   if (nis <= options.max_position_nis) {
-    state_.gaussian.update();
+    state_.update();
   }
 }
 

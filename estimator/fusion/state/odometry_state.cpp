@@ -161,7 +161,14 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
          options_.offset_per_yaw_rate_m * turning + options_.offset_across_mps * across, dt_s);
   forget(gaussian, first + kYawPerMetre, options_.yaw_per_metre, 0.0, dt_s);
   forget(gaussian, first + kLateralPerMetre, options_.lateral_per_metre, 0.0, dt_s);
+  const double scale_std = unlearned_errors(options_, mounts_[radar]).doppler_scale.std;
+  forget(gaussian, first + kDopplerScale, {scale_std, options_.doppler_scale_time_s}, 0.0, dt_s);
   gaussian.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
+}
+
+void OdometryState::update() {
+  const WithheldGain common{kCommonScale, gaussian.gain(kCommonScale)};
+  gaussian.update({&common, 1});
 }
 
 Eigen::Vector3d OdometryState::pose_before(double age_s) const {

@@ -43,6 +43,11 @@ class OdometryState {
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
 
+  /// Kalman update with the last innovation of `gaussian`. kCommonScale is a consider parameter: it
+  /// is not observable, but seems so where each scan is linearised at another speed. As an
+  /// estimated state it drifted by 1 % in 15 minutes of a simulated town, at a sigma of 0.2 %.
+  void update();
+
   /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
   /// Clones the pose at a scan, with the noise of the scan's positions in the axes of the vehicle.

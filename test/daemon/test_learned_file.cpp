@@ -18,6 +18,15 @@
 #include "daemon/output/learned_writer.hpp"
 #include "test/daemon/temporary_file.hpp"
 
+namespace cremed {
+bool operator==(const LearnedError& a, const LearnedError& b) {
+  return a.value == b.value && a.std == b.std;
+}
+bool operator==(const LearnedErrors& a, const LearnedErrors& b) {
+  return a.mount_yaw_rad == b.mount_yaw_rad && a.doppler_scale == b.doppler_scale;
+}
+}  // namespace cremed
+
 using namespace cremed;
 
 namespace {
@@ -54,15 +63,6 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 }
 
 }  // namespace
-
-namespace cremed {
-bool operator==(const LearnedError& a, const LearnedError& b) {
-  return a.value == b.value && a.std == b.std;
-}
-bool operator==(const LearnedErrors& a, const LearnedErrors& b) {
-  return a.mount_yaw_rad == b.mount_yaw_rad && a.doppler_scale == b.doppler_scale;
-}
-}  // namespace cremed
 
 TEST_CASE("What is written is read again, to the last bit") {
   const LearnedFile::Content content = file_of(two_radars()).parse(good_text());

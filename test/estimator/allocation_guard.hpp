@@ -32,8 +32,9 @@ inline constexpr bool kGuardSeesAll = false;
 inline constexpr bool kGuardSeesAll = true;
 #endif
 
+// volatile: a compiler may assume that malloc and realloc change no variable of the program.
 inline volatile bool is_counting_allocations = false;
-inline long allocation_count = 0;
+inline volatile long allocation_count = 0;
 
 /// Allocations since the guard was made; one guard at a time, one thread.
 class AllocationGuard {
@@ -53,7 +54,7 @@ class AllocationGuard {
   }
   static void note() {
     if (is_counting_allocations) {
-      ++allocation_count;
+      allocation_count = allocation_count + 1;
     }
   }
 };

@@ -146,7 +146,7 @@ class ModelDrive {
   void use(const LinearMeasurement& measurement) {
     nis_ += 0.5 * estimate_.gaussian.innovate(measurement);
     ++measurements_;
-    estimate_.gaussian.update();
+    estimate_.update();
   }
 
   static OdometryOptions options() {

@@ -88,17 +88,15 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
   return whitened_residual_.squaredNorm();
 }
 
-void GaussianState::update(std::span<const WithheldGain> withheld) {
+void GaussianState::update(int considered) {
+  const double mean = mean_(considered);
+  const double variance = covariance_(considered, considered);
   mean_ += whitened_residual_.x() * gain_.col(0) + whitened_residual_.y() * gain_.col(1);
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
     covariance_.col(j) -= gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1);
   }
-  for (const WithheldGain& a : withheld) {
-    mean_(a.state) -= a.gain.dot(whitened_residual_);
-    for (const WithheldGain& b : withheld) {
-      covariance_(a.state, b.state) += a.gain.dot(b.gain);
-    }
-  }
+  mean_(considered) = mean;
+  covariance_(considered, considered) = variance;
 }
 
 }  // namespace cremed

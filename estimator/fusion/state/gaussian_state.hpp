@@ -2,20 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/state/linear_measurement.hpp"
 
 namespace cremed {
-
-/// Part of a state's gain that an update does not use. With all of it the state is a consider
-/// parameter (Schmidt-Kalman filter).
-struct WithheldGain {
-  int state = 0;
-  Eigen::Vector2d gain = Eigen::Vector2d::Zero();
-};
 
 /// Mean and covariance of a state of fixed size, with the operations of a Kalman filter. Every
 /// operation keeps the covariance exactly symmetric and costs O(n), an update O(n^2). Only the
@@ -67,11 +58,9 @@ class GaussianState {
   double innovate(const LinearMeasurement& measurement);
   /// NIS of each of its two numbers alone.
   [[nodiscard]] const Eigen::Vector2d& innovations() const { return innovations_; }
-  /// Gain of a state for the whitened residual of the last call of innovate().
-  [[nodiscard]] Eigen::Vector2d gain(int i) const { return gain_.row(i); }
-  /// Kalman update with the measurement of the last call of innovate(). With gains k = g - e, where
-  /// g is optimal and e is withheld, the covariance is Joseph's: P - g g' + e e'.
-  void update(std::span<const WithheldGain> withheld = {});
+  /// Kalman update with the measurement of the last call of innovate(). The state `considered` is a
+  /// consider parameter (Schmidt-Kalman): its own mean and variance stay.
+  void update(int considered);
 
  private:
   using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2>;

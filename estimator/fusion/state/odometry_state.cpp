@@ -166,10 +166,7 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
   gaussian.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
 }
 
-void OdometryState::update() {
-  const WithheldGain common{kCommonScale, gaussian.gain(kCommonScale)};
-  gaussian.update({&common, 1});
-}
+void OdometryState::update() { gaussian.update(kCommonScale); }
 
 Eigen::Vector3d OdometryState::pose_before(double age_s) const {
   return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();

@@ -12,6 +12,7 @@
 #include "daemon/configuration/configuration_summary.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/radar_place.hpp"
+#include "test/daemon/configuration_texts.hpp"
 #include "test/tools/doctor_bench.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/doctor/suggestion.hpp"
@@ -21,25 +22,10 @@ using namespace cremed::test;
 
 namespace {
 
-std::string radar_text(const std::string& name, const std::string& type,
-                       const std::string& interface) {
-  return "[[radar]]\nname = \"" + name + "\"\ntype = \"" + type + "\"\ninterface = \"" + interface +
-         "\"\nmount = { x_m = 3.6, y_m = 0.0, yaw_rad = 0.0 }\n";
-}
-
 Configuration parse(const std::string& text) {
   Configuration configuration = parse_configuration(text, "ars404.toml");
   configuration.output.lcm_url = "none";
   return configuration;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const ConfigurationError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 HeardBus with_clusters(const std::string& interface, std::uint32_t sensor_id) {
@@ -72,10 +58,10 @@ TEST_CASE("An ARS404 is configured by its type, with limits of its own") {
 }
 
 TEST_CASE("It shares identifiers with an ARS408, and a search cannot distinguish them") {
-  CHECK_THAT(refusal(radar_text("a", "ars404", "can0") + radar_text("b", "ars408", "can0")),
+  CHECK_THAT(message_of(radar_text("a", "ars404", "can0") + radar_text("b", "ars408", "can0")),
              Catch::Contains("both use CAN identifier 0x200"));
   CHECK_THAT(
-      refusal(radar_text("a", "ars404", "auto") + radar_text("b", "ars408", "can0")),
+      message_of(radar_text("a", "ars404", "auto") + radar_text("b", "ars408", "can0")),
       Catch::Contains("radars \"a\" and \"b\" cannot be distinguished: an ARS404 with sensor "
                       "id 0, an ARS408 with sensor id 0; must be the name"));
 }

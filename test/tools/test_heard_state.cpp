@@ -14,7 +14,7 @@
 
 #include "tools/eval/temporary_folder.hpp"
 #include "tools/view/heard_state.hpp"
-#include "tools/view/lcm_ear.hpp"
+#include "tools/view/lcm_listener.hpp"
 #include "tools/view/thinned_path.hpp"
 
 using namespace cremed;
@@ -206,8 +206,8 @@ TEST_CASE("What LCM brings is taken, what is cut off or lies about its size is n
   std::fill_n(payloads[1].begin() + 24 + 4 + 6 + 33, 4, std::uint8_t{0x7F});
   write_log(path, payloads);
   HeardState state;
-  LcmEar ear("file://" + path + "?speed=0", state);
-  while (ear.listen()) {
+  LcmListener listener("file://" + path + "?speed=0", state);
+  while (listener.listen()) {
   }
   const auto json = json_of(state);
   CHECK(json["messages"] == 2);
@@ -218,6 +218,6 @@ TEST_CASE("What LCM brings is taken, what is cut off or lies about its size is n
 
 TEST_CASE("A URL that cannot be heard at is said to be so") {
   HeardState state;
-  CHECK_THROWS_WITH(LcmEar("udpm://1.2.3.4:7667", state),
+  CHECK_THROWS_WITH(LcmListener("udpm://1.2.3.4:7667", state),
                     Catch::Contains("is no IPv4 multicast address"));
 }

@@ -14,7 +14,7 @@
 #include "daemon/process/signals.hpp"
 #include "tools/program.hpp"
 #include "tools/view/heard_state.hpp"
-#include "tools/view/lcm_ear.hpp"
+#include "tools/view/lcm_listener.hpp"
 #include "tools/view/view_server.hpp"
 
 namespace {
@@ -35,11 +35,12 @@ std::string default_url() {
 }
 
 /// Listens until it is to stop, then ends the server. At the end of a log (file://) the page stays.
-void listen(const std::stop_token& stop, cremed::LcmEar& ear, cremed::ViewServer& server) {
+void listen(const std::stop_token& stop, cremed::LcmListener& listener,
+            cremed::ViewServer& server) {
   bool hears = true;
   while (!stop.stop_requested() && !cremed::stop_requested()) {
     if (hears) {
-      hears = ear.listen();
+      hears = listener.listen();
     } else {
       std::this_thread::sleep_for(kPause);
     }
@@ -50,12 +51,13 @@ void listen(const std::stop_token& stop, cremed::LcmEar& ear, cremed::ViewServer
 int show(const Arguments& arguments) {
   cremed::handle_stop_signals();
   cremed::HeardState state;
-  cremed::LcmEar ear(arguments.lcm_url, state);
+  cremed::LcmListener listener(arguments.lcm_url, state);
   cremed::ViewServer server(state, arguments.address);
   std::printf("http://%s:%d/ shows what is heard at %s\n", arguments.address.host.c_str(),
               server.port(), arguments.lcm_url.c_str());
   std::fflush(stdout);
-  const std::jthread listener([&](const std::stop_token& stop) { listen(stop, ear, server); });
+  const std::jthread listening(
+      [&](const std::stop_token& stop) { listen(stop, listener, server); });
   server.run();
   return cremed::stop_requested() ? 0 : kRunTimeFailure;
 }
@@ -85,7 +87,7 @@ int run(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
   return cremed::run_program(
       "cremed-view",
-      "Shows in a browser what cremed tells over LCM\n"
+      "Shows the messages of cremed in a browser\n"
       "Path, motion, targets and radars, on a page that needs no other network. It only listens: "
       "nothing can be changed through it.",
       run, argc, argv);

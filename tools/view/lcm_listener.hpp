@@ -13,11 +13,11 @@
 
 namespace cremed {
 
-/// Hears cremed's messages. It only listens: nothing is published.
-class LcmEar {
+/// Receives cremed's messages over LCM. Publishes nothing.
+class LcmListener {
  public:
   /// Throws std::runtime_error with what is wrong and how to mend it.
-  LcmEar(const std::string& url, HeardState& state);
+  LcmListener(const std::string& url, HeardState& state);
 
   /// Waits for messages and takes them; returns after 0.1 s without. False at the end of a log
   /// (file://), after which nothing comes any more.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/view/lcm_ear.hpp"
+#include "tools/view/lcm_listener.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -56,7 +56,7 @@ void hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* state) {
 
 }  // namespace
 
-LcmEar::LcmEar(const std::string& url, HeardState& state) {
+LcmListener::LcmListener(const std::string& url, HeardState& state) {
   if (const std::string problem = multicast_problem(url); !problem.empty()) {
     throw std::runtime_error("LCM at " + url + ": " + problem);
   }
@@ -71,6 +71,6 @@ LcmEar::LcmEar(const std::string& url, HeardState& state) {
   lcm_subscribe(lcm_.get(), "CREMED_SCAN_.*", hear<radar_scan_t>, &state);
 }
 
-bool LcmEar::listen() { return lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
+bool LcmListener::listen() { return lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
 
 }  // namespace cremed

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
-#include "cremed/estimator/fusion/measurement/position_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/map_measurement.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/fusion/tune.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -56,21 +59,22 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       condition_(state_, consensus_),
       output_(state_) {
   for (const OdometryRadar& radar : radars) {
-    tracks_.push_back(std::make_unique<RadarTrack>(state_.options(), radar.vehicle_from_radar,
-                                                   radar.registration));
+    tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
     two_worlds_.emplace_back(radar.vehicle_from_radar);
   }
 }
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_trusted) {
+  static const bool kTrustAll = tune("trustall", 0) != 0;
+  is_trusted = is_trusted || kTrustAll;
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     output_.advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     if (use_doppler(radar, targets, stamp_us)) {
-      use_positions(radar, targets, seconds_between(stamp_us, state_.time_us()));
+      use_positions(radar, targets, stamp_us);
     }
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
@@ -115,6 +119,7 @@ void OdometryFilter::start(std::int64_t stamp_us) {
   for (const auto& track : tracks_) {
     track->clear();
   }
+  node_us_.reset();
   consensus_.clear();
   state_.start(stamp_us);
   condition_.start();
@@ -132,8 +137,11 @@ bool OdometryFilter::is_usable(std::size_t radar, const TargetSet& targets,
 void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   RadarTrust& trust = consensus_[radar];
   if (trust.is_trusted && !is_trusted) {
-    state_.start_errors(radar);
-    state_.start_slip();
+    static const bool kReset = tune("reset", 1) != 0;
+    if (kReset) {
+      state_.start_errors(radar);
+      state_.start_slip();
+    }
     trust.doppler_noise.clear();
   }
   trust.is_trusted = is_trusted;
@@ -198,6 +206,8 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   LinearMeasurement measurement = DopplerMeasurement{state_, radar, age_s}.linearise(scan.velocity);
   measurement.noise *= trust.doppler_noise.value();
   const double nis = state_.gaussian.innovate(measurement);
+  static const bool dump = tune("dump", 0) != 0;
+  if (dump) std::fprintf(stderr, "V %zu %ld %.4f %.4f %.4f %.4f %.3f %.3f %d %.2f | %.4f %.4f\n", radar, stamp_us, scan.velocity.velocity_mps.x(), scan.velocity.velocity_mps.y(), std::sqrt(scan.velocity.covariance(0,0)), std::sqrt(scan.velocity.covariance(1,1)), scan.velocity.per_offset.x(), scan.velocity.per_offset.y(), scan.velocity.targets, nis, state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
   const bool is_expected = nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
@@ -242,45 +252,89 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
 
 // Positions.
 
-void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets, double age_s) {
+void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
+                                   std::int64_t stamp_us) {
+  const OdometryOptions& options = state_.options();
   RadarTrack& track = *tracks_[radar];
-  if (looks_across(state_.mount(radar))) {
+  RadarTrust& trust = consensus_[radar];
+  static const int kOnly = static_cast<int>(tune("only", 255));
+  static const bool kAcross = tune("across", 0) != 0;
+  if ((!kAcross && looks_across(state_.mount(radar))) || (kOnly & (1 << radar)) == 0) {
     return;
   }
-  const Eigen::Vector3d pose = state_.pose_before(age_s);
-  std::array<std::optional<RadarTrack::Pair>, kKeyframes> pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (track.can_match(i, targets)) {
-      const PositionMeasurement measurement{state_, radar, i};
-      pairs[i] = track.match(i, targets, measurement.expected_motion(pose));
+  const double age_s = seconds_between(stamp_us, state_.time_us());
+  select_static(radar, targets, age_s);
+  if (static_targets_.size() < static_cast<std::size_t>(options.min_targets)) {
+    return;
+  }
+  const MapMeasurement map{state_, radar, age_s};
+  if (track.map.scans() > 0) {
+    track.map.place(map.now_from_node());
+    static const Eigen::Vector3d prior(tune("prx", 0.1), tune("pry", 0.3), tune("pryaw", 0.02));
+    const auto match = registration_.solve(static_targets_, track.map, prior);
+    static const bool dump = tune("dump", 0) != 0;
+    if (match && match->matched >= options.min_matched_share * static_targets_.size()) {
+      LinearMeasurement measurement = map.linearise(*match);
+      measurement.noise *= trust.position_noise.value();
+      const double nis = state_.gaussian.innovate(measurement);
+      trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
+      trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
+      trust.position_noise.add(0.5 * nis);
+      if (dump) {
+        std::fprintf(stderr, "D %zu %ld %zu %zu %.1f %d | %.4f %.4f %.5f | res %.4f %.5f sd %.4f %.5f nis %.2f\n", radar, stamp_us, targets.size(), static_targets_.size(), match->matched, match->iterations, match->correction.x(), match->correction.y(), match->correction.z(), measurement.residual.x(), measurement.residual.y(), std::sqrt(measurement.noise(0,0)), std::sqrt(measurement.noise(1,1)), nis);
+      }
+      if (nis <= options.max_position_nis) {
+        state_.update();
+      }
+    } else if (dump) {
+      std::fprintf(stderr, "D %zu %ld %zu %zu none %.1f\n", radar, stamp_us, targets.size(), static_targets_.size(), match ? match->matched : -1);
     }
   }
-  state_.clone_scan(radar, age_s, state_.options().scan_noise_share * track.scan_covariance());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i]) {
-      use_pair(radar, i, *pairs[i]);
+  extend_map(radar, stamp_us, age_s);
+}
+
+/// Selects the targets whose Doppler agrees with the state's velocity.
+void OdometryFilter::select_static(std::size_t radar, const TargetSet& targets, double age_s) {
+  static const double kMaxMps = tune("static", 0.5);
+  const GaussianState& x = state_.gaussian;
+  const Pose2& mount = state_.mount(radar);
+  const double v = x.mean(kSpeed) - age_s * x.mean(kAcceleration);
+  const double w = x.mean(kYawRate) - age_s * x.mean(kYawAcceleration);
+  const double forward = v - w * mount.y_m;
+  const double slip = x.mean(kSlip) - x.mean(kSlipPerAcceleration) * v * w;
+  const double d = x.mean(state_.error(radar, kMountYaw));
+  const double across = w * mount.x_m + slip * v - d * forward;
+  static_targets_.clear();
+  for (const Target& target : targets) {
+    const double expected = -target.cos_bearing * forward - target.sin_bearing * across;
+    if (std::abs(target.doppler_mps - expected) <= kMaxMps) {
+      static_targets_.push_back(target);
     }
-  }
-  if (const auto keyframe = track.keep(targets)) {
-    state_.keep_scan(radar, *keyframe);
   }
 }
 
-void OdometryFilter::use_pair(std::size_t radar, std::size_t keyframe,
-                              const RadarTrack::Pair& pair) {
+/// Hangs the scan on the newest node, or on a new one if that is due.
+void OdometryFilter::extend_map(std::size_t radar, std::int64_t stamp_us, double age_s) {
   const OdometryOptions& options = state_.options();
-  RadarTrust& trust = consensus_[radar];
-  LinearMeasurement measurement =
-      PositionMeasurement{state_, radar, keyframe}.linearise(pair.motion);
-  measurement.noise = trust.position_noise.value() * options.pair_noise_factor *
-                      (options.pair_noise_start + options.pair_noise_per_lag * pair.lag) *
-                      pair.covariance.bottomRightCorner<2, 2>();
-  const double nis = state_.gaussian.innovate(measurement);
-  trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
-  trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
-  trust.position_noise.add(0.5 * nis);
-  if (nis <= options.max_position_nis) {
-    state_.update();
+  OdometryState::PoseJacobian jacobian;
+  const Eigen::Vector3d pose = state_.pose_before(age_s, jacobian);
+  const Eigen::Vector3d moved = relative_pose(state_.node_pose(newest_node_), pose);
+  static const double kMinWay = tune("nodeway", 0.2);
+  static const double kMinTurn = tune("nodeturn", 0.02);
+  static const std::size_t kUsed = static_cast<std::size_t>(tune("nodes", 16));
+  const bool has_moved = moved.head<2>().norm() > kMinWay || std::abs(moved.z()) > kMinTurn;
+  if (!node_us_ ||
+      (seconds_between(*node_us_, stamp_us) >= options.node_period_s && has_moved)) {
+    newest_node_ = (newest_node_ + 1) % kUsed;
+    node_us_ = stamp_us;
+    state_.clone_node(newest_node_, age_s);
+    for (const auto& track : tracks_) {
+      track->map.drop(newest_node_);
+    }
+  }
+  if (!tracks_[radar]->map.has(newest_node_)) {
+    tracks_[radar]->map.insert(newest_node_, static_targets_,
+                               relative_pose(state_.node_pose(newest_node_), pose));
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "cremed/estimator/fusion/gate/filter_condition.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
+#include "cremed/estimator/fusion/map/map_registration.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
@@ -87,8 +88,9 @@ class OdometryFilter {
                        std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
   void follow_majority(std::int64_t stamp_us);
-  void use_positions(std::size_t radar, const TargetSet& targets, double age_s);
-  void use_pair(std::size_t radar, std::size_t keyframe, const RadarTrack::Pair& pair);
+  void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
+  void select_static(std::size_t radar, const TargetSet& targets, double age_s);
+  void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
@@ -98,6 +100,10 @@ class OdometryFilter {
   FilterCondition condition_;
   OdometryOutput output_;
   bool has_started_ = false;
+  MapRegistration registration_;
+  TargetSet static_targets_;
+  std::size_t newest_node_ = 0;
+  std::optional<std::int64_t> node_us_;
 };
 
 }  // namespace cremed

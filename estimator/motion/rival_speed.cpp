@@ -96,7 +96,7 @@ SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& ve
   const double rival_mps =
       rival.empty() ? 0.0 : 0.5 * (rival.front().speed_mps + rival.back().speed_mps);
   return {count_places(targets, Votes(votes.begin(), first_other)), count_places(targets, rival),
-          rival_mps, targets.size() - votes.size()};
+          rival_mps, speed_mps, targets.size() - votes.size()};
 }
 
 }  // namespace cremed

@@ -21,6 +21,7 @@ struct SpeedVotes {
   std::size_t own = 0;
   std::size_t rival = 0;
   double rival_mps = 0.0;
+  double own_mps = 0.0;   ///< Median speed of the votes for `own`.
   std::size_t abeam = 0;  ///< Targets (not places) without a vote.
 };
 

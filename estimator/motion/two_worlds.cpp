@@ -3,6 +3,8 @@
 #include "cremed/estimator/motion/two_worlds.hpp"
 
 #include <cstddef>
+#include <cmath>
+#include "cremed/estimator/fusion/tune.hpp"
 
 namespace cremed {
 namespace {
@@ -22,7 +24,8 @@ constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
   const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
-  return votes.rival >= limits.places &&
+  static const double kMin = tune("rivalsep", 0.0);
+  return votes.rival >= limits.places && std::abs(votes.rival_mps - votes.own_mps) > kMin &&
          static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
 }
 

@@ -27,14 +27,15 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const double forward = v + body * x.mean(kBodyVelocity) - w * lever_y;
   const double scale = 1.0 + at(kDopplerScale) + x.mean(kCommonScale);
   const double d = at(kMountYaw);
-  const double s = x.mean(kSlip);
+  const double k = x.mean(kSlipPerAcceleration);
+  const double s = x.mean(kSlip) - k * v * w;
   const Eigen::Vector2d by_offset = driving * velocity.per_offset;
   const Eigen::Vector2d expected =
       Eigen::Vector2d(forward * scale, s * v + w * lever_x - d * forward) +
       driving * Eigen::Vector2d(at(kDopplerX), at(kDopplerY)) +
       (at(kOffset) + x.mean(kCommonOffset)) * by_offset;
-  const Eigen::Vector2d by_speed(scale, s - d);
-  const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y);
+  const Eigen::Vector2d by_speed(scale, s - d - k * v * w);
+  const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y - k * v * v);
   LinearMeasurement result;
   result.residual = velocity.velocity_mps - expected;
   result.depend_on(kSpeed, by_speed);
@@ -42,6 +43,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   result.depend_on(kYawRate, by_yaw_rate);
   result.depend_on(kYawAcceleration, dt_s * by_yaw_rate);
   result.depend_on(kSlip, {0.0, v});
+  result.depend_on(kSlipPerAcceleration, {0.0, -v * v * w});
   result.depend_on(kBodyVelocity, body * Eigen::Vector2d(scale, -d));
   result.depend_on(kCommonOffset, by_offset);
   result.depend_on(first + kMountYaw, {0.0, -forward});

@@ -11,9 +11,6 @@
 namespace cremed {
 namespace {
 
-/// Initial scan_covariance(), before the first registration: 0.1 m, 0.005 rad.
-const Eigen::Vector3d kInitialScanVariance(0.1 * 0.1, 0.1 * 0.1, 0.005 * 0.005);
-
 /// Number of targets over which residuals are averaged, five to ten scans, and the largest weight
 /// of one scan.
 constexpr double kLearningTargets = 500.0;
@@ -23,53 +20,24 @@ constexpr double kMaxLearningShare = 0.1;
 constexpr double kMinDopplerStdMps = 0.05;
 constexpr double kMaxDopplerStdMps = 0.6;
 
-/// A registration that needs more steps from a prediction is unreliable: using such registrations
-/// doubled the yaw error on a real drive with turns (nuScenes 0061).
-constexpr int kMaxIterations = 5;
-constexpr double kStepTolerance = 1e-3;  // 3 % of a standard deviation.
-
-/// Options for positions with a predicted start: no first stage, no restarts, no Doppler, and no
-/// systematic errors, for which the filter has states.
-RegistrationOptions positions_only(RegistrationOptions options) {
-  options.degrees_of_freedom = 3;
-  options.start_scale = 1.0;
-  options.max_iterations = kMaxIterations;
-  options.step_tolerance = kStepTolerance;
-  options.restarts = false;
-  options.likelihood = Likelihood::exclusive;
-  options.doppler.enabled = false;
-  options.shared_errors.velocity_std_mps = 0.0;
-  return options;
-}
-
 bool is_majority(const DopplerVelocity& velocity, const TargetSet& targets) {
   return 2 * static_cast<std::size_t>(velocity.targets) > targets.size();
 }
 
 }  // namespace
 
-RadarTrack::RadarTrack(const OdometryOptions& options, const Pose2& mount,
-                       const RegistrationOptions& registration)
-    : options_(options), mount_(mount), registration_(positions_only(registration), mount) {
-  clear();
-}
+RadarTrack::RadarTrack(const OdometryOptions& options) : options_(options) { clear(); }
 
 void RadarTrack::clear() {
-  for (Keyframe& keyframe : keyframes_) {
-    keyframe.is_set = false;
-  }
+  map.clear();
   has_stamp_ = false;
   doppler_std_mps_ = options_.doppler_std_mps;
-  scan_covariance_ = kInitialScanVariance.asDiagonal();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {
   const double dt_s = has_stamp_ ? seconds_between(stamp_us_, stamp_us) : 0.0;
   has_stamp_ = true;
   stamp_us_ = stamp_us;
-  for (Keyframe& keyframe : keyframes_) {
-    ++keyframe.lag;
-  }
   return dt_s;
 }
 
@@ -89,45 +57,6 @@ std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
   doppler_std_mps_ =
       std::sqrt((1.0 - share) * doppler_std_mps_ * doppler_std_mps_ + share * std * std);
   return ScanVelocity{*best, is_majority(*best, targets)};
-}
-
-bool RadarTrack::can_match(std::size_t keyframe, const TargetSet& targets) const {
-  return keyframes_[keyframe].is_set && keyframes_[keyframe].lag >= options_.min_lag &&
-         targets.size() >= static_cast<std::size_t>(options_.min_targets);
-}
-
-std::optional<RadarTrack::Pair> RadarTrack::match(std::size_t keyframe, const TargetSet& targets,
-                                                  const Eigen::Vector3d& expected) {
-  const Keyframe& from = keyframes_[keyframe];
-  registration_.set_previous(from.targets);
-  const RegistrationResult result = registration_.solve(targets, 1.0, {&expected, 1});
-  const auto possible = static_cast<double>(std::min(targets.size(), from.targets.size()));
-  if (result.status != RegistrationStatus::converged ||
-      result.matched < options_.min_matched_share * possible) {
-    return std::nullopt;
-  }
-  scan_covariance_ = result.covariance;
-  return Pair{from.lag, result.motion, result.covariance};
-}
-
-std::optional<std::size_t> RadarTrack::keep(const TargetSet& targets) {
-  int youngest = std::numeric_limits<int>::max();
-  std::size_t oldest = 0;
-  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
-    const auto age = [](const Keyframe& keyframe) {
-      return keyframe.is_set ? keyframe.lag : std::numeric_limits<int>::max();
-    };
-    youngest = std::min(youngest, age(keyframes_[i]));
-    oldest = age(keyframes_[i]) > age(keyframes_[oldest]) ? i : oldest;
-  }
-  if (youngest < options_.keyframe_period ||
-      targets.size() < static_cast<std::size_t>(options_.min_targets)) {
-    return std::nullopt;
-  }
-  keyframes_[oldest].is_set = true;
-  keyframes_[oldest].lag = 0;
-  keyframes_[oldest].targets = targets;
-  return oldest;
 }
 
 }  // namespace cremed

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/map/target_map.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/fusion/state/state_layout.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
@@ -28,22 +29,8 @@ struct ScanVelocity {
 /// Data of one radar in the odometry filter, besides its states.
 class RadarTrack {
  public:
-  struct Keyframe {
-    bool is_set = false;
-    int lag = 0;  ///< Scans since it was set.
-    TargetSet targets;
-  };
-  /// A scan registered against a keyframe.
-  struct Pair {
-    int lag = 0;
-    Eigen::Vector3d motion;
-    Eigen::Matrix3d covariance;
-  };
+  explicit RadarTrack(const OdometryOptions& options);
 
-  RadarTrack(const OdometryOptions& options, const Pose2& mount,
-             const RegistrationOptions& registration);
-
-  [[nodiscard]] const Pose2& mount() const { return mount_; }
   void clear();
 
   /// Begins a scan; returns the time since the previous one, or 0.
@@ -57,25 +44,14 @@ class RadarTrack {
   std::optional<ScanVelocity> velocity(const TargetSet& targets,
                                        const std::optional<Eigen::Vector2d>& expected);
 
-  [[nodiscard]] bool can_match(std::size_t keyframe, const TargetSet& targets) const;
-  /// Registers the scan against a keyframe by positions only. Sets scan_covariance().
-  std::optional<Pair> match(std::size_t keyframe, const TargetSet& targets,
-                            const Eigen::Vector3d& expected);
-  [[nodiscard]] const Eigen::Matrix3d& scan_covariance() const { return scan_covariance_; }
-
-  /// Replaces the oldest keyframe by the scan if a keyframe is due; returns its index.
-  std::optional<std::size_t> keep(const TargetSet& targets);
+  TargetMap map;
 
  private:
   const OdometryOptions& options_;
-  Pose2 mount_;
-  Registration registration_;
   DopplerVelocityEstimator doppler_;
-  std::array<Keyframe, state_layout::kKeyframes> keyframes_;
   bool has_stamp_ = false;
   std::int64_t stamp_us_ = 0;
   double doppler_std_mps_ = 0.0;
-  Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace cremed

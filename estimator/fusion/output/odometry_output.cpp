@@ -22,12 +22,15 @@ Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
 /// Adds (v, slip v, yaw rate), the velocity of the rear axle's centre in the vehicle's axes.
 void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
   const double v = vehicle.mean(kSpeed);
-  const double slip = vehicle.mean(kSlip);
-  Eigen::Matrix3d by_state;
-  by_state << 1.0, 0.0, 0.0, slip, 0.0, v, 0.0, 1.0, 0.0;
-  constexpr std::array<int, 3> kTwist{kSpeed, kYawRate, kSlip};
-  const Eigen::Matrix3d covariance = vehicle.covariance(kTwist, kTwist);
-  odometry.twist = {v, slip * v, vehicle.mean(kYawRate)};
+  const double w = vehicle.mean(kYawRate);
+  const double k = vehicle.mean(kSlipPerAcceleration);
+  const double slip = vehicle.mean(kSlip) - k * v * w;
+  Eigen::Matrix<double, 3, 4> by_state;
+  by_state << 1.0, 0.0, 0.0, 0.0,                                    //
+      slip - k * v * w, -k * v * v, v, -v * v * w, 0.0, 1.0, 0.0, 0.0;
+  constexpr std::array<int, 4> kTwist{kSpeed, kYawRate, kSlip, kSlipPerAcceleration};
+  const Eigen::Matrix4d covariance = vehicle.covariance(kTwist, kTwist);
+  odometry.twist = {v, slip * v, w};
   odometry.twist_covariance = symmetric(by_state * covariance * by_state.transpose());
 }
 

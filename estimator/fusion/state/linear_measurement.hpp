@@ -11,7 +11,7 @@ namespace cremed {
 /// A linearised measurement of two numbers: residual z - h(x), and dh/dx for the states it depends
 /// on.
 struct LinearMeasurement {
-  static constexpr int kMaxStates = 20;
+  static constexpr int kMaxStates = 80;
   using Column = Eigen::Vector2d;
 
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();

@@ -74,7 +74,9 @@ void OdometryState::start(std::int64_t time_us) {
   gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
-  gaussian.set(kCommonYawScale, 0.0, squared(options_.common_yaw_scale_std));
+  gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
+  gaussian.set(kSlipPerAcceleration, options_.slip_per_acceleration,
+               squared(options_.slip_per_acceleration_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     start_other_errors(i);
   }
@@ -123,7 +125,8 @@ void OdometryState::start_other_errors(std::size_t radar) {
   set(kDopplerX, options_.doppler_x.std);
   set(kDopplerY, options_.doppler_y.std);
   set(kOffset, options_.offset.std, across * options_.offset_across_mps);
-  set(kYawScale, options_.yaw_scale_std);
+  set(kAzimuthScale, options_.positions_azimuth_scale_std);
+  gaussian.set_mean(first + kAzimuthScale, std::abs(mounts_[radar].yaw_rad) < 1.57 ? tune("kfront", 0.0) : tune("krear", 0.0));
   set(kLeverX, options_.lever_std_m);
   set(kLeverY, options_.lever_std_m);
   set(kYawPerMetre, options_.yaw_per_metre.std);
@@ -168,19 +171,20 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
 
 void OdometryState::update() { gaussian.update(kCommonScale); }
 
-Eigen::Vector3d OdometryState::pose_before(double age_s) const {
-  return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
-}
-
-void OdometryState::clone_scan(std::size_t radar, double age_s, const Eigen::Matrix3d& scan_noise) {
+Eigen::Vector3d OdometryState::pose_before(double age_s, PoseJacobian& jacobian) const {
   const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), -age_s, options_);
-  const Eigen::Vector3d pose = step.state.head<kPose>();
-  gaussian.clone<kMotionStates>(scan(radar), pose, step.jacobian.topRows<kPose>(),
-                                turned_covariance(pose.z(), scan_noise));
+  jacobian = step.jacobian.topRows<kPose>();
+  return step.state.head<kPose>();
 }
 
-void OdometryState::keep_scan(std::size_t radar, std::size_t keyframe) {
-  gaussian.copy(scan(radar), this->keyframe(radar, keyframe));
+void OdometryState::clone_node(std::size_t node, double age_s) {
+  PoseJacobian jacobian;
+  const Eigen::Vector3d pose = pose_before(age_s, jacobian);
+  gaussian.clone<kMotionStates>(state_layout::node(node), pose, jacobian, Eigen::Matrix3d::Zero());
+}
+
+Eigen::Vector3d OdometryState::node_pose(std::size_t node) const {
+  return gaussian.mean().segment<kPose>(state_layout::node(node));
 }
 
 void OdometryState::clone_output() { gaussian.copy(kX, kOutput); }
@@ -193,11 +197,8 @@ void OdometryState::renew_anchor() {
     gaussian.transform_pose(pose, relative, jacobian.rightCols<3>(), jacobian.leftCols<3>());
   };
   renew(kOutput);
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    renew(scan(i));
-    for (std::size_t k = 0; k < kKeyframes; ++k) {
-      renew(keyframe(i, k));
-    }
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    renew(node(i));
   }
   for (int i = 0; i < kPose; ++i) {
     gaussian.set(i, 0.0, 0.0);
@@ -220,12 +221,6 @@ std::vector<LearnedErrors> OdometryState::learned() const {
     result.push_back({yaws[i], scales[i]});
   }
   return result;
-}
-
-int OdometryState::scan(std::size_t radar) const { return first_of(radar) + kScan; }
-
-int OdometryState::keyframe(std::size_t radar, std::size_t keyframe) const {
-  return first_of(radar) + state_layout::keyframe(static_cast<int>(keyframe));
 }
 
 int OdometryState::error(std::size_t radar, int which) const { return first_of(radar) + which; }

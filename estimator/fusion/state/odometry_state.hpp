@@ -22,6 +22,9 @@ namespace cremed {
 /// propagation, clones, and the anchor in whose frame poses are given.
 class OdometryState {
  public:
+  using PoseJacobian =
+      Eigen::Matrix<double, state_layout::kPose, state_layout::kMotionStates>;
+
   /// `learned`: of a previous drive, by radar; may be shorter.
   OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
@@ -48,11 +51,11 @@ class OdometryState {
   /// estimated state it drifted by 1 % in 15 minutes of a simulated town, at a sigma of 0.2 %.
   void update();
 
-  /// Pose at a scan that is `age_s` older than the state.
-  [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
-  /// Clones the pose at a scan, with the noise of the scan's positions in the axes of the vehicle.
-  void clone_scan(std::size_t radar, double age_s, const Eigen::Matrix3d& scan_noise);
-  void keep_scan(std::size_t radar, std::size_t keyframe);
+  /// Pose at a scan that is `age_s` older than the state, and its derivative by the motion states.
+  [[nodiscard]] Eigen::Vector3d pose_before(double age_s, PoseJacobian& jacobian) const;
+  /// Clones the pose at such a scan as a node.
+  void clone_node(std::size_t node, double age_s);
+  [[nodiscard]] Eigen::Vector3d node_pose(std::size_t node) const;
   void clone_output();
   /// Makes the pose the anchor and transforms all poses into its frame.
   void renew_anchor();
@@ -64,9 +67,7 @@ class OdometryState {
   [[nodiscard]] const OdometryOptions& options() const { return options_; }
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
-  // Index in `gaussian` of the clone of a radar's scan or keyframe, or of one of its errors.
-  [[nodiscard]] int scan(std::size_t radar) const;
-  [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
+  /// Index in `gaussian` of one of a radar's errors.
   [[nodiscard]] int error(std::size_t radar, int which) const;
 
   GaussianState gaussian;

@@ -41,7 +41,8 @@ void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, con
   const double v = state(kSpeed) + 0.5 * a.integral_s * state(kAcceleration);
   const double w = state(kYawRate) + 0.5 * c.integral_s * state(kYawAcceleration);
   const double yaw = state(kYaw) + 0.5 * dt_s * w;
-  const double s = state(kSlip);
+  const double k = state(kSlipPerAcceleration);
+  const double s = state(kSlip) - k * v * w;
   const Eigen::Vector2d along(std::cos(yaw) - s * std::sin(yaw), std::sin(yaw) + s * std::cos(yaw));
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d by_yaw = dt_s * v * across;
@@ -53,7 +54,11 @@ void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, con
   xy.col(kAcceleration) = 0.5 * a.integral_s * dt_s * along;
   xy.col(kYawRate) = 0.5 * dt_s * by_yaw;
   xy.col(kYawAcceleration) = 0.25 * dt_s * c.integral_s * by_yaw;
-  xy.col(kSlip) = dt_s * v * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
+  const Eigen::Vector2d by_slip = dt_s * v * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
+  xy.col(kSlip) = by_slip;
+  xy.col(kSlipPerAcceleration) = -v * w * by_slip;
+  xy.col(kSpeed) -= k * w * by_slip;
+  xy.col(kYawRate) -= k * v * by_slip;
   step.jacobian(kYaw, kYawRate) = dt_s;
   step.jacobian(kYaw, kYawAcceleration) = 0.5 * dt_s * c.integral_s;
 }

@@ -23,6 +23,10 @@ struct OdometryOptions {
   /// tyre slip in turns (rad/sqrt(s)).
   double slip_std_rad = 0.0075;
   double slip_walk = 0.001;
+  /// Slip of the rear axle to the outside of a turn, per centripetal acceleration v w (rad s^2/m):
+  /// v_y = -slip_per_lateral_acceleration v^2 w; and its standard deviation.
+  double slip_per_lateral_acceleration = 0.0;
+  double slip_per_lateral_acceleration_std = 0.0;
   /// Velocity of the body over the wheels, m/s: pitch, suspension.
   OrnsteinUhlenbeck body_velocity{0.03, 1.0};
   /// Prior before the first scan.

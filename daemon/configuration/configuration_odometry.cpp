@@ -7,6 +7,8 @@ namespace {
 
 constexpr Range kTimeS{0.01, 1000.0};
 constexpr Range kAngleRad{0.0, 1.0};
+/// rad s^2/m: ten times that of a car.
+constexpr Range kSlipPerAcceleration{-0.05, 0.05};
 constexpr Range kVelocityMps{0.0, 10.0};
 
 void read_vehicle(TomlReader& reader, OdometryOptions& options) {
@@ -16,6 +18,10 @@ void read_vehicle(TomlReader& reader, OdometryOptions& options) {
   reader.number("yaw_acceleration_time_s", options.yaw_acceleration.time_s, kTimeS);
   reader.number("slip_std_rad", options.slip_std_rad, kAngleRad);
   reader.number("slip_walk_rad_per_sqrt_s", options.slip_walk, kAngleRad);
+  reader.number("slip_per_lateral_acceleration", options.slip_per_lateral_acceleration,
+                kSlipPerAcceleration);
+  reader.number("slip_per_lateral_acceleration_std", options.slip_per_lateral_acceleration_std,
+                {0.0, 0.05});
   reader.number("body_velocity_std_mps", options.body_velocity.std, kVelocityMps);
   reader.number("body_velocity_time_s", options.body_velocity.time_s, kTimeS);
   reader.number("start_speed_std_mps", options.start_speed_std_mps, {0.1, 150.0});

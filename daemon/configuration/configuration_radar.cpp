@@ -135,6 +135,7 @@ void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
 void read_calibration(TomlReader& reader, RadarConfiguration& radar) {
   DetectionCorrection& correction = radar.ego_motion.correction;
   read_rotation_lead(reader, radar);
+  reader.number("azimuth_scale", correction.azimuth_scale, {0.9, 1.1});
   reader.number("stamp_offset_s", radar.stamp_offset_s, {-0.5, 0.5});
   reader.number("doppler_offset_mps", correction.doppler_offset_mps, {-5.0, 5.0});
   reader.number("doppler_scale", correction.doppler_scale, {0.5, 2.0});
@@ -149,6 +150,7 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
   read_mount(mount, radar.ego_motion.vehicle_from_radar, Presence::required);
   mount.finish();
   radar.ego_motion.correction.rotation_lead_s = radar.decoder.rotation_lead_s().value_or(0.0);
+  radar.ego_motion.correction.azimuth_scale = radar.decoder.family().azimuth_scale;
   TomlReader calibration = reader.table("calibration");
   read_calibration(calibration, radar);
   calibration.finish();

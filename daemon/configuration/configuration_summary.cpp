@@ -55,6 +55,16 @@ std::string names_of(const std::vector<RadarConfiguration>& radars,
   return names;
 }
 
+/// "front 1.01, left 1"
+std::string azimuth_scales(const std::vector<RadarConfiguration>& radars) {
+  std::string text;
+  for (const RadarConfiguration& radar : radars) {
+    text =
+        joined(text, fmt::format("{} {:g}", radar.name, radar.ego_motion.correction.azimuth_scale));
+  }
+  return text;
+}
+
 std::string odometry_text(const Configuration& configuration) {
   const OdometryConfiguration& odometry = configuration.odometry;
   if (!odometry.enabled) {
@@ -101,7 +111,8 @@ std::string configuration_summary(const Configuration& configuration) {
   for (const RadarConfiguration& radar : configuration.radars) {
     text += row_of(radar);
   }
-  return text + "odometry: " + odometry_text(configuration) +
+  return text + "azimuth scale: " + azimuth_scales(configuration.radars) +
+         "\nodometry: " + odometry_text(configuration) +
          "\noutput: " + output_text(configuration.output) +
          "\nsends on the buses: " + sent_text(configuration) + "\n";
 }

@@ -17,6 +17,8 @@ struct DetectionCorrection {
   /// Positions are turned ahead by this time times the yaw rate that the sensor is sent: see
   /// rotation_lead.hpp.
   double rotation_lead_s = 0.0;
+  /// Factor on the azimuth, in the radar's frame, after that: true over reported.
+  double azimuth_scale = 1.0;
   double doppler_offset_mps = 0.0;  ///< Subtracted from all Doppler.
   double doppler_scale = 1.0;       ///< Factor on Doppler after that.
   /// Factors on the standard deviations that the sensor reports.

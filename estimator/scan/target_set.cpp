@@ -62,6 +62,7 @@ bool is_finite_target(const Target& t) {
 
 Detection corrected(const Detection& detection, const DetectionCorrection& correction) {
   Detection result = detection;
+  result.azimuth_rad *= correction.azimuth_scale;
   result.doppler_mps =
       (detection.doppler_mps - correction.doppler_offset_mps) * correction.doppler_scale;
   result.range_std_m *= correction.range_std_factor;

@@ -45,6 +45,7 @@ min_existence_code = 3
 limits = { min_range_m = 1.5, max_range_m = 80, max_abs_azimuth_rad = 1.25, min_rcs_dbm2 = -20 }
 calibration.stamp_offset_s = -0.02
 calibration.rotation_lead_s = 0.03
+calibration.azimuth_scale = 1.03
 calibration.doppler_offset_mps = 0.3
 calibration.range_std_factor = 1.5
 calibration.azimuth_std_factor = 2
@@ -66,6 +67,7 @@ calibration.doppler_std_factor = 2.5
   CHECK(radar.stamp_offset_s == -0.02);
   const DetectionCorrection& correction = radar.ego_motion.correction;
   CHECK(correction.rotation_lead_s == 0.03);
+  CHECK(correction.azimuth_scale == 1.03);
   CHECK(correction.doppler_offset_mps == 0.3);
   CHECK(correction.range_std_factor == 1.5);
   CHECK(correction.azimuth_std_factor == 2.0);
@@ -100,6 +102,18 @@ TEST_CASE("the rotation lead is that of the sensor's type and output unless it i
   CHECK(lead_s(kGpr) == 0.0);
   CHECK_THROWS_WITH(lead_s(kGpr + "calibration.rotation_lead_s = 0.04\n"),
                     Catch::Contains("rotation_lead_s") && Catch::Contains("left out"));
+}
+
+TEST_CASE("the azimuth scale is that of the sensor's type unless it is given") {
+  const auto scale = [](const std::string& radar) {
+    return parse(radar).radars.at(0).ego_motion.correction.azimuth_scale;
+  };
+  CHECK(scale(kArs408) == kArs408AzimuthScale);
+  CHECK(scale(kArs408 + "output = \"objects\"\n") == kArs408AzimuthScale);
+  CHECK(scale(radar_text("front", "ars404", "can0")) == 1.0);
+  CHECK(scale(kGpr) == 1.0);
+  CHECK(scale(kGpr + "calibration.azimuth_scale = 0.98\n") == 0.98);
+  CHECK(scale(kArs408 + "[calibrated.front]\nazimuth_scale = 1.02\n") == 1.02);
 }
 
 TEST_CASE("every key of a GPR is taken") {
@@ -209,6 +223,8 @@ yaw_acceleration_std_radps2 = 1.03
 yaw_acceleration_time_s = 1.04
 slip_std_rad = 0.05
 slip_walk_rad_per_sqrt_s = 0.06
+slip_per_lateral_acceleration = -0.01
+slip_per_lateral_acceleration_std = 0.02
 body_velocity_std_mps = 1.07
 body_velocity_time_s = 1.08
 start_speed_std_mps = 1.09
@@ -245,6 +261,8 @@ max_gap_s = 1.30
                    o.offset.std, o.offset.time_s, o.azimuth_scale_std} ==
         std::array{0.11, 0.12, 0.13, 1.14, 1.15, 1.16, 1.17, 1.18, 1.19, 1.20, 0.21});
   CHECK(o.lever_std_m == 0.23);
+  CHECK(o.slip_per_lateral_acceleration == -0.01);
+  CHECK(o.slip_per_lateral_acceleration_std == 0.02);
   CHECK(o.min_targets == 22);
   CHECK(std::array{o.max_doppler_nis, o.max_position_nis, o.standstill_mps, o.predicted_s, o.lost_s,
                    o.anchor_period_s, o.max_lateness_s,

@@ -58,10 +58,11 @@ void write(std::ostream& out, const EgoMotionOptions& options) {
                yaw_rate, std_m, std_rad] = options;
   const auto& [x, y, yaw] = mount;
   const auto& [min_range, max_range, azimuth, rcs] = limits;
-  const auto& [lead, doppler_offset, doppler_scale, range_factor, azimuth_factor, doppler_factor] =
-      correction;
-  out << "correction " << lead << ' ' << doppler_offset << ' ' << doppler_scale << ' '
-      << range_factor << ' ' << azimuth_factor << ' ' << doppler_factor << '\n';
+  const auto& [lead, azimuth_scale, doppler_offset, doppler_scale, range_factor, azimuth_factor,
+               doppler_factor] = correction;
+  out << "correction " << lead << ' ' << azimuth_scale << ' ' << doppler_offset << ' '
+      << doppler_scale << ' ' << range_factor << ' ' << azimuth_factor << ' ' << doppler_factor
+      << '\n';
   out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
       << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
       << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';
@@ -95,6 +96,7 @@ std::string text_of(const OdometryConfiguration& odometry) {
       << o.acceleration << ' ' << o.yaw_acceleration << ' ' << o.slip_std_rad << ' ' << o.slip_walk
       << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' ' << o.start_yaw_rate_std_radps
       << '\n'
+      << o.slip_per_lateral_acceleration << ' ' << o.slip_per_lateral_acceleration_std << ' '
       << o.lever_std_m << ' ' << o.mount_yaw_std_rad << ' ' << o.mount_yaw_walk << ' '
       << o.doppler_scale_std << ' ' << o.doppler_std_mps << ' ' << o.doppler_x << ' ' << o.doppler_y
       << ' ' << o.offset << ' ' << o.azimuth_scale_std << '\n'
@@ -171,6 +173,7 @@ TEST_CASE("the manual loads as it is and holds the defaults") {
   radar.interface = "can0";
   radar.ego_motion.vehicle_from_radar = {3.412, 0.0, 0.0};
   radar.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
+  radar.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
   CHECK(text_of(configuration) == text_of(expected));
 }
 
@@ -283,6 +286,7 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     expected.interface = places[i].interface;
     expected.ego_motion.vehicle_from_radar = places[i].mount;
     expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
+    expected.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
     expected.ego_motion.correction.doppler_scale = 1.005;
     expected.ego_motion.correction.azimuth_std_factor = 0.7;
     RegistrationOptions& registration = expected.ego_motion.registration;

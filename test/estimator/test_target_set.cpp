@@ -204,6 +204,19 @@ TEST_CASE("assigning corrects the targets") {
   CHECK(set[0].covariance_m2.yy == Approx(0.09));
 }
 
+TEST_CASE("an azimuth scale moves targets about the radar and leaves range and Doppler") {
+  TargetSet set;
+  SelectionCounters counters;
+  set.assign(simulation::scan({usable_detection(10.0, 0.5)}, 0), {1.0, 2.0, 0.3}, {}, counters,
+             {.azimuth_scale = 1.02});
+  REQUIRE(set.size() == 1);
+  CHECK(set[0].bearing_rad == Approx(0.3 + 0.51));
+  CHECK(set[0].sin_bearing == Approx(std::sin(0.81)));
+  CHECK(set[0].x_m == Approx(1.0 + 10.0 * std::cos(0.81)));
+  CHECK(set[0].y_m == Approx(2.0 + 10.0 * std::sin(0.81)));
+  CHECK(set[0].doppler_mps == usable_detection(10.0, 0.5).doppler_mps);
+}
+
 TEST_CASE("a full set ignores further targets") {
   TargetSet set;
   for (std::size_t i = 0; i < kMaxDetections; ++i) {

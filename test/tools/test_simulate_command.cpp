@@ -107,6 +107,8 @@ TEST_CASE("without a configuration the radars are those of the demo") {
     CHECK(mount.yaw_rad == expected_mount.yaw_rad);
     CHECK(radars[i].ego_motion.correction.rotation_lead_s ==
           expected[i].ego_motion.correction.rotation_lead_s);
+    CHECK(radars[i].ego_motion.correction.azimuth_scale ==
+          expected[i].ego_motion.correction.azimuth_scale);
   }
 }
 

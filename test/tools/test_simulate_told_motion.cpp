@@ -70,13 +70,15 @@ Seen seen_at(const Detection& detection, const Echo& echo, const TruthTable& tru
           place(10'000.0),  (vehicle(10'000.0).yaw_rad - vehicle(-10'000.0).yaw_rad) / 0.02};
 }
 
-Drive drive_of(const char* name, bool is_told, double duration_s = 40.0) {
+Drive drive_of(const char* name, bool is_told, double duration_s = 40.0,
+               double azimuth_scale = 1.0) {
   SimulationOptions options;
   options.is_told_motion = is_told;
   options.duration_s = duration_s;
   options.body_velocity_std_mps = 0.0;
-  return drive(scenario(name), {radar("front", "can0", kMount, Ars408Options{})},
-               exactly_mounted(options));
+  RadarConfiguration front = radar("front", "can0", kMount, Ars408Options{});
+  front.ego_motion.correction.azimuth_scale = azimuth_scale;
+  return drive(scenario(name), {front}, exactly_mounted(options));
 }
 
 /// All targets but ghosts, which have no position.
@@ -275,4 +277,19 @@ TEST_CASE("What a radar sees is seen from where it really is") {
               Approx(0.0).margin(1e-4));
     }
   }
+}
+
+TEST_CASE(
+    "A radar with an azimuth scale measures smaller azimuths, and Doppler where the target is") {
+  constexpr double kScale = 1.05;
+  const auto all = all_seen(drive_of("city", true, 40.0, kScale));
+  const auto azimuth = [](const Seen& seen) { return seen.now.azimuth_rad; };
+  const auto reported = [](const Seen& seen) { return seen.detection.azimuth_rad; };
+  const auto doppler = [](const Seen& seen) { return seen.detection.doppler_mps; };
+  const auto true_doppler = [](const Seen& seen) { return seen.static_mps(seen.now.azimuth_rad); };
+  const auto stands = [](const Seen& seen) {
+    return seen.kind == EchoKind::fixed && drives_straight(seen);
+  };
+  CHECK(slope(all, azimuth, reported, stands) == Approx(1.0 / kScale).margin(0.003));
+  CHECK(slope(all, true_doppler, doppler, stands) == Approx(1.0).margin(0.002));
 }

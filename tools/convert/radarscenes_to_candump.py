@@ -26,10 +26,12 @@ HEADING = """# {name} of RadarScenes, made by cremed-convert. cremed.toml explai
 #
 # These radars are not ARS408s: the frames have their targets on a grid of 0.2 m and 0.25 m/s, with noise
 # from the stated resolution (0.15 m, 0.5 to 2 degrees, 0.1 km/h). There are no motion flags, so all targets
-# are kept, and no velocities across, so there is no rotation lead.
+# are kept, and no velocities across, so there is no rotation lead; azimuths
+# have no known scale.
 """
 SETTINGS = """keep_dyn_props = [4]
 calibration.rotation_lead_s = 0.0
+calibration.azimuth_scale = 1.0
 """
 
 

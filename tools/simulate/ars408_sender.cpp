@@ -98,8 +98,8 @@ Ars408Sender::Ars408Sender(const Ars408Options& options, const Scene& scene,
                   scene, setup),
       options_(options) {}
 
-double Ars408Sender::reported_azimuth_rad(double azimuth_rad) const {
-  return azimuth_rad - setup().rotation_lead_s * told().yaw_rate_radps;
+double Ars408Sender::reported_azimuth_rad(double measured_rad) const {
+  return measured_rad - setup().rotation_lead_s * told().yaw_rate_radps;
 }
 
 double Ars408Sender::static_across(double range_m, double azimuth_rad) const {
@@ -108,8 +108,8 @@ double Ars408Sender::static_across(double range_m, double azimuth_rad) const {
 
 /// In the reported direction, which the reader uses.
 Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
-  const double cos_azimuth = std::cos(reported_azimuth_rad(view.azimuth_rad));
-  const double sin_azimuth = std::sin(reported_azimuth_rad(view.azimuth_rad));
+  const double cos_azimuth = std::cos(reported_azimuth_rad(view));
+  const double sin_azimuth = std::sin(reported_azimuth_rad(view));
   const double along_m = std::hypot(kRangeStdM, kRangeStdPerMetre * view.range_m);
   const double across_m = view.range_m * kAzimuthStdRad;
   Ars408RmsCodes codes;
@@ -126,7 +126,7 @@ Ars408RmsCodes Ars408Sender::rms_codes(const RadarView& view) const {
 /// velocity across into Doppler.
 PolarStd Ars408Sender::noise(const RadarView& view) const {
   const Ars408RmsCodes codes = rms_codes(view);
-  const double azimuth_rad = reported_azimuth_rad(view.azimuth_rad);
+  const double azimuth_rad = reported_azimuth_rad(view);
   const double cos_2 = square(std::cos(azimuth_rad));
   const double sin_2 = square(std::sin(azimuth_rad));
   const double x_2 = variance(codes.x);
@@ -136,7 +136,7 @@ PolarStd Ars408Sender::noise(const RadarView& view) const {
   PolarStd std;
   std.range_m = std::sqrt(cos_2 * x_2 + sin_2 * y_2 - position_rounding);
   std.azimuth_rad = std::sqrt(sin_2 * x_2 + cos_2 * y_2 - position_rounding) / view.range_m;
-  const double across_mps = static_across(view.range_m, view.azimuth_rad);
+  const double across_mps = static_across(view.range_m, measured_azimuth_rad(view.azimuth_rad));
   const double doppler_rounding = rounding_variance(kArs408SpeedStepMps) +
                                   square(across_mps / view.range_m) * position_rounding;
   std.doppler_mps = std::sqrt(std::max(0.0, doppler_2 - doppler_rounding));

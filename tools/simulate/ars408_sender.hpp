@@ -25,7 +25,8 @@ namespace cremed {
 /// the sensor receives (static_across_mps). The radar cannot measure A, so moving targets have it
 /// too. The reported position is extrapolated: turned by -w tau (calibration.rotation_lead_s, 40
 /// ms), at the same range. Without speed and yaw rate the sensor reports A = 0, does not turn
-/// positions, and takes everything with Doppler for moving. An object's velocity is tracked: its
+/// positions, and takes everything with Doppler for moving. All azimuths that it measures are the
+/// true ones over calibration.azimuth_scale. An object's velocity is tracked: its
 /// component across is the target's own.
 class Ars408Sender : public RadarSender {
  public:
@@ -51,8 +52,11 @@ class Ars408Sender : public RadarSender {
   Ars408ClusterQuality cluster_quality(const Ars408RmsCodes& rms);
   Ars408General general(const Measurement& measurement, double doppler_mps, double across_mps);
   Ars408DynProp dyn_prop(const Echo& echo);
-  /// The reported azimuth of a target measured at this one.
-  [[nodiscard]] double reported_azimuth_rad(double azimuth_rad) const;
+  /// The reported azimuth of a target measured at this one, or of one seen so.
+  [[nodiscard]] double reported_azimuth_rad(double measured_rad) const;
+  [[nodiscard]] double reported_azimuth_rad(const RadarView& view) const {
+    return reported_azimuth_rad(measured_azimuth_rad(view.azimuth_rad));
+  }
   [[nodiscard]] double static_across(double range_m, double azimuth_rad) const;
   [[nodiscard]] Ars408RmsCodes rms_codes(const RadarView& view) const;
 

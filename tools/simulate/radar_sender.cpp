@@ -75,7 +75,8 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
     const PolarStd std = noise(echo.view);
     Measurement target{echo, echo.view.range_m, echo.view.azimuth_rad, echo.view.doppler_mps};
     target.range_m = std::max(kLeastMeasuredM, target.range_m + std.range_m * random_.normal());
-    target.azimuth_rad += std.azimuth_rad * random_.normal();
+    target.azimuth_rad =
+        measured_azimuth_rad(target.azimuth_rad + std.azimuth_rad * random_.normal());
     target.doppler_mps =
         with_shared_errors(target.doppler_mps) + std.doppler_mps * random_.normal();
     if (can_report(target)) targets_.push_back(target);

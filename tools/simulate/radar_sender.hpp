@@ -41,6 +41,7 @@ struct SenderSetup {
   Pose2 stated_mount;            ///< Mount in the configuration.
   bool is_told_motion = true;    ///< Receives speed and yaw rate, if its family supports that.
   double rotation_lead_s = 0.0;  ///< DetectionCorrection::rotation_lead_s
+  double azimuth_scale = 1.0;    ///< DetectionCorrection::azimuth_scale
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
   DopplerErrors doppler;
@@ -94,6 +95,10 @@ class RadarSender : public BusSender {
   /// Final changes to a frame when it is sent, `age_us` after the measurement.
   virtual void finish(CanFrame& frame, std::int64_t age_us);
 
+  /// The azimuth at which the radar measures a target that is at this one.
+  [[nodiscard]] double measured_azimuth_rad(double azimuth_rad) const {
+    return azimuth_rad / setup_.azimuth_scale;
+  }
   [[nodiscard]] Random& random() { return random_; }
   [[nodiscard]] const SenderSetup& setup() const { return setup_; }
   /// Doppler of the last scan without the target's own noise.

@@ -102,6 +102,7 @@ std::vector<RadarConfiguration> default_radars() {
   RadarConfiguration front = radar_at("front", "can0", {3.6, 0.0, 0.0});
   front.decoder = Ars408Options{};
   front.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
+  front.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
   RadarConfiguration rear = radar_at("rear", "can1", {-0.9, 0.0, std::numbers::pi});
   rear.decoder = BoschGprOptions{};
   return {front, rear};
@@ -121,6 +122,7 @@ Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfigur
                     .stated_mount = stated.vehicle_from_radar,
                     .is_told_motion = options.is_told_motion,
                     .rotation_lead_s = stated.correction.rotation_lead_s,
+                    .azimuth_scale = stated.correction.azimuth_scale,
                     .seed = options.seed,
                     .doppler = doppler_errors(stated.correction, options, i),
                     .faults = scenario.faults,

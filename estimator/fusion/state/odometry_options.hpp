@@ -24,10 +24,10 @@ struct OdometryOptions {
   /// tyre slip in turns (rad/sqrt(s)).
   double slip_std_rad = tune("slip", 0.0075);
   double slip_walk = tune("slipw", 0.001);
-  /// Slip for each m/s^2 of lateral acceleration v w, towards the outside of the bend:
-  /// -slip_per_acceleration v w. Prior; rad/(m/s^2).
-  double slip_per_acceleration = tune("slipk", 0.003);
-  double slip_per_acceleration_std = tune("slipkstd", 0.0015);
+  /// Slip of the rear axle to the outside of a turn, per centripetal acceleration v w (rad s^2/m):
+  /// v_y = -slip_per_lateral_acceleration v^2 w; and its standard deviation.
+  double slip_per_lateral_acceleration = tune("slipk", 0.003);
+  double slip_per_lateral_acceleration_std = tune("slipkstd", 0.0015);
   /// Velocity of the body over the wheels, m/s: pitch, suspension.
   OrnsteinUhlenbeck body_velocity{tune("body",0.03),tune("bodyt",1.0)};
   /// Prior before the first scan.

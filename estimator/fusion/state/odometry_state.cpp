@@ -75,8 +75,8 @@ void OdometryState::start(std::int64_t time_us) {
   gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
   gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
-  gaussian.set(kSlipPerAcceleration, options_.slip_per_acceleration,
-               squared(options_.slip_per_acceleration_std));
+  gaussian.set(kSlipPerAcceleration, options_.slip_per_lateral_acceleration,
+               squared(options_.slip_per_lateral_acceleration_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     start_other_errors(i);
   }

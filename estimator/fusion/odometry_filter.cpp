@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/static_targets.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
-#include "cremed/estimator/fusion/tune.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -55,6 +54,8 @@ std::vector<std::optional<LearnedErrors>> learned_before(std::span<const Odometr
 OdometryFilter::OdometryFilter(const OdometryOptions& options,
                                std::span<const OdometryRadar> radars)
     : state_(options, mounts(radars), learned_before(radars)),
+      nodes_(state_),
+      registration_(options.position_std_factor),
       consensus_(state_),
       condition_(state_, consensus_),
       output_(state_) {
@@ -62,12 +63,11 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
     tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
     two_worlds_.emplace_back(radar.vehicle_from_radar);
   }
+  state_.start();
 }
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_trusted) {
-  static const bool kTrustAll = tune("trustall", 0) != 0;
-  is_trusted = is_trusted || kTrustAll;
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     output_.advance_to(stamp_us);
@@ -104,24 +104,24 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 // Start.
 
 void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
-  if (!has_started_) {
-    start(stamp_us);
-    return;
-  }
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  if (gap_s > state_.options().max_gap_s || (condition_.is_lost() && is_trusted)) {
+  const bool is_lost = condition_.is_lost() && is_trusted && gap_s > -state_.options().max_lateness_s;
+  if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     output_.bridge(seconds_between(condition_.used_us(), stamp_us));
-    start(stamp_us);
+    has_started_ = false;
+  }
+  if (!has_started_) {
+    restart(stamp_us);
   }
 }
 
-void OdometryFilter::start(std::int64_t stamp_us) {
+void OdometryFilter::restart(std::int64_t stamp_us) {
   for (const auto& track : tracks_) {
     track->clear();
   }
-  node_us_.reset();
+  nodes_.clear();
   consensus_.clear();
-  state_.start(stamp_us);
+  state_.restart(stamp_us);
   condition_.start();
   output_.start();
   has_started_ = true;
@@ -133,15 +133,11 @@ bool OdometryFilter::is_usable(std::size_t radar, const TargetSet& targets,
          tracks_[radar]->is_in_order(stamp_us) && targets.is_finite();
 }
 
-/// Resets what a radar that is no longer trusted may have corrupted: its own errors, and the slip.
+/// Widens the errors of a radar that is no longer trusted: they may be wrong.
 void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   RadarTrust& trust = consensus_[radar];
   if (trust.is_trusted && !is_trusted) {
-    static const bool kReset = tune("reset", 1) != 0;
-    if (kReset) {
-      state_.start_errors(radar);
-      state_.start_slip();
-    }
+    state_.widen_errors(radar);
     trust.doppler_noise.clear();
   }
   trust.is_trusted = is_trusted;
@@ -163,7 +159,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
       !condition_.has_used_scans()) {
     // The speed, and so the distance, was unknown since the start: restart here.
     output_.bridge(0.0);
-    state_.start(state_.time_us());
+    state_.restart(state_.time_us());
     output_.restart_anchor();
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
@@ -206,8 +202,6 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   LinearMeasurement measurement = DopplerMeasurement{state_, radar, age_s}.linearise(scan.velocity);
   measurement.noise *= trust.doppler_noise.value();
   const double nis = state_.gaussian.innovate(measurement);
-  static const bool dump = tune("dump", 0) != 0;
-  if (dump) std::fprintf(stderr, "V %zu %ld %.4f %.4f %.4f %.4f %.3f %.3f %d %.2f | %.4f %.4f\n", radar, stamp_us, scan.velocity.velocity_mps.x(), scan.velocity.velocity_mps.y(), std::sqrt(scan.velocity.covariance(0,0)), std::sqrt(scan.velocity.covariance(1,1)), scan.velocity.per_offset.x(), scan.velocity.per_offset.y(), scan.velocity.targets, nis, state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
   const bool is_expected = nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
@@ -239,7 +233,7 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   const double since_s = consensus_.longest_contradiction_s();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (consensus_[i].has_agreed()) {
-      state_.start_errors(i);
+      state_.widen_errors(i);
     } else {
       consensus_[i].forgive();
     }
@@ -254,87 +248,49 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
 
 void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
                                    std::int64_t stamp_us) {
-  const OdometryOptions& options = state_.options();
-  RadarTrack& track = *tracks_[radar];
-  RadarTrust& trust = consensus_[radar];
-  static const int kOnly = static_cast<int>(tune("only", 255));
-  static const bool kAcross = tune("across", 0) != 0;
-  if ((!kAcross && looks_across(state_.mount(radar))) || (kOnly & (1 << radar)) == 0) {
+  if (looks_across(state_.mount(radar))) {
     return;
   }
   const double age_s = seconds_between(stamp_us, state_.time_us());
-  select_static(radar, targets, age_s);
-  if (static_targets_.size() < static_cast<std::size_t>(options.min_targets)) {
+  select_static(state_, radar, age_s, targets, static_targets_);
+  if (static_targets_.size() >= static_cast<std::size_t>(state_.options().min_targets)) {
+    match(radar, age_s);
+    extend_map(radar, stamp_us, age_s);
+  }
+}
+
+void OdometryFilter::match(std::size_t radar, double age_s) {
+  TargetMap& map = tracks_[radar]->map;
+  const MapMeasurement from_map{state_, map, radar, age_s};
+  map.place(from_map.now_from_node());
+  const auto match = registration_.solve(static_targets_, map, state_.mount(radar));
+  const auto possible = static_cast<double>(static_targets_.size());
+  if (!match || match->matched < state_.options().min_matched_share * possible) {
     return;
   }
-  const MapMeasurement map{state_, radar, age_s};
-  if (track.map.scans() > 0) {
-    track.map.place(map.now_from_node());
-    static const Eigen::Vector3d prior(tune("prx", 0.1), tune("pry", 0.3), tune("pryaw", 0.02));
-    const auto match = registration_.solve(static_targets_, track.map, prior);
-    static const bool dump = tune("dump", 0) != 0;
-    if (match && match->matched >= options.min_matched_share * static_targets_.size()) {
-      LinearMeasurement measurement = map.linearise(*match);
-      measurement.noise *= trust.position_noise.value();
-      const double nis = state_.gaussian.innovate(measurement);
-      trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
-      trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
-      trust.position_noise.add(0.5 * nis);
-      if (dump) {
-        std::fprintf(stderr, "D %zu %ld %zu %zu %.1f %d | %.4f %.4f %.5f | res %.4f %.5f sd %.4f %.5f nis %.2f\n", radar, stamp_us, targets.size(), static_targets_.size(), match->matched, match->iterations, match->correction.x(), match->correction.y(), match->correction.z(), measurement.residual.x(), measurement.residual.y(), std::sqrt(measurement.noise(0,0)), std::sqrt(measurement.noise(1,1)), nis);
-      }
-      if (nis <= options.max_position_nis) {
-        state_.update();
-      }
-    } else if (dump) {
-      std::fprintf(stderr, "D %zu %ld %zu %zu none %.1f\n", radar, stamp_us, targets.size(), static_targets_.size(), match ? match->matched : -1);
-    }
-  }
-  extend_map(radar, stamp_us, age_s);
-}
-
-/// Selects the targets whose Doppler agrees with the state's velocity.
-void OdometryFilter::select_static(std::size_t radar, const TargetSet& targets, double age_s) {
-  static const double kMaxMps = tune("static", 0.5);
-  const GaussianState& x = state_.gaussian;
-  const Pose2& mount = state_.mount(radar);
-  const double v = x.mean(kSpeed) - age_s * x.mean(kAcceleration);
-  const double w = x.mean(kYawRate) - age_s * x.mean(kYawAcceleration);
-  const double forward = v - w * mount.y_m;
-  const double slip = x.mean(kSlip) - x.mean(kSlipPerAcceleration) * v * w;
-  const double d = x.mean(state_.error(radar, kMountYaw));
-  const double across = w * mount.x_m + slip * v - d * forward;
-  static_targets_.clear();
-  for (const Target& target : targets) {
-    const double expected = -target.cos_bearing * forward - target.sin_bearing * across;
-    if (std::abs(target.doppler_mps - expected) <= kMaxMps) {
-      static_targets_.push_back(target);
-    }
+  RadarTrust& trust = consensus_[radar];
+  LinearMeasurement measurement = from_map.linearise(*match);
+  measurement.noise *= trust.position_noise.value();
+  const double nis = state_.gaussian.innovate(measurement);
+  trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
+  trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
+  trust.position_noise.add(0.5 * nis);
+  if (nis <= state_.options().max_position_nis) {
+    state_.update();
   }
 }
 
-/// Hangs the scan on the newest node, or on a new one if that is due.
+/// Adds the scan to the newest node, if that has no scan of the radar yet.
 void OdometryFilter::extend_map(std::size_t radar, std::int64_t stamp_us, double age_s) {
-  const OdometryOptions& options = state_.options();
-  OdometryState::PoseJacobian jacobian;
-  const Eigen::Vector3d pose = state_.pose_before(age_s, jacobian);
-  const Eigen::Vector3d moved = relative_pose(state_.node_pose(newest_node_), pose);
-  static const double kMinWay = tune("nodeway", 0.2);
-  static const double kMinTurn = tune("nodeturn", 0.02);
-  static const std::size_t kUsed = static_cast<std::size_t>(tune("nodes", 16));
-  const bool has_moved = moved.head<2>().norm() > kMinWay || std::abs(moved.z()) > kMinTurn;
-  if (!node_us_ ||
-      (seconds_between(*node_us_, stamp_us) >= options.node_period_s && has_moved)) {
-    newest_node_ = (newest_node_ + 1) % kUsed;
-    node_us_ = stamp_us;
-    state_.clone_node(newest_node_, age_s);
+  if (nodes_.add_if_due(stamp_us, age_s)) {
     for (const auto& track : tracks_) {
-      track->map.drop(newest_node_);
+      track->map.drop(nodes_.newest());
     }
   }
-  if (!tracks_[radar]->map.has(newest_node_)) {
-    tracks_[radar]->map.insert(newest_node_, static_targets_,
-                               relative_pose(state_.node_pose(newest_node_), pose));
+  const std::size_t node = nodes_.newest();
+  if (!tracks_[radar]->map.has(node)) {
+    tracks_[radar]->map.insert(node, static_targets_, state_.mount(radar),
+                               relative_pose(state_.node_pose(node), state_.pose_before(age_s)));
   }
 }
 

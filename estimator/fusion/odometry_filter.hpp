@@ -13,6 +13,7 @@
 
 #include "cremed/estimator/fusion/gate/filter_condition.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
+#include "cremed/estimator/fusion/map/map_nodes.hpp"
 #include "cremed/estimator/fusion/map/map_registration.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
@@ -78,7 +79,7 @@ class OdometryFilter {
 
  private:
   void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
-  void start(std::int64_t stamp_us);
+  void restart(std::int64_t stamp_us);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
@@ -89,21 +90,20 @@ class OdometryFilter {
   bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
   void follow_majority(std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
-  void select_static(std::size_t radar, const TargetSet& targets, double age_s);
+  void match(std::size_t radar, double age_s);
   void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
   std::vector<std::unique_ptr<RadarTrack>> tracks_;
+  MapNodes nodes_;
+  MapRegistration registration_;
+  TargetSet static_targets_;  // Of the present scan.
   std::vector<TwoWorlds> two_worlds_;
   RadarConsensus consensus_;
   FilterCondition condition_;
   OdometryOutput output_;
   bool has_started_ = false;
-  MapRegistration registration_;
-  TargetSet static_targets_;
-  std::size_t newest_node_ = 0;
-  std::optional<std::int64_t> node_us_;
 };
 
 }  // namespace cremed

@@ -15,9 +15,26 @@ namespace {
 constexpr double kMaxSpeedStdMps = 0.3;
 /// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
-/// Bound of a difference between two numbers of votes (Poisson). False-alarm rate: 2 %; see
+/// Bound of a difference between two numbers of votes (Poisson). False-alarm rate: 0.3 %; see
 /// SpeedCheck for the measured one.
-constexpr double kMinSigmas = 2.0;
+constexpr double kMinSigmas = 3.0;
+/// Of the targets nearer than this to each other only one votes: those of one object vote for all
+/// differences of their positions. Without it 980 of 1778 comparisons on RadarScenes 105, with 200
+/// targets a scan, contradict a right Doppler.
+constexpr double kSpacingM = 1.0;
+
+void thin_out(const TargetSet& targets, TargetSet& result) {
+  result.clear();
+  for (const Target& target : targets) {
+    const bool is_near = std::any_of(result.begin(), result.end(), [&](const Target& other) {
+      return std::abs(other.x_m - target.x_m) < kSpacingM &&
+             std::abs(other.y_m - target.y_m) < kSpacingM;
+    });
+    if (!is_near) {
+      result.add(target);
+    }
+  }
+}
 
 }  // namespace
 
@@ -28,9 +45,10 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   }
   has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = doppler_mps(targets);
+  thin_out(targets, current_);
   if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
     const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);
-    if (const auto support = positions_.compare(reference_, targets, dt_s, mean_mps)) {
+    if (const auto support = positions_.compare(reference_, current_, dt_s, mean_mps)) {
       judge(*support, mean_mps);
       has_verdict_ = true;
       verdict_us_ = stamp_us;
@@ -41,7 +59,7 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   }
   has_reference_ = speed_mps.has_value();
   if (speed_mps) {
-    reference_ = targets;
+    reference_ = current_;
     reference_us_ = stamp_us;
     reference_mps_ = *speed_mps;
   }

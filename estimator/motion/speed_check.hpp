@@ -16,8 +16,8 @@ namespace cremed {
 /// of time.
 ///
 /// Compares every 0.2 s. A contradiction is another speed, more than 2 m/s from Doppler's, that has
-/// more votes by 2 sigma: none in 3457 comparisons on the healthy drives of test_faults and
-/// nuScenes. Contradictions count up, agreements count down; the doubt begins at kMaxContradictions
+/// more votes by 3 sigma: none in 3457 comparisons on the healthy drives of test_faults and
+/// nuScenes, 5 in 4146 on RadarScenes 105, none of them in a row. Contradictions count up, agreements count down; the doubt begins at kMaxContradictions
 /// and ends at 0. Detection takes 1 s of driving.
 class SpeedCheck {
  public:
@@ -39,7 +39,8 @@ class SpeedCheck {
 
   PositionSpeed positions_;
   DopplerVelocityEstimator doppler_;
-  TargetSet reference_;
+  TargetSet current_;    // One target a place.
+  TargetSet reference_;  // The same of an earlier scan.
   std::int64_t reference_us_ = 0;
   double reference_mps_ = 0.0;
   std::int64_t verdict_us_ = 0;

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/motion/two_worlds.hpp"
 
-#include <cstddef>
 #include <cmath>
-#include "cremed/estimator/fusion/tune.hpp"
+#include <cstddef>
 
 namespace cremed {
 namespace {
@@ -20,12 +19,16 @@ constexpr RivalLimits kRivalLimits{5, 0.25};
 /// Lower limits while in doubt (hysteresis), for a rival that is half hidden in a scan.
 constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
 
+/// Rivals nearer than this to the vehicle's speed are the tails of the static world: 2674 of 2677
+/// doubts on RadarScenes 105, with 200 targets a scan, were 0.1 to 0.8 m/s beside it.
+constexpr double kMinDifferenceMps = 1.0;
+
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
   const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
-  static const double kMin = tune("rivalsep", 0.0);
-  return votes.rival >= limits.places && std::abs(votes.rival_mps - votes.own_mps) > kMin &&
+  return std::abs(votes.rival_mps - votes.own_mps) >= kMinDifferenceMps &&
+         votes.rival >= limits.places &&
          static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
 }
 

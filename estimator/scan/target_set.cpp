@@ -87,6 +87,12 @@ TargetSet& TargetSet::operator=(const TargetSet& other) {
   return *this;
 }
 
+void TargetSet::add(const Target& target) {
+  if (size_ < targets_.size()) {
+    targets_[size_++] = target;
+  }
+}
+
 void TargetSet::add(const Detection& detection, const Pose2& vehicle_from_radar) {
   if (size_ == targets_.size()) {
     return;

@@ -51,7 +51,8 @@ class TargetSet {
   /// Adds the target of a detection by a radar at `vehicle_from_radar`. A full set ignores it. A
   /// scan never holds more detections than the capacity.
   void add(const Detection& detection, const Pose2& vehicle_from_radar);
-  void push_back(const Target& target) { targets_[size_++] = target; }
+  /// Adds a target of another set. A full set ignores it.
+  void add(const Target& target);
   /// Replaces the content by the corrected usable detections of a scan.
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
               SelectionCounters& counters, const DetectionCorrection& correction = {});

@@ -12,6 +12,9 @@ namespace cremed {
 void NoiseFactor::add(double innovation) {
   constexpr double kRate = 0.05;          // One over 20 measurements.
   constexpr double kMaxInnovation = 4.0;  // Exceeded by 2 % with a true covariance (exp(-4)).
+  if (std::isnan(innovation)) {
+    return;
+  }
   const double excess = std::min(innovation, kMaxInnovation) - 1.0;
   value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMaxFactor);
 }

@@ -11,39 +11,53 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/map/target_map.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+#include "cremed/estimator/scan/symmetric2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {
 
-/// A scan registered against a map.
+/// A scan registered against a map. Motions are (x, y, yaw) in the frame of the predicted pose, in
+/// m, m, rad; yaw turns about its origin.
 struct MapMatch {
-  /// Pose of the vehicle that fits best, relative to the predicted one, in its frame: (x, y, yaw).
+  /// The pose that fits best, relative to the predicted one.
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();
-  /// Of `correction`; observed information inverted.
+  /// Its covariance, with the noise of both targets of each pair.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  /// Derivative of `correction` by a motion (x, y, yaw about the origin of the predicted frame) of
-  /// the targets of each node; they add up to the unit matrix.
+  /// Derivative of `correction` by a motion of the targets of each node: the node's share of the
+  /// information. All add up to the unit matrix, less the share of the prior of x.
   std::array<Eigen::Matrix3d, TargetMap::kNodes> by_node;
-  double matched = 0.0;  ///< Number of targets with a partner (sum of probabilities).
-  int iterations = 0;
+  /// Derivative of `correction` by a scale error of all azimuths: true = (1 + error) reported.
+  Eigen::Vector3d by_azimuth_scale = Eigen::Vector3d::Zero();
+  double matched = 0.0;  ///< Number of the scan's targets with a partner: sum of probabilities.
 };
 
+/// Registration of a scan against all scans of a map at once. A target i of the scan, moved by x,
+/// is drawn from the Gaussians of all map targets j near it, or from clutter (12 of the README):
+///
+///     p(r_i) ~ sum_j N(e_ij; C_ij) + n rho,   C_ij = f^2 (S_i + S_j)
+///
+/// n number of scans in the map, rho density of clutter, f position_std_factor. Gauss-Newton with
+/// the observed information (6) of this mixture, where that is positive definite. The predicted
+/// pose is a weak prior during the search; the result is linearised without that of y and yaw.
 class MapRegistration {
  public:
-  MapRegistration();
+  /// `position_std_factor`: OdometryOptions.
+  explicit MapRegistration(double position_std_factor);
 
-  /// `prior_std`: of the predicted pose, (m, m, rad).
-  std::optional<MapMatch> solve(const TargetSet& targets, const TargetMap& map,
-                                const Eigen::Vector3d& prior_std);
+  /// The map must have been placed. None if the targets do not determine y and yaw.
+  std::optional<MapMatch> solve(const TargetSet& targets, const TargetMap& map, const Pose2& mount);
 
  private:
-  /// A target of the scan and a target of the map that may be the same.
+  /// A target of the scan and one of the map that may be the same.
   struct Pair {
     std::uint16_t target;
     std::uint8_t node;
     Eigen::Vector2d at_m;  ///< Of the map's target.
+    double azimuth_rad;    ///< Of the map's target, seen from the radar then.
     Symmetric2 information;
-    double density;  ///< Of N(0; C).
+    double density;  ///< N(0; C)
+    double weight;   ///< Probability that they are the same.
   };
   struct Sums {
     Eigen::Matrix3d complete = Eigen::Matrix3d::Zero();
@@ -53,12 +67,12 @@ class MapRegistration {
   };
 
   void find_pairs(const TargetSet& targets, const TargetMap& map);
-  Sums sum_up(const TargetSet& targets, const Eigen::Vector3d& motion, double outlier_density);
-  void sum_by_node(const TargetSet& targets, const Eigen::Vector3d& motion,
-                   std::array<Eigen::Matrix3d, TargetMap::kNodes>& sums);
+  Sums sum_up(const TargetSet& targets, const Eigen::Vector3d& motion, double clutter);
+  void add_derivatives(const TargetSet& targets, const TargetMap& map, const Pose2& mount,
+                       const Eigen::Matrix3d& information, MapMatch& match) const;
 
-  std::vector<Pair> pairs_;  // Of fixed capacity, ordered by target.
-  std::vector<double> weights_;
+  double variance_factor_;
+  std::vector<Pair> pairs_;  // Ordered by target. Does not grow beyond its initial capacity.
 };
 
 }  // namespace cremed

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cremed/estimator/scan/rotation.hpp"
 
@@ -13,7 +14,6 @@ void TargetMap::clear() {
   for (Scan& scan : scans_) {
     scan.size = 0;
   }
-  size_ = 0;
 }
 
 int TargetMap::scans() const {
@@ -21,47 +21,49 @@ int TargetMap::scans() const {
       std::count_if(scans_.begin(), scans_.end(), [](const Scan& scan) { return scan.size > 0; }));
 }
 
-void TargetMap::insert(std::size_t node, const TargetSet& targets,
+void TargetMap::insert(std::size_t node, const TargetSet& targets, const Pose2& mount,
                        const Eigen::Vector3d& node_from_scan) {
-  Scan& scan = scans_[node];
   const Rotation turn(node_from_scan.z());
+  const auto in_node = [&](double x_m, double y_m) -> Eigen::Vector2d {
+    return turn * Eigen::Vector2d(x_m, y_m) + node_from_scan.head<2>();
+  };
+  Scan& scan = scans_[node];
   scan.size = targets.size();
+  scan.radar_m = in_node(mount.x_m, mount.y_m);
   std::transform(targets.begin(), targets.end(), scan.targets.begin(), [&](const Target& target) {
-    const Eigen::Vector2d at =
-        turn * Eigen::Vector2d(target.x_m, target.y_m) + node_from_scan.head<2>();
+    const Eigen::Vector2f at = in_node(target.x_m, target.y_m).cast<float>();
     const Symmetric2 c = turn * target.covariance_m2;
-    return MapTarget{static_cast<float>(at.x()), static_cast<float>(at.y()),
-                     static_cast<float>(c.xx), static_cast<float>(c.xy), static_cast<float>(c.yy)};
+    const double azimuth_rad =
+        std::remainder(target.bearing_rad - mount.yaw_rad, 2.0 * std::numbers::pi);
+    return MapTarget{at.x(),
+                     at.y(),
+                     static_cast<float>(c.xx),
+                     static_cast<float>(c.xy),
+                     static_cast<float>(c.yy),
+                     static_cast<float>(azimuth_rad)};
   });
 }
 
-void TargetMap::place(std::span<const Eigen::Vector3d, kNodes> now_from_node) {
-  heads_.fill(-1);
-  size_ = 0;
+void TargetMap::place(const NodePoses& now_from_node) {
+  first_in_.fill(-1);
+  int size = 0;
   for (std::size_t node = 0; node < kNodes; ++node) {
     const Scan& scan = scans_[node];
     const Rotation turn(now_from_node[node].z());
-    way_m_[node] = now_from_node[node].head<2>().norm();
-    for (std::size_t i = 0; i < scan.size; ++i) {
+    const Eigen::Vector2d place = now_from_node[node].head<2>();
+    radar_m_[node] = turn * scan.radar_m + place;
+    for (std::size_t i = 0; i < scan.size; ++i, ++size) {
       const MapTarget& target = scan.targets[i];
-      const Eigen::Vector2d at =
-          turn * Eigen::Vector2d(target.x_m, target.y_m) + now_from_node[node].head<2>();
-      placed_[size_] = {at.x(), at.y(), turn * Symmetric2{target.xx_m2, target.xy_m2, target.yy_m2},
-                        static_cast<std::uint8_t>(node)};
-      int& head = heads_[slot_of(cell_of(at.x()), cell_of(at.y()))];
-      next_[size_] = head;
-      head = static_cast<int>(size_);
-      ++size_;
+      const Eigen::Vector2d at = turn * Eigen::Vector2d(target.x_m, target.y_m) + place;
+      int& first = first_in_[slot_of(cell_of(at.x()), cell_of(at.y()))];
+      placed_[static_cast<std::size_t>(size)] = {
+          at, turn * Symmetric2{target.xx_m2, target.xy_m2, target.yy_m2}, target.azimuth_rad,
+          static_cast<std::uint8_t>(node), first};
+      first = size;
     }
   }
 }
 
 int TargetMap::cell_of(double m) { return static_cast<int>(std::floor(m / kCellM)); }
-
-std::size_t TargetMap::slot_of(int column, int row) {
-  // Neighbouring cells of a map of up to 160 m by 160 m do not collide.
-  const auto wrapped = [](int cell) { return static_cast<std::size_t>(cell) & 63U; };
-  return wrapped(column) * 64U + wrapped(row);
-}
 
 }  // namespace cremed

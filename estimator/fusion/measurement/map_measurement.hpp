@@ -2,28 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/map/map_registration.hpp"
+#include "cremed/estimator/fusion/map/target_map.hpp"
 #include "cremed/estimator/fusion/state/linear_measurement.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 
 namespace cremed {
 
-/// y and yaw of a scan registered against the radar's map.
+/// y and yaw of a scan registered against the radar's map, with G_k the share of node k in the
+/// information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the scan's; (13)
+/// of the README:
+///
+///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
+///         + sum_k G_k (d Jl_k - (q, r) x_k) + h (e + e_c)
+///
+/// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, q lateral and
+/// r yaw error over distance, e scale error of azimuths (e_c common to all radars) with its effect
+/// h (MapMatch::by_azimuth_scale). x is not used, and shifts of nodes along x are taken as known:
+/// Doppler measures x far better, and the reflections of passed objects move along x.
 struct MapMeasurement {
-  using NodePoses = std::array<Eigen::Vector3d, state_layout::kNodes>;
-
   const OdometryState& state;
+  const TargetMap& map;
   std::size_t radar;
-  double age_s;
+  double age_s;  ///< Of the scan, relative to the state.
 
   /// Pose of each node in the frame of the scan's predicted pose.
-  [[nodiscard]] NodePoses now_from_node() const;
+  [[nodiscard]] TargetMap::NodePoses now_from_node() const;
   [[nodiscard]] LinearMeasurement linearise(const MapMatch& match) const;
+
+ private:
+  void add_nodes(const MapMatch& match, const Eigen::Matrix3d& now_from_anchor,
+                 LinearMeasurement& measurement) const;
 };
 
 }  // namespace cremed

@@ -44,10 +44,8 @@ double RadarTrack::begin(std::int64_t stamp_us) {
 std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
                                                  const std::optional<Eigen::Vector2d>& expected) {
   auto best = expected ? doppler_.fit(targets, *expected, doppler_std_mps_) : std::nullopt;
-  if (!best || !is_majority(*best, targets)) {
-    const auto other =
-        doppler_.fit(targets, DopplerVelocityEstimator::search(targets), doppler_std_mps_);
-    best = best ? best : other;
+  if (!best) {
+    best = doppler_.fit(targets, DopplerVelocityEstimator::search(targets), doppler_std_mps_);
   }
   if (!best) {
     return std::nullopt;

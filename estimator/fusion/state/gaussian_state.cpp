@@ -88,15 +88,19 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
   return whitened_residual_.squaredNorm();
 }
 
-void GaussianState::update(int considered) {
-  const double mean = mean_(considered);
-  const double variance = covariance_(considered, considered);
-  mean_ += whitened_residual_.x() * gain_.col(0) + whitened_residual_.y() * gain_.col(1);
+void GaussianState::update(std::span<const int> considered) {
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
     covariance_.col(j) -= gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1);
   }
-  mean_(considered) = mean;
-  covariance_(considered, considered) = variance;
+  for (const int i : considered) {
+    for (const int j : considered) {
+      covariance_(i, j) += gain_(i, 0) * gain_(j, 0) + gain_(i, 1) * gain_(j, 1);
+    }
+  }
+  for (const int i : considered) {
+    gain_.row(i).setZero();
+  }
+  mean_ += whitened_residual_.x() * gain_.col(0) + whitened_residual_.y() * gain_.col(1);
 }
 
 }  // namespace cremed

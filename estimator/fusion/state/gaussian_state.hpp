@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/state/linear_measurement.hpp"
@@ -58,9 +60,9 @@ class GaussianState {
   double innovate(const LinearMeasurement& measurement);
   /// NIS of each of its two numbers alone.
   [[nodiscard]] const Eigen::Vector2d& innovations() const { return innovations_; }
-  /// Kalman update with the measurement of the last call of innovate(). The state `considered` is a
-  /// consider parameter (Schmidt-Kalman): its own mean and variance stay.
-  void update(int considered);
+  /// Kalman update with the measurement of the last call of innovate(). The states `considered`
+  /// are consider parameters (Schmidt-Kalman): their own means and covariances stay.
+  void update(std::span<const int> considered);
 
  private:
   using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2>;

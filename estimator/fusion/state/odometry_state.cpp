@@ -60,28 +60,48 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
-                              options.doppler_scale_restart_std)) {}
+                              options.doppler_scale_restart_std)),
+      considered_{kCommonScale, kCommonAzimuthScale} {
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    considered_.push_back(error(i, kAzimuthScale));
+  }
+}
 
 void OdometryState::start(std::int64_t time_us) {
-  time_us_ = time_us;
   for (int i = 0; i < gaussian.size(); ++i) {
+    gaussian.set(i, 0.0, 0.0);
+  }
+  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  gaussian.set(kSlipPerAcceleration, options_.slip_per_lateral_acceleration,
+               squared(options_.slip_per_lateral_acceleration_std));
+  gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
+  gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
+      gaussian.set(error(i, which), 0.0, squared(prior_std(i, which)));
+    }
+  }
+  start_shared(kMountYaw, mount_yaw_);
+  start_shared(kDopplerScale, doppler_scale_);
+  restart(time_us);
+}
+
+void OdometryState::restart(std::int64_t time_us) {
+  time_us_ = time_us;
+  for (int i = 0; i < kPose; ++i) {
+    gaussian.set(i, 0.0, 0.0);
+  }
+  for (int i = kOutput; i < kFirstRadar; ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
   start_motion(Eigen::Vector2d::Zero(), Eigen::Vector2d(squared(options_.start_speed_std_mps),
                                                         squared(options_.start_yaw_rate_std_radps))
                                             .asDiagonal());
-  start_slip();
   gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
   gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
-  gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
-  gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
-  gaussian.set(kSlipPerAcceleration, options_.slip_per_lateral_acceleration,
-               squared(options_.slip_per_lateral_acceleration_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    start_other_errors(i);
+    start_passing(i);
   }
-  start_shared(kMountYaw, mount_yaw_);
-  start_shared(kDopplerScale, doppler_scale_);
 }
 
 void OdometryState::start_shared(int which, const SharedPrior& prior) {
@@ -97,38 +117,46 @@ void OdometryState::start_shared(int which, const SharedPrior& prior) {
   }
 }
 
-void OdometryState::start_slip() { gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad)); }
-
 void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance) {
   gaussian.set(kSpeed, value.x(), covariance(0, 0));
   gaussian.set(kAcceleration, 0.0, squared(options_.acceleration.std));
   gaussian.set(kYawRate, value.y(), covariance(1, 1));
   gaussian.set(kYawAcceleration, 0.0, squared(options_.yaw_acceleration.std));
+  gaussian.add_covariance(kSpeed, kYawRate, covariance(0, 1));
+  gaussian.add_covariance(kYawRate, kSpeed, covariance(1, 0));
 }
 
-void OdometryState::start_errors(std::size_t radar) {
-  const LearnedErrors unlearned = unlearned_errors(options_, mounts_[radar]);
-  mount_yaw_.own[radar] = {unlearned.mount_yaw_rad, false};
-  doppler_scale_.own[radar] = {unlearned.doppler_scale, false};
-  gaussian.set(error(radar, kMountYaw), 0.0, squared(unlearned.mount_yaw_rad.std));
-  gaussian.set(error(radar, kDopplerScale), 0.0, squared(unlearned.doppler_scale.std));
-  start_other_errors(radar);
+/// Of an error that lasts for the whole drive.
+double OdometryState::prior_std(std::size_t radar, int lasting_error) const {
+  switch (lasting_error) {
+    case kMountYaw:
+      return unlearned_errors(options_, mounts_[radar]).mount_yaw_rad.std;
+    case kDopplerScale:
+      return unlearned_errors(options_, mounts_[radar]).doppler_scale.std;
+    case kAzimuthScale:
+      return options_.position_azimuth_scale_std;
+    default:
+      return options_.lever_std_m;
+  }
 }
 
-/// Resets all errors but mount yaw and Doppler scale.
-void OdometryState::start_other_errors(std::size_t radar) {
-  const int first = first_of(radar);
+void OdometryState::widen_errors(std::size_t radar) {
+  for (const int which : {kMountYaw, kDopplerScale, kLeverX, kLeverY}) {
+    const int i = error(radar, which);
+    gaussian.set(i, gaussian.mean(i), squared(prior_std(radar, which)));
+  }
+  start_passing(radar);
+}
+
+/// Resets the errors of a radar that pass within seconds.
+void OdometryState::start_passing(std::size_t radar) {
   const double across = across_share(mounts_[radar]);
   const auto set = [&](int which, double std, double more = 0.0) {
-    gaussian.set(first + which, 0.0, squared(std) + squared(more));
+    gaussian.set(error(radar, which), 0.0, squared(std + more));
   };
   set(kDopplerX, options_.doppler_x.std);
   set(kDopplerY, options_.doppler_y.std);
   set(kOffset, options_.offset.std, across * options_.offset_across_mps);
-  set(kAzimuthScale, options_.positions_azimuth_scale_std);
-  gaussian.set_mean(first + kAzimuthScale, std::abs(mounts_[radar].yaw_rad) < 1.57 ? tune("kfront", 0.0) : tune("krear", 0.0));
-  set(kLeverX, options_.lever_std_m);
-  set(kLeverY, options_.lever_std_m);
   set(kYawPerMetre, options_.yaw_per_metre.std);
   set(kLateralPerMetre, options_.lateral_per_metre.std);
 }
@@ -164,12 +192,15 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
          options_.offset_per_yaw_rate_m * turning + options_.offset_across_mps * across, dt_s);
   forget(gaussian, first + kYawPerMetre, options_.yaw_per_metre, 0.0, dt_s);
   forget(gaussian, first + kLateralPerMetre, options_.lateral_per_metre, 0.0, dt_s);
-  const double scale_std = unlearned_errors(options_, mounts_[radar]).doppler_scale.std;
-  forget(gaussian, first + kDopplerScale, {scale_std, options_.doppler_scale_time_s}, 0.0, dt_s);
-  gaussian.add_variance(first + kMountYaw, squared(options_.mount_yaw_walk) * dt_s);
+  forget(gaussian, first + kDopplerScale,
+         {prior_std(radar, kDopplerScale), options_.doppler_scale_time_s}, 0.0, dt_s);
+  forget(gaussian, first + kMountYaw,
+         bounded_walk(prior_std(radar, kMountYaw), options_.mount_yaw_walk), 0.0, dt_s);
 }
 
-void OdometryState::update() { gaussian.update(kCommonScale); }
+Eigen::Vector3d OdometryState::pose_before(double age_s) const {
+  return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
+}
 
 Eigen::Vector3d OdometryState::pose_before(double age_s, PoseJacobian& jacobian) const {
   const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), -age_s, options_);

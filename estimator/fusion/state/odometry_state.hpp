@@ -31,14 +31,13 @@ class OdometryState {
 
   /// Resets the state to its prior, with the anchor at its pose.
   void start(std::int64_t time_us = 0);
+  /// The same, but keeps what has been learned of slip and radars.
+  void restart(std::int64_t time_us);
   /// Resets speed and yaw rate to `value` (v, w) with `covariance`, and the accelerations to their
   /// prior.
   void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
-  /// Resets the errors of a radar to their prior, and discards what was learned in a previous
-  /// drive.
-  void start_errors(std::size_t radar);
-  /// Resets the slip to its prior.
-  void start_slip();
+  /// Widens the errors of a radar to the variance of their prior, around the present estimate.
+  void widen_errors(std::size_t radar);
 
   /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);
@@ -46,12 +45,15 @@ class OdometryState {
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
 
-  /// Kalman update with the last innovation of `gaussian`. kCommonScale is a consider parameter: it
-  /// is not observable, but seems so where each scan is linearised at another speed. As an
-  /// estimated state it drifted by 1 % in 15 minutes of a simulated town, at a sigma of 0.2 %.
-  void update();
+  /// Kalman update with the last innovation of `gaussian`. Common Doppler scale and scales of
+  /// azimuths are consider parameters: they are not observable, but seem so where each scan is
+  /// linearised at another speed or in a turn. As estimated states, the speed drifted by 1 % in 15
+  /// minutes of a simulated town at a sigma of 0.2 %, and scales of azimuths ran to -20 % in turns.
+  void update() { gaussian.update(considered_); }
 
-  /// Pose at a scan that is `age_s` older than the state, and its derivative by the motion states.
+  /// Pose at a scan that is `age_s` older than the state.
+  [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
+  /// The same, with its derivative by the motion states.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s, PoseJacobian& jacobian) const;
   /// Clones the pose at such a scan as a node.
   void clone_node(std::size_t node, double age_s);
@@ -73,7 +75,8 @@ class OdometryState {
   GaussianState gaussian;
 
  private:
-  void start_other_errors(std::size_t radar);
+  void start_passing(std::size_t radar);
+  [[nodiscard]] double prior_std(std::size_t radar, int lasting_error) const;
   void start_shared(int which, const SharedPrior& prior);
 
   OdometryOptions options_;
@@ -81,6 +84,7 @@ class OdometryState {
   std::vector<Pose2> mounts_;
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;
+  std::vector<int> considered_;
 };
 
 }  // namespace cremed

@@ -30,7 +30,7 @@ inline constexpr int kOutput = 13;              ///< Clone of the pose at the la
 inline constexpr int kPose = 3;                 ///< States of a clone.
 /// Clones of past poses on which the maps of the radars hang.
 inline constexpr int kFirstNode = kOutput + kPose;
-inline constexpr int kNodes = 16;
+inline constexpr int kNodes = 12;
 inline constexpr int kFirstRadar = kFirstNode + kNodes * kPose;
 
 // Of one radar, relative to radar(index).

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/scan/squared.hpp"
+
 namespace cremed {
 namespace {
 
@@ -24,16 +26,18 @@ Decay decay(const OrnsteinUhlenbeck& noise, double dt_s) {
   return {left, noise.time_s * (1.0 - left)};
 }
 
-/// Adds the noise of a rate and its derivative, driven by white noise on the derivative.
+/// Adds the noise of a rate and its derivative, an Ornstein-Uhlenbeck process.
 void add_rate_noise(const OrnsteinUhlenbeck& noise, double dt_s, int rate,
                     MotionStep::Matrix& sum) {
-  const double density = 2.0 * noise.std * noise.std / noise.time_s;
-  const double dt = std::abs(dt_s);
-  const double cross = density * dt * dt_s / 2.0;
-  sum(rate, rate) += density * dt * dt * dt / 3.0;
+  const double steps = std::abs(dt_s) / noise.time_s;
+  const double left = std::exp(-steps);
+  const double variance = noise.std * noise.std;
+  const double cross = std::copysign(variance * noise.time_s * squared(1.0 - left), dt_s);
+  sum(rate, rate) +=
+      variance * squared(noise.time_s) * (2.0 * steps - 3.0 + 4.0 * left - left * left);
   sum(rate, rate + 1) += cross;
   sum(rate + 1, rate) += cross;
-  sum(rate + 1, rate + 1) += density * dt;
+  sum(rate + 1, rate + 1) += variance * (1.0 - left * left);
 }
 
 void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, const Decay& c,
@@ -70,6 +74,13 @@ void move_rate(int rate, const Decay& decay, MotionStep& step) {
   step.jacobian(rate + 1, rate + 1) = decay.left;
 }
 
+void move_process(int which, const OrnsteinUhlenbeck& process, double dt_s, MotionStep& step) {
+  const double left = std::exp(-std::abs(dt_s) / process.time_s);
+  step.state(which) *= left;
+  step.jacobian(which, which) = left;
+  step.noise(which, which) = process.std * process.std * (1.0 - left * left);
+}
+
 }  // namespace
 
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options) {
@@ -81,12 +92,8 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   move_rate(kYawRate, c, step);
   add_rate_noise(options.acceleration, dt_s, kSpeed, step.noise);
   add_rate_noise(options.yaw_acceleration, dt_s, kYawRate, step.noise);
-  step.noise(kSlip, kSlip) = options.slip_walk * options.slip_walk * std::abs(dt_s);
-  const OrnsteinUhlenbeck& body = options.body_velocity;
-  const double left = std::exp(-std::abs(dt_s) / body.time_s);
-  step.state(kBodyVelocity) *= left;
-  step.jacobian(kBodyVelocity, kBodyVelocity) = left;
-  step.noise(kBodyVelocity, kBodyVelocity) = body.std * body.std * (1.0 - left * left);
+  move_process(kSlip, bounded_walk(options.slip_std_rad, options.slip_walk), dt_s, step);
+  move_process(kBodyVelocity, options.body_velocity, dt_s, step);
   return step;
 }
 

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/map/map_nodes.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+
+bool MapNodes::add_if_due(std::int64_t stamp_us, double age_s) {
+  if (!is_due(stamp_us, age_s)) {
+    return false;
+  }
+  newest_ = (newest_ + 1) % state_layout::kNodes;
+  stamp_us_ = stamp_us;
+  state_.clone_node(newest_, age_s);
+  return true;
+}
+
+bool MapNodes::is_due(std::int64_t stamp_us, double age_s) const {
+  const OdometryOptions& options = state_.options();
+  if (!stamp_us_) {
+    return true;
+  }
+  const Eigen::Vector3d moved =
+      relative_pose(state_.node_pose(newest_), state_.pose_before(age_s));
+  return seconds_between(*stamp_us_, stamp_us) >= options.node_period_s &&
+         (moved.head<2>().norm() > options.node_way_m ||
+          std::abs(moved.z()) > options.node_turn_rad);
+}
+
+}  // namespace cremed

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+
+namespace cremed {
+
+/// The nodes of the maps: a ring of clones of the vehicle's pose, shared by all radars. A new node
+/// replaces the oldest.
+class MapNodes {
+ public:
+  /// `state` must outlive this object.
+  explicit MapNodes(OdometryState& state) : state_(state) {}
+
+  void clear() { stamp_us_.reset(); }
+  /// Adds the pose at a scan that is `age_s` older than the state, if a node is due: node_period_s
+  /// after the last and after a motion, so that the maps of a standing vehicle stay.
+  bool add_if_due(std::int64_t stamp_us, double age_s);
+  [[nodiscard]] std::size_t newest() const { return newest_; }
+
+ private:
+  [[nodiscard]] bool is_due(std::int64_t stamp_us, double age_s) const;
+
+  OdometryState& state_;
+  std::size_t newest_ = 0;
+  std::optional<std::int64_t> stamp_us_;  // Of the newest.
+};
+
+}  // namespace cremed

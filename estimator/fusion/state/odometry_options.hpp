@@ -41,7 +41,7 @@ struct OdometryOptions {
   double start_yaw_rate_std_radps = 0.3;
 
   // Slowly varying errors of one radar.
-  double mount_yaw_std_rad = 0.0075;       ///< Of a mount measured by hand.
+  double mount_yaw_std_rad = 0.005;        ///< Of a mount measured by hand.
   double mount_yaw_across_std_rad = 0.02;  ///< Added for a radar that looks sideways.
   double mount_yaw_walk = 0.0003;          ///< rad/sqrt(s): the mount is rigid.
   /// Change of mount yaw (rad) and Doppler scale between drives, if learned values are taken over.

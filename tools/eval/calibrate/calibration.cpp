@@ -127,7 +127,10 @@ class Calibrator {
   [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
   [[nodiscard]] Configuration trial() const;
   [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
+  [[nodiscard]] double yaw_std_rad(std::size_t radar) const;
   void choose_changes();
+  void limit_kept();
+  bool drop_changes();
   void solve();
 
   const Configuration& configuration_;
@@ -264,21 +267,24 @@ void Calibrator::refine() {
   ++round_;
 }
 
+/// Without truth, the configured yaw that is to be improved on is that from the rolling direction.
+double Calibrator::yaw_std_rad(std::size_t radar) const {
+  const auto& errors = configuration_.radars[radar].ego_motion.registration.shared_errors;
+  return std::hypot(errors.mount_yaw_std_rad,
+                    has_truth_ ? 0.0 : configuration_.odometry.filter.slip_std_rad);
+}
+
 void Calibrator::choose_changes() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    // The configured yaw is that from the vehicle's axis, not from its rolling direction.
-    const double yaw_std_rad =
-        std::hypot(configuration_.radars[i].ego_motion.registration.shared_errors.mount_yaw_std_rad,
-                   has_truth_ ? 0.0 : configuration_.odometry.filter.slip_std_rad);
     radars_[i].free = radars_[i].fit;
     for (const CalibrationState state : kTold) {
-      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad);
+      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i));
     }
   }
 }
 
 /// A value that is kept is known as well as by a tape measure.
-void Calibrator::finish() {
+void Calibrator::limit_kept() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     for (const CalibrationState state : kTold) {
       if (!radars_[i].is_changed[state]) {
@@ -286,7 +292,28 @@ void Calibrator::finish() {
       }
     }
   }
-  solve();
+}
+
+/// Keeps those configured values that the others, once kept, leave no better.
+bool Calibrator::drop_changes() {
+  bool is_dropped = false;
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    for (const CalibrationState state : kTold) {
+      bool& is_changed = radars_[i].is_changed[state];
+      if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i))) {
+        is_changed = false;
+        is_dropped = true;
+      }
+    }
+  }
+  return is_dropped;
+}
+
+void Calibrator::finish() {
+  do {
+    limit_kept();
+    solve();
+  } while (drop_changes());
 }
 
 Calibration Calibrator::result() const {

@@ -106,7 +106,9 @@ void ConfigurationEditor::set(const CalibratedValue& value) {
   } else if (const toml::table* table = own.as_table()) {
     add_to_table(*table, value);
   } else {
-    add_line_after(starts_.size() - 2, concat({"[", value.key->table, "]\n", assignment(value)}));
+    const std::size_t end = starts_.size() - 2;
+    add_line_after(line(end).empty() ? end - 1 : end,
+                   concat({"[", value.key->table, "]\n", assignment(value)}));
   }
 }
 

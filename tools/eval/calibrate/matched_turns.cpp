@@ -14,7 +14,8 @@ namespace cremed {
 namespace {
 
 /// Scans between two that are compared: 0.3 to 0.4 s. A target's motion is then larger than its
-/// noise, and most are still seen.
+/// noise, and most are still seen. Every moment is measured this many times: standard deviations
+/// are those of one.
 constexpr std::size_t kLag = 5;
 constexpr double kLongestS = 0.5;  // Between two scans, for one step of the motion.
 constexpr double kSlackMps = 0.1;
@@ -105,7 +106,7 @@ std::vector<YawRateMeasurement> matched_turns(const std::vector<RecordedScan>& s
     add_match_errors(fixed[i - kLag], fixed[i], *motion, {1.0, azimuth_std_factor}, errors);
     if (const auto error = mean_error(errors)) {
       result.push_back({radar, kMatchedTurn, middle_us, vehicle->y() - error->rad / dt_s,
-                        1.0 / (std::sqrt(error->information) * dt_s)});
+                        std::sqrt(kLag / error->information) / dt_s});
     }
   }
   return result;

@@ -134,11 +134,11 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   EgoMotionOptions defaults;
   read_estimator(reader.table("estimator"), defaults);
   std::vector<PlacedRadar> radars = read_radars(reader, defaults, families);
-  read_calibrated(reader.table("calibrated"), radars);
+  read_odometry(reader.table("odometry"), configuration.odometry);
+  read_calibrated(reader.table("calibrated"), radars, configuration.odometry);
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
   }
-  read_odometry(reader.table("odometry"), configuration.odometry);
   reader.refuse(std::array<std::string_view, 1>{"fused"},
                 "was replaced by [odometry]; must be left out");
   TomlReader output = reader.table("output");

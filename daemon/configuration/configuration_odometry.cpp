@@ -7,8 +7,6 @@ namespace {
 
 constexpr Range kTimeS{0.01, 1000.0};
 constexpr Range kAngleRad{0.0, 1.0};
-/// rad s^2/m: ten times that of a car.
-constexpr Range kSlipPerAcceleration{-0.05, 0.05};
 constexpr Range kVelocityMps{0.0, 10.0};
 
 void read_vehicle(TomlReader& reader, OdometryOptions& options) {
@@ -18,8 +16,6 @@ void read_vehicle(TomlReader& reader, OdometryOptions& options) {
   reader.number("yaw_acceleration_time_s", options.yaw_acceleration.time_s, kTimeS);
   reader.number("slip_std_rad", options.slip_std_rad, kAngleRad);
   reader.number("slip_walk_rad_per_sqrt_s", options.slip_walk, kAngleRad);
-  reader.number("slip_per_lateral_acceleration", options.slip_per_lateral_acceleration,
-                kSlipPerAcceleration);
   reader.number("slip_per_lateral_acceleration_std", options.slip_per_lateral_acceleration_std,
                 {0.0, 0.05});
   reader.number("body_velocity_std_mps", options.body_velocity.std, kVelocityMps);
@@ -59,10 +55,16 @@ void read_limits(TomlReader& reader, OdometryOptions& options) {
 
 }  // namespace
 
+void read_slip_per_lateral_acceleration(TomlReader& reader, OdometryConfiguration& odometry) {
+  reader.number("slip_per_lateral_acceleration", odometry.filter.slip_per_lateral_acceleration,
+                {-0.05, 0.05});
+}
+
 void read_odometry(TomlReader reader, OdometryConfiguration& odometry) {
   reader.boolean("enabled", odometry.enabled);
   reader.text("state_file", odometry.state_file,
               {[](std::string_view) { return true; }, "a path, or \"\" for none"});
+  read_slip_per_lateral_acceleration(reader, odometry);
   read_vehicle(reader, odometry.filter);
   read_radar_errors(reader, odometry.filter);
   read_limits(reader, odometry.filter);

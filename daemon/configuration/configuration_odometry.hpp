@@ -7,6 +7,9 @@
 
 namespace cremed {
 
+/// Reads the one key of [odometry] that calibration finds.
+void read_slip_per_lateral_acceleration(TomlReader& reader, OdometryConfiguration& odometry);
+
 /// Reads [odometry]; absent keys keep the values in `odometry`.
 void read_odometry(TomlReader reader, OdometryConfiguration& odometry);
 

@@ -9,6 +9,7 @@
 
 #include "daemon/configuration/bus_options.hpp"
 #include "daemon/configuration/configuration_estimator.hpp"
+#include "daemon/configuration/configuration_odometry.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/plain_text.hpp"
 
@@ -177,7 +178,9 @@ PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults,
   return placed;
 }
 
-void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars) {
+void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars,
+                     OdometryConfiguration& odometry) {
+  read_slip_per_lateral_acceleration(reader, odometry);
   for (PlacedRadar& placed : radars) {
     RadarConfiguration& radar = placed.radar;
     if (!radar.name.empty()) {

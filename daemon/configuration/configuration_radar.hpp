@@ -21,9 +21,10 @@ struct PlacedRadar {
 /// Reads one [[radar]] table; `defaults` are those of [estimator], `families` the allowed types.
 PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults, RadarFamilies families);
 
-/// Reads [calibrated], whose tables have the names of radars and replace [radar.mount] and
-/// [radar.calibration].
-void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars);
+/// Reads [calibrated]: its own key replaces that of [odometry]; its tables have the names of radars
+/// and replace [radar.mount] and [radar.calibration].
+void read_calibrated(TomlReader reader, std::vector<PlacedRadar>& radars,
+                     OdometryConfiguration& odometry);
 
 /// Reports radars with the same name, and radars on one interface that share identifiers.
 void check_radars(const std::vector<PlacedRadar>& radars, Diagnostics& diagnostics);

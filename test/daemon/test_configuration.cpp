@@ -92,6 +92,14 @@ TEST_CASE("a calibrated table takes the place of single keys, wherever it stands
                   "calibrated.left.rotation_lead_s", "is a key of type", "left out"}});
 }
 
+TEST_CASE("a calibrated slip takes the place of the one in [odometry]") {
+  const std::string odometry = "[odometry]\nslip_per_lateral_acceleration = 0.001\n";
+  const std::string calibrated = "[calibrated]\nslip_per_lateral_acceleration = 0.003\n";
+  for (const std::string& text : {odometry + calibrated, calibrated + odometry}) {
+    CHECK(parse(kArs408 + text).odometry.filter.slip_per_lateral_acceleration == 0.003);
+  }
+}
+
 TEST_CASE("the rotation lead is that of the sensor's type and output unless it is given") {
   const auto lead_s = [](const std::string& radar) {
     return parse(radar).radars.at(0).ego_motion.correction.rotation_lead_s;

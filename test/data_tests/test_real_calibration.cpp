@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,12 @@ Configuration disturbed(Configuration configuration) {
   return configuration;
 }
 
+/// From the rolling direction: what a drive without truth tells.
 std::vector<double> yaws_deg(const Configuration& configuration, const std::string& log) {
   std::vector<double> yaws;
-  for (const RadarCalibration& radar : calibrate(configuration, {log}, nullptr).radars) {
-    yaws.push_back(radar.fit.value[kYaw] / kRadPerDeg);
+  const Calibration found = calibrate(configuration, {log}, nullptr);
+  for (const RadarCalibration& radar : found.radars) {
+    yaws.push_back((radar.fit.value[kYaw] - found.vehicle.value[kRoll]) / kRadPerDeg);
   }
   return yaws;
 }
@@ -78,4 +81,52 @@ TEST_CASE("Real drives: mounts that are two degrees off are found again, without
     CAPTURE(configuration.radars[i].name);
     CHECK(std::abs(found[0][i] - found[1][i]) < 0.6);
   }
+}
+
+namespace {
+
+/// Calibrates a shared drive with truth from azimuth scales of 1.
+Calibration from_unscaled(const std::string& drive, Configuration configuration) {
+  for (RadarConfiguration& radar : configuration.radars) {
+    radar.ego_motion.correction.azimuth_scale = 1.0;
+  }
+  const TemporaryFolder folder;
+  const std::string log = folder.file("can.log");
+  std::ofstream(log) << read_shared(drive + "/can.log.xz");
+  std::istringstream text(read_shared(drive + "/truth.csv"));
+  const TrueTrajectory truth(text);
+  return calibrate(configuration, {log}, &truth);
+}
+
+}  // namespace
+
+TEST_CASE("Real drives: azimuth scales agree with the default and are known as well as they say") {
+  const auto city = GENERATE(City{"nuscenes-singapore.toml", {"scene-0061", "scene-1094"}},
+                             City{"nuscenes-boston.toml", {"scene-0103"}});
+  for (const char* scene : city.scenes) {
+    const Calibration found =
+        from_unscaled(std::string("data/nuscenes/") + scene, configuration_of(city));
+    for (const std::size_t radar : {0U, 3U, 4U}) {  // Front and rear.
+      const FittedRadar& fit = found.radars[radar].free;
+      std::printf("%s %zu: azimuth scale %.4f +- %.4f\n", scene, radar, 1.0 + fit.value[kAzimuth],
+                  fit.std[kAzimuth]);
+      CHECK(fit.std[kAzimuth] > 0.005);
+      CHECK(fit.std[kAzimuth] < 0.04);
+      CHECK(std::abs(1.0 + fit.value[kAzimuth] - kArs408AzimuthScale) < 3.0 * fit.std[kAzimuth]);
+      CHECK_FALSE(found.radars[radar].is_changed[kAzimuth]);
+    }
+    CHECK_FALSE(found.is_slip_changed);
+  }
+}
+
+TEST_CASE("Real drives: another sensor family needs no azimuth scale, and its car slips in bends") {
+  const std::string drive = "data/radarscenes/sequence-105";
+  const Calibration found =
+      from_unscaled(drive, load_configuration(shared_path(drive + "/radarscenes.toml")));
+  for (const RadarCalibration& radar : found.radars) {
+    CHECK(std::abs(radar.free.value[kAzimuth]) < 2.0 * radar.free.std[kAzimuth]);
+    CHECK_FALSE(radar.is_changed[kAzimuth]);
+  }
+  CHECK(found.is_slip_changed);
+  CHECK(found.vehicle.value[kSlip] == Approx(0.0035).margin(0.002));
 }

@@ -45,7 +45,7 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   for (const char* words :
        {"front, ", "yaw deg ", " was 4.01", "x m ", "y m ", "reference", "Doppler offset m/s ",
         "stamp offset ms ", "rotation lead ms ", "positions ahead ms ", "range std factor ",
-        "relative to the rolling direction of the vehicle"}) {
+        "azimuth scale ", "in the frame of the configured ones"}) {
     CHECK_THAT(result.error, Catch::Contains(words));
   }
   const std::string before = text_of(wrong);

@@ -41,6 +41,24 @@ struct Row {
   std::string after;
 };
 
+TEST_CASE("the vehicle's value goes into [odometry], or where it is already") {
+  const auto row = GENERATE_COPY(
+      Row{kHead + kMount, kHead + kMount + "[odometry]\nslip_per_lateral_acceleration = 0.00310\n"},
+      Row{"[odometry]\nrate_hz = 50\n" + kHead + kMount,
+          "[odometry]\nslip_per_lateral_acceleration = 0.00310\nrate_hz = 50\n" + kHead + kMount},
+      Row{kHead + kMount + "[odometry]\n#slip_per_lateral_acceleration = 0.0\nrate_hz = 50\n",
+          kHead + kMount + "[odometry]\nslip_per_lateral_acceleration = 0.00310\nrate_hz = 50\n"},
+      Row{"odometry = { slip_per_lateral_acceleration = 0.001 }\n" + kHead + kMount,
+          "odometry = { slip_per_lateral_acceleration = 0.00310 }\n" + kHead + kMount},
+      Row{kHead + kMount + "[calibrated]\nslip_per_lateral_acceleration = 0.002 # old\n",
+          kHead + kMount + "[calibrated]\nslip_per_lateral_acceleration = 0.00310 # old\n"});
+  const Configuration before = parse_configuration(row.before, "test");
+  OdometryOptions found = before.odometry.filter;
+  found.slip_per_lateral_acceleration = 0.0031;
+  CHECK(edited_configuration(row.before, {{}},
+                             changed_vehicle_values(before.odometry.filter, found)) == row.after);
+}
+
 TEST_CASE("new values go where the old ones are, and all else stays") {
   const std::string new_mount = "mount = { x_m = 3.4, y_m = 0.1, yaw_rad = -0.01230 } # measured\n";
   const auto row = GENERATE_COPY(

@@ -46,7 +46,8 @@ VehicleCourse::VehicleCourse(const CoursePlan& plan, double least_duration_s) {
   for (std::size_t i = 0; duration_s() < least_duration_s; i = (i + 1) % plan.legs.size()) {
     const CourseLeg& to = plan.legs[i];
     drive_leg({duration_s(), to.duration_s, from.speed_mps, to.speed_mps, from.curvature_1pm,
-               to.curvature_1pm, from.side_speed_mps, to.side_speed_mps});
+               to.curvature_1pm, from.side_speed_mps, to.side_speed_mps,
+               plan.slip_per_lateral_acceleration});
     from = to;
   }
   const auto wanted = static_cast<std::size_t>(std::ceil(least_duration_s / kStepS - 1e-6)) + 1;
@@ -71,8 +72,10 @@ VehicleState VehicleCourse::Leg::at(double time_s) const {
   const double share = smooth_step((time_s - start_s) / duration_s);
   VehicleState state;
   state.speed_mps = blend(from_speed_mps, to_speed_mps, share);
-  state.side_speed_mps = blend(from_side_speed_mps, to_side_speed_mps, share);
   state.yaw_rate_radps = state.speed_mps * blend(from_curvature_1pm, to_curvature_1pm, share);
+  state.side_speed_mps =
+      blend(from_side_speed_mps, to_side_speed_mps, share) -
+      slip_per_lateral_acceleration * state.speed_mps * state.speed_mps * state.yaw_rate_radps;
   return state;
 }
 

@@ -22,6 +22,8 @@ struct CoursePlan {
   double start_speed_mps = 0.0;
   double start_curvature_1pm = 0.0;
   std::vector<CourseLeg> legs;
+  /// Angle by which the rear axle slips to the outside, per centripetal acceleration; rad s^2/m.
+  double slip_per_lateral_acceleration = 0.0;
 };
 
 /// The vehicle at one moment.
@@ -58,6 +60,7 @@ class VehicleCourse {
     double to_curvature_1pm;
     double from_side_speed_mps;
     double to_side_speed_mps;
+    double slip_per_lateral_acceleration;
 
     /// Speeds and yaw rate at a time since the start.
     [[nodiscard]] VehicleState at(double time_s) const;

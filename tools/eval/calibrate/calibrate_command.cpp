@@ -34,10 +34,14 @@ constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegPerRad, 2},
                                {kStamp, "stamp offset ms", 1e3, 1},
                                {kScale, "Doppler scale", 1.0, 4},
                                {kLead, "rotation lead ms", 1e3, 1},
+                               {kAzimuth, "azimuth scale", 1.0, 4},
                                {kPositionLead, "positions ahead ms", 1e3, 1}};
 
-/// The configured part of a lead, to which the fit adds.
+/// The configured part of a lead or a scale, to which the fit adds.
 double configured_part(const RadarConfiguration& radar, CalibrationState state) {
+  if (state == kAzimuth) {
+    return radar.ego_motion.correction.azimuth_scale;
+  }
   const bool is_lead = state == kLead || state == kPositionLead;
   return is_lead ? radar.ego_motion.correction.rotation_lead_s : 0.0;
 }
@@ -78,21 +82,26 @@ void print_factor(const char* label, const StdFactor& factor) {
   }
 }
 
-void print_vehicle(const FittedVehicle& vehicle) {
-  if (vehicle.prior_std[kRoll] == 0.0) {
-    std::fprintf(stderr, "mounts are relative to the rolling direction of the vehicle\n");
+void print_vehicle(const Calibration& calibration) {
+  const FittedVehicle& vehicle = calibration.vehicle;
+  if (!calibration.has_truth) {
+    std::fprintf(stderr,
+                 "mounts are in the frame of the configured ones; in it, the vehicle rolls at %.2f "
+                 "+- %.2f deg\n",
+                 vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
   } else {
     std::fprintf(stderr,
                  "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
                  vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
   }
-  std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across\n",
-               vehicle.value[kSlip] * kDegPerRad, vehicle.std[kSlip] * kDegPerRad);
+  std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across%s\n",
+               vehicle.value[kSlip] * kDegPerRad, vehicle.std[kSlip] * kDegPerRad,
+               calibration.is_slip_changed ? "" : ": kept");
 }
 
 void print_table(const Configuration& configuration, const Calibration& calibration) {
   std::fprintf(stderr, "kept: the drive gives no better value\n");
-  print_vehicle(calibration.vehicle);
+  print_vehicle(calibration);
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
     const RadarCalibration& radar = calibration.radars[i];
     const RadarConfiguration& configured = configuration.radars[i];
@@ -106,15 +115,25 @@ void print_table(const Configuration& configuration, const Calibration& calibrat
   }
 }
 
-using Values = std::vector<std::vector<CalibratedValue>>;
+struct Values {
+  std::vector<CalibratedValue> vehicle;
+  std::vector<std::vector<CalibratedValue>> radars;
+};
 
 Values found_values(const Configuration& configuration, const Calibration& calibration) {
-  const Configuration found = calibrated(configuration, calibration.radars);
+  const Configuration found = calibrated(configuration, calibration);
   Values values;
+  values.vehicle = changed_vehicle_values(configuration.odometry.filter, found.odometry.filter);
   for (std::size_t i = 0; i < found.radars.size(); ++i) {
-    values.push_back(changed_values(configuration.radars[i], found.radars[i]));
+    values.radars.push_back(changed_values(configuration.radars[i], found.radars[i]));
   }
   return values;
+}
+
+void print_values(const std::vector<CalibratedValue>& values) {
+  for (const CalibratedValue& value : values) {
+    std::printf("%s = %s\n", std::string(value.key->key).c_str(), value.text.c_str());
+  }
 }
 
 /// Separate tables: a [radar.mount] may be in a form that accepts no further key.
@@ -124,18 +143,16 @@ void print_toml(const Configuration& configuration, const Calibration& calibrati
   std::printf(
       "# Results of cremed-eval calibrate; put them before or after any table, replacing older "
       "ones.\n");
-  if (vehicle.prior_std[kRoll] == 0.0) {
-    std::printf("# yaw_rad is relative to the rolling direction of the vehicle.\n");
-  } else {
-    std::printf(
-        "# yaw_rad is in the frame of truth, in which the vehicle rolls at %.4f +- %.4f rad.\n",
-        vehicle.value[kRoll], vehicle.std[kRoll]);
+  std::printf("# yaw_rad is in the frame of %s, in which the vehicle rolls at %.4f +- %.4f rad.\n",
+              calibration.has_truth ? "truth" : "the configured mounts", vehicle.value[kRoll],
+              vehicle.std[kRoll]);
+  if (!values.vehicle.empty()) {
+    std::printf("\n[calibrated]\n");
+    print_values(values.vehicle);
   }
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.radars.size(); ++i) {
     std::printf("\n[calibrated.%s]\n", configuration.radars[i].name.c_str());
-    for (const CalibratedValue& value : values[i]) {
-      std::printf("%s = %s\n", std::string(value.key->key).c_str(), value.text.c_str());
-    }
+    print_values(values.radars[i]);
   }
 }
 
@@ -144,7 +161,8 @@ std::string read_text(std::istream& input) {
 }
 
 void write_back(const std::string& path, const Values& values) {
-  replace_file(path, edited_configuration(with_input(path, read_text), values));
+  replace_file(path,
+               edited_configuration(with_input(path, read_text), values.radars, values.vehicle));
   std::fprintf(stderr, "%s: changed\n", path.c_str());
 }
 

@@ -6,25 +6,29 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
 
+#include "tools/eval/calibrate/matched_turns.hpp"
 #include "tools/eval/recorded_drive.hpp"
 
 namespace cremed {
 namespace {
 
 /// Prior standard deviations of a radar, in the order of CalibrationState.
-constexpr CalibrationVector kPriorStd = {0.35, 0.3, 0.3, 0.1, 0.03, 0.01, 0.05, 0.05, 0.01, 0.03};
+constexpr CalibrationVector kPriorStd = {0.35, 0.3,  0.3,  0.1, 0.03, 0.01,
+                                         0.05, 0.05, 0.02, 0.0, 0.03, 0.0};
 /// With a larger standard deviation the configured value is kept: a tape measure is as good.
-constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.05, 0.007, 0.002, 0.005};
+constexpr CalibrationVector kWorstStd = {0.0175, 0.03, 0.03, 0.05, 0.007, 0.002, 0.005, 0.0, 0.006};
 /// States that are reported; the others are nuisance parameters or checks.
-constexpr std::array kTold = {kYaw, kX, kY, kOffset, kStamp, kScale, kLead};
+constexpr std::array kTold = {kYaw, kX, kY, kOffset, kStamp, kScale, kLead, kAzimuth};
 /// Priors of the rolling direction and the slip of the rear axle: 0.005 rad s^2/m is 800 kg on
 /// tyres with a cornering stiffness of 160 kN/rad.
 constexpr std::array<double, kRollingStates> kVehiclePriorStd = {0.05, 0.005};
+constexpr double kWorstSlipStd = 0.001;  // rad s^2/m: a third of a car's slip.
 /// Errors of a scan's velocity that all its targets share: four nuScenes drives, front and rear
 /// radars.
 constexpr double kSharedVelocityStdMps = 0.04;
@@ -49,10 +53,13 @@ bool has_rotation_lead(const RadarConfiguration& radar) {
   return radar.decoder.rotation_lead_s().value_or(0.0) != 0.0;
 }
 
-std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth) {
+std::vector<FittedRadar> start(const Configuration& configuration, bool has_truth,
+                               const SystematicErrors& errors) {
   std::vector<FittedRadar> radars;
   for (const RadarConfiguration& radar : configuration.radars) {
     radars.push_back({configured(radar), kPriorStd, configured(radar), {}});
+    radars.back().prior_std[kDopplerAzimuth] = errors.doppler_azimuth;
+    radars.back().prior_std[kMatchedTurn] = errors.turn;
     if (!has_rotation_lead(radar)) {
       radars.back().prior_std[kLead] = 0.0;
     }
@@ -65,10 +72,12 @@ std::vector<FittedRadar> start(const Configuration& configuration, bool has_trut
   return radars;
 }
 
-FittedVehicle vehicle_start(bool has_truth) {
+FittedVehicle vehicle_start(const Configuration& configuration, bool has_truth) {
   FittedVehicle vehicle;
   vehicle.prior_std = kVehiclePriorStd;
-  vehicle.prior_std[kRoll] = has_truth ? kVehiclePriorStd[kRoll] : 0.0;
+  if (!has_truth) {
+    vehicle.prior_std[kRoll] = configuration.odometry.filter.slip_std_rad;
+  }
   return vehicle;
 }
 
@@ -78,8 +87,16 @@ MotionPrior motion_prior(const Configuration& configuration) {
           errors.velocity_std_mps};
 }
 
+std::vector<double> mount_yaw_stds(const Configuration& configuration) {
+  std::vector<double> result;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    result.push_back(radar.ego_motion.registration.shared_errors.mount_yaw_std_rad);
+  }
+  return result;
+}
+
 /// Odometry depends most on the mount's yaw: an estimate replaces it as soon as its standard
-/// deviation reaches `yaw_std_rad`, the configured one.
+/// deviation reaches `yaw_std_rad`, that of the configured one.
 bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad) {
   const double change = std::abs(radar.value[state] - radar.prior[state]);
   const bool is_good_yaw = state == kYaw && radar.std[kYaw] <= yaw_std_rad;
@@ -97,11 +114,11 @@ double above_one(const StdFactor& factor) {
 class Calibrator {
  public:
   Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
-             const TrueTrajectory* truth);
+             const TrueTrajectory* truth, const SystematicErrors& errors);
 
   void refine();
   void finish();
-  [[nodiscard]] Calibration result() const { return {radars_, fit_.vehicle()}; }
+  [[nodiscard]] Calibration result() const;
 
  private:
   [[nodiscard]] std::vector<VelocityMeasurement> velocities() const;
@@ -110,11 +127,16 @@ class Calibrator {
   [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
   [[nodiscard]] Configuration trial() const;
   [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
+  [[nodiscard]] double yaw_std_rad(std::size_t radar) const;
   void choose_changes();
+  void limit_kept();
+  bool drop_changes();
   void solve();
 
   const Configuration& configuration_;
   const std::vector<std::string>& logs_;
+  bool has_truth_;
+  SystematicErrors errors_;
   std::vector<RecordedRadar> recorded_;
   std::vector<RecordedRadar> registered_;
   CalibrationFit fit_;
@@ -124,14 +146,19 @@ class Calibrator {
 };
 
 Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
-                       const TrueTrajectory* truth)
+                       const TrueTrajectory* truth, const SystematicErrors& errors)
     : configuration_(configuration),
       logs_(logs),
+      has_truth_(truth != nullptr),
+      errors_(errors),
       recorded_(record_drive(configuration, logs)),
-      fit_(start(configuration, truth != nullptr), vehicle_start(truth != nullptr),
+      fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
            motion_prior(configuration)),
       radars_(configuration.radars.size()) {
   fit_.set_truth(truth);
+  if (!has_truth_) {
+    fit_.trust_yaws(mount_yaw_stds(configuration));
+  }
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     radars_[i].scans = recorded_[i].scans.size();
   }
@@ -179,8 +206,9 @@ Configuration Calibrator::trial() const {
       options.registration.degrees_of_freedom = 3;
     }
     options.vehicle_from_radar.yaw_rad -= fit_.vehicle().value[kRoll];
-    options.correction.rotation_lead_s =
-        configuration_.radars[i].ego_motion.correction.rotation_lead_s;
+    const DetectionCorrection& configured = configuration_.radars[i].ego_motion.correction;
+    options.correction.rotation_lead_s = configured.rotation_lead_s;
+    options.correction.azimuth_scale = configured.azimuth_scale;
     result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
   }
   return result;
@@ -200,7 +228,7 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
         continue;
       }
       result.push_back(
-          {radar, middle_us, motion.motion.z() / dt_s,
+          {radar, kTurn, middle_us, motion.motion.z() / dt_s,
            std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
       errors.push_back({middle_us,
                         (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
@@ -211,6 +239,9 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
     for (std::size_t i = first; i < result.size(); ++i) {
       result[i].std_radps *= factor;
     }
+    const auto turns =
+        matched_turns(recorded_[radar].scans, fit_, radar, radars_[radar].noise.azimuth.value);
+    result.insert(result.end(), turns.begin(), turns.end());
   }
   return result;
 }
@@ -236,19 +267,24 @@ void Calibrator::refine() {
   ++round_;
 }
 
+/// Without truth, the configured yaw that is to be improved on is that from the rolling direction.
+double Calibrator::yaw_std_rad(std::size_t radar) const {
+  const auto& errors = configuration_.radars[radar].ego_motion.registration.shared_errors;
+  return std::hypot(errors.mount_yaw_std_rad,
+                    has_truth_ ? 0.0 : configuration_.odometry.filter.slip_std_rad);
+}
+
 void Calibrator::choose_changes() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
-    const double yaw_std_rad =
-        configuration_.radars[i].ego_motion.registration.shared_errors.mount_yaw_std_rad;
     radars_[i].free = radars_[i].fit;
     for (const CalibrationState state : kTold) {
-      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad);
+      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i));
     }
   }
 }
 
 /// A value that is kept is known as well as by a tape measure.
-void Calibrator::finish() {
+void Calibrator::limit_kept() {
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     for (const CalibrationState state : kTold) {
       if (!radars_[i].is_changed[state]) {
@@ -256,14 +292,45 @@ void Calibrator::finish() {
       }
     }
   }
-  solve();
+}
+
+/// Keeps those configured values that the others, once kept, leave no better.
+bool Calibrator::drop_changes() {
+  bool is_dropped = false;
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    for (const CalibrationState state : kTold) {
+      bool& is_changed = radars_[i].is_changed[state];
+      if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i))) {
+        is_changed = false;
+        is_dropped = true;
+      }
+    }
+  }
+  return is_dropped;
+}
+
+void Calibrator::finish() {
+  do {
+    limit_kept();
+    solve();
+  } while (drop_changes());
+}
+
+Calibration Calibrator::result() const {
+  Calibration result{radars_, fit_.vehicle(), false, has_truth_};
+  double& std = result.vehicle.std[kSlip];
+  std = std::hypot(std, errors_.slip);
+  const double configured = configuration_.odometry.filter.slip_per_lateral_acceleration;
+  const double change = std::abs(result.vehicle.value[kSlip] - configured);
+  result.is_slip_changed = std <= kWorstSlipStd && change > kSignificant * std;
+  return result;
 }
 
 }  // namespace
 
 Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
-                      const TrueTrajectory* truth) {
-  Calibrator calibrator(configuration, logs, truth);
+                      const TrueTrajectory* truth, const SystematicErrors& errors) {
+  Calibrator calibrator(configuration, logs, truth, errors);
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
   }
@@ -281,15 +348,27 @@ Configuration calibrated(const Configuration& configuration,
     for (std::size_t state = 0; state < kCalibrationStates; ++state) {
       value[state] = found.is_changed[state] ? found.fit.value[state] : value[state];
     }
+    if (found.is_changed[kYaw]) {
+      value[kYaw] = std::remainder(value[kYaw], 2.0 * std::numbers::pi);
+    }
     radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
     radar.stamp_offset_s += value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;
     correction.doppler_offset_mps += value[kOffset] / correction.doppler_scale;
     correction.doppler_scale /= 1.0 + value[kScale];
     correction.rotation_lead_s += value[kLead];
+    correction.azimuth_scale *= 1.0 + value[kAzimuth];
     correction.range_std_factor *= above_one(found.noise.range);
     correction.azimuth_std_factor *= above_one(found.noise.azimuth);
     correction.doppler_std_factor *= above_one(found.noise.doppler);
+  }
+  return result;
+}
+
+Configuration calibrated(const Configuration& configuration, const Calibration& calibration) {
+  Configuration result = calibrated(configuration, calibration.radars);
+  if (calibration.is_slip_changed) {
+    result.odometry.filter.slip_per_lateral_acceleration = calibration.vehicle.value[kSlip];
   }
   return result;
 }

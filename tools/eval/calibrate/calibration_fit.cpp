@@ -145,6 +145,14 @@ void CalibrationProblem::add_priors() {
   for (FittedRadar& radar : fit.radars_) {
     add_prior(radar.prior, radar.prior_std, radar.value);
   }
+  for (std::size_t i = 0; i < fit.yaw_std_rad_.size(); ++i) {
+    FittedRadar& radar = fit.radars_[i];
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<YawResidual, 1, kCalibrationStates>(
+            new YawResidual{radar.prior[kYaw], std::max(fit.yaw_std_rad_[i], kHeldStd)}),
+        new ceres::CauchyLoss(1.0), radar.value.data());
+    groups.push_back({1, kNoBlock});
+  }
 }
 
 /// Nodes first, radars and the vehicle last.

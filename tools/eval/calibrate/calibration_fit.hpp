@@ -27,11 +27,13 @@ enum CalibrationState : std::size_t {
   kScale,         ///< Doppler over true Doppler - 1.
   kLead,          ///< Rotation lead from Doppler, s.
   kPositionLead,  ///< Rotation lead from registrations: delay of their yaw rate, s.
-  kAzimuth,       ///< Azimuth over true azimuth - 1; a nuisance parameter, not reported.
-  /// Yaw rate of its registrations over the true one - 1; a nuisance parameter, not reported.
-  kTurn,
+  kAzimuth,       ///< True azimuth over that of its targets - 1.
+  // Nuisance parameters, not reported.
+  kDopplerAzimuth,  ///< The same, by Doppler alone, over the true one.
+  kTurn,            ///< Yaw rate of its registrations over the true one - 1.
+  kMatchedTurn,     ///< Yaw rate of its matched targets over that of its azimuths - 1.
 };
-inline constexpr std::size_t kCalibrationStates = 10;
+inline constexpr std::size_t kCalibrationStates = 12;
 using CalibrationVector = std::array<double, kCalibrationStates>;
 
 /// Estimated states of the vehicle, in this order.
@@ -74,10 +76,11 @@ struct VelocityMeasurement {
   DopplerEquations equations;
 };
 
-/// Mean yaw rate between two scans of a radar, from their registration.
+/// Mean yaw rate between two scans of a radar, from their positions.
 struct YawRateMeasurement {
   std::size_t radar = 0;
-  std::int64_t stamp_us = 0;  ///< The middle between the two.
+  CalibrationState gain = kTurn;  ///< Or kMatchedTurn, which the azimuth scale reduces too.
+  std::int64_t stamp_us = 0;      ///< The middle between the two.
   double yaw_rate_radps = 0.0;
   double std_radps = 0.0;
 };
@@ -98,7 +101,7 @@ struct MotionPrior {
 ///
 /// at the times of its scans, shifted by its stamp offset. Registrations of positions measure w,
 /// delayed by the position lead. The motion is determined by the Doppler of several radars, or by
-/// truth. Without truth s is unobservable: mounts are then relative to the rolling direction.
+/// truth. Without truth only the mounts' yaw from s is observable.
 ///
 /// Variances come from a jackknife over blocks of 4 s, because errors are correlated for up to a
 /// second, which least squares ignores. They are widened for the small number of blocks (variance
@@ -113,6 +116,8 @@ class CalibrationFit {
                         std::vector<YawRateMeasurement> yaw_rates);
   /// Truth refers to the rear axle, in the frame of the mounts.
   void set_truth(const TrueTrajectory* truth) { truth_ = truth; }
+  /// Each yaw is known before by this, unless the drive says that it is far off.
+  void trust_yaws(const std::vector<double>& std_rad) { yaw_std_rad_ = std_rad; }
   /// Sets the prior standard deviation for the next solve(); values stay.
   void limit(std::size_t radar, CalibrationState state, double std) {
     radars_[radar].prior_std[state] = std::min(radars_[radar].prior_std[state], std);
@@ -138,6 +143,7 @@ class CalibrationFit {
   FittedVehicle vehicle_;
   MotionPrior prior_;
   const TrueTrajectory* truth_ = nullptr;
+  std::vector<double> yaw_std_rad_;  // Empty: they are not trusted.
   std::vector<VelocityMeasurement> velocities_;
   std::vector<YawRateMeasurement> yaw_rates_;
   std::map<std::int64_t, MotionNode> nodes_;  // By index.

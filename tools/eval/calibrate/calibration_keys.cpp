@@ -15,13 +15,14 @@ using Radar = RadarConfiguration;
 const Pose2& mount(const Radar& radar) { return radar.ego_motion.vehicle_from_radar; }
 const DetectionCorrection& correction(const Radar& radar) { return radar.ego_motion.correction; }
 
-constexpr std::array<CalibratedKey, 10> kKeys = {{
+constexpr std::array<CalibratedKey, 11> kKeys = {{
     {"mount", "x_m", [](const Radar& r) { return mount(r).x_m; }, 3},
     {"mount", "y_m", [](const Radar& r) { return mount(r).y_m; }, 3},
     {"mount", "yaw_rad", [](const Radar& r) { return mount(r).yaw_rad; }, 5},
     {"calibration", "stamp_offset_s", [](const Radar& r) { return r.stamp_offset_s; }, 4},
     {"calibration", "rotation_lead_s", [](const Radar& r) { return correction(r).rotation_lead_s; },
      4},
+    {"calibration", "azimuth_scale", [](const Radar& r) { return correction(r).azimuth_scale; }, 4},
     {"calibration", "doppler_offset_mps",
      [](const Radar& r) { return correction(r).doppler_offset_mps; }, 3},
     {"calibration", "doppler_scale", [](const Radar& r) { return correction(r).doppler_scale; }, 4},
@@ -32,6 +33,8 @@ constexpr std::array<CalibratedKey, 10> kKeys = {{
     {"calibration", "doppler_std_factor",
      [](const Radar& r) { return correction(r).doppler_std_factor; }, 2},
 }};
+
+constexpr CalibratedKey kSlipKey = {"odometry", "slip_per_lateral_acceleration", nullptr, 5};
 
 std::string digits(double value, int decimals) {
   std::array<char, 64> text{};
@@ -49,6 +52,15 @@ std::vector<CalibratedValue> changed_values(const Radar& before, const Radar& af
     }
   }
   return values;
+}
+
+std::vector<CalibratedValue> changed_vehicle_values(const OdometryOptions& before,
+                                                    const OdometryOptions& after) {
+  const double slip = after.slip_per_lateral_acceleration;
+  if (slip == before.slip_per_lateral_acceleration) {
+    return {};
+  }
+  return {{&kSlipKey, digits(slip, kSlipKey.decimals)}};
 }
 
 bool has_values(const Radar& radar, const Radar& before,

@@ -12,10 +12,10 @@ namespace cremed {
 
 /// A key of the configuration that calibration can change.
 struct CalibratedKey {
-  std::string_view table;  ///< Below [[radar]].
+  std::string_view table;  ///< Below [[radar]], or of the vehicle's key.
   std::string_view key;
-  double (*get)(const RadarConfiguration&);
-  int decimals;  ///< As printed: finer than any drive can determine.
+  double (*get)(const RadarConfiguration&);  ///< Null: of the vehicle.
+  int decimals;                              ///< As printed: finer than any drive can determine.
 };
 
 /// A key and its text.
@@ -27,6 +27,11 @@ struct CalibratedValue {
 /// The values of `after` that differ from `before`.
 std::vector<CalibratedValue> changed_values(const RadarConfiguration& before,
                                             const RadarConfiguration& after);
+
+/// The slip per lateral acceleration of `after`, in [odometry], if it differs from that of
+/// `before`.
+std::vector<CalibratedValue> changed_vehicle_values(const OdometryOptions& before,
+                                                    const OdometryOptions& after);
 
 /// Whether a radar has these values, and for all other keys those of `before`.
 bool has_values(const RadarConfiguration& radar, const RadarConfiguration& before,

@@ -49,7 +49,8 @@ Eigen::Matrix<T, kDopplerStates, 1> doppler_state(const T* motion, const T* vehi
   const T c = cos(radar[kYaw]);
   const T s = sin(radar[kYaw]);
   return Eigen::Matrix<T, kDopplerStates, 1>(c * x + s * y, c * y - s * x, radar[kOffset],
-                                             radar[kAzimuth], radar[kLead]);
+                                             radar[kAzimuth] + radar[kDopplerAzimuth],
+                                             radar[kLead]);
 }
 
 struct VelocityResidual {
@@ -74,7 +75,9 @@ struct YawRateResidual {
   template <typename T>
   bool operator()(const T* before, const T* after, const T* radar, T* residual) const {
     const T later_s = radar[kStamp] + radar[kPositionLead] - at.shift_s;
-    const T turn = (1.0 + radar[kTurn]) * motion_at(at, before, after, later_s)[1];
+    const T by_azimuth = measured.gain == kMatchedTurn ? T(radar[kAzimuth]) : T(0.0);
+    const T turn =
+        (1.0 - by_azimuth + radar[measured.gain]) * motion_at(at, before, after, later_s)[1];
     residual[0] = (turn - measured.yaw_rate_radps) / measured.std_radps;
     return true;
   }
@@ -103,6 +106,18 @@ struct TruthResidual {
     residual[0] = (node[0] - motion[0]) / std[0];
     residual[1] = (node[1] - motion[1]) / std[1];
     residual[2] = (sideways(node[0], node[1], vehicle) - motion[2]) / std[2];
+    return true;
+  }
+};
+
+/// Configured yaw of a mount.
+struct YawResidual {
+  double yaw_rad;
+  double std_rad;
+
+  template <typename T>
+  bool operator()(const T* radar, T* residual) const {
+    residual[0] = (radar[kYaw] - yaw_rad) / std_rad;
     return true;
   }
 };

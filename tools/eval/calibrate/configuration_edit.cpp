@@ -3,12 +3,14 @@
 #include "tools/eval/calibrate/configuration_edit.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "daemon/configuration/toml.hpp"
 #include "daemon/configuration/toml_document.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {
@@ -36,6 +38,7 @@ class ConfigurationEditor {
   ConfigurationEditor(std::string_view text, const toml::table& document);
 
   void set(std::size_t radar, const CalibratedValue& value);
+  void set(const CalibratedValue& value);
   [[nodiscard]] std::string result() const;
 
  private:
@@ -91,6 +94,21 @@ void ConfigurationEditor::set(std::size_t radar, const CalibratedValue& value) {
     add_to_table(*sub, value);
   } else {
     add_table(table, value);
+  }
+}
+
+void ConfigurationEditor::set(const CalibratedValue& value) {
+  const auto own = document_[value.key->table];
+  if (const toml::node* overriding = document_["calibrated"][value.key->key].node()) {
+    replace_number(*overriding, value);
+  } else if (const toml::node* node = own[value.key->key].node()) {
+    replace_number(*node, value);
+  } else if (const toml::table* table = own.as_table()) {
+    add_to_table(*table, value);
+  } else {
+    const std::size_t end = starts_.size() - 2;
+    add_line_after(line(end).empty() ? end - 1 : end,
+                   concat({"[", value.key->table, "]\n", assignment(value)}));
   }
 }
 
@@ -182,20 +200,25 @@ std::string ConfigurationEditor::result() const {
 }
 
 bool reads_as(std::string_view edited, std::string_view text,
-              const std::vector<std::vector<CalibratedValue>>& radars) {
+              const std::vector<std::vector<CalibratedValue>>& radars,
+              const std::vector<CalibratedValue>& vehicle) {
   const Configuration before = parse_configuration(text, "before");
   const Configuration after = parse_configuration(edited, "edited");
   bool is_right = after.radars.size() == before.radars.size();
   for (std::size_t i = 0; is_right && i < radars.size(); ++i) {
     is_right = has_values(after.radars[i], before.radars[i], radars[i]);
   }
-  return is_right;
+  const double slip = after.odometry.filter.slip_per_lateral_acceleration;
+  const double wanted = vehicle.empty() ? before.odometry.filter.slip_per_lateral_acceleration
+                                        : std::strtod(vehicle[0].text.c_str(), nullptr);
+  return is_right && slip == wanted;
 }
 
 }  // namespace
 
 std::string edited_configuration(std::string_view text,
-                                 const std::vector<std::vector<CalibratedValue>>& radars) {
+                                 const std::vector<std::vector<CalibratedValue>>& radars,
+                                 const std::vector<CalibratedValue>& vehicle) {
   const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   Diagnostics diagnostics("configuration");
   const auto document = parse_toml(text, diagnostics);
@@ -208,9 +231,12 @@ std::string edited_configuration(std::string_view text,
       editor.set(i, value);
     }
   }
+  for (const CalibratedValue& value : vehicle) {
+    editor.set(value);
+  }
   std::string edited = std::string(text.substr(0, mark)) + editor.result();
   try {
-    if (reads_as(edited, text, radars)) {
+    if (reads_as(edited, text, radars, vehicle)) {
       return edited;
     }
   } catch (const ConfigurationError&) {  // Reported below.

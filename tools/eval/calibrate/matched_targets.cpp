@@ -35,16 +35,18 @@ PolarTarget polar(const Target& target, const Pose2& pose, const AssumedFactors&
 struct PolarError {
   double range = 0.0;
   double azimuth = 0.0;
+  double azimuth_std_rad = 0.0;
 };
 
 /// Zero outside of the gate.
 std::optional<PolarError> error_of(const PolarTarget& previous, const PolarTarget& current) {
   const double turn_rad =
       std::remainder(current.azimuth_rad - previous.azimuth_rad, 2.0 * std::numbers::pi);
-  const PolarError error{
-      (current.range_m - previous.range_m) /
-          std::sqrt(previous.range_variance_m2 + current.range_variance_m2),
-      turn_rad / std::sqrt(previous.azimuth_variance_rad2 + current.azimuth_variance_rad2)};
+  const double azimuth_std_rad =
+      std::sqrt(previous.azimuth_variance_rad2 + current.azimuth_variance_rad2);
+  const PolarError error{(current.range_m - previous.range_m) /
+                             std::sqrt(previous.range_variance_m2 + current.range_variance_m2),
+                         turn_rad / azimuth_std_rad, azimuth_std_rad};
   if (std::abs(error.range) < kErrorGate && std::abs(error.azimuth) < kErrorGate) {
     return error;
   }
@@ -88,6 +90,7 @@ void add_match_errors(const RecordedScan& previous, const RecordedScan& current,
     if (candidates.count == 1 && suitors[candidates.partner] == 1) {
       errors.range.push_back({current.stamp_us, candidates.error.range, 0.0});
       errors.azimuth.push_back({current.stamp_us, candidates.error.azimuth, 0.0});
+      errors.azimuth_std_rad.push_back(candidates.error.azimuth_std_rad);
     }
   }
 }

@@ -14,6 +14,7 @@ namespace cremed {
 struct MatchErrors {
   std::vector<ScaledError> range;
   std::vector<ScaledError> azimuth;
+  std::vector<double> azimuth_std_rad;  ///< Of both, as assumed: the unit of `azimuth`.
 };
 
 /// Factors on reported standard deviations.

@@ -11,12 +11,12 @@
 
 #include "cremed/estimator/scan/pose2.hpp"
 #include "tools/eval/calibrate/matched_targets.hpp"
+#include "tools/eval/calibrate/matched_turns.hpp"
 #include "tools/eval/calibrate/sensor_velocity.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr double kLongestS = 0.5;  // Between two scans that are compared.
 constexpr double kSlackMps = 0.1;
 constexpr std::size_t kMinTargets = 12;  // In a scan whose Doppler is compared.
 
@@ -27,22 +27,6 @@ StdFactor of_any_drive(const StdFactor& factor) {
 }
 
 double at_least_one(const StdFactor& factor) { return std::max(factor.value, 1.0); }
-
-/// Pose of the radar at the second stamp in its frame at the first.
-std::optional<Pose2> radar_motion(const CalibrationFit& fit, std::size_t radar,
-                                  std::int64_t begin_us, std::int64_t end_us) {
-  const double dt_s = static_cast<double>(end_us - begin_us) * 1e-6;
-  const std::int64_t middle_us = begin_us + (end_us - begin_us) / 2;
-  const auto state = fit.expected(radar, middle_us);
-  const auto vehicle = fit.motion(radar, middle_us);
-  if (!state || !vehicle || dt_s > kLongestS) {
-    return std::nullopt;
-  }
-  const double yaw_rad = vehicle->y() * dt_s;
-  const Eigen::Vector2d way =
-      Eigen::Rotation2Dd(0.5 * yaw_rad) * Eigen::Vector2d(state->head<2>()) * dt_s;
-  return Pose2{way.x(), way.y(), yaw_rad};
-}
 
 MatchErrors match_errors(const std::vector<RecordedScan>& scans, const CalibrationFit& fit,
                          std::size_t radar, const AssumedFactors& assumed) {

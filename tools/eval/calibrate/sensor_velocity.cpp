@@ -64,7 +64,7 @@ void add_shared_errors(const Eigen::Vector3d& std, DopplerMatrix& information,
 DopplerRow doppler_row(const Target& target, const DopplerState& near, double told_yaw_rate_radps) {
   const double turned = near.x() * target.sin_bearing - near.y() * target.cos_bearing;
   const double range_m = std::hypot(target.x_m, target.y_m);
-  return DopplerRow(-target.cos_bearing, -target.sin_bearing, 1.0, -turned * target.bearing_rad,
+  return DopplerRow(-target.cos_bearing, -target.sin_bearing, 1.0, turned * target.bearing_rad,
                     told_yaw_rate_radps * told_yaw_rate_radps * range_m);
 }
 

@@ -11,14 +11,14 @@
 
 namespace cremed {
 
-/// Velocity of a radar in its own frame, offset of its Doppler, relative error of its azimuths and
-/// its rotation lead (vx, vy, b, e, tau; m/s, 1 and s): with the yaw rate w that the sensor
+/// Velocity of a radar in its own frame, offset of its Doppler, true over reported azimuth - 1 and
+/// its rotation lead (vx, vy, b, k, tau; m/s, 1 and s): with the yaw rate w that the sensor
 /// receives, a static target at range r has the Doppler
 ///
-///     -(vx cos((1 - e) azimuth) + vy sin((1 - e) azimuth)) + b + tau w^2 r
+///     -(vx cos((1 + k) azimuth) + vy sin((1 + k) azimuth)) + b + tau w^2 r
 ///
-/// Without e, an azimuth error of one per cent would appear as a Doppler offset. tau is relative to
-/// the configured lead (estimator/scan/rotation_lead.hpp).
+/// Without k, an azimuth error of one per cent would appear as a Doppler offset. tau is relative to
+/// the configured lead, and k to the configured scale (estimator/scan/rotation_lead.hpp).
 inline constexpr int kDopplerStates = 5;
 using DopplerState = Eigen::Matrix<double, kDopplerStates, 1>;
 using DopplerRow = Eigen::Matrix<double, 1, kDopplerStates>;
@@ -33,7 +33,7 @@ struct DopplerNoise {
   double shared_velocity_std_mps = 0.0;
 };
 
-/// Derivative of a target's Doppler by the state; for small e, the Doppler is this times the state.
+/// Derivative of a target's Doppler by the state; for small k, the Doppler is this times the state.
 DopplerRow doppler_row(const Target& target, const DopplerState& near, double told_yaw_rate_radps);
 
 /// Standard deviation of a target's Doppler due to its reported azimuth noise.

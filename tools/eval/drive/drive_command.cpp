@@ -73,7 +73,7 @@ void add_baselines(const DriveFiles& files, const DriveReference& reference,
                    std::vector<SourceEvaluation>& sources) {
   if (!files.baselines.empty()) {
     for (const auto& odometry : baselines(load_configuration(files.config), files.baselines)) {
-      sources.push_back(evaluate_source(odometry, reference));
+      sources.push_back(evaluate_source(odometry, reference, sources.front().first_window_us));
     }
   }
 }

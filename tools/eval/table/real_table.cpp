@@ -80,26 +80,31 @@ RealRow row_of(std::string_view problem, const RealMethod& method,
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Means over the segments of that length of all drives.
+/// Means over the segments and chains of that length of all drives.
 SegmentErrors joined(double time_s, const std::vector<DrivePairs>& drives) {
-  SegmentErrors all{.length = {kNoLimit, time_s}, .nees = {0, 0, 0}, .rmse = {0, 0, 0}};
+  SegmentErrors all{.length = {kNoLimit, time_s}};
   for (const DrivePairs& drive : drives) {
     for (const SegmentErrors& one : drive.odometry) {
       if (one.length.time_s == time_s && one.segments > 0) {
         const auto weight = static_cast<double>(one.segments);
         all.segments += one.segments;
-        all.anees += weight * one.anees;
-        all.nees += weight * one.nees;
         all.rmse += weight * one.rmse.cwiseAbs2();
         all.position_percent += weight * one.position_percent;
       }
+      if (one.length.time_s == time_s && one.chains > 0) {
+        const auto weight = static_cast<double>(one.chains);
+        all.chains += one.chains;
+        all.anees += weight * one.anees;
+        all.nees += weight * one.nees;
+      }
     }
   }
-  const auto count = static_cast<double>(all.segments);
-  all.anees /= count;
-  all.nees /= count;
-  all.rmse = (all.rmse / count).cwiseSqrt();
-  all.position_percent /= count;
+  const auto segments = static_cast<double>(all.segments);
+  const auto chains = static_cast<double>(all.chains);
+  all.rmse = (all.rmse / segments).cwiseSqrt();
+  all.position_percent /= segments;
+  all.anees /= chains;
+  all.nees /= chains;
   return all;
 }
 

@@ -222,6 +222,10 @@ TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input
   const std::string drive = write_drive(folder, {"front"});
   REQUIRE(run(folder, drive + " --tables " + folder.file("")).status == 0);
   CHECK(content(folder.file("sources.csv")).starts_with("source,dof,estimates,"));
+  // A drive of 2 s has no window of 10 s.
+  CHECK_THAT(content(folder.file("sources.csv")),
+             Catch::Contains(",windows_10s,yaw_deg_10s,percent_10s,anees_10s\n") &&
+                 Catch::EndsWith(",0,nan,nan,nan\n"));
   CHECK(content(folder.file("errors.csv")).find("\nfront,") != std::string::npos);
   CHECK(content(folder.file("true_path.csv")).starts_with("x_m,y_m\n0.0000,0.0000\n"));
   for (const char* name : {"path.csv", "drift.csv"}) {

@@ -42,7 +42,7 @@ std::vector<SubmapOdometry> empty_submaps() {
 }  // namespace
 
 std::vector<RecordedOdometry> baselines(const Configuration& configuration,
-                                        const std::vector<std::string>& logs) {
+                                        const std::vector<RecordedRadar>& radars) {
   std::vector<RecordedOdometry> result{{"kellner", {}, 0}};
   for (const Submap& submap : kSubmaps) {
     result.push_back({submap.name, {}, 0});
@@ -50,7 +50,7 @@ std::vector<RecordedOdometry> baselines(const Configuration& configuration,
   std::vector<SubmapOdometry> submaps = empty_submaps();
   std::optional<KellnerVelocity> before;
   std::int64_t before_us = 0;
-  for (const Sweep& sweep : sweeps(configuration, record_drive(configuration, logs))) {
+  for (const Sweep& sweep : sweeps(configuration, radars)) {
     const auto velocity = kellner_velocity(sweep.targets);
     if (before && velocity) {
       const double dt_s = seconds_between(before_us, sweep.stamp_us);

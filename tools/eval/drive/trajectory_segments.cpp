@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 
@@ -172,6 +173,16 @@ std::vector<SegmentErrors> trajectory_segments(const RecordedOdometry& odometry,
     result.push_back(length.mean(windows));
   }
   return result;
+}
+
+const SegmentErrors& after_time(const std::vector<SegmentErrors>& segments, double time_s) {
+  const auto found = std::find_if(segments.begin(), segments.end(), [&](const auto& errors) {
+    return errors.length.time_s == time_s;
+  });
+  if (found == segments.end()) {
+    throw std::invalid_argument("no segments of that time");
+  }
+  return *found;
 }
 
 }  // namespace cremed

@@ -48,4 +48,7 @@ std::vector<SegmentErrors> trajectory_segments(const RecordedOdometry& odometry,
                                                const TrueTrajectory& truth, const TruthNoise& noise,
                                                std::int64_t first_window_us);
 
+/// Those after 1, 5, 10 or 30 s; throws std::invalid_argument for another time.
+const SegmentErrors& after_time(const std::vector<SegmentErrors>& segments, double time_s);
+
 }  // namespace cremed

@@ -143,7 +143,7 @@ void add_paper(const DriveToPair& drive, std::string_view profile_name, const Tr
                DrivePairs& result) {
   const Configuration configuration = as_in_paper(drive.configuration);
   PairingSink sink(0);
-  play_drive(configuration, {drive.log}, sink);
+  play_drive(configuration, {drive.log}, {&sink});
   if (configuration.radars[0].decoder.as<Ars408Options>() != nullptr) {
     take_codes_as_std(sink.scans);
   }
@@ -170,7 +170,7 @@ DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
   DrivePairs result;
   add_paper(drive, profile, truth, result);
   PairingSink sink(paired_radar(drive.configuration));
-  play_drive(drive.configuration, {drive.log}, sink);
+  play_drive(drive.configuration, {drive.log}, {&sink});
   result.own = beside_truth(sink.motions, truth, drive.truth_noise);
   const RecordedOdometry odometry = motions_since_anchors(recorded_states(sink.outputs));
   result.odometry =

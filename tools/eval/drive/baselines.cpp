@@ -33,6 +33,7 @@ constexpr std::array kSubmaps{Submap{"submap", {10, 3.0}}, Submap{"submap_80", {
 
 std::vector<SubmapOdometry> empty_submaps() {
   std::vector<SubmapOdometry> result;
+  result.reserve(kSubmaps.size());
   for (const Submap& submap : kSubmaps) {
     result.emplace_back(submap.options);
   }

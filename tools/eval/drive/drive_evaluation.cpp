@@ -91,8 +91,9 @@ std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
   if (holds_states(table)) {
     return {evaluate_states(read_states(table), reference)};
   }
-  std::vector<SourceEvaluation> result;
   const std::vector<RecordedOdometry> sources = read_odometry(table);
+  std::vector<SourceEvaluation> result;
+  result.reserve(sources.size());
   const std::int64_t first_us = first_window_us(sources, reference.truth);
   for (const RecordedOdometry& source : sources) {
     result.push_back(evaluate_source(source, reference, first_us));

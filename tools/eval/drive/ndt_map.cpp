@@ -17,7 +17,7 @@ constexpr int kLeastPoints = 2;
 
 /// Index of the cell of a point.
 std::int64_t NdtMap::key(int grid, const Eigen::Vector2d& point_m) const {
-  const Eigen::Vector2d shift(grid % 2 * 0.5, grid / 2 * 0.5);
+  const Eigen::Vector2d shift(grid % 2 == 0 ? 0.0 : 0.5, grid < 2 ? 0.0 : 0.5);
   const Eigen::Vector2d cell = point_m / cell_m_ + shift;
   const auto column = static_cast<std::int64_t>(std::floor(cell.x()));
   const auto row = static_cast<std::int64_t>(std::floor(cell.y()));

@@ -44,7 +44,7 @@ std::vector<std::size_t> begins(const std::vector<RecordedEstimate>& estimates) 
 /// Every anchor, or the first estimate in each window.
 std::vector<std::size_t> chain_begins(const std::vector<RecordedEstimate>& estimates,
                                       std::int64_t first_window_us) {
-  const std::vector<std::size_t> all = begins(estimates);
+  std::vector<std::size_t> all = begins(estimates);
   if (all.size() < estimates.size()) {
     return all;
   }

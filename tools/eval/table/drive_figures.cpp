@@ -48,6 +48,7 @@ class OutputSink final : public OdometrySink {
 
 std::vector<RecordedEstimate> recorded(const std::vector<EgoMotion>& motions) {
   std::vector<RecordedEstimate> result;
+  result.reserve(motions.size());
   for (const EgoMotion& motion : motions) {
     result.push_back({motion.utime_start_us, motion.utime_us, motion.motion, motion.covariance});
   }

@@ -122,6 +122,7 @@ struct NamedFigures {
 /// With the mean below those in it.
 std::vector<NamedFigures> all_figures(const DriveTableOptions& options) {
   std::vector<TabledDrive> drives;
+  drives.reserve(kDrives.size());
   for (const KnownDrive& known : kDrives) {
     drives.push_back(tabled(known, options));
   }

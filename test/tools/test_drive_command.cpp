@@ -104,13 +104,13 @@ TEST_CASE("cremed-eval drive tells how true the motions are when they are chaine
   const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
   REQUIRE(result.status == 0);
   // 1 % of the path, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as
-  // independent.
-  const auto after_10_m = words(result.output, "sideways          10 m ");
-  REQUIRE(after_10_m.size() == 9);
-  CHECK(after_10_m[0] == "3");
-  CHECK(after_10_m[2] == "10.00");
-  CHECK(after_10_m[5] == "0.100");
-  CHECK(words(result.output, "sideways           1 s ")[0] == "3");
+  // independent. From 0.5 s on, a chain and a window every 0.5 s.
+  CHECK(words(result.output, "sideways          10 m ") ==
+        std::vector<std::string>{"2", "0.100", "0.000", "0.000", "0.99", "2", "3.33", "10.00",
+                                 "0.00", "0.00"});
+  CHECK(words(result.output, "sideways           1 s ") ==
+        std::vector<std::string>{"2", "0.100", "0.000", "0.000", "1.00", "2", "3.33", "10.00",
+                                 "0.00", "0.00"});
   CHECK(words(result.output, "sideways          50 m ").empty());
 }
 
@@ -156,8 +156,14 @@ TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
   // Chained over the anchor: 0.4 m error at a variance of 0.08 m^2, drift 2 %.
   CHECK(words(result.output, "odometry        %")[0] == "2.00");
   CHECK(words(result.output, "odometry          10 m ") ==
-        std::vector<std::string>{"2", "0.33", "1.00", "0.00", "0.00", "0.200", "0.000", "0.000",
-                                 "1.96"});
+        std::vector<std::string>{"2", "0.200", "0.000", "0.000", "1.96", "2", "0.33", "1.00",
+                                 "0.00", "0.00"});
+  // Two windows of the poses since the start, each 0.2 m too long, and two chains.
+  CHECK(words(result.output, "odometry           1 s ") ==
+        std::vector<std::string>{"2", "0.200", "0.000", "0.000", "2.00", "2", "0.33", "1.00",
+                                 "0.00", "0.00"});
+  CHECK_THAT(result.output, Catch::Contains("every window, begun 0.5 s apart") &&
+                                Catch::Contains("from every anchor"));
   CHECK(words(result.output, "odometry        vx m/s ") ==
         std::vector<std::string>{"21", "4.000", "0.2000"});
   CHECK(words(result.output, "odometry        w deg/s")[1] == "0.000");
@@ -178,6 +184,8 @@ TEST_CASE("cremed-eval drive --json says the same to scripts") {
   CHECK(front["coverage_y"][0].is_null());
   CHECK(front["segments"][0]["after"] == "10 m");
   CHECK(front["segments"][0]["rmse_m_m_rad"][0].get<double>() == Approx(0.1));
+  CHECK(front["segments"][3]["segments"] == 2);
+  CHECK(front["segments"][3]["chains"] == 2);
   CHECK(front["segments"][6]["anees"].is_null());
   CHECK(front["wheels"]["x"]["nees"].get<double>() == Approx(1.0));
   CHECK_FALSE(front.contains("twist"));
@@ -214,6 +222,10 @@ TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input
   const std::string drive = write_drive(folder, {"front"});
   REQUIRE(run(folder, drive + " --tables " + folder.file("")).status == 0);
   CHECK(content(folder.file("sources.csv")).starts_with("source,dof,estimates,"));
+  // A drive of 2 s has no window of 10 s.
+  CHECK_THAT(content(folder.file("sources.csv")),
+             Catch::Contains(",windows_10s,yaw_deg_10s,percent_10s,anees_10s\n") &&
+                 Catch::EndsWith(",0,nan,nan,nan\n"));
   CHECK(content(folder.file("errors.csv")).find("\nfront,") != std::string::npos);
   CHECK(content(folder.file("true_path.csv")).starts_with("x_m,y_m\n0.0000,0.0000\n"));
   for (const char* name : {"path.csv", "drift.csv"}) {
@@ -283,10 +295,17 @@ TEST_CASE(
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
   const auto rows = cells(result.output);
-  REQUIRE(rows.size() == 5);
+  REQUIRE(rows.size() == 6);
   CHECK(rows[3][0] == "kellner");
   CHECK(rows[4][0] == "submap");
-  for (const std::size_t baseline : {3, 4}) {
+  CHECK(rows[5][0] == "submap_80");
+  // All on the same windows.
+  const auto windows = words(result.output, "fused              5 s ")[0];
+  CHECK(std::stoi(windows) == 13);
+  for (const std::size_t baseline : {3, 4, 5}) {
+    std::string name = rows[baseline][0];
+    name.resize(16, ' ');
+    CHECK(words(result.output, name + "   5 s ")[0] == windows);
     CHECK(std::stoi(rows[baseline][1]) > 120);
     CHECK(std::stod(rows[baseline][2]) < 0.03);
     CHECK(std::stod(rows[baseline][3]) < 0.4);

@@ -91,15 +91,3 @@ TEST_CASE("A motion that does not join is a gap") {
   for (std::size_t i = 0; i < 9; ++i) REQUIRE(broken.add(estimates[i]));
   CHECK_FALSE(broken.add(estimates[10]));
 }
-
-TEST_CASE("States since an anchor become motions from each to the next") {
-  const Circle circle;
-  const auto rows = GENERATE(std::size_t{1}, std::size_t{10});
-  const auto motions = from_end_to_end(since_anchors(circle, 35, rows));
-  REQUIRE(motions.size() == 35);
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    CAPTURE(i);
-    CHECK(motions[i].start_us == static_cast<std::int64_t>(i) * 100'000);
-    CHECK(motions[i].motion.isApprox(circle.motion(0.1), 1e-9));
-  }
-}

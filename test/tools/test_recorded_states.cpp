@@ -54,6 +54,10 @@ TEST_CASE("The vehicle's state is told by its header and read with its covarianc
   REQUIRE(odometry.estimates.size() == 1);  // At its own anchor a state is no motion.
   CHECK(odometry.estimates[0].start_us == 2000);
   CHECK(odometry.estimates[0].covariance(0, 0) == 11.0);
+  // The path is that of the poses since the start, from the end of "initialising" on.
+  REQUIRE(odometry.steps().size() == 1);
+  CHECK(odometry.steps()[0].start_us == 2000);
+  CHECK(odometry.steps()[0].motion.head<2>() == Eigen::Vector2d(7.0, 7.0));
 }
 
 TEST_CASE("A state that is said to be one and is not finite is refused with the place") {

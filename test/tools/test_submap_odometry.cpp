@@ -26,7 +26,7 @@ struct Driven {
 Driven drive(unsigned seed, const Eigen::Vector3d& twist, double yaw_rate_error_radps) {
   constexpr int kSweeps = 60;
   DrawnWorld world(seed, 400);
-  SubmapOdometry odometry;
+  SubmapOdometry odometry{{}};
   Driven driven;
   const Eigen::Vector3d motion = kPeriodS * twist;
   const Eigen::Vector3d wrong = motion + Eigen::Vector3d(0.0, 0.0, kPeriodS * yaw_rate_error_radps);
@@ -65,7 +65,7 @@ TEST_CASE("Without anything to be matched the motion is that by velocity") {
   DrawnWorld world(1, 400);
   const Eigen::Vector3d twist(10.0, 0.0, 0.1);
   const Sweep sweep = world.sweep({}, twist, 0.2, 4);
-  SubmapOdometry odometry;
+  SubmapOdometry odometry{{}};
   const Eigen::Vector3d motion = kPeriodS * twist;
   const auto result = odometry.update(sweep, *kellner_velocity(sweep.targets), motion, kPeriodS);
   CHECK((result.motion - motion).norm() < 1e-9);

@@ -7,6 +7,7 @@
 #include "test/tools/circle.hpp"
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/drive/motion_chain.hpp"
+#include "tools/eval/drive/pose_windows.hpp"
 #include "tools/eval/drive/trajectory_segments.hpp"
 
 using namespace cremed;
@@ -23,6 +24,16 @@ Eigen::Matrix3d covariance() {
 TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
   Random unused(0, 0);
   return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
+}
+
+std::vector<SegmentErrors> segments(const RecordedOdometry& odometry, const TrueTrajectory& truth,
+                                    const TruthNoise& noise = {}) {
+  return trajectory_segments(odometry, truth, noise, first_window_us({odometry}, truth));
+}
+
+std::vector<SegmentErrors> segments(const std::vector<RecordedEstimate>& estimates,
+                                    const TrueTrajectory& truth, const TruthNoise& noise = {}) {
+  return segments(RecordedOdometry{"front", estimates, 0}, truth, noise);
 }
 
 const SegmentErrors& of(const std::vector<SegmentErrors>& all, const std::string& length) {
@@ -66,17 +77,25 @@ TEST_CASE("Independent errors of true covariance give ANEES 1 at every length, a
   const Circle circle{8.0, 0.05};
   constexpr std::size_t kSteps = 20'000;  // 2000 s, 16 km
   Random random(21, 0);
-  auto estimates = circle.estimates(kStepUs, kSteps, covariance(), random);
-  if (rows_per_anchor != 0) estimates = since_anchors(estimates, rows_per_anchor);
-  const auto all = trajectory_segments(estimates, exact_truth(circle, kSteps), {});
+  const auto steps = circle.estimates(kStepUs, kSteps, covariance(), random);
+  const bool anchored = rows_per_anchor != 0;
+  const auto all =
+      anchored
+          ? segments(RecordedOdometry{"odometry", since_anchors(steps, rows_per_anchor), 0, steps},
+                     exact_truth(circle, kSteps))
+          : segments(steps, exact_truth(circle, kSteps));
   REQUIRE(all.size() == 7);
   const std::size_t begins = rows_per_anchor == 0 ? kSteps / 5 : kSteps / rows_per_anchor;
   for (const SegmentErrors& errors : all) {
-    CAPTURE(to_text(errors.length), errors.segments);
+    CAPTURE(to_text(errors.length), errors.segments, errors.chains);
     const double seconds = std::min(errors.length.time_s, errors.length.way_m / 8.0);
-    CHECK(errors.segments > begins - 62);
-    CHECK(errors.segments <= begins);
-    const double apart = std::min(2000.0 / seconds, static_cast<double>(begins));
+    CHECK(errors.chains > begins - 62);
+    CHECK(errors.chains <= begins);
+    // Windows begin 0.5 s apart, with anchors too.
+    const bool by_time = errors.length.time_s < 1e9;
+    const auto windows = static_cast<std::size_t>((2000.0 - seconds) / 0.5);
+    CHECK(errors.segments == (by_time ? windows : errors.chains));
+    const double apart = std::min(1999.5 / seconds, static_cast<double>(begins));
     check_is_one(errors.anees, apart, 3);
     check_is_one(errors.nees.x(), apart, 1);
     check_is_one(errors.nees.y(), apart, 1);
@@ -94,14 +113,14 @@ TEST_CASE("An error that stays shows in the chain, though each motion's is withi
     estimate.motion.z() += 0.001;
     estimate.covariance = covariance();
   }
-  const auto all = trajectory_segments(estimates, exact_truth(circle, 400), {});
+  const auto all = segments(estimates, exact_truth(circle, 400));
   // 100 motions: 0.1 rad at a sigma of 0.01.
   CHECK(of(all, "10 s").nees.z() == Approx(100.0).epsilon(1e-3));
   CHECK(of(all, "10 s").rmse.z() == Approx(0.1).epsilon(1e-3));
   CHECK(of(all, "1 s").nees.z() == Approx(10.0).epsilon(1e-3));
 }
 
-TEST_CASE("An error of scale is its share of the way; segments end at or beyond their length") {
+TEST_CASE("An error of scale is its share of the way; ways end at or beyond their length") {
   const Circle straight{8.0, 1e-9};
   Random random(23, 0);
   auto estimates = straight.estimates(kStepUs, 400, 1e-12 * Eigen::Matrix3d::Identity(), random);
@@ -109,16 +128,17 @@ TEST_CASE("An error of scale is its share of the way; segments end at or beyond 
     estimate.motion.x() *= 1.02;
     estimate.covariance = covariance();
   }
-  const auto all = trajectory_segments(estimates, exact_truth(straight, 400), {});
+  const auto all = segments(estimates, exact_truth(straight, 400));
   for (const SegmentErrors& errors : all) {
     CAPTURE(to_text(errors.length));
-    CHECK(errors.position_percent == Approx(100.0 * 0.02 / 1.02).epsilon(1e-3));
+    // Of the estimated way, after a time of the true one.
+    const double scale = errors.length.time_s < 1e9 ? 1.0 : 1.02;
+    CHECK(errors.position_percent == Approx(100.0 * 0.02 / scale).epsilon(1e-3));
   }
-  // 13 motions of 0.816 m are 10.6 m; every fifth of 400 begins a segment unless the end is too
-  // near.
+  // 13 motions of 0.816 m are 10.6 m; a chain begins at 0.5, 1, ... 38.5 s.
   CHECK(of(all, "10 m").rmse.x() == Approx(13 * 0.016).epsilon(1e-3));
-  CHECK(of(all, "10 m").segments == 78);
-  CHECK(of(all, "30 s").segments == 21);
+  CHECK(of(all, "10 m").segments == 77);
+  CHECK(of(all, "30 s").segments == 20);
 }
 
 TEST_CASE("Truth's noise is added at the end, by the time that the segment takes") {
@@ -127,7 +147,7 @@ TEST_CASE("Truth's noise is added at the end, by the time that the segment takes
   auto estimates = circle.estimates(kStepUs, 400, 1e-12 * Eigen::Matrix3d::Identity(), random);
   for (RecordedEstimate& estimate : estimates) estimate.motion.z() += 0.001;
   const TruthNoise noise({{0.01, 0.01, 0.01, 1.0}, {0.01, 0.01, 0.1, 10.0}});
-  const auto all = trajectory_segments(estimates, exact_truth(circle, 400), noise);
+  const auto all = segments(estimates, exact_truth(circle, 400), noise);
   CHECK(of(all, "1 s").nees.z() == Approx(1.0).epsilon(1e-3));
   CHECK(of(all, "10 s").nees.z() == Approx(1.0).epsilon(1e-3));
 }
@@ -137,11 +157,14 @@ TEST_CASE("Segments across a gap and beyond truth are left out") {
   Random random(25, 0);
   auto estimates = circle.estimates(kStepUs, 400, covariance(), random);
   const auto truth = exact_truth(circle, 300);
-  CHECK(of(trajectory_segments(estimates, truth, {}), "10 s").segments == 41);
+  CHECK(of(segments(estimates, truth), "10 s").segments == 40);
+  CHECK(of(segments(estimates, truth), "10 s").chains == 40);
   estimates.erase(estimates.begin() + 150);
-  // Begins at 0, 0.5, ... 5 s before the gap, and, still every fifth, at 15.1 to 19.6 s after it.
-  CHECK(of(trajectory_segments(estimates, truth, {}), "10 s").segments == 11 + 10);
-  const auto none = trajectory_segments({}, truth, {});
+  // Begins at 0.5, 1, ... 5 s before the gap, and at 15.5 to 20 s after it; the window of 15 s has
+  // its first motion at 15.1 s.
+  CHECK(of(segments(estimates, truth), "10 s").segments == 10 + 10);
+  CHECK(of(segments(estimates, truth), "10 s").chains == 10 + 11);
+  const auto none = segments(std::vector<RecordedEstimate>{}, truth);
   CHECK(of(none, "50 m").segments == 0);
   CHECK(std::isnan(of(none, "50 m").anees));
 }
@@ -154,7 +177,22 @@ TEST_CASE("Motions of two degrees of freedom are chained in three") {
     estimate.motion.y() = 0.0;
     estimate.covariance(1, 1) = 0.0;
   }
-  const auto all = trajectory_segments(estimates, exact_truth(circle, 100), {});
+  const auto all = segments(estimates, exact_truth(circle, 100));
   CHECK(std::isfinite(of(all, "1 s").anees));
   CHECK(of(all, "1 s").nees.y() > 0.0);
+}
+
+TEST_CASE("A chain ends at the estimate nearest to its time") {
+  const Circle circle;
+  Random random(27, 0);
+  auto estimates = circle.estimates(300'000, 100, 1e-12 * Eigen::Matrix3d::Identity(), random);
+  for (RecordedEstimate& estimate : estimates) {
+    estimate.motion.z() += 0.001;
+    estimate.covariance = covariance();
+  }
+  const auto all = segments(estimates, exact_truth(circle, 300));
+  // An error of one sigma each: NEES of yaw is the number of motions. 0.9 s are nearer to 1 s than
+  // 1.2 s are, and 5.1 s nearer to 5 s than 4.8 s.
+  CHECK(of(all, "1 s").nees.z() == Approx(3.0).epsilon(1e-3));
+  CHECK(of(all, "5 s").nees.z() == Approx(17.0).epsilon(1e-3));
 }

@@ -31,6 +31,8 @@ namespace {
 struct TableArguments {
   cremed::PaperTableOptions options{.threads = std::max(std::thread::hardware_concurrency(), 1U)};
   std::string real;
+  std::string drives;
+  bool write = false;
   cremed::TruthNoise truth_noise;
   std::string plot;
   bool as_json = false;
@@ -123,10 +125,19 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       "Folder with drives from cremed-convert nuscenes: the paper's real problems in place of the "
       "simulated ones, with a simulated mobile robot");
   cremed::add_truth_std(*command, arguments.truth_noise)->needs(real);
+  CLI::Option* drives = command->add_option(
+      "--drives", arguments.drives,
+      "Folder with the project's recorded drives: the READMEs' tables of them, from the odometry "
+      "with the configurations in config/; run in the project's folder");
+  drives->excludes(real);
+  command->add_flag("--write", arguments.write, "Write these tables into the READMEs")
+      ->needs(drives);
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
+      ->excludes(drives)
       ->excludes(real)
       ->check(CLI::Range(1, 1000000));
   command->add_option("--runs", options.runs, "Runs with each set (as the paper: 1000, Sim 500)")
+      ->excludes(drives)
       ->excludes(real)
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
@@ -134,8 +145,9 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)")
+      ->excludes(drives)
       ->excludes(real);
-  command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
+  command->add_flag("--json", arguments.as_json, "Print the figures as JSON")->excludes(drives);
   return command;
 }
 
@@ -217,6 +229,10 @@ int run(CLI::App& app, int argc, char** argv) {
   if (table_command->parsed() && !table.real.empty()) {
     cremed::run_real_table(
         {table.real, table.options.seed, table.options.threads, table.truth_noise}, table.as_json);
+    return 0;
+  }
+  if (table_command->parsed() && !table.drives.empty()) {
+    cremed::run_drive_table({.data = table.drives, .threads = table.options.threads}, table.write);
     return 0;
   }
   if (table_command->parsed()) {

@@ -74,7 +74,7 @@ void check_logs(const Replay& replay) {
 }  // namespace
 
 void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
-                OdometrySink& sink) {
+                const std::vector<OdometrySink*>& sinks) {
   require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
@@ -82,7 +82,7 @@ void play_drive(const Configuration& configuration, const std::vector<std::strin
     sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
   }
   Replay replay(std::move(sources), 0.0, &stop);
-  Pipeline pipeline(configuration, replay, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, replay, sinks, {&no_clock});
   while (pipeline.take_next(replay)) {
   }
   pipeline.finish();
@@ -90,9 +90,11 @@ void play_drive(const Configuration& configuration, const std::vector<std::strin
 }
 
 std::vector<RecordedRadar> record_drive(const Configuration& configuration,
-                                        const std::vector<std::string>& logs) {
+                                        const std::vector<std::string>& logs,
+                                        std::vector<OdometrySink*> sinks) {
   RecordingSink sink(configuration);
-  play_drive(configuration, logs, sink);
+  sinks.push_back(&sink);
+  play_drive(configuration, logs, sinks);
   std::vector<RecordedRadar> radars = sink.take();
   if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(

@@ -29,14 +29,16 @@ struct RecordedRadar {
   std::vector<EgoMotion> motions;   ///< Estimates only.
 };
 
-/// Runs recorded drives through the pipeline with `sink`. Throws std::runtime_error if a log cannot
-/// be read.
+/// Runs recorded drives through the pipeline with these sinks. Throws std::runtime_error if a log
+/// cannot be read.
 void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
-                OdometrySink& sink);
+                const std::vector<OdometrySink*>& sinks);
 
-/// Runs recorded drives through the pipeline: one RecordedRadar per radar of the configuration.
-/// Throws std::runtime_error if a log cannot be read or no radar sent a scan.
+/// Runs recorded drives through the pipeline: one RecordedRadar per radar of the configuration;
+/// other sinks receive the same. Throws std::runtime_error if a log cannot be read or no radar sent
+/// a scan.
 std::vector<RecordedRadar> record_drive(const Configuration& configuration,
-                                        const std::vector<std::string>& logs);
+                                        const std::vector<std::string>& logs,
+                                        std::vector<OdometrySink*> sinks = {});
 
 }  // namespace cremed

@@ -266,7 +266,7 @@ function showTruthOf(source) {
                {xlabel: "time [s]"});
     showNees(errors, color);
   }
-  fillTable(byId("segments"), ["pose after", "segments", "error [% of the path]", "yaw [°]", "ANEES"],
+  fillTable(byId("segments"), ["pose after", "windows", "error [% of the path]", "yaw [°]", "ANEES"],
             segmentRows(source));
   charts.showTime(now);
 }

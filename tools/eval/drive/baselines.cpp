@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/baselines.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "cremed/estimator/scan/stamps.hpp"
@@ -21,27 +23,51 @@ SubmapOdometry::Result by_velocity(const KellnerVelocity& from, const KellnerVel
   return {motion, 0.25 * dt_s * dt_s * (from.covariance + to.covariance)};
 }
 
+struct Submap {
+  const char* name;
+  SubmapOptions options;
+};
+
+/// The paper's map, and one of 6 s: more sweeps fill smaller cells.
+constexpr std::array kSubmaps{Submap{"submap", {10, 3.0}}, Submap{"submap_80", {80, 1.5}}};
+
+std::vector<SubmapOdometry> empty_submaps() {
+  std::vector<SubmapOdometry> result;
+  result.reserve(kSubmaps.size());
+  for (const Submap& submap : kSubmaps) {
+    result.emplace_back(submap.options);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<RecordedOdometry> baselines(const Configuration& configuration,
-                                        const std::vector<std::string>& logs) {
-  std::vector<RecordedOdometry> result{{"kellner", {}, 0}, {"submap", {}, 0}};
-  SubmapOdometry submap;
+                                        const std::vector<RecordedRadar>& radars) {
+  std::vector<RecordedOdometry> result{{"kellner", {}, 0}};
+  for (const Submap& submap : kSubmaps) {
+    result.push_back({submap.name, {}, 0});
+  }
+  std::vector<SubmapOdometry> submaps = empty_submaps();
   std::optional<KellnerVelocity> before;
   std::int64_t before_us = 0;
-  for (const Sweep& sweep : sweeps(configuration, record_drive(configuration, logs))) {
+  for (const Sweep& sweep : sweeps(configuration, radars)) {
     const auto velocity = kellner_velocity(sweep.targets);
     if (before && velocity) {
       const double dt_s = seconds_between(before_us, sweep.stamp_us);
       const auto expected = by_velocity(*before, *velocity, dt_s);
-      const auto match = submap.update(sweep, *velocity, expected.motion, dt_s);
       result[0].estimates.push_back(
           {before_us, sweep.stamp_us, expected.motion, expected.covariance});
-      result[1].estimates.push_back({before_us, sweep.stamp_us, match.motion, match.covariance});
+      for (std::size_t i = 0; i < submaps.size(); ++i) {
+        const auto match = submaps[i].update(sweep, *velocity, expected.motion, dt_s);
+        result[1 + i].estimates.push_back(
+            {before_us, sweep.stamp_us, match.motion, match.covariance});
+      }
     } else {
-      submap = {};
-      ++result[0].without_estimate;
-      ++result[1].without_estimate;
+      submaps = empty_submaps();
+      for (RecordedOdometry& method : result) {
+        ++method.without_estimate;
+      }
     }
     before = velocity;
     before_us = sweep.stamp_us;

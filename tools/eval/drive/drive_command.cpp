@@ -11,6 +11,7 @@
 #include "tools/eval/drive/drive_tables.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
+#include "tools/eval/recorded_drive.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 namespace cremed {
@@ -72,8 +73,10 @@ std::vector<TruthAgainstWheels> compare_references(const DriveReference& referen
 void add_baselines(const DriveFiles& files, const DriveReference& reference,
                    std::vector<SourceEvaluation>& sources) {
   if (!files.baselines.empty()) {
-    for (const auto& odometry : baselines(load_configuration(files.config), files.baselines)) {
-      sources.push_back(evaluate_source(odometry, reference));
+    const Configuration configuration = load_configuration(files.config);
+    const auto radars = record_drive(configuration, files.baselines);
+    for (const auto& odometry : baselines(configuration, radars)) {
+      sources.push_back(evaluate_source(odometry, reference, sources.front().first_window_us));
     }
   }
 }

@@ -6,7 +6,7 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "tools/eval/csv_table.hpp"
-#include "tools/eval/drive/motion_chain.hpp"
+#include "tools/eval/drive/pose_windows.hpp"
 #include "tools/eval/drive/recorded_odometry.hpp"
 #include "tools/eval/drive/recorded_states.hpp"
 
@@ -51,18 +51,20 @@ std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int
 
 }  // namespace
 
-SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
-                                 const DriveReference& reference) {
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference,
+                                 std::int64_t first_window_us) {
   SourceEvaluation result;
+  result.first_window_us = first_window_us;
   result.source = odometry.source;
   result.degrees_of_freedom = degrees_of_freedom(odometry);
   result.credibility = Credibility(result.degrees_of_freedom);
   result.without_estimate = odometry.without_estimate;
   compare_estimates(odometry.estimates, reference, result);
   result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);
-  result.path = driven_path(from_end_to_end(odometry.estimates), reference.truth);
+  result.path = driven_path(odometry.steps(), reference.truth);
   result.drift = path_drift(result.path);
-  result.segments = trajectory_segments(odometry.estimates, reference.truth, reference.truth_noise);
+  result.segments =
+      trajectory_segments(odometry, reference.truth, reference.truth_noise, first_window_us);
   if (reference.wheels) {
     result.wheels = against_wheels(odometry.estimates, reference.truth, *reference.wheels);
   }
@@ -72,7 +74,9 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry,
 namespace {
 
 SourceEvaluation evaluate_states(const RecordedStates& states, const DriveReference& reference) {
-  SourceEvaluation result = evaluate_source(motions_since_anchors(states), reference);
+  const RecordedOdometry odometry = motions_since_anchors(states);
+  SourceEvaluation result =
+      evaluate_source(odometry, reference, first_window_us({odometry}, reference.truth));
   if (reference.wheels) {
     result.twist = against_wheels(states.states, *reference.wheels);
   }
@@ -87,9 +91,12 @@ std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
   if (holds_states(table)) {
     return {evaluate_states(read_states(table), reference)};
   }
+  const std::vector<RecordedOdometry> sources = read_odometry(table);
   std::vector<SourceEvaluation> result;
-  for (const RecordedOdometry& source : read_odometry(table)) {
-    result.push_back(evaluate_source(source, reference));
+  result.reserve(sources.size());
+  const std::int64_t first_us = first_window_us(sources, reference.truth);
+  for (const RecordedOdometry& source : sources) {
+    result.push_back(evaluate_source(source, reference, first_us));
   }
   std::stable_partition(result.begin(), result.end(), [](const SourceEvaluation& source) {
     return source.source == kFusedSource;

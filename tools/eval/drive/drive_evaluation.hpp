@@ -59,6 +59,7 @@ struct SourceEvaluation {
   std::vector<RunningNees> mean_nees;  ///< For each error, over kNeesWindowUs.
   std::vector<PathPose> path;
   std::vector<PathDrift> drift;
+  std::int64_t first_window_us = 0;  ///< Of segments by time.
   std::vector<SegmentErrors> segments;
   std::optional<MotionsAgainstWheels> wheels;  ///< With wheels only, as is twist.
   std::optional<TwistAgainstWheels> twist;     ///< Of the vehicle's state only.
@@ -67,8 +68,9 @@ struct SourceEvaluation {
 inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
 /// Compares every estimate of a source with the reference. A source whose cov_yy is always 0 has 2
-/// DoF.
-SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference);
+/// DoF. Several sources have the same windows, counted from the first.
+SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference,
+                                 std::int64_t first_window_us);
 
 /// Compares the estimates in a file of cremed with the reference. Odometry CSV: "fused" first, then
 /// the other sources in order of appearance. The vehicle's state (--output-odometry), recognised by

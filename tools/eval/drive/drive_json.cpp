@@ -27,10 +27,11 @@ Json to_json(const PathDrift& drift) {
 Json to_json(const SegmentErrors& errors) {
   return {{"after", to_text(errors.length)},
           {"segments", errors.segments},
-          {"anees", errors.anees},
-          {"nees_x_y_yaw", vector_json(errors.nees)},
           {"rmse_m_m_rad", vector_json(errors.rmse)},
-          {"position_percent", errors.position_percent}};
+          {"position_percent", errors.position_percent},
+          {"chains", errors.chains},
+          {"anees", errors.anees},
+          {"nees_x_y_yaw", vector_json(errors.nees)}};
 }
 
 Json to_json(const AxisAgainstWheels& axis) {

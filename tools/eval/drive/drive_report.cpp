@@ -93,7 +93,8 @@ void write_sources_csv(const std::string& path, const std::vector<SourceEvaluati
   std::fprintf(file.stream(),
                "source,dof,estimates,without_estimate,gaps,rmse_m,rmse_deg,anees,anees_low,"
                "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw,segments,across_gaps,"
-               "translation_percent,rotation_deg_per_m\n");
+               "translation_percent,rotation_deg_per_m,windows_10s,yaw_deg_10s,percent_10s,"
+               "anees_10s\n");
   for (const SourceEvaluation& source : sources) {
     const Credibility& c = source.credibility;
     const int dof = source.degrees_of_freedom;
@@ -107,8 +108,11 @@ void write_sources_csv(const std::string& path, const std::vector<SourceEvaluati
                  anees.low, anees.high, nees.low, nees.high);
     std::fprintf(out, "%.4f,%.4f,%.4f,", 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3),
                  1.0 - c.coverage(2, 3));
-    std::fprintf(out, "%zu,%zu,%.5g,%.5g\n", drift.segments, drift.across_gaps,
+    std::fprintf(out, "%zu,%zu,%.5g,%.5g,", drift.segments, drift.across_gaps,
                  drift.translation_percent, drift.rotation_deg_per_m);
+    const SegmentErrors& late = after_time(source.segments, 10.0);
+    std::fprintf(out, "%zu,%.5g,%.5g,%.5g\n", late.segments, kDegPerRad * late.rmse.z(),
+                 late.position_percent, late.anees);
   }
   file.close();
 }

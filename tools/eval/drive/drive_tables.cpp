@@ -40,10 +40,10 @@ void print_truth(std::FILE* file, const std::vector<TruthAgainstWheels>& truth) 
 }
 
 void print_segment(std::FILE* file, const std::string& source, const SegmentErrors& errors) {
-  std::fprintf(file, "# %-15s %6s %8zu %8.2f %8.2f %8.2f %8.2f %8.3f %8.3f %8.3f %8.2f\n",
-               source.c_str(), to_text(errors.length).c_str(), errors.segments, errors.anees,
-               errors.nees.x(), errors.nees.y(), errors.nees.z(), errors.rmse.x(), errors.rmse.y(),
-               kDegPerRad * errors.rmse.z(), errors.position_percent);
+  std::fprintf(file, "# %-15s %6s %8zu %8.3f %8.3f %8.3f %8.2f %8zu %8.2f %8.2f %8.2f %8.2f\n",
+               source.c_str(), to_text(errors.length).c_str(), errors.segments, errors.rmse.x(),
+               errors.rmse.y(), kDegPerRad * errors.rmse.z(), errors.position_percent,
+               errors.chains, errors.anees, errors.nees.x(), errors.nees.y(), errors.nees.z());
 }
 
 }  // namespace
@@ -51,14 +51,19 @@ void print_segment(std::FILE* file, const std::string& source, const SegmentErro
 void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                     const TruthNoise& noise) {
   const std::string note = noise.note();
-  std::fprintf(file, "# pose after a distance or a time, motions chained as independent%s%s\n",
-               note.empty() ? "" : "; ", note.c_str());
-  std::fprintf(file, "# %-15s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "source", "after",
-               "segments", "anees", "nees_x", "nees_y", "nees_yaw", "rmse_x_m", "rmse_y_m",
-               "yaw_deg", "%_of_way");
+  std::fprintf(
+      file,
+      "# pose after a distance or a time. Errors after a time: over every window, begun 0.5 s "
+      "apart (of the vehicle's\n# state: of the poses since the start). ANEES: of estimates "
+      "chained as independent, from every anchor, the only\n# time without covariance, to the row "
+      "nearest to that time (of motions: begun 0.5 s apart)%s%s\n",
+      note.empty() ? "" : "; ", note.c_str());
+  std::fprintf(file, "# %-15s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "source", "after",
+               "segments", "rmse_x_m", "rmse_y_m", "yaw_deg", "%_of_way", "chains", "anees",
+               "nees_x", "nees_y", "nees_yaw");
   for (const SourceEvaluation& source : sources) {
     for (const SegmentErrors& errors : source.segments) {
-      if (errors.segments != 0) {
+      if (errors.segments + errors.chains != 0) {
         print_segment(file, source.source, errors);
       }
     }

@@ -5,19 +5,17 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tools/eval/drive/true_trajectory.hpp"
-
 namespace cremed {
 namespace {
 
 /// Stamps may differ by their rounding to microseconds.
 constexpr std::int64_t kSameStampUs = 2;
 
-bool is_same(std::int64_t a_us, std::int64_t b_us) { return std::abs(a_us - b_us) <= kSameStampUs; }
-
-Pose2 plane_pose(const Eigen::Vector3d& pose) { return {pose.x(), pose.y(), pose.z()}; }
-
 }  // namespace
+
+bool is_same_stamp(std::int64_t a_us, std::int64_t b_us) {
+  return std::abs(a_us - b_us) <= kSameStampUs;
+}
 
 UncertainPose chained(const UncertainPose& start, const UncertainPose& motion) {
   const double c = std::cos(start.pose.z());
@@ -33,11 +31,11 @@ UncertainPose chained(const UncertainPose& start, const UncertainPose& motion) {
 }
 
 bool MotionChain::moves_to_joint(std::int64_t start_us) {
-  if (is_same(start_us, end_us_)) {
+  if (is_same_stamp(start_us, end_us_)) {
     joint_ = end_;
     joint_us_ = end_us_;
   }
-  return is_same(start_us, joint_us_);
+  return is_same_stamp(start_us, joint_us_);
 }
 
 bool MotionChain::add(const RecordedEstimate& motion) {
@@ -49,18 +47,6 @@ bool MotionChain::add(const RecordedEstimate& motion) {
   end_us_ = motion.end_us;
   driven_m_ += (end_.pose - before).head<2>().norm();
   return true;
-}
-
-std::vector<RecordedEstimate> from_end_to_end(const std::vector<RecordedEstimate>& estimates) {
-  std::vector<RecordedEstimate> result = estimates;
-  for (std::size_t i = 1; i < estimates.size(); ++i) {
-    const RecordedEstimate& before = estimates[i - 1];
-    if (before.start_us == estimates[i].start_us) {
-      result[i].start_us = before.end_us;
-      result[i].motion = motion_between(plane_pose(before.motion), plane_pose(estimates[i].motion));
-    }
-  }
-  return result;
 }
 
 }  // namespace cremed

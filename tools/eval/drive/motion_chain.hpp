@@ -20,6 +20,9 @@ struct UncertainPose {
 /// derivatives F, G of the pose by start and by motion.
 UncertainPose chained(const UncertainPose& start, const UncertainPose& motion);
 
+/// Whether one motion may begin where the other ends.
+bool is_same_stamp(std::int64_t a_us, std::int64_t b_us);
+
 /// Chained motions. Motions with one begin (rows with the same anchor) give poses along the path; a
 /// motion that begins at the end of the last one is chained there.
 class MotionChain {
@@ -45,9 +48,5 @@ class MotionChain {
   std::int64_t end_us_;
   double driven_m_ = 0.0;
 };
-
-/// Each motion from the end of the one before, if both have the same begin; otherwise unchanged.
-/// Converts poses relative to anchors to consecutive motions; covariances are unchanged.
-std::vector<RecordedEstimate> from_end_to_end(const std::vector<RecordedEstimate>& estimates);
 
 }  // namespace cremed

@@ -10,22 +10,20 @@ namespace cremed {
 namespace {
 
 constexpr int kGrids = 4;
-/// Larger cells blur what an ARS408 resolves; smaller ones hold one point each.
-constexpr double kCellM = 3.0;
 /// One point has no distribution.
 constexpr int kLeastPoints = 2;
 
+}  // namespace
+
 /// Index of the cell of a point.
-std::int64_t key(int grid, const Eigen::Vector2d& point_m) {
-  const Eigen::Vector2d shift(grid % 2 * 0.5, grid / 2 * 0.5);
-  const Eigen::Vector2d cell = point_m / kCellM + shift;
+std::int64_t NdtMap::key(int grid, const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d shift(grid % 2 == 0 ? 0.0 : 0.5, grid < 2 ? 0.0 : 0.5);
+  const Eigen::Vector2d cell = point_m / cell_m_ + shift;
   const auto column = static_cast<std::int64_t>(std::floor(cell.x()));
   const auto row = static_cast<std::int64_t>(std::floor(cell.y()));
   return ((column + (std::int64_t{1} << 24)) << 32 | (row + (std::int64_t{1} << 24))) * kGrids +
          grid;
 }
-
-}  // namespace
 
 void NdtMap::add(const UncertainPoint& point) {
   for (int grid = 0; grid < kGrids; ++grid) {
@@ -33,6 +31,19 @@ void NdtMap::add(const UncertainPoint& point) {
     ++cell.points;
     cell.sum_m += point.position_m;
     cell.squares_m2 += point.position_m * point.position_m.transpose() + point.covariance_m2;
+  }
+}
+
+void NdtMap::remove(const UncertainPoint& point) {
+  for (int grid = 0; grid < kGrids; ++grid) {
+    const auto cell = cells_.find(key(grid, point.position_m));
+    if (--cell->second.points == 0) {
+      cells_.erase(cell);
+      continue;
+    }
+    cell->second.sum_m -= point.position_m;
+    cell->second.squares_m2 -=
+        point.position_m * point.position_m.transpose() + point.covariance_m2;
   }
 }
 

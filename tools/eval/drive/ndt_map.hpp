@@ -20,7 +20,11 @@ struct UncertainPoint {
 /// (Kung et al., ICRA 2021).
 class NdtMap {
  public:
+  explicit NdtMap(double cell_m) : cell_m_(cell_m) {}
+
   void add(const UncertainPoint& point);
+  /// Undoes add().
+  void remove(const UncertainPoint& point);
 
   /// Normal equations of a small motion (x, y, yaw) of the points about `centre`, each weighted by
   /// its likelihood.
@@ -39,6 +43,9 @@ class NdtMap {
     Eigen::Matrix2d squares_m2 = Eigen::Matrix2d::Zero();  // With the points' own covariances.
   };
 
+  [[nodiscard]] std::int64_t key(int grid, const Eigen::Vector2d& point_m) const;
+
+  double cell_m_;
   std::unordered_map<std::int64_t, Cell> cells_;
 };
 

@@ -26,6 +26,13 @@ struct RecordedOdometry {
   std::string source;
   std::vector<RecordedEstimate> estimates;
   std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
+  /// From each pose since the start to the next, without covariance. Only if the estimates are
+  /// relative to anchors: otherwise they are steps themselves.
+  std::vector<RecordedEstimate> steps_since_start{};
+
+  [[nodiscard]] const std::vector<RecordedEstimate>& steps() const {
+    return steps_since_start.empty() ? estimates : steps_since_start;
+  }
 };
 
 /// Whether rows with that status have an estimate.

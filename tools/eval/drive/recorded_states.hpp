@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "tools/eval/csv_table.hpp"
 #include "tools/eval/drive/recorded_odometry.hpp"
 
@@ -26,6 +27,9 @@ struct RecordedState {
 struct RecordedStates {
   std::vector<RecordedState> states;
   std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
+  /// From each pose since the start to the next, in all rows that have one and are no longer
+  /// initialising.
+  std::vector<RecordedEstimate> steps;
 };
 
 /// Whether the table's header is that of the vehicle's state.
@@ -34,8 +38,12 @@ bool holds_states(const CsvTable& table);
 /// Throws std::runtime_error.
 RecordedStates read_states(const CsvTable& table);
 
+/// The same from the pipeline's outputs.
+RecordedStates recorded_states(const std::vector<Odometry>& outputs);
+
 /// Each state's pose as a motion since its anchor; none for a state at its own anchor's time. The
 /// state at the time of a new anchor still refers to the old one, so that the anchors form a chain.
+/// Its steps are those since the start.
 RecordedOdometry motions_since_anchors(const RecordedStates& states);
 
 }  // namespace cremed

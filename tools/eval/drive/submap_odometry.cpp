@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/submap_odometry.hpp"
 
-#include <cstddef>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -12,7 +10,6 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kSweeps = 10;
 constexpr int kMaxIterations = 30;
 constexpr double kStepTolerance = 1e-5;
 
@@ -84,29 +81,29 @@ Match matched(const NdtMap& map, const std::vector<UncertainPoint>& points,
 
 }  // namespace
 
-NdtMap SubmapOdometry::submap() const {
-  NdtMap map;
-  for (const auto& sweep : sweeps_) {
-    for (const UncertainPoint& point : sweep) {
-      map.add(point);
-    }
+void SubmapOdometry::add_to_map(const std::vector<UncertainPoint>& placed_points) {
+  for (const UncertainPoint& point : placed_points) {
+    map_.add(point);
   }
-  return map;
+  sweeps_.push_back(placed_points);
+  if (sweeps_.size() > options_.sweeps) {
+    for (const UncertainPoint& point : sweeps_.front()) {
+      map_.remove(point);
+    }
+    sweeps_.pop_front();
+  }
 }
 
 SubmapOdometry::Result SubmapOdometry::update(const Sweep& sweep, const KellnerVelocity& velocity,
                                               const Eigen::Vector3d& motion, double dt_s) {
   const std::vector<UncertainPoint> points = standing_points(sweep, velocity);
-  const Match match = matched(submap(), points, expectation(pose_, motion, dt_s));
+  const Match match = matched(map_, points, expectation(pose_, motion, dt_s));
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = rotation_matrix(-pose_.yaw_rad);
   const Result result{motion_between(pose_, match.pose),
                       turn * match.equations.information.inverse() * turn.transpose()};
   pose_ = match.pose;
-  sweeps_.push_back(placed(points, pose_));
-  if (sweeps_.size() > kSweeps) {
-    sweeps_.pop_front();
-  }
+  add_to_map(placed(points, pose_));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,21 +28,27 @@ std::string to_text(const SegmentLength& length);
 struct SegmentErrors {
   SegmentLength length;
   std::size_t segments = 0;
-  double anees = 0.0;             ///< Of the pose: 3 degrees of freedom.
-  Eigen::Vector3d nees;           ///< Of x, y and yaw separately.
-  Eigen::Vector3d rmse;           ///< (x_m, y_m, yaw_rad).
+  Eigen::Vector3d rmse = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad).
   double position_percent = 0.0;  ///< Mean distance from truth, in per cent of the path.
+  std::size_t chains = 0;         ///< Those with a covariance.
+  double anees = 0.0;             ///< Of their pose: 3 degrees of freedom.
+  Eigen::Vector3d nees = Eigen::Vector3d::Zero();  ///< Of x, y and yaw separately.
 };
 
-/// Errors and credibility of motions chained as independent: the pose after 10, 50 and 100 m and
-/// after 1, 5, 10 and 30 s.
+/// Errors and credibility of the pose after 10, 50 and 100 m and after 1, 5, 10 and 30 s.
 ///
-/// A segment begins at every fifth motion, or, for motions with common begins, at each begin (an
-/// anchor), and ends at the first motion at or beyond its length. Segments with gaps and those
+/// Errors after a time are those of the steps over every window (window_errors). Covariances are
+/// those of chains: the estimates chained as independent. A chain begins at every anchor, the only
+/// time without covariance, or, for estimates from scan to scan, at the first one in each window.
+/// It ends at the estimate nearest to its begin plus that time, or at the first one at or beyond a
+/// distance; errors after a distance are those of the chains too. Chains with gaps and those
 /// outside of truth's time are omitted. Segments of one length overlap, so they are not independent
 /// samples.
-std::vector<SegmentErrors> trajectory_segments(const std::vector<RecordedEstimate>& estimates,
-                                               const TrueTrajectory& truth,
-                                               const TruthNoise& noise);
+std::vector<SegmentErrors> trajectory_segments(const RecordedOdometry& odometry,
+                                               const TrueTrajectory& truth, const TruthNoise& noise,
+                                               std::int64_t first_window_us);
+
+/// Those after 1, 5, 10 or 30 s; throws std::invalid_argument for another time.
+const SegmentErrors& after_time(const std::vector<SegmentErrors>& segments, double time_s);
 
 }  // namespace cremed

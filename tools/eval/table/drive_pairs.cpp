@@ -10,6 +10,7 @@
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/ars408_tables.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
+#include "tools/eval/drive/pose_windows.hpp"
 #include "tools/eval/drive/recorded_states.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
@@ -48,17 +49,12 @@ class PairingSink final : public OdometrySink {
       motions.push_back(motion);
     }
   }
-  void on_odometry(const Odometry& odometry) override {
-    if (is_estimate(std::string(to_string(odometry.status)))) {
-      states.states.push_back({odometry.utime_us, odometry.utime_anchor_us, odometry.pose,
-                               odometry.covariance, odometry.twist, odometry.twist_covariance});
-    }
-  }
+  void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
   [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<UsableScan> scans;
   std::vector<EgoMotion> motions;
-  RecordedStates states;
+  std::vector<Odometry> outputs;
 
  private:
   std::size_t radar_;
@@ -147,7 +143,7 @@ void add_paper(const DriveToPair& drive, std::string_view profile_name, const Tr
                DrivePairs& result) {
   const Configuration configuration = as_in_paper(drive.configuration);
   PairingSink sink(0);
-  play_drive(configuration, {drive.log}, sink);
+  play_drive(configuration, {drive.log}, {&sink});
   if (configuration.radars[0].decoder.as<Ars408Options>() != nullptr) {
     take_codes_as_std(sink.scans);
   }
@@ -174,10 +170,11 @@ DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
   DrivePairs result;
   add_paper(drive, profile, truth, result);
   PairingSink sink(paired_radar(drive.configuration));
-  play_drive(drive.configuration, {drive.log}, sink);
+  play_drive(drive.configuration, {drive.log}, {&sink});
   result.own = beside_truth(sink.motions, truth, drive.truth_noise);
+  const RecordedOdometry odometry = motions_since_anchors(recorded_states(sink.outputs));
   result.odometry =
-      trajectory_segments(motions_since_anchors(sink.states).estimates, truth, drive.truth_noise);
+      trajectory_segments(odometry, truth, drive.truth_noise, first_window_us({odometry}, truth));
   if (result.own.motions.empty()) {
     throw std::runtime_error(drive.log + ": no estimate within the time of " + drive.truth +
                              "; `cremed-doctor --replay` reports the reason");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -28,21 +27,11 @@ using PairOne = std::function<DrivePairs(std::size_t)>;
 std::vector<DrivePairs> pair_all(std::size_t count, unsigned threads, const std::string& label,
                                  const PairOne& pair_one) {
   std::vector<DrivePairs> drives(count);
-  std::vector<std::exception_ptr> failures(count);
   ProgressBar progress(label, count);
   parallel_for(count, threads, [&](std::size_t i) {
-    try {
-      drives[i] = pair_one(i);
-    } catch (...) {
-      failures[i] = std::current_exception();
-    }
+    drives[i] = pair_one(i);
     progress.advance();
   });
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) {
-      std::rethrow_exception(failure);
-    }
-  }
   return drives;
 }
 
@@ -80,26 +69,30 @@ RealRow row_of(std::string_view problem, const RealMethod& method,
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Means over the segments of that length of all drives.
+/// Means over the segments and chains of that length of all drives.
 SegmentErrors joined(double time_s, const std::vector<DrivePairs>& drives) {
-  SegmentErrors all{.length = {kNoLimit, time_s}, .nees = {0, 0, 0}, .rmse = {0, 0, 0}};
+  SegmentErrors all{.length = {kNoLimit, time_s}};
   for (const DrivePairs& drive : drives) {
-    for (const SegmentErrors& one : drive.odometry) {
-      if (one.length.time_s == time_s && one.segments > 0) {
-        const auto weight = static_cast<double>(one.segments);
-        all.segments += one.segments;
-        all.anees += weight * one.anees;
-        all.nees += weight * one.nees;
-        all.rmse += weight * one.rmse.cwiseAbs2();
-        all.position_percent += weight * one.position_percent;
-      }
+    const SegmentErrors& one = after_time(drive.odometry, time_s);
+    if (one.segments > 0) {
+      const auto weight = static_cast<double>(one.segments);
+      all.segments += one.segments;
+      all.rmse += weight * one.rmse.cwiseAbs2();
+      all.position_percent += weight * one.position_percent;
+    }
+    if (one.chains > 0) {
+      const auto weight = static_cast<double>(one.chains);
+      all.chains += one.chains;
+      all.anees += weight * one.anees;
+      all.nees += weight * one.nees;
     }
   }
-  const auto count = static_cast<double>(all.segments);
-  all.anees /= count;
-  all.nees /= count;
-  all.rmse = (all.rmse / count).cwiseSqrt();
-  all.position_percent /= count;
+  const auto segments = static_cast<double>(all.segments);
+  const auto chains = static_cast<double>(all.chains);
+  all.rmse = (all.rmse / segments).cwiseSqrt();
+  all.position_percent /= segments;
+  all.anees /= chains;
+  all.nees /= chains;
   return all;
 }
 

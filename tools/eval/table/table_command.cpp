@@ -3,8 +3,12 @@
 #include "tools/eval/table/table_command.hpp"
 
 #include <cstdio>
+#include <filesystem>
+#include <iterator>
 
+#include "daemon/process/replaced_file.hpp"
 #include "tools/eval/figures_json.hpp"
+#include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/table/cost_curves.hpp"
 #include "tools/eval/table/table_report.hpp"
@@ -38,6 +42,26 @@ void run_real_table(const RealTableOptions& options, bool as_json) {
     std::printf("%s\n", real_table_json(table).c_str());
   } else {
     print_real_table(stdout, table);
+  }
+}
+
+void run_drive_table(const DriveTableOptions& options, bool write) {
+  const std::vector<ReadmeTable> tables = drive_tables(options);
+  if (!write) {
+    for (const ReadmeTable& table : tables) {
+      std::printf("%s\n", to_markdown(table).c_str());
+    }
+    return;
+  }
+  for (const std::string& name : kReadmesWithTables) {
+    const std::string path = std::filesystem::path(options.project) / name;
+    std::string text = with_input(path, [](std::istream& input) {
+      return std::string(std::istreambuf_iterator<char>(input), {});
+    });
+    for (const ReadmeTable& table : tables) {
+      text = with_table(text, table);
+    }
+    replace_file(path, text);
   }
 }
 

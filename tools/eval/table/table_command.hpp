@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "tools/eval/table/drive_table.hpp"
 #include "tools/eval/table/paper_table.hpp"
 #include "tools/eval/table/real_table.hpp"
 
@@ -15,5 +16,8 @@ void run_table(const PaperTableOptions& options, const std::string& picture, boo
 
 /// cremed-eval table --real: the same for drives.
 void run_real_table(const RealTableOptions& options, bool as_json);
+
+/// cremed-eval table --drives: prints the READMEs' tables of recorded drives, or writes them there.
+void run_drive_table(const DriveTableOptions& options, bool write);
 
 }  // namespace cremed

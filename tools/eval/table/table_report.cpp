@@ -112,8 +112,8 @@ void print_real_table(std::FILE* stream, const RealTable& table) {
   }
   std::fprintf(
       stream,
-      "# Odometry of all radars, chained from anchor to anchor: error of the pose after that "
-      "time.\n"
+      "# Odometry of all radars: error of the pose after that time over every window, begun 0.5 s\n"
+      "# apart; ANEES of the poses chained from every anchor.\n"
       "# problem time        segments   rmse_m rmse_deg    anees  percent_of_way\n");
   for (const RealTable::Odometry& row : table.odometry) {
     print_row(stream, row);

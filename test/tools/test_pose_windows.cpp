@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "test/tools/circle.hpp"
+#include "tools/eval/drive/pose_windows.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+namespace {
+
+constexpr std::int64_t kStepUs = 100'000;
+
+TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
+  Random unused(0, 0);
+  return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
+}
+
+/// Without errors.
+std::vector<RecordedEstimate> exact_steps(const Circle& circle, std::int64_t step_us,
+                                          std::size_t steps) {
+  Random unused(0, 0);
+  return circle.estimates(step_us, steps, Eigen::Matrix3d::Zero(), unused);
+}
+
+}  // namespace
+
+TEST_CASE("Poses between the steps' ends are interpolated") {
+  const Circle circle{10.0, 0.1};
+  const ChainedPoses poses(exact_steps(circle, 75'000, 100));
+  const auto motion = poses.motion(512'345, 6'012'345);
+  REQUIRE(motion);
+  CHECK(motion->isApprox(circle.motion(5.5), 1e-4));
+  CHECK(poses.motion(0, 7'500'000));
+  CHECK_FALSE(poses.motion(0, 7'500'001));
+  CHECK_FALSE(poses.motion(-1, 1'000'000));
+}
+
+TEST_CASE("Windows begin one step after both have begun, half a second apart, to the end of both") {
+  const Circle circle;
+  const auto truth = exact_truth(circle, 100);
+  auto steps = exact_steps(circle, kStepUs, 90);
+  for (RecordedEstimate& step : steps) {
+    step.start_us += 230'000;
+    step.end_us += 230'000;
+  }
+  const std::int64_t first_us = first_window_us({{"late", steps, 0}, {"blind", {}, 5}}, truth);
+  CHECK(first_us == 730'000);
+  const WindowErrors errors = window_errors(ChainedPoses(steps), truth, first_us, 2'000'000);
+  CHECK(errors.windows == 14);  // From 0.73 to 7.23 s; the steps end at 9.23 s.
+  CHECK(errors.rmse.z() == Approx(0.0).margin(1e-9));
+  CHECK(first_window_us({}, truth) == 500'000);
+  CHECK(std::isnan(window_errors(ChainedPoses({}), truth, 0, 2'000'000).rmse.z()));
+  CHECK(window_errors(ChainedPoses(steps), {}, 0, 2'000'000).windows == 0);
+}
+
+TEST_CASE("A constant error of scale and of yaw rate is that of every window") {
+  const Circle circle{8.0, 1e-9};
+  auto steps = exact_steps(circle, kStepUs, 200);
+  for (RecordedEstimate& step : steps) {
+    step.motion.x() *= 1.02;
+  }
+  const auto truth = exact_truth(circle, 200);
+  const auto scale = window_errors(ChainedPoses(steps), truth, 500'000, 5'000'000);
+  CHECK(scale.windows == 30);
+  CHECK(scale.rmse.x() == Approx(0.8));
+  CHECK(scale.position_percent == Approx(2.0));
+  for (RecordedEstimate& step : steps) {
+    step.motion.z() += 0.002;
+  }
+  const auto turned = window_errors(ChainedPoses(steps), truth, 500'000, 5'000'000);
+  CHECK(turned.rmse.z() == Approx(0.1));
+}
+
+TEST_CASE("A window across a gap is left out; stamps that differ by their rounding are no gap") {
+  const Circle circle;
+  auto steps = exact_steps(circle, kStepUs, 100);
+  steps[20].start_us += 2;
+  const auto truth = exact_truth(circle, 100);
+  const auto windows = [&] {
+    return window_errors(ChainedPoses(steps), truth, 500'000, 3'000'000).windows;
+  };
+  CHECK(windows() == 14);
+  steps.erase(steps.begin() + 52);
+  CHECK(windows() == 4 + 4);  // Begun up to 2 s, or from 5.5 s on.
+}
+
+TEST_CASE("Standing still, an error counts as one over a metre") {
+  const Circle circle{1e-9, 1e-9};
+  auto steps = exact_steps(circle, kStepUs, 50);
+  for (RecordedEstimate& step : steps) {
+    step.motion.x() = 0.001;
+  }
+  const auto errors =
+      window_errors(ChainedPoses(steps), exact_truth(circle, 50), 500'000, 1'000'000);
+  CHECK(errors.position_percent == Approx(1.0));
+}

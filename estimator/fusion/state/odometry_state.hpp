@@ -43,6 +43,11 @@ class OdometryState {
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
 
+  /// Resets the errors of a signal of the vehicle's bus to their prior.
+  void start_signal(VehicleSignal signal);
+  /// Propagates them.
+  void advance_signal(VehicleSignal signal, double dt_s);
+
   /// Kalman update with the last innovation of `gaussian`. kCommonScale is a consider parameter: it
   /// is not observable, but seems so where each scan is linearised at another speed. As an
   /// estimated state it drifted by 1 % in 15 minutes of a simulated town, at a sigma of 0.2 %.
@@ -68,6 +73,8 @@ class OdometryState {
   [[nodiscard]] int scan(std::size_t radar) const;
   [[nodiscard]] int keyframe(std::size_t radar, std::size_t keyframe) const;
   [[nodiscard]] int error(std::size_t radar, int which) const;
+  /// The same of an error of a signal; only with options().vehicle.is_used().
+  [[nodiscard]] int vehicle_error(int which) const;
 
   GaussianState gaussian;
 

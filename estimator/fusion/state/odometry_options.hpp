@@ -25,9 +25,9 @@ struct VehicleSignalOptions {
 /// wheels and gyro of two cars against their map-based poses (nuScenes 0061, 0103, 1094).
 struct VehicleOptions {
   /// m/s. Over 10 s the path errs by 0.1 to 0.3 % in each drive, the scale by 0.3 % between them.
-  VehicleSignalOptions speed{false, 0.01, 0.01, {0.03, 0.5}};
+  VehicleSignalOptions speed{false, 0.01, 0.01, {0.05, 1.0}};
   /// rad/s. Over 10 s the yaw errs by 0.07 to 0.13 degrees besides bias and scale.
-  VehicleSignalOptions yaw_rate{false, 0.01, 0.01, {0.001, 0.2}};
+  VehicleSignalOptions yaw_rate{false, 0.01, 0.01, {0.002, 0.2}};
   double delay_std_s = 0.02;     ///< Of a delay: two periods of a message at 100 Hz.
   double scale_time_s = 3600.0;  ///< Tyres warm up, gyros age.
   double yaw_rate_bias_std_radps = 0.0005;

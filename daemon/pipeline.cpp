@@ -194,6 +194,9 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   radar.self_check.add(motion, radar.estimator.targets());
+  if (filter_ && radar.self_check.is_trusted()) {
+    filter_->compare(radar.index, motion);
+  }
   if (odometry_ && contradicts(*odometry_, motion)) {
     motion = withdrawn(motion);
   }

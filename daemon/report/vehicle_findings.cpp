@@ -17,6 +17,26 @@ std::string times_text(bool is_present, int times) {
   return is_present ? "" : fmt::format(" for a while, {} time{}", times, times == 1 ? "" : "s");
 }
 
+/// What the radars see wrong with it: ", it is 10.2 % too large".
+std::string fault_text(VehicleSignal signal, const VehicleSignalReport& report) {
+  const bool is_speed = signal == VehicleSignal::speed;
+  switch (report.fault) {
+    case SignalFault::scale:
+      return fmt::format(": it is {:.1f} % too {}", 100.0 * std::abs(report.seen_scale),
+                         report.seen_scale > 0.0 ? "large" : "small");
+    case SignalFault::delay:
+      return fmt::format(": it comes {:.2f} s {} than configured", std::abs(report.seen_delay_s),
+                         report.seen_delay_s > 0.0 ? "later" : "earlier");
+    case SignalFault::offset:
+      return fmt::format(": its offset is {:+.2f} {}",
+                         report.seen_offset * (is_speed ? 1.0 : kDegPerRad),
+                         is_speed ? "m/s" : "deg/s");
+    case SignalFault::none:
+      break;
+  }
+  return fmt::format(" (normalised innovation squared {:.1f}, 1 expected)", report.innovation);
+}
+
 }  // namespace
 
 std::string vehicle_signal_name(VehicleSignal signal) {
@@ -76,8 +96,7 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
     findings.push_back(
         {Severity::warning,
          concat({"excluded from the odometry: ", id, " contradicts the radars",
-                 times_text(report.is_left_out, report.times_left_out),
-                 " (normalised innovation squared ", tenths(report.innovation), ", 1 expected)"}),
+                 times_text(report.is_left_out, report.times_left_out), fault_text(signal, report)}),
          "check its unit, sign, factor and delay ([vehicle])"});
   }
   if (status.bad_frames != 0) {

@@ -68,6 +68,11 @@ class OdometryFilter {
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
   void add(const VehicleReading& reading) { vehicle_.add(reading); }
 
+  /// A radar's own motion, with which these values are compared.
+  void compare(std::size_t radar, const EgoMotion& motion) {
+    vehicle_.compare(state_.mount(radar), motion);
+  }
+
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
   /// first scan, or more than max_gap_s after the last. Each prediction is returned once, in order;
   /// it may be later than a scan that arrives after it.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -16,11 +17,14 @@ using namespace state_layout;
 /// Changes that prove a standing signal frozen: several times the noise of any sensor of it. Wheels
 /// show a crawling vehicle as standing.
 constexpr double kFrozenSpeedMps = 0.5;
-constexpr double kFrozenYawRateRadps = 0.05;
-/// Less certain values of the filter prove nothing.
-constexpr double kFrozenSigmas = 4.0;
+constexpr double kFrozenYawRateRadps = 0.02;
+/// Uncertainty of the filter's values: by chance one in 370 errs by more.
+constexpr double kFrozenSigmas = 3.0;
 /// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
 constexpr double kMaxErrorSigmas = 4.0;
+
+/// The covariance of a motion of a radar that looks further sideways is too small.
+constexpr double kMaxSineAcross = 0.7;
 
 int rate_of(VehicleSignal signal) { return signal == VehicleSignal::speed ? kSpeed : kYawRate; }
 
@@ -37,7 +41,8 @@ int scale_of(VehicleSignal signal) {
 VehicleSignals::Source::Source(VehicleSignal which, const VehicleOptions& options)
     : signal(which),
       track(options.period_s, options.of(which).delay_s),
-      standing(frozen_change(which)) {}
+      standing(frozen_change(which)),
+      check(which, options) {}
 
 VehicleSignals::VehicleSignals(OdometryState& state, OdometryOutput& output)
     : state_(state),
@@ -60,7 +65,9 @@ void VehicleSignals::add(const VehicleReading& reading) {
   // After half a second the value is old news, but a standing vehicle's yaw rate may stand too.
   if (source.standing.is_standing()) {
     source.track.clear();
+    source.check.clear();
   } else {
+    source.check.add(reading.stamp_us, reading.value);
     source.track.add(reading.stamp_us, reading.value);
   }
 }
@@ -69,6 +76,7 @@ void VehicleSignals::forget() {
   for (Source& source : sources_) {
     source.track.clear();
     source.standing.clear();
+    source.check.clear();
     source.heard_us.reset();
     source.compared_us.reset();
   }
@@ -80,6 +88,20 @@ void VehicleSignals::restart_errors() {
       state_.start_signal(source.signal);
     }
   }
+}
+
+void VehicleSignals::compare(const Pose2& mount, const EgoMotion& motion) {
+  if (!motion.has_estimate() || std::abs(std::sin(mount.yaw_rad)) > kMaxSineAcross) {
+    return;
+  }
+  const double duration_s = seconds_between(motion.utime_start_us, motion.utime_us);
+  const auto compare = [&](VehicleSignal signal, int axis) {
+    sources_[static_cast<std::size_t>(signal)].check.compare(
+        motion.utime_start_us, motion.utime_us, motion.motion(axis) / duration_s,
+        motion.covariance(axis, axis) / squared(duration_s));
+  };
+  compare(VehicleSignal::speed, 0);
+  compare(VehicleSignal::yaw_rate, 2);
 }
 
 void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
@@ -106,8 +128,9 @@ void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known)
   source.lost.update(seconds_between(*source.heard_us, stamp_us) >
                      state_.options().vehicle.lost_s);
   const int rate = rate_of(source.signal);
-  if (is_known && kFrozenSigmas * state_.gaussian.std(rate) <= frozen_change(source.signal)) {
-    source.standing.expect(state_.gaussian.mean(rate));
+  if (is_known) {
+    source.standing.expect(state_.gaussian.mean(rate),
+                           kFrozenSigmas * state_.gaussian.std(rate));
   }
   source.frozen.update(source.standing.is_frozen());
 }
@@ -148,7 +171,8 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
 /// Updates the state with the last innovation if the signal is trusted.
 void VehicleSignals::judge(Source& source, double nis) {
   const bool was_left_out = source.trust.is_left_out();
-  const bool is_expected = nis <= state_.options().vehicle.max_nis;
+  const bool is_expected = nis <= state_.options().vehicle.max_nis &&
+                           !(was_left_out && source.check.fault() != SignalFault::none);
   source.trust.judge(is_expected);
   if (!was_left_out && !source.trust.is_left_out()) {
     source.noise.add(nis);
@@ -156,7 +180,7 @@ void VehicleSignals::judge(Source& source, double nis) {
       state_.update();
       ++source.used;
     }
-    if (!has_credible_errors(source.signal)) {
+    if (!has_credible_errors(source.signal) || source.check.fault() != SignalFault::none) {
       source.trust.leave_out();
     }
   }
@@ -202,6 +226,11 @@ VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
     report.bias_radps = state.mean(bias);
     report.bias_std_radps = state.std(bias);
   }
+  const Eigen::Vector3d seen = source.check.errors().value;
+  report.fault = source.check.fault();
+  report.seen_offset = seen(0);
+  report.seen_scale = seen(1);
+  report.seen_delay_s = seen(2);
   return report;
 }
 

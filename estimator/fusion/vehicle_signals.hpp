@@ -9,13 +9,16 @@
 
 #include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/fusion/gate/radar_trust.hpp"
+#include "cremed/estimator/fusion/gate/signal_check.hpp"
 #include "cremed/estimator/fusion/gate/signal_trust.hpp"
 #include "cremed/estimator/fusion/gate/standing_value.hpp"
 #include "cremed/estimator/fusion/measurement/signal_track.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/motion/innovation_mean.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 
@@ -30,6 +33,8 @@ class VehicleSignals {
 
   /// A reading, in the order of the stamps of its signal. Ignored if the options do not use it.
   void add(const VehicleReading& reading);
+  /// A radar's own motion from scan to scan, with which the readings are compared.
+  void compare(const Pose2& mount, const EgoMotion& motion);
   /// Uses what was measured until `stamp_us`. The state may move on, but not beyond that time.
   /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
   /// radars alone start the filter.
@@ -58,6 +63,7 @@ class VehicleSignals {
     VehicleSignal signal;
     SignalTrack track;
     StandingValue standing;
+    SignalCheck check;
     SignalTrust trust;
     NoiseFactor noise;
     InnovationMean innovation;

@@ -17,9 +17,11 @@ void StandingValue::add(std::int64_t stamp_us, double value) {
   last_us_ = stamp_us;
 }
 
-void StandingValue::expect(double value) {
-  lowest_ = has_range_ ? std::min(lowest_, value) : value;
-  highest_ = has_range_ ? std::max(highest_, value) : value;
+void StandingValue::expect(double value, double tolerance) {
+  const double most = value + tolerance;
+  const double least = value - tolerance;
+  lowest_ = has_range_ ? std::min(lowest_, most) : most;
+  highest_ = has_range_ ? std::max(highest_, least) : least;
   has_range_ = true;
 }
 

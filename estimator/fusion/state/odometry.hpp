@@ -77,6 +77,9 @@ struct RadarReport {
   double doppler_scale_std = 0.0;
 };
 
+/// An error of a signal of the vehicle's bus that the radars show.
+enum class SignalFault : std::uint8_t { none, offset, scale, delay };
+
 /// Diagnostics of a signal of the vehicle's bus.
 struct VehicleSignalReport {
   bool is_used = false;      ///< It is configured; otherwise all is 0.
@@ -95,6 +98,11 @@ struct VehicleSignalReport {
   double scale_std = 0.0;
   double bias_radps = 0.0;  ///< Of the yaw rate.
   double bias_std_radps = 0.0;
+  /// By the radars' motions alone (SignalCheck): which error is a fault, and the errors.
+  SignalFault fault = SignalFault::none;
+  double seen_offset = 0.0;  ///< m/s or rad/s
+  double seen_scale = 0.0;
+  double seen_delay_s = 0.0;  ///< More than the configured one.
 };
 
 }  // namespace cremed

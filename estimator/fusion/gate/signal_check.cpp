@@ -25,22 +25,27 @@ constexpr double kSpeedOffsetPriorMps = 0.01;
 constexpr double kTurnScaleStd = 0.02;
 /// Speed by Doppler: its scale, and targets above the road.
 constexpr double kSpeedScaleStd = 0.005;
-/// Yaw by positions errs by 0.0003 rad/m; Doppler by 0.03 m/s.
-constexpr double kYawRateOffsetStdRadps = 0.005;
-constexpr double kSpeedOffsetStdMps = 0.05;
+/// What a radar's motions err by in common, for seconds: on straights its yaw walks by 0.1 to 0.35
+/// degrees each second (nuScenes). Without it a slow error is taken for a scale where the vehicle
+/// hardly turns: 17 +- 5 % on 0103.
+constexpr OrnsteinUhlenbeck kYawRateError{0.005, 2.0};
+constexpr OrnsteinUhlenbeck kSpeedError{0.05, 0.5};
 /// Stamps of a radar, and the lead of its positions.
 constexpr double kRadarDelayStdS = 0.02;
-/// Errors of neighbouring scans are correlated, for 0.3 s.
-constexpr double kVarianceFactor = 2.0;
 /// Beyond this a motion is an outlier, with a weight that falls with its error (Huber).
 constexpr double kOutlierSigmas = 3.0;
+/// Scans of several radars at one time count as this far apart.
+constexpr double kShortestIntervalS = 0.01;
 /// Bound of the errors: by chance one in 370 is larger.
 constexpr double kMaxSigmas = 3.0;
 
+const OrnsteinUhlenbeck& radar_error(VehicleSignal signal) {
+  return signal == VehicleSignal::speed ? kSpeedError : kYawRateError;
+}
+
 Eigen::Vector3d tolerance_of(VehicleSignal signal, const VehicleOptions& options) {
   const bool is_speed = signal == VehicleSignal::speed;
-  return {is_speed ? kSpeedOffsetStdMps
-                   : std::hypot(kYawRateOffsetStdRadps, options.yaw_rate_bias_std_radps),
+  return {std::hypot(radar_error(signal).std, is_speed ? 0.0 : options.yaw_rate_bias_std_radps),
           std::hypot(is_speed ? kSpeedScaleStd : kTurnScaleStd, options.of(signal).scale_std),
           std::hypot(kRadarDelayStdS, options.delay_std_s)};
 }
@@ -57,7 +62,8 @@ Eigen::Matrix3d prior_of(VehicleSignal signal) {
 }  // namespace
 
 SignalCheck::SignalCheck(VehicleSignal signal, const VehicleOptions& options)
-    : delay_us_(std::llround(options.of(signal).delay_s * 1e6)),
+    : radar_error_(radar_error(signal)),
+      delay_us_(std::llround(options.of(signal).delay_s * 1e6)),
       tolerance_(tolerance_of(signal, options)),
       prior_(prior_of(signal)),
       information_(prior_) {}
@@ -107,11 +113,15 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const double mean = (end->integral - start->integral) / duration_s;
   const Eigen::Vector3d by(1.0, mean, -(end->value - start->value) / duration_s);
   const Eigen::Vector3d left = by.cwiseProduct(errors().value);
-  const double std = std::sqrt(kVarianceFactor * variance);
+  const double passed_s = compared_us_ == 0 ? duration_s : seconds_between(compared_us_, end_us);
+  // Spread over the comparisons, as in VehicleMeasurement.
+  const double interval_s = std::clamp(passed_s, kShortestIntervalS, duration_s);
+  const double std =
+      std::sqrt(variance + squared(radar_error_.std) *
+                               std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
   const double error = std::abs(mean - rate - left.sum()) / std;
   const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
-  const double passed_s = std::max(0.0, seconds_between(compared_us_, end_us));
-  const double kept = compared_us_ == 0 ? 1.0 : std::exp(-passed_s / kMemoryS);
+  const double kept = std::exp(-std::max(passed_s, 0.0) / kMemoryS);
   compared_us_ = std::max(compared_us_, end_us);
   information_ = prior_ + kept * (information_ - prior_) + weight * by * by.transpose();
   weighted_ = kept * weighted_ + weight * (mean - rate) * by;

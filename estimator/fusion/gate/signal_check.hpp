@@ -57,6 +57,7 @@ class SignalCheck {
   [[nodiscard]] std::optional<Sum> at(std::int64_t utime_us) const;
   [[nodiscard]] const Sum& sum(std::size_t i) const { return sums_[(first_ + i) % kCapacity]; }
 
+  OrnsteinUhlenbeck radar_error_;
   std::int64_t delay_us_;
   Eigen::Vector3d tolerance_;
   std::array<Sum, kCapacity> sums_{};

@@ -91,9 +91,7 @@ CanFrame encode_ars408_filter_query(std::uint8_t sensor_id, bool for_objects,
 CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {
   using namespace layout::motion;
   const std::uint32_t speed = kSpeedScale.raw(std::abs(speed_mps), kSpeed);
-  const std::uint8_t direction = speed == 0        ? kStandstill
-                                 : speed_mps < 0.0 ? kBackward
-                                                   : kForward;
+  const std::uint8_t direction = speed == 0 ? kStandstill : speed_mps < 0.0 ? kBackward : kForward;
   PayloadBits bits = empty_bits();
   bits.set(kDirection, direction);
   bits.set(kSpeed, speed);

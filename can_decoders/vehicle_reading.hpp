@@ -30,8 +30,8 @@ struct VehicleReading {
 };
 
 /// The value in a frame with the layout of 0x300 or 0x301, whatever its identifier. None if the
-/// frame is shorter than two bytes, no classic data frame, or contradicts itself: a speed other than
-/// 0 at standstill, or a direction that does not exist.
+/// frame is shorter than two bytes, no classic data frame, or contradicts itself: a speed other
+/// than 0 at standstill, or a direction that does not exist.
 std::optional<VehicleReading> decode_vehicle_reading(VehicleSignal signal, const CanFrame& frame);
 
 }  // namespace cremed

@@ -241,7 +241,7 @@ std::string LiveReporter::report_odometry() {
 std::string LiveReporter::report_vehicle(VehicleSignal signal) {
   const VehicleStatus status = pipeline_.vehicle(signal);
   const std::string name = vehicle_signal_name(signal);
-  const VehicleState state = vehicle_state(status);
+  const SignalState state = signal_state(status);
   log_.update(name, static_cast<int>(state), [&] {
     return to_text(vehicle_findings(configuration_.vehicle, signal, status, false).front());
   });

@@ -148,8 +148,7 @@ void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
       const VehicleStatus status = pipeline.vehicle(signal);
       const std::string name = vehicle_signal_name(signal);
       spdlog::info("{}: {}", name, vehicle_summary(signal, status));
-      for (const Finding& finding :
-           vehicle_findings(configuration.vehicle, signal, status, true)) {
+      for (const Finding& finding : vehicle_findings(configuration.vehicle, signal, status, true)) {
         log_finding(name, finding);
       }
     }

@@ -71,9 +71,9 @@ std::string vehicle_text(const VehicleConfiguration& vehicle) {
   std::string ids;
   for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
     if (vehicle.is_used(signal)) {
-      ids = joined(ids, fmt::format("{} (0x{:X})",
-                                    signal == VehicleSignal::speed ? "speed" : "yaw rate",
-                                    *vehicle.id(signal)));
+      ids = joined(ids,
+                   fmt::format("{} (0x{:X})", signal == VehicleSignal::speed ? "speed" : "yaw rate",
+                               *vehicle.id(signal)));
     }
   }
   return ids.empty() ? "" : "\nvehicle bus: " + ids + " on " + vehicle.interface;
@@ -113,8 +113,8 @@ std::string configuration_summary(const Configuration& configuration) {
   for (const RadarConfiguration& radar : configuration.radars) {
     text += row_of(radar);
   }
-  return text + "odometry: " + odometry_text(configuration) +
-         vehicle_text(configuration.vehicle) + "\noutput: " + output_text(configuration.output) +
+  return text + "odometry: " + odometry_text(configuration) + vehicle_text(configuration.vehicle) +
+         "\noutput: " + output_text(configuration.output) +
          "\nsends on the buses: " + sent_text(configuration) + "\n";
 }
 

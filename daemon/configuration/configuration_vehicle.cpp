@@ -52,8 +52,7 @@ bool has_feedback(const RadarConfiguration& radar) {
 void check_id(TomlReader& reader, std::string_view key, std::optional<std::uint32_t> id,
               const Configuration& configuration) {
   for (const RadarConfiguration& radar : configuration.radars) {
-    if (id && radar.interface == configuration.vehicle.interface &&
-        radar.decoder.sent_ids()[*id]) {
+    if (id && radar.interface == configuration.vehicle.interface && radar.decoder.sent_ids()[*id]) {
       reader.report(key, concat({"is ", hexadecimal(*id), ", which radar ", quoted(radar.name),
                                  " sends on that interface; must be another identifier"}));
     }
@@ -106,11 +105,12 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
   const auto& radars = configuration.radars;
   const auto told = std::find_if(radars.begin(), radars.end(), has_feedback);
   if (told != radars.end()) {
-    reader.report("interface",
-                  concat({"is to be heard, but cremed itself sends speed and yaw rate to radar ",
-                          quoted(told->name),
-                          " (motion_feedback), and would believe its own estimate; must be \"off\", "
-                          "or motion_feedback = false"}));
+    reader.report(
+        "interface",
+        concat({"is to be heard, but cremed itself sends speed and yaw rate to radar ",
+                quoted(told->name),
+                " (motion_feedback), and would believe its own estimate; must be \"off\", "
+                "or motion_feedback = false"}));
   }
 }
 

@@ -43,30 +43,29 @@ std::string vehicle_signal_name(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? "vehicle speed" : "vehicle yaw rate";
 }
 
-VehicleState vehicle_state(const VehicleStatus& status) {
+SignalState signal_state(const VehicleStatus& status) {
   const VehicleSignalReport& report = status.odometry;
-  return report.is_lost       ? VehicleState::lost
-         : report.is_frozen   ? VehicleState::frozen
-         : report.is_left_out ? VehicleState::excluded
-                              : VehicleState::ok;
+  return report.is_lost       ? SignalState::lost
+         : report.is_frozen   ? SignalState::frozen
+         : report.is_left_out ? SignalState::excluded
+                              : SignalState::ok;
 }
 
-std::string_view to_string(VehicleState state) {
+std::string_view to_string(SignalState state) {
   constexpr std::array<std::string_view, 4> kNames{"ok", "lost", "frozen", "excluded"};
   return kNames[static_cast<std::size_t>(state)];
 }
 
 std::string vehicle_summary(VehicleSignal signal, const VehicleStatus& status) {
   const VehicleSignalReport& report = status.odometry;
-  const std::string errors = fmt::format("scale {:+.2f} +- {:.2f} %", 100.0 * report.scale,
-                                         100.0 * report.scale_std);
-  return fmt::format("{} frames, {} measurements, {}{}", report.readings, report.measurements_used,
-                     errors,
-                     signal == VehicleSignal::speed
-                         ? std::string()
-                         : fmt::format(", bias {:+.3f} +- {:.3f} deg/s",
-                                       kDegPerRad * report.bias_radps,
-                                       kDegPerRad * report.bias_std_radps));
+  const std::string errors =
+      fmt::format("scale {:+.2f} +- {:.2f} %", 100.0 * report.scale, 100.0 * report.scale_std);
+  return fmt::format(
+      "{} frames, {} measurements, {}{}", report.readings, report.measurements_used, errors,
+      signal == VehicleSignal::speed
+          ? std::string()
+          : fmt::format(", bias {:+.3f} +- {:.3f} deg/s", kDegPerRad * report.bias_radps,
+                        kDegPerRad * report.bias_std_radps));
 }
 
 std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, VehicleSignal signal,
@@ -80,10 +79,9 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
   if (is_named(report.is_lost, report.times_lost)) {
     findings.push_back(
         {Severity::warning,
-         report.readings == 0
-             ? concat({"no frame ", id, " on ", vehicle.interface})
-             : concat({"lost: no frame ", id, " on ", vehicle.interface,
-                       times_text(report.is_lost, report.times_lost)}),
+         report.readings == 0 ? concat({"no frame ", id, " on ", vehicle.interface})
+                              : concat({"lost: no frame ", id, " on ", vehicle.interface,
+                                        times_text(report.is_lost, report.times_lost)}),
          "check its sender, or set [vehicle] interface = \"off\"; the radars go on without it"});
   }
   if (is_named(report.is_frozen, report.times_frozen)) {
@@ -93,11 +91,11 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
                         "check its sender and its sensor"});
   }
   if (is_named(report.is_left_out, report.times_left_out)) {
-    findings.push_back(
-        {Severity::warning,
-         concat({"excluded from the odometry: ", id, " contradicts the radars",
-                 times_text(report.is_left_out, report.times_left_out), fault_text(signal, report)}),
-         "check its unit, sign, factor and delay ([vehicle])"});
+    findings.push_back({Severity::warning,
+                        concat({"excluded from the odometry: ", id, " contradicts the radars",
+                                times_text(report.is_left_out, report.times_left_out),
+                                fault_text(signal, report)}),
+                        "check its unit, sign, factor and delay ([vehicle])"});
   }
   if (status.bad_frames != 0) {
     findings.push_back({Severity::warning,

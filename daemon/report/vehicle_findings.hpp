@@ -27,12 +27,12 @@ std::string vehicle_signal_name(VehicleSignal signal);
 std::string vehicle_summary(VehicleSignal signal, const VehicleStatus& status);
 
 /// The fault of a signal that says most.
-enum class VehicleState : std::uint8_t { ok, lost, frozen, excluded };
+enum class SignalState : std::uint8_t { ok, lost, frozen, excluded };
 
-VehicleState vehicle_state(const VehicleStatus& status);
-std::string_view to_string(VehicleState state);
+SignalState signal_state(const VehicleStatus& status);
+std::string_view to_string(SignalState state);
 
-/// Present faults, that of vehicle_state() first, and those of the past if `with_past`.
+/// Present faults, that of signal_state() first, and those of the past if `with_past`.
 std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, VehicleSignal signal,
                                       const VehicleStatus& status, bool with_past);
 

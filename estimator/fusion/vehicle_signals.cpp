@@ -125,12 +125,10 @@ void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
 /// Notes whether the signal is lost or frozen.
 void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known) {
   source.heard_us = source.heard_us.value_or(stamp_us);
-  source.lost.update(seconds_between(*source.heard_us, stamp_us) >
-                     state_.options().vehicle.lost_s);
+  source.lost.update(seconds_between(*source.heard_us, stamp_us) > state_.options().vehicle.lost_s);
   const int rate = rate_of(source.signal);
   if (is_known) {
-    source.standing.expect(state_.gaussian.mean(rate),
-                           kFrozenSigmas * state_.gaussian.std(rate));
+    source.standing.expect(state_.gaussian.mean(rate), kFrozenSigmas * state_.gaussian.std(rate));
   }
   source.frozen.update(source.standing.is_frozen());
 }
@@ -163,9 +161,19 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
       VehicleMeasurement{state_, source.signal, age_s, std::min(interval_s, longest_s)}.linearise(
           value.value);
   measurement.noise(0, 0) *= source.noise.value();
+  measurement.noise(0, 0) += unverified_variance(source, value.value);
   const double nis = state_.gaussian.innovate(measurement);
   source.innovation.add(value.utime_us, nis);
   judge(source, nis);
+}
+
+/// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
+/// with the wrong sign, which is right on a straight road, leads the filter astray in the first
+/// turn, where it is believed more than the radars.
+double VehicleSignals::unverified_variance(const Source& source, double value) const {
+  const Eigen::Vector3d unverified = source.check.unverified_std();
+  const double change = state_.gaussian.mean(rate_of(source.signal) + 1);
+  return squared(value * unverified(1)) + squared(change * unverified(2));
 }
 
 /// Updates the state with the last innovation if the signal is trusted.

@@ -22,10 +22,11 @@
 
 namespace cremed {
 
-/// Speed and yaw rate of the vehicle's bus as measurements of the filter's state (VehicleMeasurement),
-/// each with a gate, and with doubt: a signal that repeatedly contradicts the filter, or whose
-/// learned errors exceed any sensor's, is left out; it does not change the state then. One that
-/// stands still is not used, and one that the radars show to be frozen, or that is lost, is named.
+/// Speed and yaw rate of the vehicle's bus as measurements of the filter's state
+/// (VehicleMeasurement), each with a gate, and with doubt: a signal that repeatedly contradicts the
+/// filter, or whose learned errors exceed any sensor's, is left out; it does not change the state
+/// then. One that stands still is not used, and one that the radars show to be frozen, or that is
+/// lost, is named.
 class VehicleSignals {
  public:
   /// Both must outlive this object.
@@ -79,6 +80,7 @@ class VehicleSignals {
   void watch(Source& source, std::int64_t stamp_us, bool is_known);
   Source* earliest();
   void use(Source& source, const SignalTrack::Value& value);
+  [[nodiscard]] double unverified_variance(const Source& source, double value) const;
   void judge(Source& source, double nis);
   [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
 

@@ -47,8 +47,7 @@ TEST_CASE("Yaw rate: counter-clockwise is positive") {
 
 TEST_CASE("What the daemon encodes for a sensor reads as it was, within half a step") {
   for (double value = -30.0; value <= 30.0; value += 0.3333) {
-    const auto speed =
-        decode_vehicle_reading(VehicleSignal::speed, encode_ars408_speed(2, value));
+    const auto speed = decode_vehicle_reading(VehicleSignal::speed, encode_ars408_speed(2, value));
     REQUIRE(speed);
     CHECK(std::abs(speed->value - value) <= 0.5 * kVehicleSpeedStepMps + 1e-9);
     const auto yaw_rate =

@@ -23,8 +23,8 @@ bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
 }
 
 TEST_CASE("the vehicle's bus is off unless it has an interface") {
-  for (const char* text : {"", "[vehicle]\n", "[vehicle]\ninterface = \"off\"\n",
-                           "[vehicle]\nspeed = \"0x310\"\n"}) {
+  for (const char* text :
+       {"", "[vehicle]\n", "[vehicle]\ninterface = \"off\"\n", "[vehicle]\nspeed = \"0x310\"\n"}) {
     const Configuration configuration = parse(text);
     CHECK(configuration.vehicle.interface.empty());
     CHECK_FALSE(configuration.odometry.filter.vehicle.is_used());
@@ -75,8 +75,8 @@ TEST_CASE("what cannot work is refused, our own feedback above all") {
        "is to be heard, but odometry.enabled = false", "must be \"off\""},
       {kArs408 + on + "speed = \"off\"\nyaw_rate = \"off\"\n", 7, "vehicle.interface",
        "has neither speed nor yaw_rate", "must be \"off\""},
-      {kArs408 + on + "yaw_rate = \"0x300\"\n", 8, "vehicle.yaw_rate",
-       "is the identifier of speed", "must be another"},
+      {kArs408 + on + "yaw_rate = \"0x300\"\n", 8, "vehicle.yaw_rate", "is the identifier of speed",
+       "must be another"},
       {kArs408 + on + "speed = \"0x60A\"\n", 8, "vehicle.speed",
        "is 0x60A, which radar \"front\" sends", "another identifier"},
       {kArs408 + on + "speed = 0x300\n", 8, "vehicle.speed", "is 768", id},

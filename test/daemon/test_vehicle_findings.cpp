@@ -45,7 +45,7 @@ std::string only_finding(const VehicleStatus& status, bool with_past = false,
 TEST_CASE("a sound signal has a summary and no finding") {
   const VehicleStatus status = healthy();
   CHECK(findings_of(status, true).empty());
-  CHECK(vehicle_state(status) == VehicleState::ok);
+  CHECK(signal_state(status) == SignalState::ok);
   CHECK(vehicle_summary(VehicleSignal::yaw_rate, status) ==
         "5000 frames, 1000 measurements, scale +0.40 +- 0.20 %, bias -0.023 +- 0.017 deg/s");
   CHECK(vehicle_summary(VehicleSignal::speed, status) ==
@@ -57,7 +57,7 @@ TEST_CASE("a lost signal is told from one that never was") {
   status.odometry.is_lost = true;
   status.odometry.times_lost = 2;
   CHECK(only_finding(status) == "lost: no frame 0x301 on can0");
-  CHECK(vehicle_state(status) == VehicleState::lost);
+  CHECK(signal_state(status) == SignalState::lost);
   status.odometry.readings = 0;
   CHECK(only_finding(status, false, VehicleSignal::speed) == "no frame 0x300 on can0");
   status = healthy();
@@ -76,7 +76,7 @@ TEST_CASE("a frozen signal and one that contradicts are named, with what the rad
   status.odometry.innovation = 20.0;
   const std::string head = "excluded from the odometry: 0x301 contradicts the radars";
   CHECK(only_finding(status) == head + " (normalised innovation squared 20.0, 1 expected)");
-  CHECK(vehicle_state(status) == VehicleState::excluded);
+  CHECK(signal_state(status) == SignalState::excluded);
   status.odometry.seen_scale = 0.1;
   status.odometry.seen_delay_s = 0.3;
   status.odometry.seen_offset = 0.017453;

@@ -38,10 +38,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->required();
   app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
   app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
-  app.add_option("--config", arguments.config,
-                 "Configuration of cremed with the radars to simulate, and the vehicle bus if it has "
-                 "[vehicle]; default: an ARS408 in front on can0 and a Bosch GPR at the rear on "
-                 "can1");
+  app.add_option(
+      "--config", arguments.config,
+      "Configuration of cremed with the radars to simulate, and the vehicle bus if it has "
+      "[vehicle]; default: an ARS408 in front on can0 and a Bosch GPR at the rear on "
+      "can1");
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
                  "Seconds to drive; default: the scenario's")

@@ -182,10 +182,9 @@ void Simulation::attach_gpr(const BoschGprOptions& options, const SenderSetup& s
 
 void Simulation::attach_vehicle(const SimulationOptions& options) {
   Random random(options.seed, kVehicleStream + 2);
-  const VehicleErrors errors{
-      1.0 + constant_error(random, options.vehicle_scale_std),
-      1.0 + constant_error(random, options.vehicle_scale_std),
-      constant_error(random, options.vehicle_yaw_rate_bias_std_radps)};
+  const VehicleErrors errors{1.0 + constant_error(random, options.vehicle_scale_std),
+                             1.0 + constant_error(random, options.vehicle_scale_std),
+                             constant_error(random, options.vehicle_yaw_rate_bias_std_radps)};
   bus_of(options.vehicle.interface)
       .attach(std::make_unique<VehicleSender>(vehicle_bus_, errors, options.vehicle,
                                               scene_.start_us(), scene_.end_us()));

@@ -43,7 +43,7 @@ struct SimulationOptions {
   bool is_told_motion = true;
 
   /// Its bus sends them for the daemon too, if it has an interface: [vehicle] of the configuration.
-  VehicleConfiguration vehicle;
+  VehicleConfiguration vehicle{};
   /// Constant errors of what it sends, beside those of VehicleBus: as large as wheels and gyro of
   /// two cars have against their map-based poses (nuScenes).
   double vehicle_scale_std = 0.003;

@@ -46,8 +46,8 @@ CanFrame VehicleSender::frame(VehicleSignal signal) const {
   const ToldMotion motion = bus_.at(static_cast<double>(next_us_ - start_us_) * 1e-6);
   return signal == VehicleSignal::speed
              ? encode_ars408_speed(0, errors_.speed_scale * motion.speed_mps)
-             : encode_ars408_yaw_rate(0, errors_.yaw_rate_scale * motion.yaw_rate_radps +
-                                             errors_.yaw_rate_bias_radps);
+             : encode_ars408_yaw_rate(
+                   0, errors_.yaw_rate_scale * motion.yaw_rate_radps + errors_.yaw_rate_bias_radps);
 }
 
 }  // namespace cremed

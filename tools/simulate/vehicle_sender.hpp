@@ -21,12 +21,13 @@ struct VehicleErrors {
   double yaw_rate_bias_radps = 0.0;
 };
 
-/// The vehicle's node that sends speed and yaw rate (0x300, 0x301), each every 20 ms as Apollo does.
+/// The vehicle's node that sends speed and yaw rate (0x300, 0x301), each every 20 ms as Apollo
+/// does.
 class VehicleSender final : public BusSender {
  public:
   /// Sends up to `end_us`. `bus` must outlive the sender.
-  VehicleSender(const VehicleBus& bus, const VehicleErrors& errors,
-                const VehicleConfiguration& ids, std::int64_t start_us, std::int64_t end_us);
+  VehicleSender(const VehicleBus& bus, const VehicleErrors& errors, const VehicleConfiguration& ids,
+                std::int64_t start_us, std::int64_t end_us);
 
   [[nodiscard]] FrameRequest request() const override;
   CanFrame send(std::int64_t stamp_us) override;

@@ -15,8 +15,8 @@ namespace {
 
 /// Comparisons lose their weight over this time: some turns of a drive in town.
 constexpr double kMemoryS = 60.0;
-/// Prior of the errors: wide enough for any wrong unit. A speed has no offset, which could hardly be
-/// told from a scale.
+/// Prior of the errors: wide enough for any wrong unit. A speed has no offset, which could hardly
+/// be told from a scale.
 constexpr double kScalePriorStd = 1.0;
 constexpr double kDelayPriorS = 1.0;
 constexpr double kYawRateOffsetPriorRadps = 0.3;
@@ -116,9 +116,8 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const double passed_s = compared_us_ == 0 ? duration_s : seconds_between(compared_us_, end_us);
   // Spread over the comparisons, as in VehicleMeasurement.
   const double interval_s = std::clamp(passed_s, kShortestIntervalS, duration_s);
-  const double std =
-      std::sqrt(variance + squared(radar_error_.std) *
-                               std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
+  const double std = std::sqrt(
+      variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
   const double error = std::abs(mean - rate - left.sum()) / std;
   const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
   const double kept = std::exp(-std::max(passed_s, 0.0) / kMemoryS);
@@ -130,6 +129,10 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
 SignalCheck::Errors SignalCheck::errors() const {
   const Eigen::Matrix3d covariance = information_.inverse();
   return {covariance * weighted_, covariance.diagonal()};
+}
+
+Eigen::Vector3d SignalCheck::unverified_std() const {
+  return (errors().variance.cwiseSqrt() - tolerance_).cwiseMax(0.0);
 }
 
 SignalFault SignalCheck::fault() const {

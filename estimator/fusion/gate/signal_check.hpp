@@ -42,6 +42,9 @@ class SignalCheck {
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
   };
   [[nodiscard]] Errors errors() const;
+  /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for
+  /// one that is known to be right.
+  [[nodiscard]] Eigen::Vector3d unverified_std() const;
   /// Which of the errors is a fault, the largest if several are.
   [[nodiscard]] SignalFault fault() const;
 

@@ -5,8 +5,8 @@
 namespace cremed {
 
 /// How much a signal of the vehicle's bus is trusted. Unlike a radar (RadarTrust) it need not be
-/// wrong all the time to be wrong: a delayed or wrongly scaled yaw rate agrees on straight roads. So
-/// it returns only after a long time of agreement, which doubles each time.
+/// wrong all the time to be wrong: a delayed or wrongly scaled yaw rate agrees on straight roads.
+/// So it returns only after a long time of agreement, which doubles each time.
 class SignalTrust {
  public:
   /// Contradicting minus agreeing measurements at which it is left out: 0.25 s at 20 Hz.

@@ -16,9 +16,9 @@ struct OrnsteinUhlenbeck {
 /// Errors of one signal of the vehicle's bus.
 struct VehicleSignalOptions {
   bool is_used = false;
-  double delay_s = 0.01;     ///< From the measurement to the stamp of the frame.
-  double scale_std = 0.01;   ///< Of the factor on the signal.
-  OrnsteinUhlenbeck error;   ///< Added to the signal.
+  double delay_s = 0.01;    ///< From the measurement to the stamp of the frame.
+  double scale_std = 0.01;  ///< Of the factor on the signal.
+  OrnsteinUhlenbeck error;  ///< Added to the signal.
 };
 
 /// Speed and yaw rate of the vehicle's own sensors, if its bus tells them. Source of the errors:

@@ -49,9 +49,9 @@ inline constexpr int keyframe(int index) { return kKeyframe + index * kPose; }
 inline constexpr int size(int radars) { return radar(radars); }
 
 // Of the signals of the vehicle's bus, relative to size(radars), if there are any.
-inline constexpr int kSpeedScale = 0;       ///< 1
-inline constexpr int kYawRateGain = 1;      ///< 1
-inline constexpr int kYawRateBias = 2;      ///< rad/s
+inline constexpr int kSpeedScale = 0;   ///< 1
+inline constexpr int kYawRateGain = 1;  ///< 1
+inline constexpr int kYawRateBias = 2;  ///< rad/s
 inline constexpr int kVehicleStates = 3;
 
 }  // namespace state_layout

@@ -19,8 +19,6 @@ constexpr std::uint32_t kFilterId = 0x202;
 constexpr std::uint32_t kSpeedId = 0x300;
 constexpr std::uint32_t kYawRateId = 0x301;
 
-enum Direction : std::uint8_t { standstill = 0, forward = 1, backward = 2 };
-
 PayloadBits empty_bits() { return PayloadBits::big_endian({}); }
 
 CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t length,
@@ -93,7 +91,7 @@ CanFrame encode_ars408_filter_query(std::uint8_t sensor_id, bool for_objects,
 CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {
   using namespace layout::motion;
   const std::uint32_t speed = kSpeedScale.raw(std::abs(speed_mps), kSpeed);
-  const Direction direction = speed == 0 ? standstill : speed_mps < 0.0 ? backward : forward;
+  const std::uint8_t direction = speed == 0 ? kStandstill : speed_mps < 0.0 ? kBackward : kForward;
   PayloadBits bits = empty_bits();
   bits.set(kDirection, direction);
   bits.set(kSpeed, speed);

@@ -125,6 +125,9 @@ inline constexpr LinearScale kMaxDistanceScale{0.0, 0.5};
 /// 0x300 and 0x301.
 namespace motion {
 inline constexpr BitField kDirection{6, 2};
+inline constexpr std::uint8_t kStandstill = 0;
+inline constexpr std::uint8_t kForward = 1;
+inline constexpr std::uint8_t kBackward = 2;
 inline constexpr BitField kSpeed{8, 13};
 inline constexpr BitField kYawRate{8, 16};
 inline constexpr LinearScale kSpeedScale{0.0, 50.0};

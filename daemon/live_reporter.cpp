@@ -135,6 +135,11 @@ std::string LiveReporter::report() {
   if (configuration_.odometry.enabled) {
     line += "; " + report_odometry();
   }
+  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+    if (configuration_.vehicle.is_used(signal)) {
+      line += "; " + report_vehicle(signal);
+    }
+  }
   report_publisher();
   if (publisher_ != nullptr && !publisher_->is_connected()) {
     line += "; LCM is not connected";
@@ -231,6 +236,16 @@ std::string LiveReporter::report_odometry() {
   // Logged once; the status line shows later changes of the cause.
   log_.update("odometry", seconds_without_odometry_ < kPatienceS ? 0 : 1, [&] { return state; });
   return "odometry: " + state;
+}
+
+std::string LiveReporter::report_vehicle(VehicleSignal signal) {
+  const VehicleStatus status = pipeline_.vehicle(signal);
+  const std::string name = vehicle_signal_name(signal);
+  const SignalState state = signal_state(status);
+  log_.update(name, static_cast<int>(state), [&] {
+    return to_text(vehicle_findings(configuration_.vehicle, signal, status, false).front());
+  });
+  return concat({name, ": ", to_string(state)});
 }
 
 void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {

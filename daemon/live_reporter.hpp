@@ -44,6 +44,7 @@ class LiveReporter {
   void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);
   std::string report_radar(std::size_t radar);
   std::string report_odometry();
+  std::string report_vehicle(VehicleSignal signal);
   void report_left_out(std::size_t radar, const RadarStatus& status);
   void report_publisher();
 

@@ -63,6 +63,7 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
     : source_(source),
       sinks_(std::move(sinks)),
       clock_(clock),
+      vehicle_(configuration),
       is_predicted_(configuration.odometry.filter.rate_hz != 0),
       standstill_mps_(configuration.odometry.filter.standstill_mps) {
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
@@ -108,6 +109,9 @@ void Pipeline::on_frame(const CanFrame& frame) {
   note_clock(frame);
   on_time(frame.interface, frame.stamp_us);
   expire(frame.stamp_us, frame.interface);
+  if (const auto reading = vehicle_.read(frame); reading && filter_) {
+    filter_->add(*reading);
+  }
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
       radar->assembler.add(radar->decoder->decode(frame));
@@ -190,6 +194,9 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   radar.self_check.add(motion, radar.estimator.targets());
+  if (filter_ && radar.self_check.is_trusted()) {
+    filter_->compare(radar.index, motion);
+  }
   if (odometry_ && contradicts(*odometry_, motion)) {
     motion = withdrawn(motion);
   }
@@ -355,6 +362,10 @@ std::size_t Pipeline::frames_to_next_scan() const {
     }
   }
   return least.value_or(0);
+}
+
+VehicleStatus Pipeline::vehicle(VehicleSignal signal) const {
+  return {filter_ ? filter_->report(signal) : VehicleSignalReport(), vehicle_.bad_frames(signal)};
 }
 
 std::vector<std::optional<LearnedErrors>> Pipeline::learned() const {

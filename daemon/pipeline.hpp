@@ -14,7 +14,9 @@
 #include "daemon/output/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/report/status_timer.hpp"
+#include "daemon/report/vehicle_findings.hpp"
 #include "daemon/source/frame_source.hpp"
+#include "daemon/vehicle_listener.hpp"
 
 namespace cremed {
 
@@ -34,6 +36,9 @@ struct PipelineClock {
 ///
 /// The odometry takes scans in the order of their stamps: a complete scan waits for open scans that
 /// began earlier.
+///
+/// With [vehicle], the filter also gets the speed and yaw rate of the vehicle's bus, and uses at a
+/// scan what was measured before it.
 ///
 /// With odometry.rate_hz, sinks receive the odometry of the last scan predicted to the times of
 /// that rate, each when a frame, a time-out or silence reaches it.
@@ -76,6 +81,8 @@ class Pipeline {
   /// The learned errors, by radar, for the next start; empty unless the odometry is ok or
   /// standing_still. Not for the hot path.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
+  /// Of a signal of [vehicle].
+  [[nodiscard]] VehicleStatus vehicle(VehicleSignal signal) const;
   /// The odometry of the last scan; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 
@@ -105,6 +112,7 @@ class Pipeline {
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<OdometryFilter> filter_;
+  VehicleListener vehicle_;
   bool is_predicted_;
   double standstill_mps_;
   std::optional<Odometry> odometry_;

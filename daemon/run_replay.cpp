@@ -142,6 +142,19 @@ void log_report(const Configuration& configuration, const Pipeline& pipeline,
   }
 }
 
+void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
+  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+    if (configuration.vehicle.is_used(signal)) {
+      const VehicleStatus status = pipeline.vehicle(signal);
+      const std::string name = vehicle_signal_name(signal);
+      spdlog::info("{}: {}", name, vehicle_summary(signal, status));
+      for (const Finding& finding : vehicle_findings(configuration.vehicle, signal, status, true)) {
+        log_finding(name, finding);
+      }
+    }
+  }
+}
+
 std::string quantiles(const LatencyHistogram& durations) {
   return fmt::format("p50 {} us, p99 {} us, max {} us", durations.quantile_us(0.5),
                      durations.quantile_us(0.99), durations.max_us());
@@ -265,6 +278,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
   log_report(configuration, pipeline, *replay);
+  log_vehicle(configuration, pipeline);
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }

@@ -10,6 +10,7 @@
 #include "daemon/configuration/configuration_estimator.hpp"
 #include "daemon/configuration/configuration_odometry.hpp"
 #include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/configuration_vehicle.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/configuration/toml_document.hpp"
 #include "daemon/configuration/toml_reader.hpp"
@@ -139,6 +140,8 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   for (const PlacedRadar& placed : radars) {
     configuration.radars.push_back(placed.radar);
   }
+  TomlReader vehicle = reader.table("vehicle");
+  read_vehicle(vehicle, configuration.vehicle, configuration.odometry.filter.vehicle);
   reader.refuse(std::array<std::string_view, 1>{"fused"},
                 "was replaced by [odometry]; must be left out");
   TomlReader output = reader.table("output");
@@ -149,6 +152,7 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   // A wrong value keeps its default, which would cause false clashes.
   if (context.diagnostics.empty()) {
     check_radars(radars, context.diagnostics);
+    check_vehicle(vehicle, configuration);
     check_output(output, configuration);
   }
   return configuration;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
+#include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "daemon/configuration/bus_options.hpp"
@@ -42,6 +44,22 @@ struct OdometryConfiguration {
   bool enabled = true;
   std::string state_file;  ///< File of the learned errors (LearnedFile); empty: none.
   OdometryOptions filter;
+};
+
+/// Speed and yaw rate that another node sends, in the layout of 0x300 and 0x301.
+struct VehicleConfiguration {
+  std::string interface;  ///< CAN interface; empty: off.
+  std::array<std::optional<std::uint32_t>, kVehicleSignals> ids{0x300, 0x301};
+
+  [[nodiscard]] std::optional<std::uint32_t>& id(VehicleSignal signal) {
+    return ids[static_cast<std::size_t>(signal)];
+  }
+  [[nodiscard]] std::optional<std::uint32_t> id(VehicleSignal signal) const {
+    return ids[static_cast<std::size_t>(signal)];
+  }
+  [[nodiscard]] bool is_used(VehicleSignal signal) const {
+    return !interface.empty() && id(signal).has_value();
+  }
 };
 
 struct OutputConfiguration {
@@ -79,6 +97,7 @@ struct LoggingConfiguration {
 struct Configuration {
   std::vector<RadarConfiguration> radars;
   OdometryConfiguration odometry;
+  VehicleConfiguration vehicle;
   OutputConfiguration output;
   LiveConfiguration live;
   LoggingConfiguration logging;

@@ -30,18 +30,13 @@ bool is_name(std::string_view text) {
          text != kOdometrySource && std::all_of(text.begin(), text.end(), fits);
 }
 
-bool is_interface(std::string_view text) {
-  return !text.empty() && text.size() <= kMaxInterfaceName && text != "." && text != ".." &&
-         text.find_first_of(" /:\n\t") == std::string_view::npos && plain_text(text) == text;
-}
-
 constexpr std::string_view kRotationLead = "rotation_lead_s";
 
 constexpr TextRule kName = {
     is_name,
     "1 to 15 letters, digits, '_' or '-' (for the LCM channel), and neither \"fused\" nor "
     "\"odometry\""};
-constexpr TextRule kInterface = {is_interface,
+constexpr TextRule kInterface = {is_interface_name,
                                  "1 to 15 characters that print, without space, '/' or ':'"};
 
 /// In the order of the families.
@@ -158,6 +153,11 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
 }
 
 }  // namespace
+
+bool is_interface_name(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxInterfaceName && text != "." && text != ".." &&
+         text.find_first_of(" /:\n\t") == std::string_view::npos && plain_text(text) == text;
+}
 
 PlacedRadar read_radar(TomlReader reader, const EgoMotionOptions& defaults,
                        RadarFamilies families) {

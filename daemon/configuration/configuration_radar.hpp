@@ -4,12 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/toml_reader.hpp"
 
 namespace cremed {
+
+/// Whether the text can be the name of a CAN interface.
+bool is_interface_name(std::string_view text);
 
 /// A radar and its place in the file.
 struct PlacedRadar {

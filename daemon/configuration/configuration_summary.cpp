@@ -77,6 +77,18 @@ std::string odometry_text(const Configuration& configuration) {
          when + (is_fused(configuration) ? "; its motion between scans is \"fused\"" : "");
 }
 
+std::string vehicle_text(const VehicleConfiguration& vehicle) {
+  std::string ids;
+  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+    if (vehicle.is_used(signal)) {
+      ids = joined(ids,
+                   fmt::format("{} (0x{:X})", signal == VehicleSignal::speed ? "speed" : "yaw rate",
+                               *vehicle.id(signal)));
+    }
+  }
+  return ids.empty() ? "" : "\nvehicle bus: " + ids + " on " + vehicle.interface;
+}
+
 std::string output_text(const OutputConfiguration& output) {
   std::string text = output.lcm_url == "none" ? "" : "LCM " + output.lcm_url;
   if (!text.empty() && !output.nav_msgs_odometry.empty()) {
@@ -112,7 +124,7 @@ std::string configuration_summary(const Configuration& configuration) {
     text += row_of(radar);
   }
   return text + "azimuth scale: " + azimuth_scales(configuration.radars) +
-         "\nodometry: " + odometry_text(configuration) +
+         "\nodometry: " + odometry_text(configuration) + vehicle_text(configuration.vehicle) +
          "\noutput: " + output_text(configuration.output) +
          "\nsends on the buses: " + sent_text(configuration) + "\n";
 }

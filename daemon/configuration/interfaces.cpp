@@ -9,10 +9,11 @@
 namespace cremed {
 namespace {
 
-/// The distinct names, and for each radar the index of its own.
+/// The distinct names, and the index of each radar's and of the vehicle's.
 struct Interfaces {
   std::vector<std::string> names;
   std::vector<std::uint8_t> of_radars;
+  std::uint8_t of_vehicle = 0;
 };
 
 Interfaces interfaces_of(const Configuration& configuration) {
@@ -25,6 +26,12 @@ Interfaces interfaces_of(const Configuration& configuration) {
     if (known == names.end()) {
       names.push_back(radar.interface);
     }
+  }
+  const std::string& vehicle = configuration.vehicle.interface;
+  const auto known = std::find(names.begin(), names.end(), vehicle);
+  interfaces.of_vehicle = static_cast<std::uint8_t>(known - names.begin());
+  if (!vehicle.empty() && known == names.end()) {
+    names.push_back(vehicle);
   }
   return interfaces;
 }
@@ -43,6 +50,10 @@ std::vector<std::string> interface_names(const Configuration& configuration) {
 
 std::uint8_t interface_index(const Configuration& configuration, std::size_t radar) {
   return interfaces_of(configuration).of_radars[radar];
+}
+
+std::uint8_t vehicle_interface_index(const Configuration& configuration) {
+  return interfaces_of(configuration).of_vehicle;
 }
 
 void require_interface_names(const Configuration& configuration) {

@@ -15,6 +15,12 @@ std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& co
     const bool is_there = interface_index(configuration, i) == interface;
     ids |= is_there ? configuration.radars[i].decoder.sent_ids() : IdSet{};
   }
+  const VehicleConfiguration& vehicle = configuration.vehicle;
+  if (!vehicle.interface.empty() && vehicle_interface_index(configuration) == interface) {
+    for (const std::optional<std::uint32_t> id : vehicle.ids) {
+      ids |= id ? IdSet().set(*id) : IdSet{};
+    }
+  }
   std::vector<std::uint32_t> list;
   for (std::uint32_t id = 0; id < ids.size(); ++id) {
     if (ids[id]) {

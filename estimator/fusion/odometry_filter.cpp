@@ -58,7 +58,8 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       registration_(options.position_std_factor),
       consensus_(state_),
       condition_(state_, consensus_),
-      output_(state_) {
+      output_(state_),
+      vehicle_(state_, output_) {
   for (const OdometryRadar& radar : radars) {
     tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
     two_worlds_.emplace_back(radar.vehicle_from_radar);
@@ -70,6 +71,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
                                 bool is_trusted) {
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
+    vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
@@ -92,6 +94,7 @@ std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
 void OdometryFilter::forget() {
   output_.bridge(state_.options().max_gap_s);
   output_.forget_predictions();
+  vehicle_.forget();
   has_started_ = false;
 }
 
@@ -239,6 +242,7 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
     }
   }
   state_.start_motion(majority->value(), majority->covariance());
+  vehicle_.restart_errors();
   state_.gaussian.add_variance(kX, squared(error.x() * since_s));
   state_.gaussian.add_variance(kY, squared(error.x() * since_s));
   state_.gaussian.add_variance(kYaw, squared(error.y() * since_s));

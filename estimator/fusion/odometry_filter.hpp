@@ -20,6 +20,7 @@
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/vehicle_signals.hpp"
 #include "cremed/estimator/motion/two_worlds.hpp"
 #include "cremed/estimator/registration/registration_options.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -51,6 +52,8 @@ struct OdometryRadar {
 ///
 /// `output/`: poses relative to an anchor and since the start, and predictions between scans.
 ///
+/// `VehicleSignals`: speed and yaw rate of the vehicle's bus, if the options use them.
+///
 /// A scan may be older than the state; it is then used as a measurement of the state at its time.
 /// Work is bounded, and nothing allocates after construction.
 class OdometryFilter {
@@ -64,6 +67,14 @@ class OdometryFilter {
   Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                   bool is_trusted = true);
 
+  /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
+  void add(const VehicleReading& reading) { vehicle_.add(reading); }
+
+  /// A radar's own motion, with which these values are compared.
+  void compare(std::size_t radar, const EgoMotion& motion) {
+    vehicle_.compare(state_.mount(radar), motion);
+  }
+
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
   /// first scan, or more than max_gap_s after the last. Each prediction is returned once, in order;
   /// it may be later than a scan that arrives after it.
@@ -73,6 +84,9 @@ class OdometryFilter {
   void forget();
 
   [[nodiscard]] RadarReport report(std::size_t radar) const;
+  [[nodiscard]] VehicleSignalReport report(VehicleSignal signal) const {
+    return vehicle_.report(signal);
+  }
   /// Learned errors for the next drive, by radar; none for a radar that is left out. Allocates.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
@@ -103,6 +117,7 @@ class OdometryFilter {
   RadarConsensus consensus_;
   FilterCondition condition_;
   OdometryOutput output_;
+  VehicleSignals vehicle_;
   bool has_started_ = false;
 };
 

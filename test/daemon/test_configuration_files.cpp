@@ -103,12 +103,24 @@ std::string text_of(const OdometryConfiguration& odometry) {
       << o.min_targets << ' ' << o.max_doppler_nis << ' ' << o.max_position_nis << ' '
       << o.standstill_mps << ' ' << o.predicted_s << ' ' << o.lost_s << ' ' << o.anchor_period_s
       << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << ' ' << o.rate_hz << '\n';
+  const VehicleOptions& v = o.vehicle;
+  for (const VehicleSignalOptions& signal : {v.speed, v.yaw_rate}) {
+    out << signal.is_used << ' ' << signal.delay_s << ' ' << signal.scale_std << ' ' << signal.error
+        << ' ';
+  }
+  out << v.yaw_rate_bias_std_radps << '\n';
   return out.str();
 }
 
+std::string text_of(const VehicleConfiguration& vehicle) {
+  const auto& [interface, ids] = vehicle;
+  return interface + "|" + std::to_string(ids[0].value_or(0)) + "|" +
+         std::to_string(ids[1].value_or(0)) + "\n";
+}
+
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, odometry, output, live, logging, warnings] = configuration;
-  std::string text = text_of(odometry);
+  const auto& [radars, odometry, vehicle, output, live, logging, warnings] = configuration;
+  std::string text = text_of(odometry) + text_of(vehicle);
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
   }

@@ -24,6 +24,7 @@ namespace {
 Drive simulate() {
   SimulationOptions options;
   options.duration_s = 6.0;
+  options.vehicle.interface = "can0";
   return drive(scenario("lossy"), default_radars(), options);
 }
 
@@ -34,6 +35,9 @@ long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySin
   const NoSource source;
   Configuration configuration = configuration_of(simulated.radars);
   configuration.odometry.filter.rate_hz = rate_hz;
+  configuration.vehicle.interface = "can0";
+  configuration.odometry.filter.vehicle.speed.is_used = true;
+  configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
   Pipeline pipeline(configuration, source, sinks, {&no_clock});
   std::string_view rest = simulated.log;
   const AllocationGuard guard;

@@ -7,6 +7,7 @@
 
 #include "daemon/process/message_text.hpp"
 #include "daemon/report/report.hpp"
+#include "daemon/report/vehicle_findings.hpp"
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/observer.hpp"
 #include "tools/doctor/radar_diagnosis.hpp"
@@ -62,6 +63,20 @@ void add_radar(const Configuration& configuration, const Observation& observatio
   append(own, findings);
 }
 
+void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observation,
+                 Findings& findings) {
+  for (std::size_t i = 0; i < observation.vehicle.size(); ++i) {
+    const auto signal = static_cast<VehicleSignal>(i);
+    if (vehicle.is_used(signal)) {
+      Findings own = vehicle_findings(vehicle, signal, observation.vehicle[i], true);
+      for (Finding& finding : own) {
+        finding.what = concat({vehicle_signal_name(signal), ": ", finding.what});
+      }
+      append(own, findings);
+    }
+  }
+}
+
 }  // namespace
 
 Findings diagnose(const Configuration& configuration, const Observation& observation) {
@@ -74,6 +89,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
       add_radar(configuration, observation, i, findings);
     }
     add_buses(configuration, observation, findings);
+    add_vehicle(configuration.vehicle, observation, findings);
   }
   if (observation.frames_left_out != 0) {
     findings.push_back({Severity::warning,

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "daemon/output/radar_status.hpp"
+#include "daemon/report/vehicle_findings.hpp"
 #include "tools/doctor/bus_observation.hpp"
 
 namespace cremed {
@@ -51,6 +53,7 @@ struct Observation {
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
   std::uint64_t frames_left_out = 0;     ///< Of interfaces beyond kMaxBuses.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
+  std::array<VehicleStatus, kVehicleSignals> vehicle{};  ///< Signals of [vehicle].
 };
 
 }  // namespace cremed

@@ -98,6 +98,9 @@ Observation Observer::finish() {
     observation_.radars[i].status = pipeline_.radars()[i]->status(0, source_);
     observation_.radars[i].times = times[i];
   }
+  for (std::size_t i = 0; i < observation_.vehicle.size(); ++i) {
+    observation_.vehicle[i] = pipeline_.vehicle(static_cast<VehicleSignal>(i));
+  }
   return std::move(observation_);
 }
 

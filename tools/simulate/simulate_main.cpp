@@ -38,9 +38,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->required();
   app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
   app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
-  app.add_option("--config", arguments.config,
-                 "Configuration of cremed with the radars to simulate; default: an ARS408 in front "
-                 "on can0 and a Bosch GPR at the rear on can1");
+  app.add_option(
+      "--config", arguments.config,
+      "Configuration of cremed with the radars to simulate, and the vehicle bus if it has "
+      "[vehicle]; default: an ARS408 in front on can0 and a Bosch GPR at the rear on "
+      "can1");
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
                  "Seconds to drive; default: the scenario's")
@@ -107,21 +109,26 @@ void write_truth(const cremed::Simulation& simulation, const std::string& path) 
   file.finish();
 }
 
-std::vector<cremed::RadarConfiguration> radars_of(const std::string& path) {
-  const cremed::Configuration configuration = cremed::load_configuration(path);
-  cremed::require_interface_names(configuration);
-  return configuration.radars;
+cremed::Configuration configuration_of(const std::string& path) {
+  cremed::Configuration configuration;
+  if (path.empty()) {
+    configuration.radars = cremed::default_radars();
+  } else {
+    configuration = cremed::load_configuration(path);
+    cremed::require_interface_names(configuration);
+  }
+  return configuration;
 }
 
 void simulate(Arguments& arguments) {
   const cremed::Scenario& scenario = asked_scenario(arguments.scenario);
   if (arguments.output.empty()) throw UsageError("--output is required, a file or '-'");
-  const auto radars =
-      arguments.config.empty() ? cremed::default_radars() : radars_of(arguments.config);
+  const cremed::Configuration configuration = configuration_of(arguments.config);
+  arguments.options.vehicle = configuration.vehicle;
   cremed::refuse_aliases({{"--config", arguments.config}},
                          {{"--output", arguments.output}, {"--truth", arguments.truth}});
   arguments.options.start_us = arguments.start_s * 1'000'000;
-  cremed::Simulation simulation(scenario, radars, arguments.options);
+  cremed::Simulation simulation(scenario, configuration.radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
   cremed::LineStream log(arguments.output);
   write_log(simulation, log);

@@ -15,6 +15,7 @@
 #include "tools/simulate/ars408_sender.hpp"
 #include "tools/simulate/bosch_gpr_encoder.hpp"
 #include "tools/simulate/bosch_gpr_sender.hpp"
+#include "tools/simulate/vehicle_sender.hpp"
 
 namespace cremed {
 namespace {
@@ -23,6 +24,8 @@ constexpr std::uint64_t kLossStream = 3;
 /// First random streams of the radars; the radar's index is added.
 constexpr std::uint64_t kMountStream = 512;
 constexpr std::uint64_t kDopplerScaleStream = 768;
+/// Random streams of the vehicle's sensors as the daemon hears them.
+constexpr std::uint64_t kVehicleStream = 1024;
 constexpr double kArs408CycleUs = 72'000.0;
 constexpr double kGprBusShare = 0.24;
 constexpr std::int64_t kStatePeriodUs = 1'000'000;
@@ -112,6 +115,8 @@ Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfigur
                        const SimulationOptions& options, const ScanObserver& observer)
     : scene_(scenario, asked_duration_s(scenario, options), options.start_us, options.seed,
              options.body_velocity_std_mps),
+      vehicle_bus_(scene_.course(), Random(options.seed, kVehicleStream),
+                   Random(options.seed, kVehicleStream + 1)),
       frame_loss_(scenario.faults.frame_loss),
       loss_random_(options.seed, kLossStream) {
   for (std::size_t i = 0; i < radars.size(); ++i) {
@@ -127,6 +132,9 @@ Simulation::Simulation(const Scenario& scenario, const std::vector<RadarConfigur
                     .doppler = doppler_errors(stated.correction, options, i),
                     .faults = scenario.faults,
                     .observer = observer});
+  }
+  if (!options.vehicle.interface.empty()) {
+    attach_vehicle(options);
   }
 }
 
@@ -172,6 +180,16 @@ void Simulation::attach_gpr(const BoschGprOptions& options, const SenderSetup& s
     infos.push_back(encode_bosch_gpr_info(options.info_id, info));
   }
   attach_state(bus, setup.radar, std::move(infos));
+}
+
+void Simulation::attach_vehicle(const SimulationOptions& options) {
+  Random random(options.seed, kVehicleStream + 2);
+  const VehicleErrors errors{1.0 + constant_error(random, options.vehicle_scale_std),
+                             1.0 + constant_error(random, options.vehicle_scale_std),
+                             constant_error(random, options.vehicle_yaw_rate_bias_std_radps)};
+  bus_of(options.vehicle.interface)
+      .attach(std::make_unique<VehicleSender>(vehicle_bus_, errors, options.vehicle,
+                                              scene_.start_us(), scene_.end_us()));
 }
 
 /// Once a second, not a multiple of the cycle: some state frames fall inside lists.

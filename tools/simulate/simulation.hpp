@@ -16,6 +16,7 @@
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/scene.hpp"
+#include "tools/simulate/told_motion.hpp"
 
 namespace cremed {
 
@@ -40,6 +41,13 @@ struct SimulationOptions {
 
   /// ARS408s receive the vehicle's speed and yaw rate. See Ars408Sender.
   bool is_told_motion = true;
+
+  /// Its bus sends them for the daemon too, if it has an interface: [vehicle] of the configuration.
+  VehicleConfiguration vehicle{};
+  /// Constant errors of what it sends, beside those of VehicleBus: as large as wheels and gyro of
+  /// two cars have against their map-based poses (nuScenes).
+  double vehicle_scale_std = 0.003;
+  double vehicle_yaw_rate_bias_std_radps = 0.0004;
 };
 
 /// Radars of config/demo.toml: an ARS408 in front on can0, a Bosch GPR facing backwards on can1.
@@ -71,9 +79,11 @@ class Simulation {
   CanBus& bus_of(const std::string& interface);
   void attach_ars408(const Ars408Options& options, const SenderSetup& setup, CanBus& bus);
   void attach_gpr(const BoschGprOptions& options, const SenderSetup& setup, CanBus& bus);
+  void attach_vehicle(const SimulationOptions& options);
   void attach_state(CanBus& bus, std::size_t radar, std::vector<CanFrame> frames);
 
   Scene scene_;
+  VehicleBus vehicle_bus_;
   double frame_loss_;
   Random loss_random_;
   std::vector<Pose2> mounts_;

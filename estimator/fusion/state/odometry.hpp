@@ -77,4 +77,32 @@ struct RadarReport {
   double doppler_scale_std = 0.0;
 };
 
+/// An error of a signal of the vehicle's bus that the radars show.
+enum class SignalFault : std::uint8_t { none, offset, scale, delay };
+
+/// Diagnostics of a signal of the vehicle's bus.
+struct VehicleSignalReport {
+  bool is_used = false;      ///< It is configured; otherwise all is 0.
+  bool is_lost = false;      ///< No valid frame for VehicleOptions::lost_s.
+  bool is_frozen = false;    ///< It repeats one value while the filter's changes.
+  bool is_left_out = false;  ///< It contradicts the filter.
+  int times_lost = 0;        ///< How often each of these began.
+  int times_frozen = 0;
+  int times_left_out = 0;
+  std::uint64_t readings = 0;           ///< Valid frames.
+  std::uint64_t measurements_used = 0;  ///< By the filter, each the mean of several readings.
+  double innovation = 0.0;              ///< Time-averaged NIS, as of a radar.
+  double noise_factor = 1.0;
+  /// Learned errors, with standard deviations.
+  double scale = 0.0;
+  double scale_std = 0.0;
+  double bias_radps = 0.0;  ///< Of the yaw rate.
+  double bias_std_radps = 0.0;
+  /// By the radars' motions alone (SignalCheck): which error is a fault, and the errors.
+  SignalFault fault = SignalFault::none;
+  double seen_offset = 0.0;  ///< m/s or rad/s
+  double seen_scale = 0.0;
+  double seen_delay_s = 0.0;  ///< More than the configured one.
+};
+
 }  // namespace cremed

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 
 namespace cremed {
@@ -18,6 +19,37 @@ struct OrnsteinUhlenbeck {
 inline OrnsteinUhlenbeck bounded_walk(double std, double walk) {
   return {std, walk > 0.0 ? 2.0 * std * std / (walk * walk) : 1e9};
 }
+
+/// Errors of one signal of the vehicle's bus.
+struct VehicleSignalOptions {
+  bool is_used = false;
+  double delay_s = 0.01;    ///< From the measurement to the stamp of the frame.
+  double scale_std = 0.01;  ///< Of the factor on the signal.
+  OrnsteinUhlenbeck error;  ///< Added to the signal.
+};
+
+/// Speed and yaw rate of the vehicle's own sensors, if its bus tells them. Source of the errors:
+/// wheels and gyro of two cars against their map-based poses (nuScenes 0061, 0103, 1094).
+struct VehicleOptions {
+  /// m/s. Over 10 s the path errs by 0.1 to 0.3 % in each drive, the scale by 0.3 % between them.
+  VehicleSignalOptions speed{false, 0.01, 0.01, {0.05, 1.0}};
+  /// rad/s. Over 10 s the yaw errs by 0.07 to 0.13 degrees besides bias and scale.
+  VehicleSignalOptions yaw_rate{false, 0.01, 0.01, {0.002, 0.2}};
+  double delay_std_s = 0.02;     ///< Of a delay: two periods of a message at 100 Hz.
+  double scale_time_s = 3600.0;  ///< Tyres warm up, gyros age.
+  double yaw_rate_bias_std_radps = 0.0005;
+  double yaw_rate_bias_walk = 0.00001;  ///< rad/s/sqrt(s): 0.03 deg/s an hour.
+  /// A wheel's pulses are too rare to tell speeds below kDrivingMps by more than this, m/s.
+  double crawling_std_mps = 0.1;
+  double period_s = 0.05;  ///< Of measurements: the mean of the readings in it.
+  double max_nis = 12.0;   ///< Gate, 1 DoF: false-alarm rate 0.05 %.
+  double lost_s = 0.5;     ///< Time after which an ARS408 itself gives up the signal.
+
+  [[nodiscard]] const VehicleSignalOptions& of(VehicleSignal signal) const {
+    return signal == VehicleSignal::speed ? speed : yaw_rate;
+  }
+  [[nodiscard]] bool is_used() const { return speed.is_used || yaw_rate.is_used; }
+};
 
 /// Priors and limits of the odometry filter. Some are keys of [odometry] in the configuration.
 /// Source of the defaults, unless stated otherwise: five ARS408 of a car on two real drives
@@ -123,6 +155,8 @@ struct OdometryOptions {
   /// Rate of predictions, at whole multiples of 1 / rate; anchors are then renewed at these times.
   /// 0: none.
   int rate_hz = 0;
+
+  VehicleOptions vehicle;  ///< [vehicle] in the configuration.
 };
 
 }  // namespace cremed

@@ -15,6 +15,10 @@ namespace {
 
 using namespace state_layout;
 
+int size_of(std::size_t radars, const OdometryOptions& options) {
+  return size(static_cast<int>(radars)) + (options.vehicle.is_used() ? kVehicleStates : 0);
+}
+
 int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
 
 /// Part of the forward velocity across a radar's axis, where it is measured by azimuths.
@@ -54,7 +58,7 @@ SharedPrior prior_of(const OdometryOptions& options, const std::vector<Pose2>& m
 
 OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
                              const std::vector<std::optional<LearnedErrors>>& learned)
-    : gaussian(size(static_cast<int>(mounts.size()))),
+    : gaussian(size_of(mounts.size(), options)),
       options_(options),
       mounts_(std::move(mounts)),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
@@ -83,6 +87,10 @@ void OdometryState::start(std::int64_t time_us) {
   }
   start_shared(kMountYaw, mount_yaw_);
   start_shared(kDopplerScale, doppler_scale_);
+  if (options_.vehicle.is_used()) {
+    start_signal(VehicleSignal::speed);
+    start_signal(VehicleSignal::yaw_rate);
+  }
   restart(time_us);
 }
 
@@ -198,6 +206,28 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
          bounded_walk(prior_std(radar, kMountYaw), options_.mount_yaw_walk), 0.0, dt_s);
 }
 
+void OdometryState::start_signal(VehicleSignal signal) {
+  const VehicleOptions& options = options_.vehicle;
+  const double scale_variance = squared(options.of(signal).scale_std);
+  if (signal == VehicleSignal::speed) {
+    gaussian.set(vehicle_error(kSpeedScale), 0.0, scale_variance);
+  } else {
+    gaussian.set(vehicle_error(kYawRateGain), 0.0, scale_variance);
+    gaussian.set(vehicle_error(kYawRateBias), 0.0, squared(options.yaw_rate_bias_std_radps));
+  }
+}
+
+void OdometryState::advance_signal(VehicleSignal signal, double dt_s) {
+  const VehicleOptions& options = options_.vehicle;
+  const OrnsteinUhlenbeck scale{options.of(signal).scale_std, options.scale_time_s};
+  if (signal == VehicleSignal::speed) {
+    forget(gaussian, vehicle_error(kSpeedScale), scale, 0.0, dt_s);
+  } else {
+    forget(gaussian, vehicle_error(kYawRateGain), scale, 0.0, dt_s);
+    gaussian.add_variance(vehicle_error(kYawRateBias), squared(options.yaw_rate_bias_walk) * dt_s);
+  }
+}
+
 Eigen::Vector3d OdometryState::pose_before(double age_s) const {
   return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
 }
@@ -255,5 +285,7 @@ std::vector<LearnedErrors> OdometryState::learned() const {
 }
 
 int OdometryState::error(std::size_t radar, int which) const { return first_of(radar) + which; }
+
+int OdometryState::vehicle_error(int which) const { return first_of(mounts_.size()) + which; }
 
 }  // namespace cremed

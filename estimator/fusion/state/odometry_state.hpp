@@ -45,6 +45,11 @@ class OdometryState {
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
 
+  /// Resets the errors of a signal of the vehicle's bus to their prior.
+  void start_signal(VehicleSignal signal);
+  /// Propagates them.
+  void advance_signal(VehicleSignal signal, double dt_s);
+
   /// Kalman update with the last innovation of `gaussian`. Common Doppler scale and scales of
   /// azimuths are consider parameters: they are not observable, but seem so where each scan is
   /// linearised at another speed or in a turn. As estimated states, the speed drifted by 1 % in 15
@@ -71,6 +76,8 @@ class OdometryState {
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
   /// Index in `gaussian` of one of a radar's errors.
   [[nodiscard]] int error(std::size_t radar, int which) const;
+  /// The same of an error of a signal; only with options().vehicle.is_used().
+  [[nodiscard]] int vehicle_error(int which) const;
 
   GaussianState gaussian;
 

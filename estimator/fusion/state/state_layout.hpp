@@ -52,6 +52,12 @@ inline constexpr int node(std::size_t index) {
 inline constexpr int radar(int index) { return kFirstRadar + index * kErrorStates; }
 inline constexpr int size(int radars) { return radar(radars); }
 
+// Of the signals of the vehicle's bus, relative to size(radars), if there are any.
+inline constexpr int kSpeedScale = 0;   ///< 1
+inline constexpr int kYawRateGain = 1;  ///< 1
+inline constexpr int kYawRateBias = 2;  ///< rad/s
+inline constexpr int kVehicleStates = 3;
+
 }  // namespace state_layout
 
 }  // namespace cremed

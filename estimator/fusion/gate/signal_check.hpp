@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "cremed/can_decoders/vehicle_reading.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
+
+namespace cremed {
+
+/// What is wrong with a signal of the vehicle's bus, by the radars' own motions from scan to scan.
+/// They do not depend on the filter, which follows a wrong yaw rate: it is far more precise than a
+/// radar's at one time, but not over the minute that this check looks back.
+///
+/// Over a motion of rate w (a speed or yaw rate) and its change c, the mean of the readings errs by
+///
+///     z - w = h + g z - tau c + noise
+///
+/// h offset, g scale and tau delay by least squares. An error is a fault if it differs from 0 by
+/// more than its uncertainty together with those of sensors and radars explains.
+class SignalCheck {
+ public:
+  SignalCheck(VehicleSignal signal, const VehicleOptions& options);
+
+  /// A reading, in the order of the stamps; otherwise the earlier ones are discarded.
+  void add(std::int64_t stamp_us, double value);
+  /// Discards the readings, not the findings.
+  void clear() { count_ = 0; }
+  /// Mean rate of a radar's motion from `start_us` to `end_us`, with its variance.
+  void compare(std::int64_t start_us, std::int64_t end_us, double rate, double variance);
+
+  /// The errors and their variances. Zero and wide before the first comparisons.
+  struct Errors {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< h, g, tau
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+  };
+  [[nodiscard]] Errors errors() const;
+  /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for
+  /// one that is known to be right.
+  [[nodiscard]] Eigen::Vector3d unverified_std() const;
+  /// Which of the errors is a fault, the largest if several are.
+  [[nodiscard]] SignalFault fault() const;
+
+ private:
+  /// At 100 Hz more than the time of a motion (max_gap_s) and its delay.
+  static constexpr std::size_t kCapacity = 128;
+  struct Sum {
+    std::int64_t utime_us = 0;
+    double value = 0.0;     ///< The reading,
+    double integral = 0.0;  ///< and the integral of all before it.
+  };
+
+  [[nodiscard]] std::optional<Sum> at(std::int64_t utime_us) const;
+  [[nodiscard]] const Sum& sum(std::size_t i) const { return sums_[(first_ + i) % kCapacity]; }
+
+  OrnsteinUhlenbeck radar_error_;
+  std::int64_t delay_us_;
+  Eigen::Vector3d tolerance_;
+  std::array<Sum, kCapacity> sums_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  Eigen::Matrix3d prior_;  // Information, too.
+  Eigen::Matrix3d information_;
+  Eigen::Vector3d weighted_ = Eigen::Vector3d::Zero();
+  std::int64_t compared_us_ = 0;
+};
+
+}  // namespace cremed

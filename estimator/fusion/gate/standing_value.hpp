@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace cremed {
+
+/// Whether a signal repeats one value: a sender that has frozen, or a vehicle at standstill.
+class StandingValue {
+ public:
+  /// `max_change`: change of the filter's value in that time, beyond its uncertainty, that proves
+  /// the signal frozen.
+  explicit StandingValue(double max_change) : max_change_(max_change) {}
+
+  void add(std::int64_t stamp_us, double value);
+  /// The filter's own value, now, and its uncertainty.
+  void expect(double value, double tolerance);
+  void clear() { has_value_ = false; }
+
+  /// The value has not changed for so long that the next ones tell nothing new. Not a fault.
+  [[nodiscard]] bool is_standing() const { return is_longer_than(kStandingUs); }
+  /// It has not changed while the true value did.
+  [[nodiscard]] bool is_frozen() const {
+    return is_longer_than(kFrozenUs) && highest_ - lowest_ > max_change_;
+  }
+
+ private:
+  /// Noise of a gyro, and the speed of a driving car, change by a step of the signal within
+  /// hundredths of a second.
+  static constexpr std::int64_t kStandingUs = 500'000;
+  /// A manoeuvre takes seconds; a shorter time could be a step of the filter's own.
+  static constexpr std::int64_t kFrozenUs = 2'000'000;
+
+  [[nodiscard]] bool is_longer_than(std::int64_t duration_us) const {
+    return has_value_ && last_us_ - since_us_ >= duration_us;
+  }
+
+  double max_change_;
+  bool has_value_ = false;
+  double value_ = 0.0;
+  std::int64_t since_us_ = 0;
+  std::int64_t last_us_ = 0;
+  bool has_range_ = false;
+  double lowest_ = 0.0;   // Of what the filter's value is at most,
+  double highest_ = 0.0;  // and at least.
+};
+
+}  // namespace cremed

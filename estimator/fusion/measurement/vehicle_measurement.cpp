@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/cost/cost_options.hpp"
+#include "cremed/estimator/scan/degrees.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+
+namespace cremed {
+
+using namespace state_layout;
+
+LinearMeasurement VehicleMeasurement::linearise(double value) const {
+  const GaussianState& x = state.gaussian;
+  const bool is_speed = signal == VehicleSignal::speed;
+  const int rate = is_speed ? kSpeed : kYawRate;
+  const int scale = state.vehicle_error(is_speed ? kSpeedScale : kYawRateGain);
+  const int bias = state.vehicle_error(kYawRateBias);
+  const double late_s = std::max(age_s, 0.0);
+  const double motion = x.mean(rate) - late_s * x.mean(rate + 1);
+  const double factor = 1.0 + x.mean(scale);
+  LinearMeasurement result;
+  result.residual.x() = value - factor * motion - (is_speed ? 0.0 : x.mean(bias));
+  result.depend_on(rate, {factor, 0.0});
+  result.depend_on(rate + 1, {-late_s * factor, 0.0});
+  result.depend_on(scale, {motion, 0.0});
+  if (!is_speed) {
+    result.depend_on(bias, {1.0, 0.0});
+  }
+  result.noise(0, 0) = variance(value);
+  result.noise(1, 1) = 1.0;
+  return result;
+}
+
+double VehicleMeasurement::variance(double value) const {
+  const bool is_speed = signal == VehicleSignal::speed;
+  const OdometryOptions& options = state.options();
+  const VehicleOptions& vehicle = options.vehicle;
+  const OrnsteinUhlenbeck& error = vehicle.of(signal).error;
+  const OrnsteinUhlenbeck& process = is_speed ? options.acceleration : options.yaw_acceleration;
+  const double step = is_speed ? kVehicleSpeedStepMps : kVehicleYawRateStepDegps * kRadPerDeg;
+  const double change = state.gaussian.mean((is_speed ? kSpeed : kYawRate) + 1);
+  const double late_s = std::max(age_s, 0.0);
+  const bool is_crawling = is_speed && std::abs(value) < kDrivingMps;
+  return squared(error.std) * std::max(1.0, 2.0 * error.time_s / interval_s) +
+         squared(step) / 12.0 + squared(vehicle.delay_std_s * change) +
+         2.0 * squared(process.std) / process.time_s * late_s * late_s * late_s / 3.0 +
+         (is_crawling ? squared(vehicle.crawling_std_mps) : 0.0);
+}
+
+}  // namespace cremed

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/vehicle_signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// Changes that prove a standing signal frozen: several times the noise of any sensor of it. Wheels
+/// show a crawling vehicle as standing.
+constexpr double kFrozenSpeedMps = 0.5;
+constexpr double kFrozenYawRateRadps = 0.02;
+/// Uncertainty of the filter's values: by chance one in 370 errs by more.
+constexpr double kFrozenSigmas = 3.0;
+/// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
+constexpr double kMaxErrorSigmas = 4.0;
+
+/// The covariance of a motion of a radar that looks further sideways is too small.
+constexpr double kMaxSineAcross = 0.7;
+
+int rate_of(VehicleSignal signal) { return signal == VehicleSignal::speed ? kSpeed : kYawRate; }
+
+double frozen_change(VehicleSignal signal) {
+  return signal == VehicleSignal::speed ? kFrozenSpeedMps : kFrozenYawRateRadps;
+}
+
+int scale_of(VehicleSignal signal) {
+  return signal == VehicleSignal::speed ? kSpeedScale : kYawRateGain;
+}
+
+}  // namespace
+
+VehicleSignals::Source::Source(VehicleSignal which, const VehicleOptions& options)
+    : signal(which),
+      track(options.period_s, options.of(which).delay_s),
+      standing(frozen_change(which)),
+      check(which, options) {}
+
+VehicleSignals::VehicleSignals(OdometryState& state, OdometryOutput& output)
+    : state_(state),
+      output_(output),
+      sources_{Source(VehicleSignal::speed, state.options().vehicle),
+               Source(VehicleSignal::yaw_rate, state.options().vehicle)} {}
+
+bool VehicleSignals::is_used(VehicleSignal signal) const {
+  return state_.options().vehicle.of(signal).is_used;
+}
+
+void VehicleSignals::add(const VehicleReading& reading) {
+  if (!is_used(reading.signal)) {
+    return;
+  }
+  Source& source = sources_[static_cast<std::size_t>(reading.signal)];
+  ++source.readings;
+  source.heard_us = reading.stamp_us;
+  source.standing.add(reading.stamp_us, reading.value);
+  // After half a second the value is old news, but a standing vehicle's yaw rate may stand too.
+  if (source.standing.is_standing()) {
+    source.track.clear();
+    source.check.clear();
+  } else {
+    source.check.add(reading.stamp_us, reading.value);
+    source.track.add(reading.stamp_us, reading.value);
+  }
+}
+
+void VehicleSignals::forget() {
+  for (Source& source : sources_) {
+    source.track.clear();
+    source.standing.clear();
+    source.check.clear();
+    source.heard_us.reset();
+    source.compared_us.reset();
+  }
+}
+
+void VehicleSignals::restart_errors() {
+  for (Source& source : sources_) {
+    if (is_used(source.signal)) {
+      state_.start_signal(source.signal);
+    }
+  }
+}
+
+void VehicleSignals::compare(const Pose2& mount, const EgoMotion& motion) {
+  if (!motion.has_estimate() || std::abs(std::sin(mount.yaw_rad)) > kMaxSineAcross) {
+    return;
+  }
+  const double duration_s = seconds_between(motion.utime_start_us, motion.utime_us);
+  const auto compare = [&](VehicleSignal signal, int axis) {
+    sources_[static_cast<std::size_t>(signal)].check.compare(
+        motion.utime_start_us, motion.utime_us, motion.motion(axis) / duration_s,
+        motion.covariance(axis, axis) / squared(duration_s));
+  };
+  compare(VehicleSignal::speed, 0);
+  compare(VehicleSignal::yaw_rate, 2);
+}
+
+void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
+  for (Source& source : sources_) {
+    if (is_used(source.signal)) {
+      watch(source, stamp_us, is_known);
+    }
+  }
+  for (Source* source = earliest(); source != nullptr; source = earliest()) {
+    const SignalTrack::Value value = *source->track.front();
+    if (value.utime_us > stamp_us) {
+      return;
+    }
+    source->track.pop();
+    if (is_known) {
+      use(*source, value);
+    }
+  }
+}
+
+/// Notes whether the signal is lost or frozen.
+void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known) {
+  source.heard_us = source.heard_us.value_or(stamp_us);
+  source.lost.update(seconds_between(*source.heard_us, stamp_us) > state_.options().vehicle.lost_s);
+  const int rate = rate_of(source.signal);
+  if (is_known) {
+    source.standing.expect(state_.gaussian.mean(rate), kFrozenSigmas * state_.gaussian.std(rate));
+  }
+  source.frozen.update(source.standing.is_frozen());
+}
+
+/// The signal with the earliest value; null if there is none.
+VehicleSignals::Source* VehicleSignals::earliest() {
+  Source* first = nullptr;
+  for (Source& source : sources_) {
+    const auto value = source.track.front();
+    if (value && (first == nullptr || value->utime_us < first->track.front()->utime_us)) {
+      first = &source;
+    }
+  }
+  return first;
+}
+
+void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
+  output_.advance_to(value.utime_us);
+  const OdometryOptions& options = state_.options();
+  const double age_s = seconds_between(value.utime_us, state_.time_us());
+  const double longest_s = 2.0 * options.vehicle.of(source.signal).error.time_s;
+  const double interval_s =
+      source.compared_us ? seconds_between(*source.compared_us, value.utime_us) : longest_s;
+  if (age_s > options.max_lateness_s || interval_s <= 0.0) {
+    return;
+  }
+  state_.advance_signal(source.signal, interval_s);
+  source.compared_us = value.utime_us;
+  LinearMeasurement measurement =
+      VehicleMeasurement{state_, source.signal, age_s, std::min(interval_s, longest_s)}.linearise(
+          value.value);
+  measurement.noise(0, 0) *= source.noise.value();
+  measurement.noise(0, 0) += unverified_variance(source, value.value);
+  const double nis = state_.gaussian.innovate(measurement);
+  source.innovation.add(value.utime_us, nis);
+  judge(source, nis);
+}
+
+/// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
+/// with the wrong sign, which is right on a straight road, leads the filter astray in the first
+/// turn, where it is believed more than the radars.
+double VehicleSignals::unverified_variance(const Source& source, double value) const {
+  const Eigen::Vector3d unverified = source.check.unverified_std();
+  const double change = state_.gaussian.mean(rate_of(source.signal) + 1);
+  return squared(value * unverified(1)) + squared(change * unverified(2));
+}
+
+/// Updates the state with the last innovation if the signal is trusted.
+void VehicleSignals::judge(Source& source, double nis) {
+  const bool was_left_out = source.trust.is_left_out();
+  const bool is_expected = nis <= state_.options().vehicle.max_nis &&
+                           !(was_left_out && source.check.fault() != SignalFault::none);
+  source.trust.judge(is_expected);
+  if (!was_left_out && !source.trust.is_left_out()) {
+    source.noise.add(nis);
+    if (is_expected) {
+      state_.update();
+      ++source.used;
+    }
+    if (!has_credible_errors(source.signal) || source.check.fault() != SignalFault::none) {
+      source.trust.leave_out();
+    }
+  }
+  if (!was_left_out && source.trust.is_left_out()) {
+    state_.start_signal(source.signal);
+    source.noise.clear();
+  }
+}
+
+bool VehicleSignals::has_credible_errors(VehicleSignal signal) const {
+  const VehicleOptions& options = state_.options().vehicle;
+  const auto is_within = [&](int error, double std) {
+    return std::abs(state_.gaussian.mean(state_.vehicle_error(error))) <= kMaxErrorSigmas * std;
+  };
+  return is_within(scale_of(signal), options.of(signal).scale_std) &&
+         (signal == VehicleSignal::speed ||
+          is_within(kYawRateBias, options.yaw_rate_bias_std_radps));
+}
+
+VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
+  VehicleSignalReport report;
+  report.is_used = is_used(signal);
+  if (!report.is_used) {
+    return report;
+  }
+  const Source& source = sources_[static_cast<std::size_t>(signal)];
+  const GaussianState& state = state_.gaussian;
+  const int scale = state_.vehicle_error(scale_of(signal));
+  report.is_lost = source.lost.is_present;
+  report.is_frozen = source.frozen.is_present;
+  report.is_left_out = source.trust.is_left_out();
+  report.times_lost = source.lost.times;
+  report.times_frozen = source.frozen.times;
+  report.times_left_out = source.trust.times_left_out();
+  report.readings = source.readings;
+  report.measurements_used = source.used;
+  report.innovation = source.innovation.mean();
+  report.noise_factor = source.noise.value();
+  report.scale = state.mean(scale);
+  report.scale_std = state.std(scale);
+  if (signal == VehicleSignal::yaw_rate) {
+    const int bias = state_.vehicle_error(kYawRateBias);
+    report.bias_radps = state.mean(bias);
+    report.bias_std_radps = state.std(bias);
+  }
+  const Eigen::Vector3d seen = source.check.errors().value;
+  report.fault = source.check.fault();
+  report.seen_offset = seen(0);
+  report.seen_scale = seen(1);
+  report.seen_delay_s = seen(2);
+  return report;
+}
+
+}  // namespace cremed

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "cremed/can_decoders/vehicle_reading.hpp"
+#include "cremed/estimator/fusion/gate/radar_trust.hpp"
+#include "cremed/estimator/fusion/gate/signal_check.hpp"
+#include "cremed/estimator/fusion/gate/signal_trust.hpp"
+#include "cremed/estimator/fusion/gate/standing_value.hpp"
+#include "cremed/estimator/fusion/measurement/signal_track.hpp"
+#include "cremed/estimator/fusion/output/odometry_output.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "cremed/estimator/motion/innovation_mean.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+
+namespace cremed {
+
+/// Speed and yaw rate of the vehicle's bus as measurements of the filter's state
+/// (VehicleMeasurement), each with a gate, and with doubt: a signal that repeatedly contradicts the
+/// filter, or whose learned errors exceed any sensor's, is left out; it does not change the state
+/// then. One that stands still is not used, and one that the radars show to be frozen, or that is
+/// lost, is named.
+class VehicleSignals {
+ public:
+  /// Both must outlive this object.
+  VehicleSignals(OdometryState& state, OdometryOutput& output);
+
+  /// A reading, in the order of the stamps of its signal. Ignored if the options do not use it.
+  void add(const VehicleReading& reading);
+  /// A radar's own motion from scan to scan, with which the readings are compared.
+  void compare(const Pose2& mount, const EgoMotion& motion);
+  /// Uses what was measured until `stamp_us`. The state may move on, but not beyond that time.
+  /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
+  /// radars alone start the filter.
+  void use_until(std::int64_t stamp_us, bool is_known);
+  /// Discards the readings; to be called when the clock was set.
+  void forget();
+  /// Resets the learned errors, which a wrong state may have corrupted.
+  void restart_errors();
+
+  [[nodiscard]] VehicleSignalReport report(VehicleSignal signal) const;
+
+ private:
+  /// A fault that comes and goes.
+  struct Fault {
+    bool is_present = false;
+    int times = 0;
+
+    void update(bool is_now_present) {
+      times += is_now_present && !is_present ? 1 : 0;
+      is_present = is_now_present;
+    }
+  };
+  struct Source {
+    Source(VehicleSignal which, const VehicleOptions& options);
+
+    VehicleSignal signal;
+    SignalTrack track;
+    StandingValue standing;
+    SignalCheck check;
+    SignalTrust trust;
+    NoiseFactor noise;
+    InnovationMean innovation;
+    Fault lost;
+    Fault frozen;
+    std::uint64_t readings = 0;
+    std::uint64_t used = 0;
+    std::optional<std::int64_t> heard_us;     // Last reading; before the first, the first scan.
+    std::optional<std::int64_t> compared_us;  // Last measurement.
+  };
+
+  [[nodiscard]] bool is_used(VehicleSignal signal) const;
+  void watch(Source& source, std::int64_t stamp_us, bool is_known);
+  Source* earliest();
+  void use(Source& source, const SignalTrack::Value& value);
+  [[nodiscard]] double unverified_variance(const Source& source, double value) const;
+  void judge(Source& source, double nis);
+  [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
+
+  OdometryState& state_;
+  OdometryOutput& output_;
+  std::array<Source, kVehicleSignals> sources_;
+};
+
+}  // namespace cremed

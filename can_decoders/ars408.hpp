@@ -30,12 +30,6 @@ enum class Ars408Output : std::uint8_t { clusters, objects };
 /// objects: no measurement.
 inline constexpr double kArs408RotationLeadS = 0.040;
 
-/// True over reported azimuth of an ARS408. Turns of targets found again, against gyro and poses,
-/// on seven nuScenes drives: 1.007 (front), 1.012 to 1.018 (rear), each +- 0.005, which one value
-/// covers. It belongs to the antenna: objects have it too, and an ARS404, whose antenna is another
-/// and of which there is no recording, does not.
-inline constexpr double kArs408AzimuthScale = 1.01;
-
 struct Ars408Options {
   std::uint8_t sensor_id = 0;  ///< 0..7; every identifier is base + 0x10 * sensor_id.
   Ars408Output output = Ars408Output::clusters;

@@ -127,7 +127,6 @@ constexpr RadarFamily row(std::string_view type) {
 constexpr RadarFamily kArs408 = [] {
   RadarFamily family = row<Ars408Model::ars408_21>("ars408");
   family.recognise = recognise;
-  family.azimuth_scale = kArs408AzimuthScale;
   return family;
 }();
 

@@ -39,8 +39,7 @@ struct RadarFamily {
   /// The family with the same keys, identifiers and messages, and the same type of options; null:
   /// none.
   const RadarFamily* sends_like = nullptr;
-  double max_range_m = 0.0;    ///< Default of limits.max_range_m; 0: that of all radars.
-  double azimuth_scale = 1.0;  ///< Default of calibration.azimuth_scale.
+  double max_range_m = 0.0;  ///< Default of limits.max_range_m; 0: that of all radars.
   /// Identifiers of commands to the radar; null: none.
   IdSet (*obeyed_ids)(const RadarSettings&) = nullptr;
   /// Default time by which the radar extrapolates positions with the yaw rate it receives

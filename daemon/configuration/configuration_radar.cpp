@@ -146,7 +146,6 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
   read_mount(mount, radar.ego_motion.vehicle_from_radar, Presence::required);
   mount.finish();
   radar.ego_motion.correction.rotation_lead_s = radar.decoder.rotation_lead_s().value_or(0.0);
-  radar.ego_motion.correction.azimuth_scale = radar.decoder.family().azimuth_scale;
   TomlReader calibration = reader.table("calibration");
   read_calibration(calibration, radar);
   calibration.finish();

@@ -185,7 +185,6 @@ TEST_CASE("the manual loads as it is and holds the defaults") {
   radar.interface = "can0";
   radar.ego_motion.vehicle_from_radar = {3.412, 0.0, 0.0};
   radar.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-  radar.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
   CHECK(text_of(configuration) == text_of(expected));
 }
 
@@ -298,7 +297,6 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     expected.interface = places[i].interface;
     expected.ego_motion.vehicle_from_radar = places[i].mount;
     expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-    expected.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
     expected.ego_motion.correction.doppler_scale = 1.005;
     expected.ego_motion.correction.azimuth_std_factor = 0.7;
     RegistrationOptions& registration = expected.ego_motion.registration;

@@ -29,7 +29,7 @@ TEST_CASE("a configuration is shown as it was understood") {
         "0x432, "
         "0x438, 0x630, 0x63A-0x63E, 0x730-0x732\n"
         "left            bosch_gpr can1               3.400   -0.500    14.32  0x100, 0x200-0x25F\n"
-        "azimuth scale: front 1.01, left 1\n"
+        "azimuth scale: front 1, left 1\n"
         "odometry: from front, left; told at every scan; its motion between scans is \"fused\"\n"
         "output: odo.csv\n"
         "sends on the buses: speed and yaw rate to front (motion_feedback)\n");

@@ -105,7 +105,6 @@ std::vector<RadarConfiguration> default_radars() {
   RadarConfiguration front = radar_at("front", "can0", {3.6, 0.0, 0.0});
   front.decoder = Ars408Options{};
   front.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-  front.ego_motion.correction.azimuth_scale = kArs408AzimuthScale;
   RadarConfiguration rear = radar_at("rear", "can1", {-0.9, 0.0, std::numbers::pi});
   rear.decoder = BoschGprOptions{};
   return {front, rear};

@@ -25,14 +25,6 @@ constexpr double kMaxMeanInnovation = 5.0;
 /// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
 constexpr double kMaxSpeedSigmas = 3.0;
 
-/// Targets beside the vehicle pass too fast to be matched four scans later. With registrations of
-/// sideways radars the yaw error after 10 s on scenes 0061 and 0103 is 0.48 and 0.20 degrees,
-/// without them 0.34 and 0.18.
-bool looks_across(const Pose2& mount) {
-  constexpr double kMaxSine = 0.7;  // 45 degrees off the direction of travel
-  return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
-}
-
 std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
   std::vector<Pose2> result;
   for (const OdometryRadar& radar : radars) {
@@ -252,9 +244,6 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
 
 void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
                                    std::int64_t stamp_us) {
-  if (looks_across(state_.mount(radar))) {
-    return;
-  }
   const double age_s = seconds_between(stamp_us, state_.time_us());
   select_static(state_, radar, age_s, targets, static_targets_);
   if (static_targets_.size() >= static_cast<std::size_t>(state_.options().min_targets)) {

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -285,6 +286,10 @@ struct Place {
   Pose2 mount;
 };
 
+double azimuth_scale_of(std::string_view radar) {
+  return radar == "front" ? 1.007 : radar.starts_with("rear") ? 1.012 : 1.0;
+}
+
 void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
   const Configuration configuration = load_configuration(kFolder + file);
   REQUIRE(configuration.radars.size() == places.size());
@@ -297,6 +302,7 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     expected.interface = places[i].interface;
     expected.ego_motion.vehicle_from_radar = places[i].mount;
     expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
+    expected.ego_motion.correction.azimuth_scale = azimuth_scale_of(places[i].name);
     expected.ego_motion.correction.doppler_scale = 1.005;
     expected.ego_motion.correction.azimuth_std_factor = 0.7;
     RegistrationOptions& registration = expected.ego_motion.registration;

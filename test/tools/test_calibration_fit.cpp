@@ -69,7 +69,7 @@ class Drive {
     }
     velocities_.push_back({radar, kBeginUs + us, equations});
     const double late_w = Vehicle::w_radps(t_s + truth[kPositionLead]);
-    yaw_rates_.push_back({radar, kBeginUs + us, late_w + 0.02 * normal_(random_), 0.02});
+    yaw_rates_.push_back({radar, kTurn, kBeginUs + us, late_w + 0.02 * normal_(random_), 0.02});
   }
 
   std::vector<CalibrationVector> truths_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
@@ -12,6 +14,13 @@ namespace cremed {
 using namespace state_layout;
 
 namespace {
+
+/// A radar that looks sideways, 45 degrees or more off the direction of travel, sees targets pass
+/// whose reflections move along with the vehicle: their positions shorten the way by 16 to 38 %.
+bool looks_across(const Pose2& mount) {
+  constexpr double kMaxSine = 0.7;
+  return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
+}
 
 /// G with shifts along x taken as known.
 Eigen::Matrix3d share_of(const MapMatch& match, std::size_t node) {
@@ -42,6 +51,9 @@ LinearMeasurement MapMeasurement::linearise(const MapMatch& match) const {
   LinearMeasurement result;
   result.residual = match.correction.tail<2>();
   result.noise = options.position_noise_factor * match.covariance.bottomRightCorner<2, 2>();
+  if (looks_across(state.mount(radar))) {
+    result.noise *= options.position_noise_factor_across;
+  }
   result.noise(0, 0) += squared(options.position_lateral_floor_m);
   result.noise(1, 1) += squared(options.position_yaw_floor_rad);
   for (int i = 0; i < kMotionStates; ++i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/motion/two_worlds.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -22,13 +23,17 @@ constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
 /// Rivals nearer than this to the vehicle's speed are the tails of the static world: 2674 of 2677
 /// doubts on RadarScenes 105, with 200 targets a scan, were 0.1 to 0.8 m/s beside it.
 constexpr double kMinDifferenceMps = 1.0;
+/// The same relative to the speed. The tails stem from errors of bearings and so are proportional
+/// to the speed: at rest there are none, and a train that starts alongside differs by less.
+constexpr double kMinDifferenceShare = 0.15;
 
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
   const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
-  return std::abs(votes.rival_mps - votes.own_mps) >= kMinDifferenceMps &&
-         votes.rival >= limits.places &&
+  const double faster_mps = std::max(std::abs(votes.rival_mps), std::abs(votes.own_mps));
+  const double least_mps = std::min(kMinDifferenceMps, kMinDifferenceShare * faster_mps);
+  return std::abs(votes.rival_mps - votes.own_mps) >= least_mps && votes.rival >= limits.places &&
          static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
 }
 

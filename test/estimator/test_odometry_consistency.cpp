@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -9,8 +10,10 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/fusion/map/map_registration.hpp"
+#include "cremed/estimator/fusion/map/target_map.hpp"
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
-#include "cremed/estimator/fusion/measurement/position_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/map_measurement.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/fusion/state/vehicle_motion.hpp"
@@ -26,17 +29,18 @@ using namespace state_layout;
 /// A vehicle with two radars, drawn from the model, and its estimated state.
 class ModelDrive {
  public:
-  explicit ModelDrive(std::uint64_t seed)
+  ModelDrive(std::uint64_t seed, double yaw_rate_radps)
       : random_(seed), truth_(options_, mounts()), estimate_(options_, mounts()) {
     truth_.start();
     estimate_.start();
     for (int i = 0; i < truth_.gaussian.size(); ++i) {
-      truth_.gaussian.set_mean(i, truth_.gaussian.std(i) * normal_(random_));
+      truth_.gaussian.set_mean(i,
+                               truth_.gaussian.mean(i) + truth_.gaussian.std(i) * normal_(random_));
     }
     // Speeds at which a driving vehicle's errors count in full.
     truth_.gaussian.set_mean(kSpeed, 12.0);
-    const Eigen::Vector2d start(12.0 + normal_(random_),
-                                truth_.gaussian.mean(kYawRate) + 0.1 * normal_(random_));
+    truth_.gaussian.set_mean(kYawRate, yaw_rate_radps);
+    const Eigen::Vector2d start(12.0 + normal_(random_), yaw_rate_radps + 0.1 * normal_(random_));
     estimate_.start_motion(start, Eigen::Vector2d(1.0, 0.01).asDiagonal());
   }
 
@@ -46,7 +50,7 @@ class ModelDrive {
     const std::size_t radar = number % 2 == 0 ? 0 : 1;
     move_errors(radar, 2.0 * kDtS);
     measure_doppler(radar);
-    measure_positions(radar, number / 2);
+    measure_positions(radar, number);
     if (number % 50 == 49) {
       truth_.renew_anchor();
       estimate_.renew_anchor();
@@ -59,6 +63,10 @@ class ModelDrive {
   [[nodiscard]] int measurements() const { return measurements_; }
 
  private:
+  /// Steps between nodes, and until each node has a pose.
+  static constexpr int kNodePeriod = 6;
+  static constexpr int kFirstMatch = kNodePeriod * static_cast<int>(kNodes);
+
   static std::vector<Pose2> mounts() { return {{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}}; }
 
   template <int Size>
@@ -118,29 +126,72 @@ class ModelDrive {
     use(DopplerMeasurement{estimate_, radar, 0.0}.linearise(velocity));
   }
 
-  void measure_positions(std::size_t radar, int scan) {
-    const Eigen::Matrix3d scan_noise = Eigen::Vector3d(4e-4, 4e-4, 1e-6).asDiagonal();
-    const Eigen::Matrix2d pair_noise = Eigen::Vector2d(9e-4, 2e-6).asDiagonal();
-    truth_.clone_scan(radar, 0.0, Eigen::Matrix3d::Zero());
-    const Eigen::Vector3d pose = truth_.gaussian.mean().head<kPose>();
-    const Eigen::Vector3d noise = draw<3>(turned_covariance(pose.z(), scan_noise));
-    for (int i = 0; i < kPose; ++i) {
-      truth_.gaussian.set_mean(truth_.scan(radar) + i, pose(i) + noise(i));
+  /// A scan against the maps at all nodes, which measure with random shares of the information.
+  void measure_positions(std::size_t radar, int number) {
+    if (number >= kFirstMatch) {
+      MapMatch match = draw_match(radar);
+      place(truth_, radar, *map_of_truth_);
+      place(estimate_, radar, *map_);
+      const MapMeasurement of_truth{truth_, *map_of_truth_, radar, 0.0};
+      const LinearMeasurement errors = of_truth.linearise(match);
+      match.correction.tail<2>() =
+          true_correction(match).tail<2>() - errors.residual + draw<2>(errors.noise);
+      use(MapMeasurement{estimate_, *map_, radar, 0.0}.linearise(match));
     }
-    estimate_.clone_scan(radar, 0.0, scan_noise);
-    for (std::size_t k = 0; k < kKeyframes && scan >= 20; ++k) {
-      const LinearMeasurement of_truth =
-          PositionMeasurement{truth_, radar, k}.linearise(Eigen::Vector3d::Zero());
-      const Eigen::Vector2d measured = draw<2>(pair_noise) - of_truth.residual;
-      LinearMeasurement measurement =
-          PositionMeasurement{estimate_, radar, k}.linearise({0.0, measured.x(), measured.y()});
-      measurement.noise = pair_noise;
-      use(measurement);
+    if (number % kNodePeriod == 0) {
+      const auto node = static_cast<std::size_t>(number / kNodePeriod % kNodes);
+      truth_.clone_node(node, 0.0);
+      estimate_.clone_node(node, 0.0);
     }
-    if (scan % 5 == 0) {
-      truth_.keep_scan(radar, static_cast<std::size_t>(scan / 5 % kKeyframes));
-      estimate_.keep_scan(radar, static_cast<std::size_t>(scan / 5 % kKeyframes));
+  }
+
+  MapMatch draw_match(std::size_t radar) {
+    MapMatch match;
+    match.covariance = Eigen::Vector3d(9e-4, 9e-4, 2e-6).asDiagonal();
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (Eigen::Matrix3d& by : match.by_node) {
+      // Of targets ahead, each with as much information along x as across.
+      by.setZero();
+      for (int i = 0; i < 10; ++i) {
+        const Eigen::Vector2d at((radar == 0 ? 25.0 : -25.0) + 10.0 * normal_(random_),
+                                 10.0 * normal_(random_));
+        Eigen::Matrix<double, 2, 3> moved;
+        moved << 1.0, 0.0, -at.y(), 0.0, 1.0, at.x();
+        by += moved.transpose() * moved;
+      }
+      sum += by;
     }
+    for (Eigen::Matrix3d& by : match.by_node) {
+      by = (sum.inverse() * by).eval();
+    }
+    match.by_azimuth_scale = {0.0, 0.2 * normal_(random_), 0.5 * truth_.gaussian.mean(kYawRate)};
+    return match;
+  }
+
+  /// A target in the map of each node, so that the map knows the place of the radar there.
+  static void place(const OdometryState& state, std::size_t radar, TargetMap& map) {
+    TargetSet one;
+    one.add(Target());
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      map.insert(i, one, state.mount(radar), Eigen::Vector3d::Zero());
+    }
+    map.place(MapMeasurement{state, map, radar, 0.0}.now_from_node());
+  }
+
+  /// Of error-free positions: the motion in the frame of the predicted pose by which each node's
+  /// targets are displaced, weighted by the shares. Shifts along x are known by design.
+  [[nodiscard]] Eigen::Vector3d true_correction(const MapMatch& match) const {
+    const Eigen::Vector3d true_now = truth_.gaussian.mean().head<kPose>();
+    const Eigen::Vector3d now = estimate_.gaussian.mean().head<kPose>();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const Eigen::Vector3d by_node =
+          composed_pose(estimate_.node_pose(i), relative_pose(truth_.node_pose(i), true_now));
+      Eigen::Vector3d displaced = relative_pose(now, by_node);
+      displaced.x() = 0.0;
+      sum += match.by_node[i] * displaced;
+    }
+    return sum;
   }
 
   void use(const LinearMeasurement& measurement) {
@@ -161,11 +212,15 @@ class ModelDrive {
   OdometryOptions options_ = options();
   OdometryState truth_;
   OdometryState estimate_;
+  std::unique_ptr<TargetMap> map_of_truth_ = std::make_unique<TargetMap>();
+  std::unique_ptr<TargetMap> map_ = std::make_unique<TargetMap>();
   double nis_ = 0.0;
   int measurements_ = 0;
 };
 
 TEST_CASE("on its own model every state's covariance is and stays true") {
+  const double yaw_rate_radps = GENERATE(0.0, 0.3);
+  CAPTURE(yaw_rate_radps);
   constexpr int kRuns = 60;
   constexpr int kSteps = 330;
   Eigen::VectorXd squares;
@@ -173,7 +228,7 @@ TEST_CASE("on its own model every state's covariance is and stays true") {
   double nis = 0.0;
   int measurements = 0;
   for (int run = 0; run < kRuns; ++run) {
-    ModelDrive drive(static_cast<std::uint64_t>(run) + 1);
+    ModelDrive drive(static_cast<std::uint64_t>(run) + 1, yaw_rate_radps);
     for (int i = 0; i < kSteps; ++i) {
       drive.step(i);
     }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -8,12 +10,14 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/fusion/map/map_registration.hpp"
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
-#include "cremed/estimator/fusion/measurement/position_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/map_measurement.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/fusion/state/vehicle_motion.hpp"
 #include "test/estimator/numeric.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
@@ -21,6 +25,8 @@ namespace {
 using namespace state_layout;
 
 const std::vector<Pose2> kMounts{{3.4, 0.1, 0.02}, {2.4, 0.8, 1.54}};
+/// Nodes with a scan.
+constexpr std::size_t kMapNodes = 3;
 
 /// A state in which nothing is zero, of a vehicle in a turn.
 OdometryState busy_state(const OdometryOptions& options) {
@@ -37,14 +43,17 @@ OdometryState busy_state(const OdometryOptions& options) {
                                                    {kSpeed, 8.0},
                                                    {kAcceleration, -1.2},
                                                    {kYawRate, 0.4},
-                                                   {kYawAcceleration, 0.3}};
+                                                   {kYawAcceleration, 0.3},
+                                                   {kSlipPerAcceleration, 0.004}};
   for (const auto& [which, value] : values) {
     state.gaussian.set_mean(which, value);
   }
-  for (std::size_t radar = 0; radar < kMounts.size(); ++radar) {
-    for (int i = 0; i < kPose; ++i) {
-      state.gaussian.set_mean(state.scan(radar) + i, 2.5 - i + 0.1 * static_cast<double>(radar));
-      state.gaussian.set_mean(state.keyframe(radar, 1) + i, -1.5 + 0.6 * i);
+  for (std::size_t i = 0; i < kMapNodes; ++i) {
+    const double age = static_cast<double>(kMapNodes - i);
+    const Eigen::Vector3d pose(3.0 - 1.9 * age, -1.0 - 1.2 * age + 0.1 * age * age,
+                               0.7 - 0.1 * age);
+    for (int k = 0; k < kPose; ++k) {
+      state.gaussian.set_mean(node(i) + k, pose(k));
     }
   }
   return state;
@@ -87,21 +96,191 @@ TEST_CASE("the Jacobian of the Doppler measurement is the derivative of its resi
   });
 }
 
-TEST_CASE("the Jacobian of the position measurement is the derivative of its residual") {
-  const OdometryOptions options;
-  OdometryState state = busy_state(options);
-  const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
-  check_jacobian(state, [&] {
-    return PositionMeasurement{state, radar, 1}.linearise({4.0, 0.1, 0.2});
-  });
+/// Static points around the vehicle, far enough apart to be told from each other, and what a radar
+/// reports of them from the poses of the state, without noise.
+class MapScene {
+ public:
+  explicit MapScene(OdometryState& state) : state_(state) {
+    simulation::Random random(3);
+    points_ = simulation::scatter(random, 60, 8.0, 60.0, numeric::radians(70.0), 5.0);
+    for (Eigen::Vector2d& point : points_) {
+      const Eigen::Vector3d now = state.pose_before(kAgeS);
+      point = composed_pose(now, {point.x(), point.y(), 0.0}).head<2>();
+    }
+    pose_ = state.pose_before(kAgeS);
+    scan_ = seen_from(pose_);
+    for (std::size_t i = 0; i < kMapNodes; ++i) {
+      scans_[i] = seen_from(state.node_pose(i));
+      insert(i, Eigen::Vector3d::Zero());
+    }
+  }
+
+  /// Inserts the scan of a node, whose positions moved by (x, y, yaw) in the frame of the node.
+  void insert(std::size_t i, const Eigen::Vector3d& shift) {
+    map_->insert(i, simulation::targets(scans_[i], kMounts[0]), kMounts[0], shift);
+  }
+  /// All reports of azimuths a become scale a + offset_rad.
+  void report_azimuths(double scale, double offset_rad) {
+    const auto report = [&](simulation::Detections& detections) {
+      for (Detection& detection : detections) {
+        detection.azimuth_rad = scale * detection.azimuth_rad + offset_rad;
+      }
+    };
+    report(scan_);
+    for (std::size_t i = 0; i < kMapNodes; ++i) {
+      report(scans_[i]);
+      insert(i, Eigen::Vector3d::Zero());
+    }
+  }
+
+  /// The registration at the present state.
+  MapMatch match() {
+    map_->place(measurement().now_from_node());
+    const auto match =
+        registration_.solve(simulation::targets(scan_, kMounts[0]), *map_, kMounts[0]);
+    REQUIRE(match);
+    return *match;
+  }
+  LinearMeasurement linearise(const MapMatch& match) const {
+    return measurement().linearise(match);
+  }
+  [[nodiscard]] TargetMap::NodePoses nodes() const { return measurement().now_from_node(); }
+  /// Derivative of the measurement by a state.
+  Eigen::Vector2d derivative(const LinearMeasurement& linear, int state) const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int k = 0; k < linear.states; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      sum += linear.state[i] == state ? linear.jacobian[i] : Eigen::Vector2d::Zero();
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double kAgeS = 0.03;
+
+  [[nodiscard]] MapMeasurement measurement() const { return {state_, *map_, 0, kAgeS}; }
+  simulation::Detections seen_from(const Eigen::Vector3d& pose) const {
+    return simulation::observe_all(points_, pose, 1.0, kMounts[0], {0.1, 0.003, 0.1});
+  }
+
+  OdometryState& state_;
+  simulation::Points points_;
+  Eigen::Vector3d pose_;
+  simulation::Detections scan_;
+  std::array<simulation::Detections, kMapNodes> scans_;
+  std::unique_ptr<TargetMap> map_ = std::make_unique<TargetMap>();
+  MapRegistration registration_{0.7};
+};
+
+/// A correction may differ from its linearisation by this share: the weights of targets against
+/// clutter change with their distance.
+constexpr double kLinear = 0.01;
+
+void check_close(const Eigen::Vector2d& actual, const Eigen::Vector2d& expected) {
+  CAPTURE(actual.transpose(), expected.transpose());
+  CHECK((actual - expected).norm() < kLinear * expected.norm());
 }
 
-TEST_CASE("a registration starts at the motion that the measurement expects") {
+TEST_CASE("a scan that was taken at the predicted pose needs no correction") {
   const OdometryOptions options;
-  const OdometryState state = busy_state(options);
-  const Eigen::Vector3d scan = state.gaussian.mean().segment<3>(state.scan(1));
-  const PositionMeasurement measurement{state, 1, 1};
-  CHECK(measurement.linearise(measurement.expected_motion(scan)).residual.norm() < 1e-12);
+  OdometryState state = busy_state(options);
+  for (int i = 0; i < kErrorStates; ++i) {
+    state.gaussian.set_mean(state.error(0, i), 0.0);
+  }
+  state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
+  MapScene scene(state);
+  CHECK(scene.linearise(scene.match()).residual.norm() < 1e-6);
+}
+
+TEST_CASE("the Jacobian of the map measurement predicts the correction when poses change") {
+  const OdometryOptions options;
+  OdometryState state = busy_state(options);
+  MapScene scene(state);
+  const LinearMeasurement linear = scene.linearise(scene.match());
+  // Steps of a few millimetres at the targets, far below their noise.
+  const auto change = [&](int which, double step) -> Eigen::Vector2d {
+    const double value = state.gaussian.mean(which);
+    state.gaussian.set_mean(which, value + step);
+    const Eigen::Vector2d above = scene.match().correction.tail<2>();
+    state.gaussian.set_mean(which, value - step);
+    const Eigen::Vector2d below = scene.match().correction.tail<2>();
+    state.gaussian.set_mean(which, value);
+    return (below - above) / (2.0 * step);
+  };
+  SECTION("the yaw and the yaw rate of the vehicle") {
+    check_close(change(kYaw, 1e-4), scene.derivative(linear, kYaw));
+    check_close(change(kYawRate, 3e-3), scene.derivative(linear, kYawRate));
+  }
+  // By design a shift along x of the present pose has no effect.
+  SECTION("a shift of the vehicle across its path") {
+    const double yaw = state.pose_before(0.03).z();
+    const Eigen::Vector2d shift =
+        -std::sin(yaw) * change(kX, 1e-3) + std::cos(yaw) * change(kY, 1e-3);
+    check_close(shift, -std::sin(yaw) * scene.derivative(linear, kX) +
+                           std::cos(yaw) * scene.derivative(linear, kY));
+  }
+  SECTION("a shift of a node across the path, and its turn about the present pose") {
+    const auto k = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
+    const double yaw = state.pose_before(0.03).z();
+    const auto of_node = [&](const auto& by) -> std::array<Eigen::Vector2d, 2> {
+      const Eigen::Vector2d across =
+          -std::sin(yaw) * by(node(k), 1e-3) + std::cos(yaw) * by(node(k) + 1, 1e-3);
+      const Eigen::Vector2d along =
+          std::cos(yaw) * by(node(k), 1e-3) + std::sin(yaw) * by(node(k) + 1, 1e-3);
+      // A turn of the node moves the origin of the present pose along x by its y.
+      const Eigen::Vector2d turn = by(node(k) + 2, 1e-4) - scene.nodes()[k].y() * along;
+      return {across, turn};
+    };
+    const auto expected =
+        of_node([&](int which, double /*step*/) { return scene.derivative(linear, which); });
+    const auto actual = of_node([&](int which, double step) { return change(which, step); });
+    check_close(actual[0], expected[0]);
+    check_close(actual[1], expected[1]);
+    const Eigen::Vector2d along = std::cos(yaw) * scene.derivative(linear, node(k)) +
+                                  std::sin(yaw) * scene.derivative(linear, node(k) + 1);
+    CHECK(along.norm() < 1e-12);
+  }
+}
+
+TEST_CASE("the Jacobian of the map measurement predicts the effect of each error of a radar") {
+  const OdometryOptions options;
+  OdometryState state = busy_state(options);
+  for (int i = 0; i < kErrorStates; ++i) {
+    state.gaussian.set_mean(state.error(0, i), 0.0);
+  }
+  state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
+  MapScene scene(state);
+  const LinearMeasurement linear = scene.linearise(scene.match());
+  const auto check_error = [&](int which, double error) {
+    const MapMatch match = scene.match();
+    check_close(match.correction.tail<2>(), error * scene.derivative(linear, which));
+    // A known error leaves no residual.
+    state.gaussian.set_mean(which, error);
+    CHECK(scene.linearise(match).residual.norm() < kLinear * match.correction.tail<2>().norm());
+  };
+  SECTION("mount yaw: true minus configured") {
+    scene.report_azimuths(1.0, -0.002);
+    check_error(state.error(0, kMountYaw), 0.002);
+  }
+  SECTION("scale of azimuths: true = (1 + error) reported") {
+    scene.report_azimuths(1.0 / 1.0002, 0.0);
+    const int which = GENERATE(+kCommonAzimuthScale, radar(0) + kAzimuthScale);
+    check_error(which, 0.0002);
+  }
+  SECTION("yaw and lateral error over distance") {
+    const double lateral = GENERATE(0.0, 1e-3);
+    const double yaw_radpm = lateral > 0.0 ? 0.0 : 1e-5;
+    const TargetMap::NodePoses nodes = scene.nodes();
+    for (std::size_t i = 0; i < kMapNodes; ++i) {
+      // A motion in the frame of the present pose, as one in the frame of the node.
+      const double way_m = -nodes[i].x();
+      const Eigen::Vector3d moved =
+          composed_pose(way_m * Eigen::Vector3d(0.0, lateral, yaw_radpm), nodes[i]);
+      scene.insert(i, relative_pose(nodes[i], moved));
+    }
+    check_error(state.error(0, lateral > 0.0 ? kLateralPerMetre : kYawPerMetre),
+                lateral > 0.0 ? lateral : yaw_radpm);
+  }
 }
 
 TEST_CASE("the Jacobian of the motion model is its derivative, forward and back in time") {
@@ -161,13 +340,13 @@ TEST_CASE("a new anchor changes no relative pose and no covariance of one") {
   state.start();
   state.gaussian.set(kSpeed, 8.0, 0.1);
   state.gaussian.set(kYawRate, 0.3, 0.01);
-  state.clone_scan(0, 0.0, 0.01 * Eigen::Matrix3d::Identity());
-  state.keep_scan(0, 2);
+  state.advance_to(100'000);
+  state.clone_node(2, 0.02);
   state.advance_to(800'000);
-  state.clone_scan(0, 0.03, 0.02 * Eigen::Matrix3d::Identity());
+  state.clone_node(3, 0.03);
   state.advance_to(900'000);
-  const int from = state.keyframe(0, 2);
-  const int to = state.scan(0);
+  const int from = node(2);
+  const int to = node(3);
   const auto relative = [&](Eigen::Matrix3d& covariance) {
     const Eigen::Vector3d a = state.gaussian.mean().segment<3>(from);
     const Eigen::Vector3d pose = relative_pose(a, state.gaussian.mean().segment<3>(to));

@@ -53,16 +53,14 @@ void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, con
   step.state.head<2>() += dt_s * v * along;
   step.state(kYaw) += dt_s * w;
   auto xy = step.jacobian.topRows<2>();
-  xy.col(kYaw) += by_yaw;
-  xy.col(kSpeed) = dt_s * along;
-  xy.col(kAcceleration) = 0.5 * a.integral_s * dt_s * along;
-  xy.col(kYawRate) = 0.5 * dt_s * by_yaw;
-  xy.col(kYawAcceleration) = 0.25 * dt_s * c.integral_s * by_yaw;
   const Eigen::Vector2d by_slip = dt_s * v * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
+  xy.col(kYaw) += by_yaw;
+  xy.col(kSpeed) = dt_s * along - k * w * by_slip;
+  xy.col(kAcceleration) = 0.5 * a.integral_s * xy.col(kSpeed);
+  xy.col(kYawRate) = 0.5 * dt_s * by_yaw - k * v * by_slip;
+  xy.col(kYawAcceleration) = 0.5 * c.integral_s * xy.col(kYawRate);
   xy.col(kSlip) = by_slip;
   xy.col(kSlipPerAcceleration) = -v * w * by_slip;
-  xy.col(kSpeed) -= k * w * by_slip;
-  xy.col(kYawRate) -= k * v * by_slip;
   step.jacobian(kYaw, kYawRate) = dt_s;
   step.jacobian(kYaw, kYawAcceleration) = 0.5 * dt_s * c.integral_s;
 }

@@ -11,12 +11,13 @@ namespace cremed {
 
 /// One step of the motion model, with its Jacobian and process noise; (9) of the README:
 ///
-///     x' = v cos psi - s v sin psi     y' = v sin psi + s v cos psi     psi' = w
-///     v' = a    a' = -a / T_a + noise    w' = c    c' = -c / T_c + noise    s' = noise
-///     m' = -m / T_m + noise
+///     x' = v cos psi - b v sin psi     y' = v sin psi + b v cos psi     psi' = w
+///     v' = a    a' = -a / T_a + noise    w' = c    c' = -c / T_c + noise
+///     b = s - k v w    s' = -s / T_s + noise    m' = -m / T_m + noise    k' = 0
 ///
 /// (x, y, psi) pose, v speed, a acceleration, w yaw rate, c yaw acceleration, s slip, m velocity of
-/// the body over v, in the order of state_layout. a, c and m are Ornstein-Uhlenbeck processes
+/// the body over v, k slip per centripetal acceleration, in the order of state_layout. a, c, s and
+/// m are Ornstein-Uhlenbeck processes
 /// (Singer, IEEE Trans. Aerosp. Electron. Syst. 1970). Integrated by the midpoint rule.
 struct MotionStep {
   using Vector = Eigen::Matrix<double, state_layout::kMotionStates, 1>;

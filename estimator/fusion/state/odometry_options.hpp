@@ -123,15 +123,16 @@ struct OdometryOptions {
   int min_targets = 20;              ///< With fewer static ones, chance neighbours match.
   double min_matched_share = 0.35;   ///< Least share of matched targets.
   double node_period_s = 0.25;       ///< Least time between scans of a map,
-  double node_way_m = 0.2;           ///< if the vehicle moved by this
+  double node_way_m = 0.3;           ///< if the vehicle moved by this
   double node_turn_rad = 0.02;       ///< or turned by this.
   /// Factor on the standard deviations of positions while partners are sought. Positions of the
   /// same target scatter by less than an ARS408 reports (calibrate: azimuths by half).
   double position_std_factor = 0.7;
   /// Factor on the covariance of a scan against the map. A target's noise counts once against that
   /// of twelve earlier scans, not twice: 0.54. Isolated targets scatter by 0.24 to 0.29 degrees in
-  /// azimuth where the reported noise with that factor is 0.7: 0.15.
-  double position_noise_factor = 0.1;
+  /// azimuth from scan to scan where the reported noise with that factor is 0.7: 0.15. From 0.1 to
+  /// 0.5 errors change by less than a tenth; NoiseFactor widens it for noise that is all white.
+  double position_noise_factor = 0.2;
   /// Multiplied by this for a radar that looks sideways. With 1 ANEES of RadarScenes 105 is 4 after
   /// a second; without the positions of such radars its yaw walks to one side.
   double position_noise_factor_across = 50.0;

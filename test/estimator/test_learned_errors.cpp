@@ -181,4 +181,57 @@ TEST_CASE("A wrong learned error is corrected, or the radar is in doubt") {
   CHECK(worst < 5.0);
 }
 
+TEST_CASE("What was learned of the mounts survives a long standstill") {
+  OdometryDrive drive = a_drive(3);
+  drive.drive(12.0);
+  const Difference before = difference(drive.filter());
+  REQUIRE(before.std_rad < 0.75 * difference(a_drive(3).filter()).std_rad);
+  for (double speed_mps = 10.0; speed_mps > 0.0; speed_mps -= 0.1) {
+    drive.set_motion(speed_mps, 0.0);
+    drive.next();
+  }
+  drive.set_motion(0.0, 0.0);
+  // A railway crossing.
+  drive.drive(180.0);
+  const Difference after = difference(drive.filter());
+  CAPTURE(before.error_rad, before.std_rad, after.error_rad, after.std_rad);
+  CHECK(std::abs(after.error_rad - before.error_rad) < 0.2 * before.std_rad);
+  CHECK(after.std_rad < 1.1 * before.std_rad);
+}
+
+TEST_CASE(
+    "What was learned of the mounts survives a restart, by a gap or by a clock that was set") {
+  OdometryDrive drive = a_drive(4);
+  drive.drive(12.0);
+  const Difference before = difference(drive.filter());
+  const bool is_set = GENERATE(false, true);
+  if (is_set) {
+    drive.filter().forget();
+  } else {
+    drive.pass(60'000'000);
+  }
+  CHECK(drive.next().status == OdometryStatus::initialising);
+  const Difference after = difference(drive.filter());
+  CHECK(std::abs(after.error_rad - before.error_rad) < 0.2 * before.std_rad);
+  CHECK(after.std_rad < 1.1 * before.std_rad);
+}
+
+TEST_CASE("A radar in doubt keeps the value that was learned, with the width of the prior") {
+  OdometryDrive drive = a_drive(5);
+  drive.drive(12.0);
+  const RadarReport before = drive.filter().report(0);
+  drive.pass(OdometryDrive::kPeriodUs);
+  drive.filter().update(0, drive.see(0), drive.stamp_us(), false);
+  const RadarReport doubted = drive.filter().report(0);
+  CHECK(doubted.mount_yaw_rad ==
+        Approx(before.mount_yaw_rad).margin(0.1 * before.mount_yaw_std_rad));
+  CHECK(doubted.mount_yaw_std_rad == Approx(OdometryOptions().mount_yaw_std_rad));
+  // The others are as certain as before, and it learns again.
+  CHECK(drive.filter().report(1).mount_yaw_std_rad < OdometryOptions().mount_yaw_std_rad);
+  drive.drive(10.0);
+  const Difference after = difference(drive.filter());
+  CHECK(std::abs(after.error_rad) < 3.0 * after.std_rad);
+  CHECK(after.std_rad < 0.75 * difference(a_drive(5).filter()).std_rad);
+}
+
 }  // namespace cremed

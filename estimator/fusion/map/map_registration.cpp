@@ -104,9 +104,11 @@ MapRegistration::Sums MapRegistration::sum_up(const TargetSet& targets,
 }
 
 void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap& map,
-                                      const Pose2& mount, const Eigen::Matrix3d& information,
-                                      MapMatch& match) const {
+                                      const Pose2& mount, MapMatch& match) const {
   match.by_node.fill(Eigen::Matrix3d::Zero());
+  // Of all at the same points as that of each node.
+  Eigen::Matrix3d complete = Eigen::Matrix3d::Zero();
+  complete(0, 0) = 1.0 / squared(kPriorStd.x());
   const Eigen::Vector2d radar_m(mount.x_m, mount.y_m);
   for (const Pair& pair : pairs_) {
     const Target& target = targets[pair.target];
@@ -115,12 +117,13 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
         std::remainder(target.bearing_rad - mount.yaw_rad, 2.0 * std::numbers::pi);
     const Eigen::Vector2d moved =
         azimuth_rad * (at - radar_m) - pair.azimuth_rad * (pair.at_m - map.radar_m(pair.node));
-    match.by_node[pair.node] += pair.weight * information_of(pair.information, at);
+    const Eigen::Matrix3d information = pair.weight * information_of(pair.information, at);
+    match.by_node[pair.node] += information;
+    complete += information;
     match.by_azimuth_scale +=
-        pair.weight *
-        gradient_of(pair.information * Eigen::Vector2d(-moved.y(), moved.x()), at);
+        pair.weight * gradient_of(pair.information * Eigen::Vector2d(-moved.y(), moved.x()), at);
   }
-  const Eigen::Matrix3d inverse = information.inverse();
+  const Eigen::Matrix3d inverse = complete.inverse();
   for (Eigen::Matrix3d& by : match.by_node) {
     by = (inverse * by).eval();
   }
@@ -157,7 +160,7 @@ std::optional<MapMatch> MapRegistration::solve(const TargetSet& targets, const T
   sums.gradient.x() += prior(0, 0) * motion.x();
   motion -= match.covariance * sums.gradient;
   match.matched = sums.matched;
-  add_derivatives(targets, map, mount, complete, match);
+  add_derivatives(targets, map, mount, match);
   return match;
 }
 

@@ -69,7 +69,7 @@ class MapRegistration {
   void find_pairs(const TargetSet& targets, const TargetMap& map);
   Sums sum_up(const TargetSet& targets, const Eigen::Vector3d& motion, double clutter);
   void add_derivatives(const TargetSet& targets, const TargetMap& map, const Pose2& mount,
-                       const Eigen::Matrix3d& information, MapMatch& match) const;
+                       MapMatch& match) const;
 
   double variance_factor_;
   std::vector<Pair> pairs_;  // Ordered by target. Does not grow beyond its initial capacity.

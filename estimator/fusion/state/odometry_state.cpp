@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cremed/estimator/cost/cost_options.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -67,8 +68,24 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                               options.doppler_scale_restart_std)),
       considered_{kCommonScale, kCommonAzimuthScale} {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    considered_.push_back(error(i, kAzimuthScale));
+    for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
+      considered_.push_back(error(i, which));
+    }
   }
+  if (mounts_.size() == 1) {
+    considered_.push_back(error(0, kDopplerScale));
+  }
+  considered_at_rest_ = considered_;
+  // A single radar's are not separable from slip and speed, and not learned.
+  for (std::size_t i = 0; mounts_.size() > 1 && i < mounts_.size(); ++i) {
+    considered_at_rest_.push_back(error(i, kMountYaw));
+    considered_at_rest_.push_back(error(i, kDopplerScale));
+  }
+}
+
+void OdometryState::update() {
+  const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
+  gaussian.update(is_at_rest ? considered_at_rest_ : considered_);
 }
 
 void OdometryState::start(std::int64_t time_us) {
@@ -202,8 +219,10 @@ void OdometryState::advance_errors(std::size_t radar, double dt_s) {
   forget(gaussian, first + kLateralPerMetre, options_.lateral_per_metre, 0.0, dt_s);
   forget(gaussian, first + kDopplerScale,
          {prior_std(radar, kDopplerScale), options_.doppler_scale_time_s}, 0.0, dt_s);
+  // At rest nothing turns the mount, and nothing observes it.
+  const double driving = std::min(1.0, std::abs(gaussian.mean(kSpeed)) / kDrivingMps);
   forget(gaussian, first + kMountYaw,
-         bounded_walk(prior_std(radar, kMountYaw), options_.mount_yaw_walk), 0.0, dt_s);
+         bounded_walk(prior_std(radar, kMountYaw), options_.mount_yaw_walk), 0.0, driving * dt_s);
 }
 
 void OdometryState::start_signal(VehicleSignal signal) {

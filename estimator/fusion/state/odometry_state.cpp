@@ -66,7 +66,7 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
-      considered_{kCommonScale, kCommonAzimuthScale} {
+      considered_{kCommonScale, kCommonAzimuthScale, kSlipPerAcceleration} {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
       considered_.push_back(error(i, which));

@@ -24,7 +24,7 @@ Target target_at(double azimuth_rad, double doppler_mps) {
 }
 
 double doppler_of(double azimuth_rad, const DopplerState& state) {
-  const double bearing_rad = (1.0 - state[3]) * azimuth_rad;
+  const double bearing_rad = (1.0 + state[3]) * azimuth_rad;
   return -state[0] * std::cos(bearing_rad) - state[1] * std::sin(bearing_rad) + state[2];
 }
 

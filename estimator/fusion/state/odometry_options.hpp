@@ -121,7 +121,7 @@ struct OdometryOptions {
   // Positions.
   double static_doppler_mps = 0.5;   ///< A static target's Doppler is expected to within this.
   int min_targets = 20;              ///< With fewer static ones, chance neighbours match.
-  double min_matched_share = 0.35;   ///< Least share of matched targets.
+  double min_matched_share = 0.2;     ///< Least share of matched targets: half are new in a turn.
   double node_period_s = 0.25;       ///< Least time between scans of a map,
   double node_way_m = 0.3;           ///< if the vehicle moved by this
   double node_turn_rad = 0.02;       ///< or turned by this.
@@ -138,7 +138,7 @@ struct OdometryOptions {
   double position_noise_factor_across = 50.0;
   double position_lateral_floor_m = 0.01;  ///< Added noise of a scan against the map,
   double position_yaw_floor_rad = 0.0005;  ///< in yaw,
-  double position_yaw_per_turn = 0.006;    ///< for each radian turned since the map's scans.
+  double position_yaw_per_turn = 0.01;    ///< for each radian turned since the map's scans.
   double max_position_nis = 18.0;  ///< Gate, 2 DoF: false-alarm rate 0.01 %.
 
   // Status.

@@ -303,7 +303,7 @@ void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
     expected.ego_motion.vehicle_from_radar = places[i].mount;
     expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
     expected.ego_motion.correction.azimuth_scale = azimuth_scale_of(places[i].name);
-    expected.ego_motion.correction.doppler_scale = 1.005;
+    expected.ego_motion.correction.doppler_scale = 1.004;
     expected.ego_motion.correction.azimuth_std_factor = 0.7;
     RegistrationOptions& registration = expected.ego_motion.registration;
     registration.degrees_of_freedom = 2;

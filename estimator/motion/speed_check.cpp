@@ -17,7 +17,7 @@ constexpr double kMaxSpeedStdMps = 0.3;
 constexpr double kMinDifferenceMps = 2.0;
 /// Bound of a difference between two numbers of votes (Poisson). False-alarm rate: 1 %; see
 /// SpeedCheck for the measured one.
-constexpr double kMinSigmas = 2.5;
+constexpr double kMinSigmas = 2.25;
 /// Of the targets nearer than this to each other only one votes: those of one object vote for all
 /// differences of their positions. Without it 980 of 1778 comparisons on RadarScenes 105, with 200
 /// targets a scan, contradict a right Doppler.

@@ -95,7 +95,8 @@ TEST_CASE("A sigma above that of the unlearned is written as that") {
   learned[0]->mount_yaw_rad.std = 1.0;
   const auto read = file.parse(file.text(learned).value());
   REQUIRE(read.problem.empty());
-  CHECK(read.radars[0]->mount_yaw_rad.std == Approx(OdometryOptions().mount_yaw_std_rad).epsilon(0.01));
+  CHECK(read.radars[0]->mount_yaw_rad.std ==
+        Approx(OdometryOptions().mount_yaw_std_rad).epsilon(0.01));
 }
 
 TEST_CASE("A radar whose mount was changed since is passed over, and named") {

@@ -26,7 +26,7 @@ void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
   const double k = vehicle.mean(kSlipPerAcceleration);
   const double slip = vehicle.mean(kSlip) - k * v * w;
   Eigen::Matrix<double, 3, 4> by_state;
-  by_state << 1.0, 0.0, 0.0, 0.0,                                    //
+  by_state << 1.0, 0.0, 0.0, 0.0,  //
       slip - k * v * w, -k * v * v, v, -v * v * w, 0.0, 1.0, 0.0, 0.0;
   constexpr std::array<int, 4> kTwist{kSpeed, kYawRate, kSlip, kSlipPerAcceleration};
   const Eigen::Matrix4d covariance = vehicle.covariance(kTwist, kTwist);

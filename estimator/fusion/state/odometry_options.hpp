@@ -56,8 +56,8 @@ struct VehicleOptions {
 /// (nuScenes 0061, 0103).
 struct OdometryOptions {
   // Process noise of a road vehicle.
-  OrnsteinUhlenbeck acceleration{1.5,1.0};      ///< m/s^2, along x.
-  OrnsteinUhlenbeck yaw_acceleration{0.3,0.5};  ///< rad/s^2.
+  OrnsteinUhlenbeck acceleration{1.5, 1.0};      ///< m/s^2, along x.
+  OrnsteinUhlenbeck yaw_acceleration{0.3, 0.5};  ///< rad/s^2.
   /// Slip, the angle between the direction of rolling and the x axis (rad), and its random walk by
   /// tyre slip in turns (rad/sqrt(s)).
   double slip_std_rad = 0.0075;
@@ -67,7 +67,7 @@ struct OdometryOptions {
   double slip_per_lateral_acceleration = 0.003;
   double slip_per_lateral_acceleration_std = 0.0015;
   /// Velocity of the body over the wheels, m/s: pitch, suspension.
-  OrnsteinUhlenbeck body_velocity{0.03,1.0};
+  OrnsteinUhlenbeck body_velocity{0.03, 1.0};
   /// Prior before the first scan.
   double start_speed_std_mps = 30.0;
   double start_yaw_rate_std_radps = 0.3;
@@ -94,15 +94,15 @@ struct OdometryOptions {
   /// % too little, with 0.2 to 0.4 m/s RMS at 8 m/s.
   double azimuth_scale_std = 0.02;
   double doppler_x_across_share = 0.03;
-  OrnsteinUhlenbeck doppler_x{0.035,0.3};  ///< m/s: velocity by Doppler along x,
-  OrnsteinUhlenbeck doppler_y{0.08,1.0};   ///< m/s: along y,
+  OrnsteinUhlenbeck doppler_x{0.035, 0.3};  ///< m/s: velocity by Doppler along x,
+  OrnsteinUhlenbeck doppler_y{0.08, 1.0};   ///< m/s: along y,
   double doppler_y_per_yaw_rate_m = 0.1;    ///< and added to it for each rad/s.
-  OrnsteinUhlenbeck offset{0.03,2.0};      ///< m/s: all Doppler of the radar,
+  OrnsteinUhlenbeck offset{0.03, 2.0};      ///< m/s: all Doppler of the radar,
   double offset_per_yaw_rate_m = 0.03;      ///< and added to it for each rad/s.
   /// Added for radars that look sideways, m/s: an ARS408 quantises velocities to 0.25 m/s, and all
   /// targets share the error of 0.25 / sqrt(12) while the speed along its axis is constant.
   double offset_across_mps = 0.07;
-  OrnsteinUhlenbeck common_offset{0.01,1.0};  ///< Common to all radars.
+  OrnsteinUhlenbeck common_offset{0.01, 1.0};  ///< Common to all radars.
   double common_offset_per_yaw_rate_m = 0.1;
   /// Scale of azimuths in positions: of one radar, and common to all. Not estimated: in a turn it
   /// cannot be separated from the turn, and on a straight not from drifting targets.
@@ -119,12 +119,12 @@ struct OdometryOptions {
   double max_doppler_nis = 16.0;        ///< Gate, 2 DoF: false-alarm rate 0.03 %.
 
   // Positions.
-  double static_doppler_mps = 0.5;   ///< A static target's Doppler is expected to within this.
-  int min_targets = 20;              ///< With fewer static ones, chance neighbours match.
-  double min_matched_share = 0.2;     ///< Least share of matched targets: half are new in a turn.
-  double node_period_s = 0.25;       ///< Least time between scans of a map,
-  double node_way_m = 0.3;           ///< if the vehicle moved by this
-  double node_turn_rad = 0.02;       ///< or turned by this.
+  double static_doppler_mps = 0.5;  ///< A static target's Doppler is expected to within this.
+  int min_targets = 20;             ///< With fewer static ones, chance neighbours match.
+  double min_matched_share = 0.2;   ///< Least share of matched targets: half are new in a turn.
+  double node_period_s = 0.25;      ///< Least time between scans of a map,
+  double node_way_m = 0.3;          ///< if the vehicle moved by this
+  double node_turn_rad = 0.02;      ///< or turned by this.
   /// Factor on the standard deviations of positions while partners are sought. Positions of the
   /// same target scatter by less than an ARS408 reports (calibrate: azimuths by half).
   double position_std_factor = 0.7;
@@ -138,8 +138,8 @@ struct OdometryOptions {
   double position_noise_factor_across = 50.0;
   double position_lateral_floor_m = 0.01;  ///< Added noise of a scan against the map,
   double position_yaw_floor_rad = 0.0005;  ///< in yaw,
-  double position_yaw_per_turn = 0.01;    ///< for each radian turned since the map's scans.
-  double max_position_nis = 18.0;  ///< Gate, 2 DoF: false-alarm rate 0.01 %.
+  double position_yaw_per_turn = 0.01;     ///< for each radian turned since the map's scans.
+  double max_position_nis = 18.0;          ///< Gate, 2 DoF: false-alarm rate 0.01 %.
 
   // Status.
   double standstill_mps = 0.1;

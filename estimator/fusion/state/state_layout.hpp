@@ -10,15 +10,15 @@ namespace cremed {
 namespace state_layout {
 
 // Of the vehicle: pose in the frame of the anchor, and motion. MotionStep propagates these ten.
-inline constexpr int kX = 0;                ///< m
-inline constexpr int kY = 1;                ///< m
-inline constexpr int kYaw = 2;              ///< rad
-inline constexpr int kSpeed = 3;            ///< m/s, in the direction of rolling.
-inline constexpr int kAcceleration = 4;     ///< m/s^2
-inline constexpr int kYawRate = 5;          ///< rad/s
-inline constexpr int kYawAcceleration = 6;  ///< rad/s^2
-inline constexpr int kSlip = 7;             ///< rad
-inline constexpr int kBodyVelocity = 8;     ///< m/s
+inline constexpr int kX = 0;                    ///< m
+inline constexpr int kY = 1;                    ///< m
+inline constexpr int kYaw = 2;                  ///< rad
+inline constexpr int kSpeed = 3;                ///< m/s, in the direction of rolling.
+inline constexpr int kAcceleration = 4;         ///< m/s^2
+inline constexpr int kYawRate = 5;              ///< rad/s
+inline constexpr int kYawAcceleration = 6;      ///< rad/s^2
+inline constexpr int kSlip = 7;                 ///< rad
+inline constexpr int kBodyVelocity = 8;         ///< m/s
 inline constexpr int kSlipPerAcceleration = 9;  ///< rad/(m/s^2)
 inline constexpr int kMotionStates = 10;
 

@@ -39,12 +39,13 @@ struct OdometryRadar {
 ///
 /// `state/`: pose and velocity of the vehicle, propagated by MotionStep; slowly varying errors of
 /// each radar; and clones of the pose (Roumeliotis and Burdick, "Stochastic cloning", ICRA 2002) at
-/// keyframes of each radar, at its current scan and at the last output.
+/// the nodes of the maps and at the last output.
 ///
-/// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and up
-/// to kKeyframes measurements of the motion since a keyframe by positions (PositionMeasurement).
-/// The clone of a scan includes the noise of that scan's positions, so that this noise counts only
-/// once in all pairs of the scan.
+/// `map/`: the static targets of each radar's scans of the last seconds, and the registration of a
+/// scan against all of them.
+///
+/// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and one
+/// of lateral motion and yaw since the nodes by positions (MapMeasurement).
 ///
 /// `gate/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly fails
 /// it is left out until it agrees again. If a majority of radars contradicts the filter and agrees

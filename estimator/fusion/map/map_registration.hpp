@@ -33,7 +33,7 @@ struct MapMatch {
 };
 
 /// Registration of a scan against all scans of a map at once. A target i of the scan, moved by x,
-/// is drawn from the Gaussians of all map targets j near it, or from clutter (12 of the README):
+/// is drawn from the Gaussians of all map targets j near it, or from clutter (13 of the README):
 ///
 ///     p(r_i) ~ sum_j N(e_ij; C_ij) + n rho,   C_ij = f^2 (S_i + S_j)
 ///

@@ -69,7 +69,7 @@ class TargetMap {
  private:
   /// Targets of cells that are a multiple of 160 m apart share a slot, and are then visited in
   /// vain.
-  static constexpr unsigned kSlotsPerAxis = 64;
+  static constexpr std::size_t kSlotsPerAxis = 64;
 
   struct MapTarget {
     float x_m;
@@ -87,8 +87,8 @@ class TargetMap {
 
   static int cell_of(double m);
   static std::size_t slot_of(int column, int row) {
-    return (static_cast<unsigned>(column) % kSlotsPerAxis) * kSlotsPerAxis +
-           static_cast<unsigned>(row) % kSlotsPerAxis;
+    return (static_cast<std::size_t>(column) % kSlotsPerAxis) * kSlotsPerAxis +
+           static_cast<std::size_t>(row) % kSlotsPerAxis;
   }
 
   std::array<Scan, kNodes> scans_;

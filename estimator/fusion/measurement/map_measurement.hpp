@@ -14,7 +14,7 @@
 namespace cremed {
 
 /// y and yaw of a scan registered against the radar's map, with G_k the share of node k in the
-/// information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the scan's; (13)
+/// information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the scan's; (11)
 /// of the README:
 ///
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)

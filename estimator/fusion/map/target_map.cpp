@@ -54,11 +54,16 @@ void TargetMap::place(const NodePoses& now_from_node) {
     radar_m_[node] = turn * scan.radar_m + place;
     for (std::size_t i = 0; i < scan.size; ++i, ++size) {
       const MapTarget& target = scan.targets[i];
-      const Eigen::Vector2d at = turn * Eigen::Vector2d(target.x_m, target.y_m) + place;
+      const Eigen::Vector2d at =
+          turn * Eigen::Vector2d(static_cast<double>(target.x_m), static_cast<double>(target.y_m)) +
+          place;
       int& first = first_in_[slot_of(cell_of(at.x()), cell_of(at.y()))];
-      placed_[static_cast<std::size_t>(size)] = {
-          at, turn * Symmetric2{target.xx_m2, target.xy_m2, target.yy_m2}, target.azimuth_rad,
-          static_cast<std::uint8_t>(node), first};
+      const Symmetric2 covariance{static_cast<double>(target.xx_m2),
+                                  static_cast<double>(target.xy_m2),
+                                  static_cast<double>(target.yy_m2)};
+      placed_[static_cast<std::size_t>(size)] = {at, turn * covariance,
+                                                 static_cast<double>(target.azimuth_rad),
+                                                 static_cast<std::uint8_t>(node), first};
       first = size;
     }
   }

@@ -20,8 +20,8 @@ std::vector<OdometryRadar> odometry_radars(
   std::vector<OdometryRadar> radars;
   for (const RadarConfiguration& radar : configuration.radars) {
     const std::size_t i = radars.size();
-    radars.push_back({radar.ego_motion.vehicle_from_radar, radar.ego_motion.registration,
-                      i < learned.size() ? learned[i] : std::nullopt});
+    radars.push_back(
+        {radar.ego_motion.vehicle_from_radar, i < learned.size() ? learned[i] : std::nullopt});
   }
   return radars;
 }

@@ -22,7 +22,6 @@
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/vehicle_signals.hpp"
 #include "cremed/estimator/motion/two_worlds.hpp"
-#include "cremed/estimator/registration/registration_options.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -31,7 +30,6 @@ namespace cremed {
 /// One radar of the vehicle.
 struct OdometryRadar {
   Pose2 vehicle_from_radar;
-  RegistrationOptions registration;
   std::optional<LearnedErrors> learned = std::nullopt;  ///< In a previous drive.
 };
 

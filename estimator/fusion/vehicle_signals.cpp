@@ -23,9 +23,6 @@ constexpr double kFrozenSigmas = 3.0;
 /// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
 constexpr double kMaxErrorSigmas = 4.0;
 
-/// The covariance of a motion of a radar that looks further sideways is too small.
-constexpr double kMaxSineAcross = 0.7;
-
 int rate_of(VehicleSignal signal) { return signal == VehicleSignal::speed ? kSpeed : kYawRate; }
 
 double frozen_change(VehicleSignal signal) {
@@ -91,7 +88,8 @@ void VehicleSignals::restart_errors() {
 }
 
 void VehicleSignals::compare(const Pose2& mount, const EgoMotion& motion) {
-  if (!motion.has_estimate() || std::abs(std::sin(mount.yaw_rad)) > kMaxSineAcross) {
+  // The covariance of the motions of a radar that looks sideways is too small.
+  if (!motion.has_estimate() || looks_across(mount)) {
     return;
   }
   const double duration_s = seconds_between(motion.utime_start_us, motion.utime_us);

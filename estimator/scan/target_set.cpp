@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "cremed/estimator/scan/rotation_lead.hpp"
 
@@ -59,6 +60,10 @@ bool is_finite_target(const Target& t) {
 }
 
 }  // namespace
+
+double azimuth_rad(const Target& target, const Pose2& vehicle_from_radar) {
+  return std::remainder(target.bearing_rad - vehicle_from_radar.yaw_rad, 2.0 * std::numbers::pi);
+}
 
 Detection corrected(const Detection& detection, const DetectionCorrection& correction) {
   Detection result = detection;

@@ -27,6 +27,9 @@ struct Target {
   double doppler_std_mps = 0.0;
 };
 
+/// Azimuth in the frame of the radar that saw the target.
+double azimuth_rad(const Target& target, const Pose2& vehicle_from_radar);
+
 /// Numbers of detections used and left out, by reason.
 struct SelectionCounters {
   std::uint64_t used = 0;

@@ -41,8 +41,7 @@ class OdometryDrive {
     for (const Pose2& mount : mounts) {
       radars_.push_back({mount, mount});
       const std::size_t i = radars.size();
-      radars.push_back(
-          {mount, RegistrationOptions(), i < learned.size() ? learned[i] : std::nullopt});
+      radars.push_back({mount, i < learned.size() ? learned[i] : std::nullopt});
     }
     filter_ = std::make_unique<OdometryFilter>(options, radars);
     points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);

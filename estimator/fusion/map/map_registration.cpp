@@ -113,10 +113,8 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
   for (const Pair& pair : pairs_) {
     const Target& target = targets[pair.target];
     const Eigen::Vector2d at(target.x_m, target.y_m);
-    const double azimuth_rad =
-        std::remainder(target.bearing_rad - mount.yaw_rad, 2.0 * std::numbers::pi);
-    const Eigen::Vector2d moved =
-        azimuth_rad * (at - radar_m) - pair.azimuth_rad * (pair.at_m - map.radar_m(pair.node));
+    const Eigen::Vector2d moved = azimuth_rad(target, mount) * (at - radar_m) -
+                                  pair.azimuth_rad * (pair.at_m - map.radar_m(pair.node));
     const Eigen::Matrix3d information = pair.weight * information_of(pair.information, at);
     match.by_node[pair.node] += information;
     complete += information;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cremed/estimator/scan/rotation.hpp"
 
@@ -33,14 +32,12 @@ void TargetMap::insert(std::size_t node, const TargetSet& targets, const Pose2& 
   std::transform(targets.begin(), targets.end(), scan.targets.begin(), [&](const Target& target) {
     const Eigen::Vector2f at = in_node(target.x_m, target.y_m).cast<float>();
     const Symmetric2 c = turn * target.covariance_m2;
-    const double azimuth_rad =
-        std::remainder(target.bearing_rad - mount.yaw_rad, 2.0 * std::numbers::pi);
     return MapTarget{at.x(),
                      at.y(),
                      static_cast<float>(c.xx),
                      static_cast<float>(c.xy),
                      static_cast<float>(c.yy),
-                     static_cast<float>(azimuth_rad)};
+                     static_cast<float>(azimuth_rad(target, mount))};
   });
 }
 

@@ -64,14 +64,11 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
 void DopplerMeasurement::add_lateness(LinearMeasurement& measurement) const {
   const OdometryOptions& options = state.options();
   const double late_s = std::max(age_s, 0.0);
-  const auto rate_variance = [late_s](const OrnsteinUhlenbeck& noise) {
-    return 2.0 * noise.std * noise.std / noise.time_s * late_s * late_s * late_s / 3.0;
-  };
   const Eigen::Vector2d lever(-state.mount(radar).y_m, state.mount(radar).x_m);
   const double left = std::exp(-2.0 * late_s / options.body_velocity.time_s);
-  measurement.noise(0, 0) +=
-      rate_variance(options.acceleration) + squared(options.body_velocity.std) * (1.0 - left);
-  measurement.noise += rate_variance(options.yaw_acceleration) * lever * lever.transpose();
+  measurement.noise(0, 0) += rate_variance(options.acceleration, late_s) +
+                             squared(options.body_velocity.std) * (1.0 - left);
+  measurement.noise += rate_variance(options.yaw_acceleration, late_s) * lever * lever.transpose();
 }
 
 }  // namespace cremed

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
 
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
@@ -14,13 +12,6 @@ namespace cremed {
 using namespace state_layout;
 
 namespace {
-
-/// A radar that looks sideways, 45 degrees or more off the direction of travel, sees targets pass
-/// whose reflections move along with the vehicle: their positions shorten the way by 16 to 38 %.
-bool looks_across(const Pose2& mount) {
-  constexpr double kMaxSine = 0.7;
-  return std::abs(std::sin(mount.yaw_rad)) > kMaxSine;
-}
 
 /// G with shifts along x taken as known.
 Eigen::Matrix3d share_of(const MapMatch& match, std::size_t node) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -10,10 +9,7 @@
 
 #include "cremed/estimator/fusion/map/target_map.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
-#include "cremed/estimator/fusion/state/state_layout.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
-#include "cremed/estimator/registration/registration.hpp"
-#include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {

@@ -47,8 +47,7 @@ double VehicleMeasurement::variance(double value) const {
   const bool is_crawling = is_speed && std::abs(value) < kDrivingMps;
   return squared(error.std) * std::max(1.0, 2.0 * error.time_s / interval_s) +
          squared(step) / 12.0 + squared(vehicle.delay_std_s * change) +
-         2.0 * squared(process.std) / process.time_s * late_s * late_s * late_s / 3.0 +
-         (is_crawling ? squared(vehicle.crawling_std_mps) : 0.0);
+         rate_variance(process, late_s) + (is_crawling ? squared(vehicle.crawling_std_mps) : 0.0);
 }
 
 }  // namespace cremed

@@ -95,6 +95,10 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   return step;
 }
 
+double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s) {
+  return 2.0 * derivative.std * derivative.std / derivative.time_s * dt_s * dt_s * dt_s / 3.0;
+}
+
 VehicleEstimate VehicleEstimate::predicted(double dt_s, const OdometryOptions& options) const {
   VehicleEstimate result = *this;
   for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {

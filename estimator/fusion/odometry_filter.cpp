@@ -26,6 +26,8 @@ constexpr double kMaxMeanInnovation = 5.0;
 /// doubts of RadarScenes 105, with 200 targets a scan at 15 to 25 m/s, were by rivals 0.1 to 0.8
 /// m/s beside the vehicle's speed.
 constexpr double kMinRivalDifferenceShare = 0.05;
+/// Least share of the targets in the information of x. Their prior has a sigma of 0.1 m.
+constexpr double kMinShareOfX = 0.2;
 /// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
 constexpr double kMaxSpeedSigmas = 3.0;
 
@@ -267,14 +269,16 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
     return;
   }
   RadarTrust& trust = consensus_[radar];
-  LinearMeasurement measurement = from_map.linearise(*match);
+  // Past a radar that looks sideways the reflections of targets move along with the vehicle.
+  const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
+  LinearMeasurement measurement = from_map.linearise(*match, has_x);
   measurement.noise *= trust.position_noise.value();
   const double nis = state_.gaussian.innovate(measurement);
   trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
   trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
   trust.position_noise.add(0.5 * nis);
   if (nis <= state_.options().max_position_nis) {
-    state_.update();
+    state_.update(has_x);
   }
 }
 

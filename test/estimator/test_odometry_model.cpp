@@ -64,7 +64,7 @@ template <typename Measure>
 void check_jacobian(OdometryState& state, const Measure& measure) {
   constexpr double kStep = 1e-6;
   const LinearMeasurement measurement = measure();
-  Eigen::Matrix2Xd jacobian = Eigen::Matrix2Xd::Zero(2, state.gaussian.size());
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, state.gaussian.size());
   for (int k = 0; k < measurement.states; ++k) {
     const auto i = static_cast<std::size_t>(k);
     jacobian.col(measurement.state[i]) += measurement.jacobian[i];
@@ -72,11 +72,11 @@ void check_jacobian(OdometryState& state, const Measure& measure) {
   for (int i = 0; i < state.gaussian.size(); ++i) {
     const double value = state.gaussian.mean(i);
     state.gaussian.set_mean(i, value + kStep);
-    const Eigen::Vector2d above = measure().residual;
+    const Eigen::Vector3d above = measure().residual;
     state.gaussian.set_mean(i, value - kStep);
-    const Eigen::Vector2d below = measure().residual;
+    const Eigen::Vector3d below = measure().residual;
     state.gaussian.set_mean(i, value);
-    const Eigen::Vector2d expected = (below - above) / (2.0 * kStep);
+    const Eigen::Vector3d expected = (below - above) / (2.0 * kStep);
     CAPTURE(i, jacobian.col(i).transpose(), expected.transpose());
     CHECK((jacobian.col(i) - expected).norm() < 1e-6 * (1.0 + expected.norm()));
   }
@@ -142,15 +142,18 @@ class MapScene {
     return *match;
   }
   LinearMeasurement linearise(const MapMatch& match) const {
-    return measurement().linearise(match);
+    return measurement().linearise(match, true);
+  }
+  [[nodiscard]] LinearMeasurement linearise_without_x(const MapMatch& match) const {
+    return measurement().linearise(match, false);
   }
   [[nodiscard]] TargetMap::NodePoses nodes() const { return measurement().now_from_node(); }
-  /// Derivative of the measurement by a state.
-  Eigen::Vector2d derivative(const LinearMeasurement& linear, int state) const {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  /// Derivative of the measurement (y, yaw, x) by a state.
+  Eigen::Vector3d derivative(const LinearMeasurement& linear, int state) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int k = 0; k < linear.states; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      sum += linear.state[i] == state ? linear.jacobian[i] : Eigen::Vector2d::Zero();
+      sum += linear.state[i] == state ? linear.jacobian[i] : Eigen::Vector3d::Zero();
     }
     return sum;
   }
@@ -198,47 +201,64 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
   MapScene scene(state);
   const LinearMeasurement linear = scene.linearise(scene.match());
   // Steps of a few millimetres at the targets, far below their noise.
-  const auto change = [&](int which, double step) -> Eigen::Vector2d {
+  const auto change = [&](int which, double step) -> Eigen::Vector3d {
     const double value = state.gaussian.mean(which);
     state.gaussian.set_mean(which, value + step);
-    const Eigen::Vector2d above = scene.match().correction.tail<2>();
+    const Eigen::Vector3d above = scene.match().correction;
     state.gaussian.set_mean(which, value - step);
-    const Eigen::Vector2d below = scene.match().correction.tail<2>();
+    const Eigen::Vector3d below = scene.match().correction;
     state.gaussian.set_mean(which, value);
-    return (below - above) / (2.0 * step);
+    const Eigen::Vector3d by = (below - above) / (2.0 * step);
+    return {by.y(), by.z(), by.x()};
   };
+  const auto derivative = [&](int which) { return scene.derivative(linear, which); };
+  // By design y and yaw do not depend on a shift along the path, nor x on anything else.
+  const auto y_and_yaw = [](const Eigen::Vector3d& by) -> Eigen::Vector2d { return by.head<2>(); };
   SECTION("the yaw and the yaw rate of the vehicle") {
-    check_close(change(kYaw, 1e-4), scene.derivative(linear, kYaw));
-    check_close(change(kYawRate, 3e-3), scene.derivative(linear, kYawRate));
+    check_close(y_and_yaw(change(kYaw, 1e-4)), y_and_yaw(derivative(kYaw)));
+    check_close(y_and_yaw(change(kYawRate, 3e-3)), y_and_yaw(derivative(kYawRate)));
   }
-  // By design a shift along x of the present pose has no effect.
-  SECTION("a shift of the vehicle across its path") {
+  SECTION("a shift of the vehicle across and along its path") {
     const double yaw = state.pose_before(0.03).z();
-    const Eigen::Vector2d shift =
-        -std::sin(yaw) * change(kX, 1e-3) + std::cos(yaw) * change(kY, 1e-3);
-    check_close(shift, -std::sin(yaw) * scene.derivative(linear, kX) +
-                           std::cos(yaw) * scene.derivative(linear, kY));
+    const auto across = [&](const auto& by) -> Eigen::Vector3d {
+      return -std::sin(yaw) * by(kX) + std::cos(yaw) * by(kY);
+    };
+    const auto along = [&](const auto& by) -> Eigen::Vector3d {
+      return std::cos(yaw) * by(kX) + std::sin(yaw) * by(kY);
+    };
+    const auto by_steps = [&](int which) { return change(which, 1e-3); };
+    check_close(y_and_yaw(across(by_steps)), y_and_yaw(across(derivative)));
+    CHECK(along(derivative).z() == Approx(along(by_steps).z()).epsilon(2.0 * kLinear));
+    CHECK(y_and_yaw(along(derivative)).norm() < 1e-12);
+    CHECK(std::abs(across(derivative).z()) < 1e-12);
   }
   SECTION("a shift of a node across the path, and its turn about the present pose") {
     const auto k = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
     const double yaw = state.pose_before(0.03).z();
-    const auto of_node = [&](const auto& by) -> std::array<Eigen::Vector2d, 2> {
-      const Eigen::Vector2d across =
+    const auto of_node = [&](const auto& by) -> std::array<Eigen::Vector3d, 3> {
+      const Eigen::Vector3d across =
           -std::sin(yaw) * by(node(k), 1e-3) + std::cos(yaw) * by(node(k) + 1, 1e-3);
-      const Eigen::Vector2d along =
+      const Eigen::Vector3d along =
           std::cos(yaw) * by(node(k), 1e-3) + std::sin(yaw) * by(node(k) + 1, 1e-3);
       // A turn of the node moves the origin of the present pose along x by its y.
-      const Eigen::Vector2d turn = by(node(k) + 2, 1e-4) - scene.nodes()[k].y() * along;
-      return {across, turn};
+      const Eigen::Vector3d turn = by(node(k) + 2, 1e-4) - scene.nodes()[k].y() * along;
+      return {across, turn, along};
     };
-    const auto expected =
-        of_node([&](int which, double /*step*/) { return scene.derivative(linear, which); });
+    const auto expected = of_node([&](int which, double /*step*/) { return derivative(which); });
     const auto actual = of_node([&](int which, double step) { return change(which, step); });
-    check_close(actual[0], expected[0]);
-    check_close(actual[1], expected[1]);
-    const Eigen::Vector2d along = std::cos(yaw) * scene.derivative(linear, node(k)) +
-                                  std::sin(yaw) * scene.derivative(linear, node(k) + 1);
-    CHECK(along.norm() < 1e-12);
+    check_close(y_and_yaw(actual[0]), y_and_yaw(expected[0]));
+    check_close(y_and_yaw(actual[1]), y_and_yaw(expected[1]));
+    CHECK(expected[2].z() == Approx(actual[2].z()).epsilon(2.0 * kLinear));
+    CHECK(y_and_yaw(expected[2]).norm() < 1e-12);
+  }
+  SECTION("without x nothing depends on it") {
+    const LinearMeasurement without = scene.linearise_without_x(scene.match());
+    CHECK(without.residual.z() == 0.0);
+    CHECK(without.noise.col(2) == Eigen::Vector3d::UnitZ());
+    CHECK(without.noise.row(2).transpose() == Eigen::Vector3d::UnitZ());
+    for (int k = 0; k < without.states; ++k) {
+      CHECK(without.jacobian[static_cast<std::size_t>(k)].z() == 0.0);
+    }
   }
 }
 
@@ -253,10 +273,11 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
   const LinearMeasurement linear = scene.linearise(scene.match());
   const auto check_error = [&](int which, double error) {
     const MapMatch match = scene.match();
-    check_close(match.correction.tail<2>(), error * scene.derivative(linear, which));
+    check_close(match.correction.tail<2>(), error * scene.derivative(linear, which).head<2>());
     // A known error leaves no residual.
     state.gaussian.set_mean(which, error);
-    CHECK(scene.linearise(match).residual.norm() < kLinear * match.correction.tail<2>().norm());
+    CHECK(scene.linearise(match).residual.head<2>().norm() <
+          kLinear * match.correction.tail<2>().norm());
   };
   SECTION("mount yaw: true minus configured") {
     scene.report_azimuths(1.0, -0.002);

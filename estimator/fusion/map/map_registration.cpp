@@ -125,6 +125,7 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
   for (Eigen::Matrix3d& by : match.by_node) {
     by = (inverse * by).eval();
   }
+  match.x_share = 1.0 - inverse(0, 0) / squared(kPriorStd.x());
   match.by_azimuth_scale = (inverse * match.by_azimuth_scale).eval();
 }
 

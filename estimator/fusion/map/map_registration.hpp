@@ -27,6 +27,7 @@ struct MapMatch {
   /// Derivative of `correction` by a motion of the targets of each node: the node's share of the
   /// information. All add up to the unit matrix, less the share of the prior of x.
   std::array<Eigen::Matrix3d, TargetMap::kNodes> by_node;
+  double x_share = 1.0;  ///< Of the targets in the information of x; the rest is the prior.
   /// Derivative of `correction` by a scale error of all azimuths: true = (1 + error) reported.
   Eigen::Vector3d by_azimuth_scale = Eigen::Vector3d::Zero();
   double matched = 0.0;  ///< Number of the scan's targets with a partner: sum of probabilities.

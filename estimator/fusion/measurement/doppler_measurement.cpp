@@ -37,24 +37,24 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const Eigen::Vector2d by_speed(scale, s - d - k * v * w);
   const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y - k * v * v);
   LinearMeasurement result;
-  result.residual = velocity.velocity_mps - expected;
+  result.residual.head<2>() = velocity.velocity_mps - expected;
   result.depend_on(kSpeed, by_speed);
   result.depend_on(kAcceleration, dt_s * by_speed);
   result.depend_on(kYawRate, by_yaw_rate);
   result.depend_on(kYawAcceleration, dt_s * by_yaw_rate);
-  result.depend_on(kSlip, {0.0, v});
-  result.depend_on(kSlipPerAcceleration, {0.0, -v * v * w});
+  result.depend_on(kSlip, 0.0, v);
+  result.depend_on(kSlipPerAcceleration, 0.0, -v * v * w);
   result.depend_on(kBodyVelocity, body * Eigen::Vector2d(scale, -d));
   result.depend_on(kCommonOffset, by_offset);
-  result.depend_on(first + kMountYaw, {0.0, -forward});
-  result.depend_on(kCommonScale, {forward, 0.0});
-  result.depend_on(first + kDopplerScale, {forward, 0.0});
-  result.depend_on(first + kDopplerX, {driving, 0.0});
-  result.depend_on(first + kDopplerY, {0.0, driving});
+  result.depend_on(first + kMountYaw, 0.0, -forward);
+  result.depend_on(kCommonScale, forward, 0.0);
+  result.depend_on(first + kDopplerScale, forward, 0.0);
+  result.depend_on(first + kDopplerX, driving, 0.0);
+  result.depend_on(first + kDopplerY, 0.0, driving);
   result.depend_on(first + kOffset, by_offset);
-  result.depend_on(first + kLeverX, {0.0, w});
-  result.depend_on(first + kLeverY, {-w * scale, d * w});
-  result.noise = velocity.covariance;
+  result.depend_on(first + kLeverX, 0.0, w);
+  result.depend_on(first + kLeverY, -w * scale, d * w);
+  result.noise.topLeftCorner<2, 2>() = velocity.covariance;
   result.noise(0, 0) += squared(options.velocity_floor_x_mps);
   result.noise(1, 1) += squared(options.velocity_floor_y_mps);
   add_lateness(result);
@@ -68,7 +68,8 @@ void DopplerMeasurement::add_lateness(LinearMeasurement& measurement) const {
   const double left = std::exp(-2.0 * late_s / options.body_velocity.time_s);
   measurement.noise(0, 0) += rate_variance(options.acceleration, late_s) +
                              squared(options.body_velocity.std) * (1.0 - left);
-  measurement.noise += rate_variance(options.yaw_acceleration, late_s) * lever * lever.transpose();
+  measurement.noise.topLeftCorner<2, 2>() +=
+      rate_variance(options.yaw_acceleration, late_s) * lever * lever.transpose();
 }
 
 }  // namespace cremed

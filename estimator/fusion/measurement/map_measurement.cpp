@@ -13,11 +13,24 @@ using namespace state_layout;
 
 namespace {
 
-/// G with shifts along x taken as known.
+/// G without the effects of x on y and yaw and of these on x, and without the prior of x.
 Eigen::Matrix3d share_of(const MapMatch& match, std::size_t node) {
-  Eigen::Matrix3d share = match.by_node[node];
-  share.col(0).setZero();
+  const Eigen::Matrix3d& by_node = match.by_node[node];
+  Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
+  share(0, 0) = by_node(0, 0) / match.x_share;
+  share.bottomRightCorner<2, 2>() = by_node.bottomRightCorner<2, 2>();
   return share;
+}
+
+/// The order of the measurement's numbers: y, yaw, x.
+Eigen::Vector3d numbers(const Eigen::Vector3d& pose) { return {pose.y(), pose.z(), pose.x()}; }
+
+void remove_x(LinearMeasurement& measurement) {
+  measurement.residual.z() = 0.0;
+  measurement.noise(2, 2) = 1.0;
+  for (LinearMeasurement::Column& column : measurement.jacobian) {
+    column.z() = 0.0;
+  }
 }
 
 }  // namespace
@@ -32,7 +45,7 @@ TargetMap::NodePoses MapMeasurement::now_from_node() const {
   return poses;
 }
 
-LinearMeasurement MapMeasurement::linearise(const MapMatch& match) const {
+LinearMeasurement MapMeasurement::linearise(const MapMatch& match, bool has_x) const {
   const OdometryOptions& options = state.options();
   OdometryState::PoseJacobian by_motion;
   const Eigen::Vector3d now = state.pose_before(age_s, by_motion);
@@ -40,17 +53,25 @@ LinearMeasurement MapMeasurement::linearise(const MapMatch& match) const {
   now_from_anchor.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-now.z()).toRotationMatrix();
   by_motion = (now_from_anchor * by_motion).eval();
   LinearMeasurement result;
-  result.residual = match.correction.tail<2>();
-  result.noise = options.position_noise_factor * match.covariance.bottomRightCorner<2, 2>();
+  result.residual = numbers(match.correction);
+  result.noise.topLeftCorner<2, 2>() =
+      options.position_noise_factor * match.covariance.bottomRightCorner<2, 2>();
+  result.residual.z() /= match.x_share;
+  result.noise(2, 2) =
+      options.position_noise_factor * match.covariance(0, 0) / squared(match.x_share) +
+      squared(options.position_lateral_floor_m);
   if (looks_across(state.mount(radar))) {
     result.noise *= options.position_noise_factor_across;
   }
   result.noise(0, 0) += squared(options.position_lateral_floor_m);
   result.noise(1, 1) += squared(options.position_yaw_floor_rad);
   for (int i = 0; i < kMotionStates; ++i) {
-    result.depend_on(i, by_motion.col(i).tail<2>());
+    result.depend_on(i, numbers(by_motion.col(i)));
   }
   add_nodes(match, now_from_anchor, result);
+  if (!has_x) {
+    remove_x(result);
+  }
   return result;
 }
 
@@ -62,6 +83,7 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
   Eigen::Vector3d by_lateral = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_yaw = Eigen::Vector3d::Zero();
   double turned_rad = 0.0;
+  double way_m = 0.0;
   for (std::size_t i = 0; i < kNodes; ++i) {
     if (!map.has(i)) {
       continue;
@@ -72,17 +94,18 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
     by_node.topRightCorner<2, 1>() << node.y(), -node.x();
     by_node = (share * by_node).eval();
     for (int k = 0; k < kPose; ++k) {
-      measurement.depend_on(state_layout::node(i) + k, -by_node.col(k).tail<2>());
+      measurement.depend_on(state_layout::node(i) + k, -numbers(by_node.col(k)));
     }
-    const Eigen::Vector2d way_m = map.radar_m(i) - radar_m;
-    by_mount_yaw += share * Eigen::Vector3d(-way_m.y(), way_m.x(), 0.0);
+    const Eigen::Vector2d radar_way_m = map.radar_m(i) - radar_m;
+    by_mount_yaw += share * Eigen::Vector3d(-radar_way_m.y(), radar_way_m.x(), 0.0);
     by_lateral -= share.col(1) * node.x();
     by_yaw -= share.col(2) * node.x();
     turned_rad += share(2, 2) * node.z();
+    way_m += share(0, 0) * node.x();
   }
   const auto depend_on = [&](int error, const Eigen::Vector3d& by) {
-    measurement.depend_on(error, by.tail<2>());
-    measurement.residual -= state.gaussian.mean(error) * by.tail<2>();
+    measurement.depend_on(error, numbers(by));
+    measurement.residual -= state.gaussian.mean(error) * numbers(by);
   };
   depend_on(state.error(radar, kMountYaw), by_mount_yaw);
   depend_on(state.error(radar, kLateralPerMetre), by_lateral);
@@ -90,6 +113,7 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
   depend_on(state.error(radar, kAzimuthScale), match.by_azimuth_scale);
   depend_on(kCommonAzimuthScale, match.by_azimuth_scale);
   measurement.noise(1, 1) += squared(state.options().position_yaw_per_turn * turned_rad);
+  measurement.noise(2, 2) += squared(state.options().position_x_per_metre * way_m);
 }
 
 }  // namespace cremed

@@ -13,17 +13,17 @@
 
 namespace cremed {
 
-/// y and yaw of a scan registered against the radar's map, with G_k the share of node k in the
-/// information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the scan's; (11)
-/// of the README:
+/// y, yaw and x (in this order) of a scan registered against the radar's map, with G_k the share of
+/// node k in the information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the
+/// scan's; (11) of the README:
 ///
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
 ///         + sum_k G_k (d Jl_k - (q, r) x_k) + h (e + e_c)
 ///
 /// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, q lateral and
 /// r yaw error over distance, e scale error of azimuths (e_c common to all radars) with its effect
-/// h (MapMatch::by_azimuth_scale). x is not used, and shifts of nodes along x are taken as known:
-/// Doppler measures x far better, and the reflections of passed objects move along x.
+/// h (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are neglected
+/// in G_k. At any time Doppler knows x far better; over seconds x tells the scale of Doppler.
 struct MapMeasurement {
   const OdometryState& state;
   const TargetMap& map;
@@ -32,7 +32,8 @@ struct MapMeasurement {
 
   /// Pose of each node in the frame of the scan's predicted pose.
   [[nodiscard]] TargetMap::NodePoses now_from_node() const;
-  [[nodiscard]] LinearMeasurement linearise(const MapMatch& match) const;
+  /// `has_x`: whether x is measured.
+  [[nodiscard]] LinearMeasurement linearise(const MapMatch& match, bool has_x) const;
 
  private:
   void add_nodes(const MapMatch& match, const Eigen::Matrix3d& now_from_anchor,

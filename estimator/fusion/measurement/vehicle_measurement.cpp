@@ -24,14 +24,13 @@ LinearMeasurement VehicleMeasurement::linearise(double value) const {
   const double factor = 1.0 + x.mean(scale);
   LinearMeasurement result;
   result.residual.x() = value - factor * motion - (is_speed ? 0.0 : x.mean(bias));
-  result.depend_on(rate, {factor, 0.0});
-  result.depend_on(rate + 1, {-late_s * factor, 0.0});
-  result.depend_on(scale, {motion, 0.0});
+  result.depend_on(rate, factor);
+  result.depend_on(rate + 1, -late_s * factor);
+  result.depend_on(scale, motion);
   if (!is_speed) {
-    result.depend_on(bias, {1.0, 0.0});
+    result.depend_on(bias, 1.0);
   }
   result.noise(0, 0) = variance(value);
-  result.noise(1, 1) = 1.0;
   return result;
 }
 

@@ -20,7 +20,7 @@ namespace cremed {
 /// of variance s^2 max(1, 2 T / dt), whose integral over time has the variance of the process's.
 /// Noise is also added for the step of the values, and for the delay's error times acceleration.
 ///
-/// The second number of the LinearMeasurement is not used.
+/// The first number of the LinearMeasurement.
 struct VehicleMeasurement {
   const OdometryState& state;
   VehicleSignal signal;

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 namespace cremed {
 
 GaussianState::GaussianState(int size)
     : mean_(Eigen::VectorXd::Zero(size)),
       covariance_(Eigen::MatrixXd::Zero(size, size)),
-      gain_(Rows2::Zero(size, 2)),
-      whitened_residual_(Eigen::Vector2d::Zero()),
-      innovations_(Eigen::Vector2d::Zero()) {}
+      gain_(Gain::Zero(size, kNumbers)),
+      whitened_residual_(Eigen::Vector3d::Zero()),
+      innovations_(Eigen::Vector3d::Zero()) {}
 
 double GaussianState::std(int i) const { return std::sqrt(covariance_(i, i)); }
 
@@ -65,42 +67,43 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
   gain_.setZero();
   for (int k = 0; k < measurement.states; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    gain_.col(0) += measurement.jacobian[i](0) * covariance_.col(measurement.state[i]);
-    gain_.col(1) += measurement.jacobian[i](1) * covariance_.col(measurement.state[i]);
+    for (int number = 0; number < kNumbers; ++number) {
+      gain_.col(number) += measurement.jacobian[i](number) * covariance_.col(measurement.state[i]);
+    }
   }
-  Eigen::Matrix2d innovation = measurement.noise;
+  Eigen::Matrix3d innovation = measurement.noise;
   for (int k = 0; k < measurement.states; ++k) {
     const auto i = static_cast<std::size_t>(k);
     innovation += measurement.jacobian[i] * gain_.row(measurement.state[i]);
   }
-  const double l00 = std::sqrt(innovation(0, 0));
-  const double l10 = innovation(1, 0) / l00;
-  const double l11 = std::sqrt(innovation(1, 1) - l10 * l10);
-  if (!(l00 > 0.0 && l11 > 0.0)) {
+  const Eigen::LLT<Eigen::Matrix3d> root(innovation);
+  if (root.info() != Eigen::Success) {
     gain_.setZero();
     return std::numeric_limits<double>::infinity();
   }
   innovations_ = measurement.residual.cwiseAbs2().cwiseQuotient(innovation.diagonal());
-  gain_.col(0) /= l00;
-  gain_.col(1) = (gain_.col(1) - l10 * gain_.col(0)) / l11;
-  whitened_residual_.x() = measurement.residual.x() / l00;
-  whitened_residual_.y() = (measurement.residual.y() - l10 * whitened_residual_.x()) / l11;
+  root.matrixU().solveInPlace<Eigen::OnTheRight>(gain_);
+  whitened_residual_ = root.matrixL().solve(measurement.residual);
   return whitened_residual_.squaredNorm();
 }
 
 void GaussianState::update(std::span<const int> considered) {
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
-    covariance_.col(j) -= gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1);
+    for (int number = 0; number < kNumbers; ++number) {
+      covariance_.col(j) -= gain_(j, number) * gain_.col(number);
+    }
   }
   for (const int i : considered) {
     for (const int j : considered) {
-      covariance_(i, j) += gain_(i, 0) * gain_(j, 0) + gain_(i, 1) * gain_(j, 1);
+      covariance_(i, j) += gain_.row(i).dot(gain_.row(j));
     }
   }
   for (const int i : considered) {
     gain_.row(i).setZero();
   }
-  mean_ += whitened_residual_.x() * gain_.col(0) + whitened_residual_.y() * gain_.col(1);
+  for (int number = 0; number < kNumbers; ++number) {
+    mean_ += whitened_residual_(number) * gain_.col(number);
+  }
 }
 
 }  // namespace cremed

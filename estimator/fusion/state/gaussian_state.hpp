@@ -54,24 +54,25 @@ class GaussianState {
   void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
                       const Eigen::Matrix3d& by_first);
 
-  /// Normalised innovation squared (NIS) of a measurement: chi-square of two degrees of freedom if
-  /// mean and covariance are true. Infinite if the innovation's covariance is not positive
-  /// definite.
+  /// Normalised innovation squared (NIS) of a measurement: chi-square with a degree of freedom for
+  /// each of its numbers if mean and covariance are true. Infinite if the innovation's covariance
+  /// is not positive definite.
   double innovate(const LinearMeasurement& measurement);
-  /// NIS of each of its two numbers alone.
-  [[nodiscard]] const Eigen::Vector2d& innovations() const { return innovations_; }
+  /// NIS of each of its numbers alone.
+  [[nodiscard]] const Eigen::Vector3d& innovations() const { return innovations_; }
   /// Kalman update with the measurement of the last call of innovate(). The states `considered`
   /// are consider parameters (Schmidt-Kalman): their own means and covariances stay.
   void update(std::span<const int> considered);
 
  private:
-  using Rows2 = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+  static constexpr int kNumbers = 3;  // Of a LinearMeasurement.
+  using Gain = Eigen::Matrix<double, Eigen::Dynamic, kNumbers>;
 
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
-  Rows2 gain_;                         // P H' L^-T with S = L L'
-  Eigen::Vector2d whitened_residual_;  // L^-1 residual
-  Eigen::Vector2d innovations_;
+  Gain gain_;                          // P H' L^-T with S = L L'
+  Eigen::Vector3d whitened_residual_;  // L^-1 residual
+  Eigen::Vector3d innovations_;
 };
 
 template <int Size>

@@ -3,27 +3,34 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <Eigen/Core>
 
 namespace cremed {
 
-/// A linearised measurement of two numbers: residual z - h(x), and dh/dx for the states it depends
-/// on.
+/// A linearised measurement of up to three numbers: residual z - h(x), and dh/dx for the states it
+/// depends on. A number that is not measured has no residual, a noise of 1 and depends on nothing.
 struct LinearMeasurement {
   static constexpr int kMaxStates = 80;
-  using Column = Eigen::Vector2d;
+  using Column = Eigen::Vector3d;
 
-  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();  ///< Covariance of z.
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< Covariance of z.
   int states = 0;
   std::array<int, kMaxStates> state{};        ///< Which state,
   std::array<Column, kMaxStates> jacobian{};  ///< and its column of dh/dx.
 
-  void depend_on(int which, const Column& column) {
-    state[static_cast<std::size_t>(states)] = which;
-    jacobian[static_cast<std::size_t>(states)] = column;
-    ++states;
+  /// `column`: of the first numbers, as many as it has.
+  template <typename Derived>
+  void depend_on(int which, const Eigen::MatrixBase<Derived>& column) {
+    const auto i = static_cast<std::size_t>(states++);
+    state[i] = which;
+    jacobian[i].setZero();
+    jacobian[i].template head<Derived::RowsAtCompileTime>() = column;
+  }
+  void depend_on(int which, double first, double second = 0.0) {
+    depend_on(which, Eigen::Vector2d(first, second));
   }
 };
 

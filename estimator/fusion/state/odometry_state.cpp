@@ -66,12 +66,14 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
-      considered_{kCommonScale, kCommonAzimuthScale, kSlipPerAcceleration} {
+      considered_with_way_{kCommonAzimuthScale, kSlipPerAcceleration} {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
-      considered_.push_back(error(i, which));
+      considered_with_way_.push_back(error(i, which));
     }
   }
+  considered_ = considered_with_way_;
+  considered_.push_back(kCommonScale);
   if (mounts_.size() == 1) {
     considered_.push_back(error(0, kDopplerScale));
   }
@@ -83,9 +85,10 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
   }
 }
 
-void OdometryState::update() {
+void OdometryState::update(bool has_way) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
-  gaussian.update(is_at_rest ? considered_at_rest_ : considered_);
+  const std::vector<int>& driving = has_way ? considered_with_way_ : considered_;
+  gaussian.update(is_at_rest ? considered_at_rest_ : driving);
 }
 
 void OdometryState::start(std::int64_t time_us) {

@@ -49,15 +49,15 @@ class OdometryState {
   /// Propagates them.
   void advance_signal(VehicleSignal signal, double dt_s);
 
-  /// Kalman update with the last innovation of `gaussian`. Common Doppler scale (with one radar,
-  /// its own too), scales of azimuths and lever arms are consider parameters: they are hardly
-  /// observable, but seem so where each scan is linearised at another speed or yaw rate. As
-  /// estimated states, the speed drifted by 1 % in 15 minutes of a simulated town at a sigma of 0.2
-  /// %, scales of azimuths ran to -20 % in turns, and lever arms of 0.1 m to 3.4 m in an hour
-  /// straight on. At rest so are mount yaws and Doppler scales of several radars: nothing observes
-  /// them, and all scans have the same map, whose noise they would learn: 0.4 degrees in three
-  /// minutes.
-  void update();
+  /// Kalman update with the last innovation of `gaussian`. Scales of azimuths and lever arms are
+  /// consider parameters: they are hardly observable, but seem so where each scan is linearised at
+  /// another speed or yaw rate. As estimated states, scales of azimuths ran to -20 % in turns, and
+  /// lever arms of 0.1 m to 3.4 m in an hour straight on. So is the common Doppler scale (with one
+  /// radar, its own too) unless positions along the way were measured (`has_way`): by Doppler alone
+  /// the speed drifted by 1 % in 15 minutes of a simulated town at a sigma of 0.2 %. At rest so are
+  /// mount yaws and Doppler scales of several radars: nothing observes them, and all scans have the
+  /// same map, whose noise they would learn: 0.4 degrees in three minutes.
+  void update(bool has_way = false);
 
   /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
@@ -94,6 +94,7 @@ class OdometryState {
   std::vector<Pose2> mounts_;
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;
+  std::vector<int> considered_with_way_;
   std::vector<int> considered_;
   std::vector<int> considered_at_rest_;
 };

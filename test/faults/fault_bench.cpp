@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What systematic faults do to recorded and simulated drives, a line for each: see kUsage.
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "test/data_tests/real_fault_drives.hpp"
+#include "test/faults/drive_figures.hpp"
+#include "test/faults/systematic_faults.hpp"
+
+namespace {
+
+using namespace cremed;
+using namespace cremed::test;
+
+constexpr const char* kUsage =
+    R"(fault_bench [--seconds S] [--case TEXT] DRIVE...
+
+Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of
+cremed-simulate (bends). CREMED_SHARED names the folder with the recorded data.
+  --seconds S  only the beginning of 105 and of simulated drives (default 40)
+  --case TEXT  only cases whose name and radar contain it
+
+Columns, counted from the beginning of the fault: shares of the time in % with the odometry ok (or
+standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
+5 sigma in %, the largest error in sigma; largest error of the pose after 10 s in m and degrees;
+radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
+from the fault's end to a second that is right.
+)";
+
+struct Options {
+  double seconds = 40.0;
+  std::string filter;
+  std::vector<std::string> drives;
+};
+
+Options options_of(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--seconds" && i + 1 < argc) {
+      options.seconds = std::atof(argv[++i]);
+    } else if (argument == "--case" && i + 1 < argc) {
+      options.filter = argv[++i];
+    } else if (argument.starts_with("-")) {
+      throw std::runtime_error(kUsage);
+    } else {
+      options.drives.emplace_back(argument);
+    }
+  }
+  if (options.drives.empty()) throw std::runtime_error(kUsage);
+  return options;
+}
+
+FaultDrive drive_of(const std::string& name, double seconds) {
+  if (name.starts_with("105")) return radarscenes_fault_drive(name == "105", seconds);
+  if (find_scenario(name) != nullptr) {
+    return simulated_fault_drive(name, seconds, configuration_of_car("nuscenes-singapore").radars);
+  }
+  return nuscenes_fault_drive(name);
+}
+
+void append(std::string& line, const char* format, auto... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
+  line += text;
+}
+
+void append_radar(std::string& line, const std::string& name, bool is_guilty,
+                  const RadarFigures& radar) {
+  append(line, " %s%s %.0f/%.0f", name.c_str(), is_guilty ? "*" : "", 100.0 * radar.left_out,
+         100.0 * radar.doubted);
+  if (radar.named_after_s) append(line, " at %.1f (%x)", *radar.named_after_s, radar.doubts);
+}
+
+std::string line_of(const FaultDrive& drive, const FaultCase& fault, const DriveFigures& figures) {
+  const auto percent = [&](OdometryStatus status) { return 100.0 * figures.status_share(status); };
+  std::string line;
+  append(line, "%-14s %-20s %-21s", drive.name.c_str(), fault.kind.c_str(), fault.of.c_str());
+  append(line, "|%4.0f %3.0f %3.0f %3.0f %3.0f %3.0f ",
+         percent(OdometryStatus::ok) + percent(OdometryStatus::standing_still),
+         percent(OdometryStatus::ambiguous), percent(OdometryStatus::lost),
+         percent(OdometryStatus::predicted), percent(OdometryStatus::initialising),
+         100.0 * figures.status.back());
+  append(line, "|%5zu %5.1f %7.1f ", figures.usable, 100.0 * figures.beyond_share(),
+         figures.worst_sigmas);
+  if (figures.windows > 0) {
+    append(line, "|%6.1f %6.2f |", figures.window_m, figures.window_deg);
+  } else {
+    line += "|     -      - |";
+  }
+  for (std::size_t i = 0; i < figures.radars.size(); ++i) {
+    const bool is_guilty = (fault.guilty >> i & 1U) != 0;
+    if (is_guilty || figures.radars[i].named_after_s) {
+      append_radar(line, drive.radars[i].name, is_guilty, figures.radars[i]);
+    }
+  }
+  if (fault.ends()) {
+    line += figures.recovery_s ? "" : " | never";
+    if (figures.recovery_s) append(line, " | %.1f", *figures.recovery_s);
+  }
+  if (fault.kind == "none") {
+    line += " | available";
+    for (const RadarFigures& radar : figures.radars) {
+      append(line, " %.1f", 100.0 * radar.availability);
+    }
+  }
+  return line;
+}
+
+/// Two at a time, printed in order.
+void run_all(const FaultDrive& drive, const std::vector<FaultCase>& cases) {
+  std::vector<std::string> lines(cases.size());
+  std::size_t printed = 0;
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < cases.size(); i = next++) {
+      std::string line = line_of(drive, cases[i], judged(drive, cases[i]));
+      const std::lock_guard lock(mutex);
+      lines[i] = std::move(line);
+      for (; printed < lines.size() && !lines[printed].empty(); ++printed) {
+        std::printf("%s\n", lines[printed].c_str());
+      }
+      std::fflush(stdout);
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (std::getenv("CREMED_SHARED") == nullptr) {
+      ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);
+    }
+    const Options options = options_of(argc, argv);
+    std::printf("%-56s |  ok amb los pre ini non | rows beyond   sigma |     m    deg | named\n",
+                "drive          case");
+    for (const std::string& name : options.drives) {
+      const FaultDrive drive = drive_of(name, options.seconds);
+      std::vector<FaultCase> cases = SystematicFaults(drive).all();
+      std::erase_if(cases, [&](const FaultCase& each) {
+        return (each.kind + " " + each.of).find(options.filter) == std::string::npos;
+      });
+      run_all(drive, cases);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

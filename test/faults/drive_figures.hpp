@@ -154,7 +154,8 @@ class DriveJudge {
   /// Seconds of [from_us, to_us) in the fault's time and after.
   [[nodiscard]] double seconds(std::int64_t from_us, std::int64_t to_us) const {
     const std::int64_t begin_us = std::max(from_us, fault_.time.from_us);
-    return static_cast<double>(std::max<std::int64_t>(0, to_us - begin_us)) / kUsPerS;
+    const std::int64_t until_us = std::min(to_us, end_us());
+    return static_cast<double>(std::max<std::int64_t>(0, until_us - begin_us)) / kUsPerS;
   }
   /// That a row stands for.
   [[nodiscard]] double seconds_of(std::size_t index) const {

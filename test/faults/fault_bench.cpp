@@ -3,10 +3,15 @@
 //
 // What systematic faults do to recorded and simulated drives, a line for each: see kUsage.
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <functional>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -15,6 +20,8 @@
 
 #include "test/data_tests/real_fault_drives.hpp"
 #include "test/faults/drive_figures.hpp"
+#include "test/faults/fault_verdict.hpp"
+#include "test/faults/parked_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
 
 namespace {
@@ -26,19 +33,23 @@ constexpr const char* kUsage =
     R"(fault_bench [--seconds S] [--case TEXT] DRIVE...
 
 Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of
-cremed-simulate (bends). CREMED_SHARED names the folder with the recorded data.
+cremed-simulate (bends), or what departs beside a parked vehicle: train, convoy, jam-starts.
+CREMED_SHARED names the folder with the recorded data.
   --seconds S  only the beginning of 105 and of simulated drives (default 40)
   --case TEXT  only cases whose name and radar contain it
+  --seeds N    so many parked vehicles (default 20)
 
 Columns, counted from the beginning of the fault: shares of the time in % with the odometry ok (or
 standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
 5 sigma in %, the largest error in sigma; largest error of the pose after 10 s in m and degrees;
 radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
-from the fault's end to a second that is right.
+from the fault's end to a second that is right. First column: what does not hold: B rows beyond,
+U a guilty radar unnamed, I an innocent one named, R no recovery.
 )";
 
 struct Options {
   double seconds = 40.0;
+  std::uint64_t seeds = 20;
   std::string filter;
   std::vector<std::string> drives;
 };
@@ -49,6 +60,8 @@ Options options_of(int argc, char** argv) {
     const std::string_view argument = argv[i];
     if (argument == "--seconds" && i + 1 < argc) {
       options.seconds = std::atof(argv[++i]);
+    } else if (argument == "--seeds" && i + 1 < argc) {
+      options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--case" && i + 1 < argc) {
       options.filter = argv[++i];
     } else if (argument.starts_with("-")) {
@@ -85,7 +98,8 @@ void append_radar(std::string& line, const std::string& name, bool is_guilty,
 std::string line_of(const FaultDrive& drive, const FaultCase& fault, const DriveFigures& figures) {
   const auto percent = [&](OdometryStatus status) { return 100.0 * figures.status_share(status); };
   std::string line;
-  append(line, "%-14s %-20s %-21s", drive.name.c_str(), fault.kind.c_str(), fault.of.c_str());
+  append(line, "%-4s %-11s %-20s %-21s", verdict_of(fault, figures).failures().c_str(),
+         drive.name.c_str(), fault.kind.c_str(), fault.of.c_str());
   append(line, "|%4.0f %3.0f %3.0f %3.0f %3.0f %3.0f ",
          percent(OdometryStatus::ok) + percent(OdometryStatus::standing_still),
          percent(OdometryStatus::ambiguous), percent(OdometryStatus::lost),
@@ -117,15 +131,17 @@ std::string line_of(const FaultDrive& drive, const FaultCase& fault, const Drive
   return line;
 }
 
-/// Two at a time, printed in order.
-void run_all(const FaultDrive& drive, const std::vector<FaultCase>& cases) {
-  std::vector<std::string> lines(cases.size());
+using Job = std::function<std::string()>;
+
+/// Two at a time; each gives a line, printed in order.
+void run_all(const std::vector<Job>& jobs) {
+  std::vector<std::string> lines(jobs.size());
   std::size_t printed = 0;
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   const auto work = [&] {
-    for (std::size_t i = next++; i < cases.size(); i = next++) {
-      std::string line = line_of(drive, cases[i], judged(drive, cases[i]));
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      std::string line = jobs[i]();
       const std::lock_guard lock(mutex);
       lines[i] = std::move(line);
       for (; printed < lines.size() && !lines[printed].empty(); ++printed) {
@@ -139,6 +155,28 @@ void run_all(const FaultDrive& drive, const std::vector<FaultCase>& cases) {
   other.join();
 }
 
+void run_parked(Neighbour neighbour, std::uint64_t seeds) {
+  std::vector<Job> jobs;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    jobs.emplace_back([neighbour, seed] {
+      const FaultDrive drive = ParkedDrive(neighbour, seed).drive();
+      const FaultCase none{"none", "", {drive.start_us(), kNever}};
+      return line_of(drive, none, judged(drive, none));
+    });
+  }
+  run_all(jobs);
+}
+
+void run_faults(const FaultDrive& drive, const std::string& filter) {
+  std::vector<Job> jobs;
+  for (const FaultCase& fault : SystematicFaults(drive).all()) {
+    if ((fault.kind + " " + fault.of).find(filter) != std::string::npos) {
+      jobs.emplace_back([&drive, fault] { return line_of(drive, fault, judged(drive, fault)); });
+    }
+  }
+  run_all(jobs);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -147,15 +185,16 @@ int main(int argc, char** argv) {
       ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);
     }
     const Options options = options_of(argc, argv);
-    std::printf("%-56s |  ok amb los pre ini non | rows beyond   sigma |     m    deg | named\n",
-                "drive          case");
+    std::printf("%-59s |  ok amb los pre ini non | rows beyond   sigma |     m    deg | named\n",
+                "     drive       case");
     for (const std::string& name : options.drives) {
-      const FaultDrive drive = drive_of(name, options.seconds);
-      std::vector<FaultCase> cases = SystematicFaults(drive).all();
-      std::erase_if(cases, [&](const FaultCase& each) {
-        return (each.kind + " " + each.of).find(options.filter) == std::string::npos;
-      });
-      run_all(drive, cases);
+      const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
+                                       [&](const auto& each) { return each.first == name; });
+      if (parked != kNeighbours.end()) {
+        run_parked(parked->second, options.seeds);
+      } else {
+        run_faults(drive_of(name, options.seconds), options.filter);
+      }
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

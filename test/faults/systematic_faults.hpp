@@ -77,11 +77,11 @@ class SystematicFaults {
     return cases_.back();
   }
 
-  void configure(const std::string& kind, std::size_t radar,
-                 const std::function<void(RadarConfiguration&)>& change) {
-    add(kind, radar, always()).configure = [radar, change](Radars& radars) {
-      change(radars[radar]);
-    };
+  FaultCase& configure(const std::string& kind, std::size_t radar,
+                       const std::function<void(RadarConfiguration&)>& change) {
+    FaultCase& added = add(kind, radar, always());
+    added.configure = [radar, change](Radars& radars) { change(radars[radar]); };
+    return added;
   }
 
   static void scale(RadarConfiguration& radar, double factor) {
@@ -93,7 +93,8 @@ class SystematicFaults {
     for (const std::size_t radar : of_each_place()) {
       for (const double factor : {0.9, 0.95, 1.05, 1.1}) {
         configure(text("scale %.2f", factor), radar,
-                  [factor](RadarConfiguration& each) { scale(each, factor); });
+                  [factor](RadarConfiguration& each) { scale(each, factor); })
+            .may_be_learned = std::abs(factor - 1.0) < 0.06;
       }
     }
     for (const double factor : {1.0, 0.9, 1.1}) {
@@ -121,7 +122,8 @@ class SystematicFaults {
         configure(text("mount %g deg off", yaw_deg), radar,
                   [yaw_deg](RadarConfiguration& each) {
                     each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
-                  });
+                  })
+            .may_be_learned = yaw_deg <= 5.0;
       }
     }
     configure("mount 2 m ahead", front(), [](RadarConfiguration& each) {
@@ -189,10 +191,11 @@ class SystematicFaults {
   void add_clocks() {
     for (const std::size_t radar : {front(), second()}) {
       for (const std::int64_t late_ms : {300, 500}) {
-        add("late " + std::to_string(late_ms) + " ms", radar, always()).put_in =
-            [radar, late_ms](const FaultDrive& d, FaultTime t) {
-              return with_late_stamps(d.frames, t, radar, 1000 * late_ms);
-            };
+        FaultCase& late = add("late " + std::to_string(late_ms) + " ms", radar, always());
+        late.may_be_learned = late_ms <= 300;
+        late.put_in = [radar, late_ms](const FaultDrive& d, FaultTime t) {
+          return with_late_stamps(d.frames, t, radar, 1000 * late_ms);
+        };
       }
       add("stamps 1 s ahead", radar, always()).put_in = [radar](const FaultDrive& d, FaultTime t) {
         return with_clock_offset(d.frames, t, radar, 1'000'000);
@@ -208,27 +211,38 @@ class SystematicFaults {
     }
   }
 
-  /// Values that the state file accepts, of alternating sign: their mean is not used.
+  /// Nearly the largest values and the smallest deviations that the state file accepts; of
+  /// alternating sign, because their mean is not used.
   void add_learned() {
-    const auto learned = [&](double yaw_rad, double scale) {
-      std::vector<std::optional<LearnedErrors>> result;
-      for (std::size_t i = 0; i < drive_.radars.size(); ++i) {
-        const double sign = i % 2 == 0 ? 1.0 : -1.0;
-        result.push_back(LearnedErrors{{sign * yaw_rad, 0.001}, {sign * scale, 0.0005}});
-      }
-      return result;
+    constexpr double kStds = 4.9;
+    constexpr double kLeastShare = 1e-3;
+    const auto wrong = [](const LearnedError& unlearned, double sign) {
+      return LearnedError{sign * kStds * unlearned.std, kLeastShare * unlearned.std};
     };
+    std::vector<std::optional<LearnedErrors>> mounts;
+    std::vector<std::optional<LearnedErrors>> scales;
+    for (std::size_t i = 0; i < drive_.radars.size(); ++i) {
+      const double sign = i % 2 == 0 ? 1.0 : -1.0;
+      const LearnedErrors unlearned =
+          unlearned_errors(OdometryOptions(), drive_.radars[i].ego_motion.vehicle_from_radar);
+      mounts.push_back(LearnedErrors{wrong(unlearned.mount_yaw_rad, sign),
+                                     {0.0, kLeastShare * unlearned.doppler_scale.std}});
+      scales.push_back(LearnedErrors{{0.0, kLeastShare * unlearned.mount_yaw_rad.std},
+                                     wrong(unlearned.doppler_scale, sign)});
+    }
     cases_.push_back({"learned mounts wrong", "", always()});
-    cases_.back().learned = learned(0.02, 0.0);
+    cases_.back().learned = mounts;
     cases_.push_back({"learned scales wrong", "", always()});
-    cases_.back().learned = learned(0.0, 0.008);
+    cases_.back().learned = scales;
   }
 
   void add_truck() {
-    cases_.push_back({"truck ahead", name(front()), for_a_while(),
-                      [radar = front()](const FaultDrive& d, FaultTime t) {
-                        return TruckAhead(t, radar, 40).in(d.frames);
-                      }});
+    const auto truck = [radar = front()](const FaultDrive& d, FaultTime t) {
+      return TruckAhead(t, radar, 40).in(d.frames);
+    };
+    cases_.push_back({"truck ahead", name(front()), for_a_while(), truck});
+    cases_.push_back({"alone, truck ahead", name(front()), for_a_while(), truck});
+    cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
   }
 
   const FaultDrive& drive_;

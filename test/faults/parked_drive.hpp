@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -48,26 +49,59 @@ class ParkedDrive {
     Scenario scene = scenario("standing");
     scene.traffic = {.oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false};
     scene.traffic.departures = departures();
-    // About as many targets a metre as a departure has, times the share that stays.
-    scene.world.built_share = 0.0;
-    scene.world.clutter_per_m = share_ > 0.97 ? 0.0 : kClutterPerM * (1.0 - share_) / share_;
+    scene.world = {.built_share = 0.0, .clutter_per_m = 1.0};
+    scene.world.clutter_per_m = clutter_per_m(scene);
     const Drive parked = cremed::test::drive(scene, radars(), options_);
-    return {name(), parked.radars, parked.frames, truth_of(parked), TruthNoise()};
+    return {name(count(parked).departing_share()), parked.radars, parked.frames, truth_of(parked),
+            TruthNoise()};
   }
 
  private:
   static constexpr double kDepartureS = 6.0;
-  static constexpr double kClutterPerM = 1.5;
   static constexpr std::array<const char*, 3> kSides{"left", "right", "ahead"};
   static constexpr std::array<const char*, 3> kLayouts{"car", "corners", "GPR"};
 
-  [[nodiscard]] std::string name() const {
+  /// Targets before the departure, without ghosts.
+  struct TargetCount {
+    double departing = 0.0;
+    double fixed = 0.0;
+    [[nodiscard]] double departing_share() const { return departing / (departing + fixed); }
+  };
+
+  [[nodiscard]] TargetCount count(const Drive& parked) const {
+    TargetCount count;
+    for (const ScanTruth& scan : parked.truths) {
+      if (static_cast<double>(scan.stamp_us - options_.start_us) * 1e-6 > kDepartureS) break;
+      for (const Echo& echo : scan.echoes) {
+        count.departing += echo.kind == EchoKind::vehicle ? 1.0 : 0.0;
+        count.fixed += echo.kind == EchoKind::fixed ? 1.0 : 0.0;
+      }
+    }
+    return count;
+  }
+
+  /// With which that share of the targets departs, as far as the radars can send all of them.
+  [[nodiscard]] double clutter_per_m(Scenario scene) const {
+    constexpr double kMostPerM = 6.0;
+    constexpr int kTrials = 3;
+    SimulationOptions short_trial = options_;
+    short_trial.duration_s = 1.0;
+    for (int i = 0; i < kTrials; ++i) {
+      const TargetCount found = count(cremed::test::drive(scene, radars(), short_trial));
+      const double wanted = found.departing * (1.0 - share_) / share_;
+      scene.world.clutter_per_m =
+          std::min(kMostPerM, scene.world.clutter_per_m * wanted / std::max(1.0, found.fixed));
+    }
+    return scene.world.clutter_per_m;
+  }
+
+  [[nodiscard]] std::string name(double share) const {
     char text[96];
-    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f %% %s",
+    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f%% %s",
                   kNeighbours.at(static_cast<std::size_t>(neighbour_)).first.data(),
                   static_cast<unsigned long long>(options_.seed),
                   neighbour_ == Neighbour::train ? kSides.at(side_) : "around", acceleration_mps2_,
-                  100.0 * share_, kLayouts.at(layout_));
+                  100.0 * share, kLayouts.at(layout_));
     return text;
   }
 
@@ -114,8 +148,12 @@ class ParkedDrive {
     const Pose2 tails[] = {{-kHalfLengthM, kBesideM + 1.5, 0.0},
                            {-kHalfLengthM, -kBesideM - 1.5, 0.0},
                            {kAheadM, -kHalfLengthM, 0.5 * std::numbers::pi}};
-    return {tails[side_], 2.0 * kHalfLengthM, 3.0, 1.5, kDepartureS, acceleration_mps2_, 15.0};
+    return {tails[side_], 2.0 * kHalfLengthM, 3.0,  spacing_m(), kDepartureS,
+            acceleration_mps2_, 15.0};
   }
+
+  /// A Bosch GPR sends few targets, the nearest.
+  [[nodiscard]] double spacing_m() const { return layout_ == 2 ? 4.0 : 1.5; }
 
   /// Three lanes of vehicles, all but our own place; each starts `delay_s` after the one before it.
   [[nodiscard]] std::vector<Departure> vehicles(double length_m, double width_m, double period_m,
@@ -132,7 +170,7 @@ class ParkedDrive {
         result.push_back({{tail_m, kLaneM * lane, 0.0},
                           length_m,
                           width_m,
-                          1.0,
+                          spacing_m(),
                           start_s,
                           acceleration_mps2_ * random_.uniform(0.8, 1.25),
                           15.0});

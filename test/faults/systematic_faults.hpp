@@ -17,6 +17,7 @@
 #include "cremed/estimator/scan/degrees.hpp"
 #include "test/faults/cluster_faults.hpp"
 #include "test/faults/fault_case.hpp"
+#include "test/faults/truck_ahead.hpp"
 
 namespace cremed::test {
 

@@ -246,10 +246,10 @@ class DriveJudge {
     constexpr std::int64_t kGoodUs = 1'000'000;
     std::int64_t good_us = kNever;
     for (const Row& row : rows_) {
-      if (row.us < fault_.time.until_us) continue;
+      if (row.us < fault_.end_us()) continue;
       good_us = row.is_good() ? std::min(good_us, row.us) : kNever;
       if (row.us - good_us >= kGoodUs) {
-        return static_cast<double>(good_us - fault_.time.until_us) / kUsPerS;
+        return static_cast<double>(good_us - fault_.end_us()) / kUsPerS;
       }
     }
     return std::nullopt;

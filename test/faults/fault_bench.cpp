@@ -20,7 +20,7 @@
 
 #include "test/data_tests/real_fault_drives.hpp"
 #include "test/faults/drive_figures.hpp"
-#include "test/faults/fault_verdict.hpp"
+#include "test/faults/figures_line.hpp"
 #include "test/faults/parked_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
 
@@ -39,12 +39,6 @@ CREMED_SHARED names the folder with the recorded data.
   --case TEXT  only cases whose name and radar contain it
   --seeds N    so many parked vehicles (default 20)
 
-Columns, counted from the beginning of the fault: shares of the time in % with the odometry ok (or
-standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
-5 sigma in %, the largest error in sigma; largest error of the pose after 10 s in m and degrees;
-radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
-from the fault's end to a second that is right. First column: what does not hold: B rows beyond,
-U a guilty radar unnamed, I an innocent one named, R no recovery.
 )";
 
 struct Options {
@@ -82,55 +76,6 @@ FaultDrive drive_of(const std::string& name, double seconds) {
   return nuscenes_fault_drive(name);
 }
 
-void append(std::string& line, const char* format, auto... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  line += text;
-}
-
-void append_radar(std::string& line, const std::string& name, bool is_guilty,
-                  const RadarFigures& radar) {
-  append(line, " %s%s %.0f/%.0f", name.c_str(), is_guilty ? "*" : "", 100.0 * radar.left_out,
-         100.0 * radar.doubted);
-  if (radar.named_after_s) append(line, " at %.1f (%x)", *radar.named_after_s, radar.doubts);
-}
-
-std::string line_of(const FaultDrive& drive, const FaultCase& fault, const DriveFigures& figures) {
-  const auto percent = [&](OdometryStatus status) { return 100.0 * figures.status_share(status); };
-  std::string line;
-  append(line, "%-4s %-11s %-20s %-21s", verdict_of(fault, figures).failures().c_str(),
-         drive.name.c_str(), fault.kind.c_str(), fault.of.c_str());
-  append(line, "|%4.0f %3.0f %3.0f %3.0f %3.0f %3.0f ",
-         percent(OdometryStatus::ok) + percent(OdometryStatus::standing_still),
-         percent(OdometryStatus::ambiguous), percent(OdometryStatus::lost),
-         percent(OdometryStatus::predicted), percent(OdometryStatus::initialising),
-         100.0 * figures.status.back());
-  append(line, "|%5zu %5.1f %7.1f ", figures.usable, 100.0 * figures.beyond_share(),
-         figures.worst_sigmas);
-  if (figures.windows > 0) {
-    append(line, "|%6.1f %6.2f |", figures.window_m, figures.window_deg);
-  } else {
-    line += "|     -      - |";
-  }
-  for (std::size_t i = 0; i < figures.radars.size(); ++i) {
-    const bool is_guilty = (fault.guilty >> i & 1U) != 0;
-    if (is_guilty || figures.radars[i].named_after_s) {
-      append_radar(line, drive.radars[i].name, is_guilty, figures.radars[i]);
-    }
-  }
-  if (fault.ends()) {
-    line += figures.recovery_s ? "" : " | never";
-    if (figures.recovery_s) append(line, " | %.1f", *figures.recovery_s);
-  }
-  if (fault.kind == "none") {
-    line += " | available";
-    for (const RadarFigures& radar : figures.radars) {
-      append(line, " %.1f", 100.0 * radar.availability);
-    }
-  }
-  return line;
-}
-
 using Job = std::function<std::string()>;
 
 /// Two at a time; each gives a line, printed in order.
@@ -161,7 +106,7 @@ void run_parked(Neighbour neighbour, std::uint64_t seeds) {
     jobs.emplace_back([neighbour, seed] {
       const FaultDrive drive = ParkedDrive(neighbour, seed).drive();
       const FaultCase none{"none", "", {drive.start_us(), kNever}};
-      return line_of(drive, none, judged(drive, none));
+      return figures_line(drive, none, judged(drive, none));
     });
   }
   run_all(jobs);
@@ -171,7 +116,7 @@ void run_faults(const FaultDrive& drive, const std::string& filter) {
   std::vector<Job> jobs;
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
     if ((fault.kind + " " + fault.of).find(filter) != std::string::npos) {
-      jobs.emplace_back([&drive, fault] { return line_of(drive, fault, judged(drive, fault)); });
+      jobs.emplace_back([&drive, fault] { return figures_line(drive, fault, judged(drive, fault)); });
     }
   }
   run_all(jobs);
@@ -185,8 +130,7 @@ int main(int argc, char** argv) {
       ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);
     }
     const Options options = options_of(argc, argv);
-    std::printf("%-59s |  ok amb los pre ini non | rows beyond   sigma |     m    deg | named\n",
-                "     drive       case");
+    std::printf("%s%s\n", kColumns, figures_header().c_str());
     for (const std::string& name : options.drives) {
       const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
                                        [&](const auto& each) { return each.first == name; });

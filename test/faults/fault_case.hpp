@@ -39,7 +39,11 @@ struct FaultCase {
   /// So small that it may be learned: the guilty radar need not be named.
   bool may_be_learned = false;
 
-  [[nodiscard]] bool ends() const { return time.until_us < kNever; }
+  /// A step of the clock is over at once.
+  [[nodiscard]] std::int64_t end_us() const {
+    return clock_step_us != 0 ? time.from_us : time.until_us;
+  }
+  [[nodiscard]] bool ends() const { return end_us() < kNever; }
 };
 
 /// What the pipeline made of a drive with a fault.

@@ -31,7 +31,8 @@ inline constexpr std::array<std::pair<std::string_view, Neighbour>, 3> kNeighbou
     {{"train", Neighbour::train}, {"convoy", Neighbour::convoy}, {"jam-starts", Neighbour::jam}}};
 
 /// A vehicle that is parked for 16 s; after 6 s its neighbours depart, with 0.1 to 2 m/s^2 and 30
-/// to 100 % of the targets. ARS408s flag nothing: all targets are used. All by `seed`.
+/// to 100 % of the targets. With half of the ARS408s all targets are used, with the others those that
+/// they call static. All by `seed`.
 class ParkedDrive {
  public:
   ParkedDrive(Neighbour neighbour, std::uint64_t seed)
@@ -40,7 +41,8 @@ class ParkedDrive {
         acceleration_mps2_(0.1 * std::pow(20.0, random_.uniform())),
         share_(random_.uniform(0.3, 1.0)),
         side_(random_.index(3)),
-        layout_(random_.index(3)) {
+        layout_(random_.index(3)),
+        are_flags_used_(random_.chance(0.5)) {
     options_.seed = seed;
     options_.duration_s = 16.0;
   }
@@ -97,11 +99,12 @@ class ParkedDrive {
 
   [[nodiscard]] std::string name(double share) const {
     char text[96];
-    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f%% %s",
+    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f%% %s%s",
                   kNeighbours.at(static_cast<std::size_t>(neighbour_)).first.data(),
                   static_cast<unsigned long long>(options_.seed),
                   neighbour_ == Neighbour::train ? kSides.at(side_) : "around", acceleration_mps2_,
-                  100.0 * share, kLayouts.at(layout_));
+                  100.0 * share, kLayouts.at(layout_),
+                  are_flags_used_ && layout_ != 2 ? " flags" : "");
     return text;
   }
 
@@ -120,7 +123,7 @@ class ParkedDrive {
                 radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
     }
     for (RadarConfiguration& each : result) {
-      if (const auto* ars408 = each.decoder.as<Ars408Options>()) {
+      if (const auto* ars408 = each.decoder.as<Ars408Options>(); ars408 && !are_flags_used_) {
         Ars408Options unflagged = *ars408;
         unflagged.keep_dyn_props = 0xFF;
         each.decoder = unflagged;
@@ -185,6 +188,7 @@ class ParkedDrive {
   double share_;  // Of the targets, that departs.
   std::size_t side_;
   std::size_t layout_;
+  bool are_flags_used_;  // Of the ARS408s.
   SimulationOptions options_;
 };
 

@@ -8,7 +8,8 @@
 using namespace cremed;
 using namespace cremed::test;
 
-TEST_CASE("Real drives without fault: nobody is named, and front radars are available") {
+TEST_CASE("Real drives without fault: nobody is named, and front radars are available",
+          "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
     matrix.run_healthy("healthy nuScenes", nuscenes_fault_drive(scene), 0.97);
@@ -18,7 +19,7 @@ TEST_CASE("Real drives without fault: nobody is named, and front radars are avai
   matrix.check();
 }
 
-TEST_CASE("Real drives: each systematic fault") {
+TEST_CASE("Real drives: each systematic fault", "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const auto* scene : {"0061", "0103", "1094"}) {
     matrix.run_faults(nuscenes_fault_drive(scene));

@@ -20,17 +20,16 @@
 namespace cremed::test {
 
 inline bool is_usable(const Odometry& odometry) {
-  return odometry.status == OdometryStatus::ok ||
-         odometry.status == OdometryStatus::standing_still;
+  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
 }
 
 /// How often one radar was believed.
 struct RadarFigures {
-  double left_out = 0.0;      ///< Share of the time it was excluded by the odometry,
-  double doubted = 0.0;       ///< or had a doubt in its status,
-  double named = 0.0;         ///< either of them.
-  std::uint32_t doubts = 0;   ///< All doubts it had.
-  double availability = 0.0;  ///< Share of its scans with an estimate.
+  double left_out = 0.0;                ///< Share of the time it was excluded by the odometry,
+  double doubted = 0.0;                 ///< or had a doubt in its status,
+  double named = 0.0;                   ///< either of them.
+  std::uint32_t doubts = 0;             ///< All doubts it had.
+  double availability = 0.0;            ///< Share of its scans with an estimate.
   std::optional<double> named_after_s;  ///< First time named since the fault began.
 };
 
@@ -135,9 +134,7 @@ class DriveJudge {
     return largest;
   }
 
-  [[nodiscard]] std::int64_t end_us() const {
-    return drive_.frames.back().stamp_us;
-  }
+  [[nodiscard]] std::int64_t end_us() const { return drive_.frames.back().stamp_us; }
   [[nodiscard]] double fault_s() const {
     return static_cast<double>(end_us() - fault_.time.from_us) / kUsPerS;
   }
@@ -186,10 +183,8 @@ class DriveJudge {
       if (last == rows_.size() || !is_usable(*rows_[last].odometry)) continue;
       const auto truth = drive_.truth.motion(rows_[first].us, rows_[last].us);
       if (!truth || rows_[last].us < fault_.time.from_us) continue;
-      const Eigen::Vector3d error =
-          estimation_error(relative_pose(rows_[first].odometry->odom_pose,
-                                         rows_[last].odometry->odom_pose),
-                           *truth);
+      const Eigen::Vector3d error = estimation_error(
+          relative_pose(rows_[first].odometry->odom_pose, rows_[last].odometry->odom_pose), *truth);
       ++figures.windows;
       figures.window_m = std::max(figures.window_m, error.head<2>().norm());
       figures.window_deg = std::max(figures.window_deg, kDegPerRad * std::abs(error.z()));
@@ -199,9 +194,8 @@ class DriveJudge {
   [[nodiscard]] RadarFigures radar(std::size_t index) const {
     RadarFigures figures;
     const auto& motions = record_.sink.motions[index];
-    const auto with_estimate = std::count_if(motions.begin(), motions.end(), [](const auto& each) {
-      return each.has_estimate();
-    });
+    const auto with_estimate = std::count_if(motions.begin(), motions.end(),
+                                             [](const auto& each) { return each.has_estimate(); });
     figures.availability =
         motions.empty() ? 0.0
                         : static_cast<double>(with_estimate) / static_cast<double>(motions.size());

@@ -116,7 +116,8 @@ void run_faults(const FaultDrive& drive, const std::string& filter) {
   std::vector<Job> jobs;
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
     if ((fault.kind + " " + fault.of).find(filter) != std::string::npos) {
-      jobs.emplace_back([&drive, fault] { return figures_line(drive, fault, judged(drive, fault)); });
+      jobs.emplace_back(
+          [&drive, fault] { return figures_line(drive, fault, judged(drive, fault)); });
     }
   }
   run_all(jobs);

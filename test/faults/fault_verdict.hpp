@@ -16,10 +16,10 @@ struct FaultVerdict {
   static constexpr double kMaxNamedAfterS = 5.0;
   static constexpr double kMaxRecoveryS = 2.0;
 
-  bool is_right = true;            ///< Few usable rows are beyond 5 sigma.
-  bool is_guilty_named = true;     ///< Each guilty radar, unless its error is learned or all err.
+  bool is_right = true;         ///< Few usable rows are beyond 5 sigma.
+  bool is_guilty_named = true;  ///< Each guilty radar, unless its error is learned or all err.
   bool is_no_innocent_named = true;
-  bool is_recovered = true;        ///< Soon after the fault's end.
+  bool is_recovered = true;  ///< Soon after the fault's end.
 
   [[nodiscard]] bool is_all() const {
     return is_right && is_guilty_named && is_no_innocent_named && is_recovered;
@@ -49,8 +49,7 @@ inline FaultVerdict verdict_of(const FaultCase& fault, const DriveFigures& figur
   // What all radars share, no radar tells: the odometry must not be ok.
   if (are_all_guilty || (fault.may_be_learned && verdict.is_right)) verdict.is_guilty_named = true;
   if (fault.ends()) {
-    verdict.is_recovered =
-        figures.recovery_s && *figures.recovery_s <= FaultVerdict::kMaxRecoveryS;
+    verdict.is_recovered = figures.recovery_s && *figures.recovery_s <= FaultVerdict::kMaxRecoveryS;
   }
   return verdict;
 }

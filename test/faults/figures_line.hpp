@@ -21,7 +21,8 @@ from the fault's end to a second that is right.
 
 inline std::string figures_header() {
   char text[160];
-  std::snprintf(text, sizeof text, "%-59s|  ok amb los pre ini non | rows beyond   sigma |     m    deg | named",
+  std::snprintf(text, sizeof text,
+                "%-59s|  ok amb los pre ini non | rows beyond   sigma |     m    deg | named",
                 "     drive       case");
   return text;
 }
@@ -33,13 +34,14 @@ inline void append(std::string& line, const char* format, auto... values) {
 }
 
 inline void append_radar(std::string& line, const std::string& name, bool is_guilty,
-                  const RadarFigures& radar) {
+                         const RadarFigures& radar) {
   append(line, " %s%s %.0f/%.0f", name.c_str(), is_guilty ? "*" : "", 100.0 * radar.left_out,
          100.0 * radar.doubted);
   if (radar.named_after_s) append(line, " at %.1f (%x)", *radar.named_after_s, radar.doubts);
 }
 
-inline std::string figures_line(const FaultDrive& drive, const FaultCase& fault, const DriveFigures& figures) {
+inline std::string figures_line(const FaultDrive& drive, const FaultCase& fault,
+                                const DriveFigures& figures) {
   const auto percent = [&](OdometryStatus status) { return 100.0 * figures.status_share(status); };
   std::string line;
   append(line, "%-4s %-11s ", verdict_of(fault, figures).failures().c_str(), drive.name.c_str());

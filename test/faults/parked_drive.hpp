@@ -31,8 +31,8 @@ inline constexpr std::array<std::pair<std::string_view, Neighbour>, 3> kNeighbou
     {{"train", Neighbour::train}, {"convoy", Neighbour::convoy}, {"jam-starts", Neighbour::jam}}};
 
 /// A vehicle that is parked for 16 s; after 6 s its neighbours depart, with 0.1 to 2 m/s^2 and 30
-/// to 100 % of the targets. With half of the ARS408s all targets are used, with the others those that
-/// they call static. All by `seed`.
+/// to 100 % of the targets. With half of the ARS408s all targets are used, with the others those
+/// that they call static. All by `seed`.
 class ParkedDrive {
  public:
   ParkedDrive(Neighbour neighbour, std::uint64_t seed)
@@ -151,8 +151,8 @@ class ParkedDrive {
     const Pose2 tails[] = {{-kHalfLengthM, kBesideM + 1.5, 0.0},
                            {-kHalfLengthM, -kBesideM - 1.5, 0.0},
                            {kAheadM, -kHalfLengthM, 0.5 * std::numbers::pi}};
-    return {tails[side_], 2.0 * kHalfLengthM, 3.0,  spacing_m(), kDepartureS,
-            acceleration_mps2_, 15.0};
+    return {tails[side_], 2.0 * kHalfLengthM, 3.0, spacing_m(),
+            kDepartureS,  acceleration_mps2_, 15.0};
   }
 
   /// A Bosch GPR sends few targets, the nearest.

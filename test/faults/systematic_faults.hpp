@@ -93,9 +93,9 @@ class SystematicFaults {
   void add_scales() {
     for (const std::size_t radar : of_each_place()) {
       for (const double factor : {0.9, 0.95, 1.05, 1.1}) {
-        configure(text("scale %.2f", factor), radar,
-                  [factor](RadarConfiguration& each) { scale(each, factor); })
-            .may_be_learned = std::abs(factor - 1.0) < 0.06;
+        configure(text("scale %.2f", factor), radar, [factor](RadarConfiguration& each) {
+          scale(each, factor);
+        }).may_be_learned = std::abs(factor - 1.0) < 0.06;
       }
     }
     for (const double factor : {1.0, 0.9, 1.1}) {
@@ -120,16 +120,13 @@ class SystematicFaults {
     }
     for (const std::size_t radar : {front(), second()}) {
       for (const double yaw_deg : {3.0, 5.0, 10.0}) {
-        configure(text("mount %g deg off", yaw_deg), radar,
-                  [yaw_deg](RadarConfiguration& each) {
-                    each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
-                  })
-            .may_be_learned = yaw_deg <= 5.0;
+        configure(text("mount %g deg off", yaw_deg), radar, [yaw_deg](RadarConfiguration& each) {
+          each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
+        }).may_be_learned = yaw_deg <= 5.0;
       }
     }
-    configure("mount 2 m ahead", front(), [](RadarConfiguration& each) {
-      each.ego_motion.vehicle_from_radar.x_m += 2.0;
-    });
+    configure("mount 2 m ahead", front(),
+              [](RadarConfiguration& each) { each.ego_motion.vehicle_from_radar.x_m += 2.0; });
     add("knocked at 8 s", front(), onwards()).put_in = [radar = front()](const FaultDrive& d,
                                                                          FaultTime t) {
       return with_knocked_mount(d.frames, t, radar, 0.1);
@@ -170,8 +167,8 @@ class SystematicFaults {
   void add_to_all(const std::string& kind,
                   const std::function<Frames(const FaultDrive&, FaultTime)>& put_in) {
     for (const FaultTime time : {onwards(), for_a_while()}) {
-      cases_.push_back({kind + (time.until_us == kNever ? " from 8 s" : " for 5 s"), "", time,
-                        put_in});
+      cases_.push_back(
+          {kind + (time.until_us == kNever ? " from 8 s" : " for 5 s"), "", time, put_in});
       cases_.back().guilty = all_bits();
     }
   }
@@ -179,14 +176,14 @@ class SystematicFaults {
   void add_all_radars() {
     const auto scaled = [](double factor) {
       return [factor](const FaultDrive& d, FaultTime t) {
-        return with_scaled_doppler(d.frames, t, [](std::size_t) { return true; }, factor);
+        return with_scaled_doppler(
+            d.frames, t, [](std::size_t) { return true; }, factor);
       };
     };
     add_to_all("all flipped", scaled(-1.0));
     add_to_all("all zero", scaled(0.0));
-    add_to_all("all repeat", [](const FaultDrive& d, FaultTime t) {
-      return with_repeated_scan(d.frames, t);
-    });
+    add_to_all("all repeat",
+               [](const FaultDrive& d, FaultTime t) { return with_repeated_scan(d.frames, t); });
   }
 
   void add_clocks() {

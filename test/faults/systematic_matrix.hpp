@@ -45,17 +45,15 @@ class SystematicMatrix {
     }
   }
 
-  /// Nothing fails but what kNotYet lists, and all of that.
+  /// Nothing fails but what kNotYet lists, and of each kind that it lists something does.
   void check() const {
     for (const auto& [kind, failures] : failures_) {
-      std::string listed;
-      for (const NotYet& row : kNotYet) {
-        if (row.kind == kind) listed = row.*not_yet_;
-      }
       const std::string found(failures.begin(), failures.end());
-      std::sort(listed.begin(), listed.end());
-      CAPTURE(kind);
-      CHECK(found == listed);
+      const std::string_view listed = listed_of(kind);
+      CAPTURE(kind, found, listed);
+      CHECK(found.find_first_not_of(listed) == std::string::npos);
+      // A kind that holds is to be deleted there.
+      CHECK(found.empty() == listed.empty());
     }
   }
 
@@ -65,6 +63,12 @@ class SystematicMatrix {
     std::printf("%s\n", figures_line(drive, fault, figures).c_str());
     const std::string found = verdict_of(fault, figures).failures();
     failures_[kind].insert(found.begin(), found.end());
+  }
+
+  [[nodiscard]] std::string_view listed_of(const std::string& kind) const {
+    const auto* row = std::find_if(kNotYet.begin(), kNotYet.end(),
+                                   [&](const NotYet& each) { return each.kind == kind; });
+    return row == kNotYet.end() ? std::string_view() : row->*not_yet_;
   }
 
   std::string_view NotYet::*not_yet_;

@@ -30,9 +30,8 @@ class TruckAhead {
         result.push_back(begin(std::span(frames).subspan(i)));
         add_when_due(frame, result);
       } else if (is_message(frame, Ars408Message::cluster_general)) {
-        result.push_back(is_in_list_ && is_hidden(frame)
-                             ? at_place_of(frame, cluster(frame.data[0]))
-                             : frame);
+        result.push_back(
+            is_in_list_ && is_hidden(frame) ? at_place_of(frame, cluster(frame.data[0])) : frame);
       } else {
         result.push_back(frame);
         qualities_ += is_message(frame, Ars408Message::cluster_quality) ? 1 : 0;
@@ -50,8 +49,7 @@ class TruckAhead {
 
   static bool is_hidden(const CanFrame& frame) {
     const auto seen = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
-    return seen && seen->x_m > kTailM &&
-           std::abs(seen->y_m) < kHalfWidthM / kTailM * seen->x_m;
+    return seen && seen->x_m > kTailM && std::abs(seen->y_m) < kHalfWidthM / kTailM * seen->x_m;
   }
 
   /// The header of the list that begins there, with the number of its clusters.
@@ -69,8 +67,8 @@ class TruckAhead {
       if (is_message(frame, Ars408Message::cluster_status)) break;
       hidden += is_message(frame, Ars408Message::cluster_general) && is_hidden(frame) ? 1 : 0;
     }
-    added_ = std::min(count_ - std::min(count_, hidden),
-                      kMostClusters - std::min(kMostClusters, own_));
+    added_ =
+        std::min(count_ - std::min(count_, hidden), kMostClusters - std::min(kMostClusters, own_));
     status->near_count = static_cast<std::uint8_t>(status->near_count + added_);
     return at_place_of(header, encode_ars408(0, *status));
   }

@@ -12,8 +12,7 @@ using namespace cremed;
 using namespace cremed::test;
 
 TEST_CASE("Simulated drive of the nuScenes car: each systematic fault") {
-  const Configuration car =
-      load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
+  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
   const FaultDrive drive = simulated_fault_drive("bends", 20.0, car.radars);
   SystematicMatrix matrix(&NotYet::simulated);
   matrix.run_healthy("healthy", drive);

@@ -25,10 +25,7 @@ constexpr std::array<std::array<double, 2>, 4> kCornersM{
 
 Traffic::Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
                  Random random)
-    : course_(course),
-      road_(road),
-      leader_(options.leader),
-      departures_(options.departures) {
+    : course_(course), road_(road), leader_(options.leader), departures_(options.departures) {
   add_cars(options.oncoming_interval_s, kOncomingLaneM, true, random);
   add_cars(options.same_way_interval_s, kSameWayLaneM, false, random);
   add_jam(options.jam_cars, random);
@@ -101,8 +98,8 @@ void Traffic::append(const Departure& departure, double time_s,
   const double driven_s = std::max(0.0, time_s - departure.start_s);
   const double full_s = departure.top_speed_mps / departure.acceleration_mps2;
   const double speed_mps = departure.acceleration_mps2 * std::min(driven_s, full_s);
-  const double way_m = 0.5 * speed_mps * std::min(driven_s, full_s) +
-                       speed_mps * std::max(0.0, driven_s - full_s);
+  const double way_m =
+      0.5 * speed_mps * std::min(driven_s, full_s) + speed_mps * std::max(0.0, driven_s - full_s);
   const auto count = static_cast<int>(departure.length_m / departure.spacing_m);
   for (int i = 0; i <= count; ++i) {
     const double along_m = way_m + departure.spacing_m * i;

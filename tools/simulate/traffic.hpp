@@ -22,10 +22,10 @@ struct MovingReflector {
 
 /// A train, lorry or car that stands and then departs, whatever we do.
 struct Departure {
-  Pose2 tail;               ///< The end of its middle line, in the world; it drives along x.
+  Pose2 tail;  ///< The end of its middle line, in the world; it drives along x.
   double length_m = 0.0;
-  double width_m = 0.0;     ///< Reflectors are on both sides,
-  double spacing_m = 1.0;   ///< so far apart.
+  double width_m = 0.0;    ///< Reflectors are on both sides,
+  double spacing_m = 1.0;  ///< so far apart.
   double start_s = 0.0;
   double acceleration_mps2 = 1.0;
   double top_speed_mps = 15.0;

@@ -219,8 +219,7 @@ class DriveJudge {
         figures.doubts |= statuses[i].belief.doubts;
       }
       if (statuses[i].belief.doubts != 0) {
-        name(statuses[i].utime_us,
-             i + 1 < statuses.size() ? statuses[i + 1].utime_us : statuses[i].utime_us,
+        name(statuses[i].utime_us, i + 1 < statuses.size() ? statuses[i + 1].utime_us : end_us(),
              figures.doubted);
       }
     }

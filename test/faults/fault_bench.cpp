@@ -98,6 +98,9 @@ void run_all(const std::vector<Job>& jobs) {
   std::thread other(work);
   work();
   other.join();
+  const auto held = std::count_if(lines.begin(), lines.end(),
+                                  [](const std::string& line) { return line.starts_with(' '); });
+  std::printf("all holds in %td of %zu\n", held, lines.size());
 }
 
 void run_parked(Neighbour neighbour, std::uint64_t seeds) {

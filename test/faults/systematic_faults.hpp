@@ -145,8 +145,8 @@ class SystematicFaults {
     return buses;
   }
 
-  void connect(const std::string& kind, const std::string& of, std::vector<std::uint8_t> buses,
-               std::uint32_t guilty) {
+  void connect(const std::string& kind, const std::string& of,
+               const std::vector<std::uint8_t>& buses, std::uint32_t guilty) {
     cases_.push_back({kind, of, always(), [buses](const FaultDrive& d, FaultTime t) {
                         return with_buses(d.frames, t, buses);
                       }});

@@ -39,11 +39,13 @@ inline std::vector<RadarConfiguration> four_radars() {
   return radars;
 }
 
-inline FaultDrive simulated_fault_drive(const std::string& name, double duration_s) {
+inline FaultDrive simulated_fault_drive(
+    const std::string& name, double duration_s,
+    const std::vector<RadarConfiguration>& radars = four_radars()) {
   SimulationOptions options;
   options.seed = 1;
   options.duration_s = duration_s;
-  const Drive simulated = drive(scenario(name), four_radars(), options);
+  const Drive simulated = drive(scenario(name), radars, options);
   return {name, simulated.radars, simulated.frames, truth_of(simulated), TruthNoise()};
 }
 

@@ -12,24 +12,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "test/faults/cluster_faults.hpp"
+#include "test/faults/fault_case.hpp"
 #include "test/faults/frame_faults.hpp"
 #include "test/faults/source_verdict.hpp"
 
 namespace cremed::test {
-
-/// One fault of one drive.
-struct FaultCase {
-  std::string kind;
-  std::string of;  ///< The faulty radar; empty: all.
-  FaultTime time;
-  std::function<Frames(const FaultDrive&, FaultTime)> put_in;
-  /// Offset of the stamps of radar `of` to truth's clock: it is judged by its own clock.
-  std::int64_t clock_offset_us = 0;
-
-  [[nodiscard]] bool ends() const {
-    return time.until_us < std::numeric_limits<std::int64_t>::max();
-  }
-};
 
 /// Result of a fault.
 struct FaultOutcome {
@@ -52,11 +40,9 @@ inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
     return drive.start_us() + static_cast<std::int64_t>(share * drive.duration_s() * 1e6);
   };
   const FaultTime first{at(0.0), at(0.6)};
-  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   const FaultTime always{at(0.0), kNever};
   std::vector<FaultCase> cases;
-  cases.push_back(
-      {"none", "", {at(0.0), at(0.6)}, [](const FaultDrive& d, FaultTime) { return d.frames; }});
+  cases.push_back({"none", "", first});
   for (const double share : {0.001, 0.01, 0.05}) {
     char name[32];
     std::snprintf(name, sizeof name, "loss %g %%", 100.0 * share);
@@ -103,9 +89,8 @@ inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
 }
 
 inline FaultOutcome run(const FaultDrive& drive, const FaultCase& fault) {
-  const RecordingSink sink = run_pipeline(drive.radars, fault.put_in(drive, fault.time));
   const Judge judge(drive, fault.time);
-  return {&drive, fault, judge.all(sink, fault.clock_offset_us)};
+  return {&drive, fault, judge.all(record(drive, fault).sink, fault.clock_offset_us)};
 }
 
 inline void print(const FaultOutcome& outcome) {

@@ -8,16 +8,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "cremed/can_decoders/ars408.hpp"
-#include "cremed/can_decoders/ars408_messages.hpp"
 #include "cremed/can_decoders/can_frame.hpp"
-#include "tools/simulate/ars408_encoder.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed::test {
@@ -158,24 +154,29 @@ inline Frames with_bit_flips(Frames frames, FaultTime time, double share) {
   return frames;
 }
 
-/// An ARS408 was knocked: its direction of view turns by `yaw_rad`, so its targets turn the other
-/// way, and are rounded again.
-inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
-  const double c = std::cos(yaw_rad);
-  const double s = std::sin(yaw_rad);
+/// The frames of radar i arrive on the bus of radar `bus_of[i]`.
+inline Frames with_buses(Frames frames, FaultTime time, const std::vector<std::uint8_t>& bus_of) {
   for (CanFrame& frame : frames) {
-    if (frame.interface != radar || !time.has(frame) ||
-        frame.id != ars408_id(static_cast<std::uint32_t>(Ars408Message::cluster_general), 0)) {
-      continue;
-    }
-    auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
-    if (!cluster) continue;
-    const Ars408General seen = *cluster;
-    cluster->x_m = c * seen.x_m + s * seen.y_m;
-    cluster->y_m = c * seen.y_m - s * seen.x_m;
-    cluster->vx_mps = c * seen.vx_mps + s * seen.vy_mps;
-    cluster->vy_mps = c * seen.vy_mps - s * seen.vx_mps;
-    frame.data = encode_ars408_cluster(0, *cluster).data;
+    if (time.has(frame)) frame.interface = bus_of.at(frame.interface);
+  }
+  return frames;
+}
+
+/// A gateway holds a radar's frames and stamps them when it passes them on.
+inline Frames with_late_stamps(const Frames& frames, FaultTime time, std::size_t radar,
+                               std::int64_t late_us) {
+  Arrivals arrivals;
+  for (CanFrame frame : frames) {
+    if (frame.interface == radar && time.has(frame)) frame.stamp_us += late_us;
+    arrivals.add(frame.stamp_us, frame);
+  }
+  return arrivals.in_order();
+}
+
+/// The clock of all buses is set; frames arrive as before.
+inline Frames with_clock_step(Frames frames, FaultTime time, std::int64_t step_us) {
+  for (CanFrame& frame : frames) {
+    if (time.has(frame)) frame.stamp_us += step_us;
   }
   return frames;
 }

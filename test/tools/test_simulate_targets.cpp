@@ -177,3 +177,25 @@ TEST_CASE("other cars move as their velocities say, and the leader keeps its dis
   CHECK(sum_mps / static_cast<double>(count) < 0.1);
   CHECK(worst_mps < 2.0);
 }
+
+TEST_CASE("what departs stands until its start and then accelerates to its top speed") {
+  const cremed::VehicleCourse course(cremed::test::scenario("standing").course, 60.0);
+  const cremed::Road road(course);
+  cremed::TrafficOptions options{
+      .oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false};
+  options.departures = {{{-5.0, 4.0, 0.0}, 10.0, 2.0, 5.0, 6.0, 0.5, 4.0}};
+  const cremed::Traffic traffic(course, road, options, cremed::Random(1, 2));
+  std::vector<cremed::MovingReflector> reflectors;
+  const auto first_at = [&](double time_s) {
+    traffic.reflectors_at(time_s, reflectors);
+    REQUIRE(reflectors.size() == 6);  // Three on each side.
+    return reflectors.front();
+  };
+  CHECK(first_at(5.9).x_m == -5.0);
+  CHECK(first_at(5.9).y_m == 3.0);
+  CHECK(first_at(5.9).x_mps == 0.0);
+  CHECK(first_at(10.0).x_m == Approx(-5.0 + 4.0));
+  CHECK(first_at(10.0).x_mps == Approx(2.0));
+  CHECK(first_at(16.0).x_m == Approx(-5.0 + 16.0 + 8.0));
+  CHECK(first_at(16.0).x_mps == Approx(4.0));
+}

@@ -25,7 +25,7 @@ constexpr std::array<std::array<double, 2>, 4> kCornersM{
 
 Traffic::Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
                  Random random)
-    : course_(course), road_(road), leader_(options.leader) {
+    : course_(course), road_(road), leader_(options.leader), departures_(options.departures) {
   add_cars(options.oncoming_interval_s, kOncomingLaneM, true, random);
   add_cars(options.same_way_interval_s, kSameWayLaneM, false, random);
   add_jam(options.jam_cars, random);
@@ -65,6 +65,9 @@ void Traffic::reflectors_at(double time_s, std::vector<MovingReflector>& reflect
     const VehicleState then = course_.at(time_s + car.ahead_s);
     append(then.distance_m + car.ahead_m, car.left_m, then.speed_mps, reflectors);
   }
+  for (const Departure& departure : departures_) {
+    append(departure, time_s, reflectors);
+  }
   if (!leader_) return;
   const VehicleState ahead = course_.at(time_s + kLeaderTimeS);
   append(ahead.distance_m + kLeaderGapM, 0.0, ahead.speed_mps, reflectors);
@@ -85,6 +88,26 @@ void Traffic::append(double distance_m, double left_m, double speed_mps,
                           centre.y_m + sin_yaw * forward_m + cos_yaw * corner_left_m,
                           cos_yaw * along_mps - sin_yaw * across_mps,
                           sin_yaw * along_mps + cos_yaw * across_mps, 10.0});
+  }
+}
+
+void Traffic::append(const Departure& departure, double time_s,
+                     std::vector<MovingReflector>& reflectors) {
+  const double cos_yaw = std::cos(departure.tail.yaw_rad);
+  const double sin_yaw = std::sin(departure.tail.yaw_rad);
+  const double driven_s = std::max(0.0, time_s - departure.start_s);
+  const double full_s = departure.top_speed_mps / departure.acceleration_mps2;
+  const double speed_mps = departure.acceleration_mps2 * std::min(driven_s, full_s);
+  const double way_m =
+      0.5 * speed_mps * std::min(driven_s, full_s) + speed_mps * std::max(0.0, driven_s - full_s);
+  const auto count = static_cast<int>(departure.length_m / departure.spacing_m);
+  for (int i = 0; i <= count; ++i) {
+    const double along_m = way_m + departure.spacing_m * i;
+    for (const double left_m : {-0.5 * departure.width_m, 0.5 * departure.width_m}) {
+      reflectors.push_back({departure.tail.x_m + cos_yaw * along_m - sin_yaw * left_m,
+                            departure.tail.y_m + sin_yaw * along_m + cos_yaw * left_m,
+                            cos_yaw * speed_mps, sin_yaw * speed_mps, 10.0});
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "cremed/estimator/scan/pose2.hpp"
 #include "tools/simulate/random.hpp"
 #include "tools/simulate/road.hpp"
 #include "tools/simulate/vehicle_course.hpp"
@@ -19,14 +20,27 @@ struct MovingReflector {
   double rcs_dbm2 = 0.0;
 };
 
+/// A train, lorry or car that stands and then departs, whatever we do.
+struct Departure {
+  Pose2 tail;  ///< The end of its middle line, in the world; it drives along x.
+  double length_m = 0.0;
+  double width_m = 0.0;    ///< Reflectors are on both sides,
+  double spacing_m = 1.0;  ///< so far apart.
+  double start_s = 0.0;
+  double acceleration_mps2 = 1.0;
+  double top_speed_mps = 15.0;
+};
+
 struct TrafficOptions {
   double oncoming_interval_s = 8.0;   ///< Mean time between oncoming cars; 0: none.
   double same_way_interval_s = 20.0;  ///< Mean time between cars beside us; 0: none.
   bool leader = true;                 ///< A car two seconds ahead drives as we do.
   int jam_cars = 0;  ///< Cars around us that drive as we do, slightly shifted in time.
+  std::vector<Departure> departures{};
 };
 
-/// Other cars: oncoming and same direction at constant speeds, a leader, and those of a jam.
+/// Other cars: oncoming and same direction at constant speeds, a leader, those of a jam, and what
+/// departs.
 class Traffic {
  public:
   Traffic(const VehicleCourse& course, const Road& road, const TrafficOptions& options,
@@ -55,9 +69,13 @@ class Traffic {
   void append(double distance_m, double left_m, double speed_mps,
               std::vector<MovingReflector>& reflectors) const;
 
+  static void append(const Departure& departure, double time_s,
+                     std::vector<MovingReflector>& reflectors);
+
   const VehicleCourse& course_;
   const Road& road_;
   bool leader_;
+  std::vector<Departure> departures_;
   std::vector<Car> cars_;
   std::vector<JamCar> jam_;
 };

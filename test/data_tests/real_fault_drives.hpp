@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "test/data_tests/real_drive.hpp"
+#include "test/faults/fault_drive.hpp"
+
+namespace cremed::test {
+
+/// Error of nuScenes' truth itself, as in test_real_drives; up to 60 % larger on 0655 and 0796.
+inline TruthNoise nuscenes_truth_noise() {
+  return TruthNoise({{0.012, 0.0027, 0.00072, 0.075},
+                     {0.021, 0.0048, 0.00104, 0.15},
+                     {0.034, 0.0088, 0.00133, 0.3}});
+}
+
+/// A drive in a folder of the recorded data, without its frames after `duration_s`.
+inline FaultDrive recorded_fault_drive(const std::string& name, const std::string& folder,
+                                       const Configuration& configuration, const TruthNoise& noise,
+                                       double duration_s = 1e9) {
+  std::istringstream truth(read_shared(folder + "/truth.csv"));
+  FaultDrive drive{name, configuration.radars,
+                   read_frames(read_shared(folder + "/can.log.xz"), configuration),
+                   TrueTrajectory(truth), noise};
+  const std::int64_t end_us = drive.start_us() + std::llround(duration_s * 1e6);
+  std::erase_if(drive.frames, [&](const CanFrame& frame) { return frame.stamp_us > end_us; });
+  return drive;
+}
+
+/// Of nuScenes, e.g. "0061".
+inline FaultDrive nuscenes_fault_drive(const std::string& scene) {
+  const bool is_boston = scene == "0103" || scene == "0655";
+  return recorded_fault_drive(
+      "scene-" + scene, "data/nuscenes/scene-" + scene,
+      configuration_of_car(is_boston ? "nuscenes-boston" : "nuscenes-singapore"),
+      nuscenes_truth_noise());
+}
+
+/// Of RadarScenes: sequence 105. `are_flags_used`: whether the sensors' own judgement of what moves
+/// is believed.
+inline FaultDrive radarscenes_fault_drive(bool are_flags_used, double duration_s = 1e9) {
+  const std::string folder = "data/radarscenes/sequence-105";
+  const std::string file = are_flags_used ? "/radarscenes.toml" : "/radarscenes-unflagged.toml";
+  return recorded_fault_drive(are_flags_used ? "105" : "105 unflagged", folder,
+                              load_configuration(shared_path(folder + file)), TruthNoise(),
+                              duration_s);
+}
+
+}  // namespace cremed::test

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <catch2/catch.hpp>
+
+#include "test/data_tests/real_fault_drives.hpp"
+#include "test/faults/systematic_matrix.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+TEST_CASE("Real drives without fault: nobody is named, and front radars are available",
+          "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
+    matrix.run_healthy("healthy nuScenes", nuscenes_fault_drive(scene), 0.97);
+  }
+  matrix.run_healthy("healthy 105", radarscenes_fault_drive(true), 0.90);
+  matrix.run_healthy("healthy 105 unflagged", radarscenes_fault_drive(false), 0.80);
+  matrix.check();
+}
+
+TEST_CASE("Real drives: each systematic fault", "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const auto* scene : {"0061", "0103", "1094"}) {
+    matrix.run_faults(nuscenes_fault_drive(scene));
+  }
+  matrix.check();
+}

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Faults of an ARS408 that show in its clusters, injected into the frames of a healthy drive.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
+#include "test/faults/frame_faults.hpp"
+#include "tools/simulate/ars408_encoder.hpp"
+
+namespace cremed::test {
+
+/// Whether the frame is that message of an ARS408 with sensor id 0.
+inline bool is_message(const CanFrame& frame, Ars408Message message) {
+  return frame.id == ars408_id(static_cast<std::uint32_t>(message), 0);
+}
+
+/// A frame with this stamp and bus.
+inline CanFrame at_place_of(const CanFrame& place, CanFrame frame) {
+  frame.stamp_us = place.stamp_us;
+  frame.interface = place.interface;
+  return frame;
+}
+
+/// `change` is applied to the clusters of the radars that `is_faulty` selects; values are rounded
+/// again.
+template <typename IsFaulty, typename Change>
+Frames with_changed_clusters(Frames frames, FaultTime time, IsFaulty is_faulty, Change change) {
+  for (CanFrame& frame : frames) {
+    if (!is_faulty(std::size_t{frame.interface}) || !time.has(frame) ||
+        !is_message(frame, Ars408Message::cluster_general)) {
+      continue;
+    }
+    auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+    if (!cluster) continue;
+    change(*cluster);
+    frame.data = encode_ars408_cluster(0, *cluster).data;
+  }
+  return frames;
+}
+
+/// An ARS408 was knocked: its direction of view turns by `yaw_rad`, so its targets turn the other
+/// way.
+inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  return with_changed_clusters(
+      std::move(frames), time, [radar](std::size_t each) { return each == radar; },
+      [c, s](Ars408General& cluster) {
+        const Ars408General seen = cluster;
+        cluster.x_m = c * seen.x_m + s * seen.y_m;
+        cluster.y_m = c * seen.y_m - s * seen.x_m;
+        cluster.vx_mps = c * seen.vx_mps + s * seen.vy_mps;
+        cluster.vy_mps = c * seen.vy_mps - s * seen.vx_mps;
+      });
+}
+
+/// Mounted upside down: left and right are exchanged.
+inline Frames with_upside_down(Frames frames, FaultTime time, std::size_t radar) {
+  return with_changed_clusters(
+      std::move(frames), time, [radar](std::size_t each) { return each == radar; },
+      [](Ars408General& cluster) {
+        cluster.y_m = -cluster.y_m;
+        cluster.vy_mps = -cluster.vy_mps;
+      });
+}
+
+/// Velocities of those radars are multiplied by `factor`.
+template <typename IsFaulty>
+Frames with_scaled_doppler(Frames frames, FaultTime time, IsFaulty is_faulty, double factor) {
+  return with_changed_clusters(std::move(frames), time, is_faulty,
+                               [factor](Ars408General& cluster) {
+                                 cluster.vx_mps *= factor;
+                                 cluster.vy_mps *= factor;
+                               });
+}
+
+/// Radars hang: each repeats the clusters of its last list while its counter runs on.
+inline Frames with_repeated_scan(const Frames& frames, FaultTime time) {
+  struct Bus {
+    std::vector<CanFrame> open;  // The list that is being received.
+    std::vector<CanFrame> last;  // The one before: header, clusters and their quality.
+    bool hangs = false;
+  };
+  constexpr std::int64_t kFrameUs = 250;
+  std::array<Bus, 256> buses;
+  Arrivals arrivals;
+  for (const CanFrame& frame : frames) {
+    Bus& bus = buses[frame.interface];
+    const bool is_header = is_message(frame, Ars408Message::cluster_status);
+    const bool is_of_list = is_header || is_message(frame, Ars408Message::cluster_general) ||
+                            is_message(frame, Ars408Message::cluster_quality);
+    if (is_header) {
+      if (!bus.hangs) bus.last = std::exchange(bus.open, {});
+      bus.hangs = time.has(frame) && !bus.last.empty();
+    }
+    if (!is_of_list || !bus.hangs) {
+      if (is_of_list) bus.open.push_back(frame);
+      arrivals.add(frame.stamp_us, frame);
+    } else if (is_header) {
+      std::int64_t stamp_us = frame.stamp_us;
+      for (CanFrame repeated : bus.last) {
+        // The header's counter.
+        if (stamp_us == frame.stamp_us) std::copy_n(&frame.data[2], 2, &repeated.data[2]);
+        repeated.stamp_us = stamp_us;
+        arrivals.add(stamp_us, repeated);
+        stamp_us += kFrameUs;
+      }
+    }
+  }
+  return arrivals.in_order();
+}
+
+}  // namespace cremed::test

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What systematic faults do to recorded and simulated drives, a line for each: see kUsage.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "test/data_tests/real_fault_drives.hpp"
+#include "test/faults/drive_figures.hpp"
+#include "test/faults/figures_line.hpp"
+#include "test/faults/parked_drive.hpp"
+#include "test/faults/systematic_faults.hpp"
+
+namespace {
+
+using namespace cremed;
+using namespace cremed::test;
+
+constexpr const char* kUsage =
+    R"(fault_bench [--seconds S] [--case TEXT] DRIVE...
+
+Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of
+cremed-simulate (bends), or what departs beside a parked vehicle: train, convoy, jam-starts.
+CREMED_SHARED names the folder with the recorded data.
+  --seconds S  only the beginning of 105 and of simulated drives (default 40)
+  --case TEXT  only cases whose name and radar contain it
+  --seeds N    so many parked vehicles (default 20)
+
+)";
+
+struct Options {
+  double seconds = 40.0;
+  std::uint64_t seeds = 20;
+  std::string filter;
+  std::vector<std::string> drives;
+};
+
+Options options_of(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--seconds" && i + 1 < argc) {
+      options.seconds = std::atof(argv[++i]);
+    } else if (argument == "--seeds" && i + 1 < argc) {
+      options.seeds = std::strtoull(argv[++i], nullptr, 10);
+    } else if (argument == "--case" && i + 1 < argc) {
+      options.filter = argv[++i];
+    } else if (argument.starts_with("-")) {
+      throw std::runtime_error(kUsage);
+    } else {
+      options.drives.emplace_back(argument);
+    }
+  }
+  if (options.drives.empty()) throw std::runtime_error(kUsage);
+  return options;
+}
+
+FaultDrive drive_of(const std::string& name, double seconds) {
+  if (name.starts_with("105")) return radarscenes_fault_drive(name == "105", seconds);
+  if (find_scenario(name) != nullptr) {
+    return simulated_fault_drive(name, seconds, configuration_of_car("nuscenes-singapore").radars);
+  }
+  return nuscenes_fault_drive(name);
+}
+
+using Job = std::function<std::string()>;
+
+/// Two at a time; each gives a line, printed in order.
+void run_all(const std::vector<Job>& jobs) {
+  std::vector<std::string> lines(jobs.size());
+  std::size_t printed = 0;
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      std::string line = jobs[i]();
+      const std::lock_guard lock(mutex);
+      lines[i] = std::move(line);
+      for (; printed < lines.size() && !lines[printed].empty(); ++printed) {
+        std::printf("%s\n", lines[printed].c_str());
+      }
+      std::fflush(stdout);
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+  const auto held = std::count_if(lines.begin(), lines.end(),
+                                  [](const std::string& line) { return line.starts_with(' '); });
+  std::printf("all holds in %td of %zu\n", held, lines.size());
+}
+
+void run_parked(Neighbour neighbour, std::uint64_t seeds) {
+  std::vector<Job> jobs;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    jobs.emplace_back([neighbour, seed] {
+      const FaultDrive drive = ParkedDrive(neighbour, seed).drive();
+      const FaultCase none{"none", "", {drive.start_us(), kNever}};
+      return figures_line(drive, none, judged(drive, none));
+    });
+  }
+  run_all(jobs);
+}
+
+void run_faults(const FaultDrive& drive, const std::string& filter) {
+  std::vector<Job> jobs;
+  for (const FaultCase& fault : SystematicFaults(drive).all()) {
+    if ((fault.kind + " " + fault.of).find(filter) != std::string::npos) {
+      jobs.emplace_back(
+          [&drive, fault] { return figures_line(drive, fault, judged(drive, fault)); });
+    }
+  }
+  run_all(jobs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (std::getenv("CREMED_SHARED") == nullptr) {
+      ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);
+    }
+    const Options options = options_of(argc, argv);
+    std::printf("%s%s\n", kColumns, figures_header().c_str());
+    for (const std::string& name : options.drives) {
+      const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
+                                       [&](const auto& each) { return each.first == name; });
+      if (parked != kNeighbours.end()) {
+        run_parked(parked->second, options.seeds);
+      } else {
+        run_faults(drive_of(name, options.seconds), options.filter);
+      }
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "test/faults/fault_drive.hpp"
+#include "test/faults/frame_faults.hpp"
+
+namespace cremed::test {
+
+inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+/// One fault of one drive.
+struct FaultCase {
+  using Radars = std::vector<RadarConfiguration>;
+
+  std::string kind;
+  std::string of;  ///< The faulty radar; empty: all, or none.
+  FaultTime time;
+  /// Changes the frames; empty: they stay as they are.
+  std::function<Frames(const FaultDrive&, FaultTime)> put_in{};
+  /// Offset of the stamps of radar `of` to truth's clock: it is judged by its own clock.
+  std::int64_t clock_offset_us = 0;
+  /// The clock of all stamps is set by this at the beginning of `time`.
+  std::int64_t clock_step_us = 0;
+  /// Changes the configuration; empty: it stays as it is.
+  std::function<void(Radars&)> configure{};
+  /// What an earlier drive is said to have learned, by radar.
+  std::vector<std::optional<LearnedErrors>> learned{};
+  /// Bit i: radar i is at fault, by itself or because its configuration is wrong.
+  std::uint32_t guilty = 0;
+  /// So small that it may be learned: the guilty radar need not be named.
+  bool may_be_learned = false;
+
+  /// A step of the clock is over at once.
+  [[nodiscard]] std::int64_t end_us() const {
+    return clock_step_us != 0 ? time.from_us : time.until_us;
+  }
+  [[nodiscard]] bool ends() const { return end_us() < kNever; }
+};
+
+/// What the pipeline made of a drive with a fault.
+struct FaultRecord {
+  RecordingSink sink;
+  /// By row of the odometry: the step of the clock before the frame that gave it, and that frame's
+  /// stamp.
+  struct Given {
+    std::int64_t clock_step_us = 0;
+    std::int64_t frame_us = 0;
+  };
+  std::vector<Given> given;
+};
+
+inline FaultRecord record(const FaultDrive& drive, const FaultCase& fault) {
+  FaultCase::Radars radars = drive.radars;
+  if (fault.configure) fault.configure(radars);
+  const Frames frames = fault.put_in ? fault.put_in(drive, fault.time) : drive.frames;
+  FaultRecord result{RecordingSink(radars.size()), {}};
+  const NoSource source;
+  Pipeline pipeline(configuration_of(radars), source, {&result.sink}, {&no_clock}, fault.learned);
+  FaultRecord::Given given;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool is_stepped = fault.clock_step_us != 0 && fault.time.has(drive.frames[i]);
+    given = {is_stepped ? fault.clock_step_us : 0, frames[i].stamp_us};
+    pipeline.on_frame(frames[i]);
+    result.given.resize(result.sink.odometries.size(), given);
+  }
+  pipeline.finish();
+  result.given.resize(result.sink.odometries.size(), given);
+  return result;
+}
+
+}  // namespace cremed::test

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "test/faults/parked_drive.hpp"
+#include "test/faults/systematic_matrix.hpp"
+
+using namespace cremed;
+using namespace cremed::test;
+
+TEST_CASE("Simulated drive of the nuScenes car: each systematic fault") {
+  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
+  const FaultDrive drive = simulated_fault_drive("bends", 20.0, car.radars);
+  SystematicMatrix matrix(&NotYet::simulated);
+  matrix.run_healthy("healthy", drive);
+  matrix.run_faults(drive);
+  matrix.check();
+}
+
+TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that starts") {
+  SystematicMatrix matrix(&NotYet::simulated);
+  for (const auto& [name, neighbour] : kNeighbours) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      matrix.run_healthy(std::string(name), ParkedDrive(neighbour, seed).drive());
+    }
+  }
+  matrix.check();
+}

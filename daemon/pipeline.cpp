@@ -194,8 +194,9 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   radar.self_check.add(motion, radar.estimator.targets());
-  if (filter_ && radar.self_check.is_trusted()) {
-    filter_->compare(radar.index, motion);
+  motion.covariance *= radar.self_check.covariance_factor();
+  if (filter_) {
+    filter_->compare(radar.index, motion, radar.self_check.is_trusted());
   }
   if (odometry_ && contradicts(*odometry_, motion)) {
     motion = withdrawn(motion);
@@ -210,13 +211,6 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   for (OdometrySink* sink : sinks_) {
     sink->on_scan(radar.index, scan);
   }
-}
-
-/// A radar in doubt is used only if all radars are in doubt.
-bool Pipeline::is_trusted(const RadarChannel& radar) const {
-  return radar.self_check.is_trusted() ||
-         std::none_of(radars_.begin(), radars_.end(),
-                      [](const auto& other) { return other->self_check.is_trusted(); });
 }
 
 /// Holds every scan with usable targets, registered or not.
@@ -274,7 +268,8 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   radar.held_us.reset();
   publish_predictions(stamp_us);
   const std::int64_t begin_us = clock_.now_us();
-  const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_trusted(radar));
+  const Odometry odometry =
+      filter_->update(radar.index, targets, stamp_us, !radar.self_check.speed().is_contradicted());
   const std::int64_t solve_us = clock_.now_us() - begin_us;
   if (!odometry.is_new) {
     return;

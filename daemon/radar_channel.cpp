@@ -13,7 +13,7 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
       assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6),
                 std::llround(configuration.stamp_offset_s * 1e6)),
       estimator(configuration.ego_motion),
-      self_check(configuration.ego_motion.registration) {}
+      self_check(configuration.ego_motion) {}
 
 void RadarChannel::count(const EgoMotion& motion) {
   status_.last_motion_status = motion.status;

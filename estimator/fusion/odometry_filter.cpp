@@ -19,15 +19,16 @@ namespace {
 
 using namespace state_layout;
 
-/// A radar in doubt contradicts the filter if its time-averaged NIS is above this. Even if its
-/// error is constant for a minute, 5.4 is exceeded by chance in 1 of 1000 cases only.
-constexpr double kMaxMeanInnovation = 5.0;
 /// Errors of azimuth spread the static world's Doppler in proportion to the speed: 2674 of 2677
 /// doubts of RadarScenes 105, with 200 targets a scan at 15 to 25 m/s, were by rivals 0.1 to 0.8
 /// m/s beside the vehicle's speed.
 constexpr double kMinRivalDifferenceShare = 0.05;
 /// Least share of the targets in the information of x. Their prior has a sigma of 0.1 m.
 constexpr double kMinShareOfX = 0.2;
+/// Least share of a scan's targets in the map, and their largest distance along x, with which they
+/// confirm the state. On healthy drives half to nine tenths are in the map.
+constexpr double kMinConfirmedShare = 0.4;
+constexpr double kMaxConfirmedM = 0.3;
 /// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
 constexpr double kMaxSpeedSigmas = 3.0;
 
@@ -55,7 +56,8 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       nodes_(state_),
       registration_(options.position_std_factor),
       consensus_(state_),
-      condition_(state_, consensus_),
+      faults_(state_),
+      condition_(state_, consensus_, faults_),
       output_(state_),
       vehicle_(state_, output_) {
   for (const OdometryRadar& radar : radars) {
@@ -67,6 +69,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_trusted) {
+  is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
@@ -89,7 +92,15 @@ std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
   return odometry ? std::optional(with_condition(*odometry)) : std::nullopt;
 }
 
+void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is_trusted) {
+  faults_.add_motion(radar, motion);
+  if (is_trusted && !faults_.is_at_fault(radar)) {
+    vehicle_.compare(state_.mount(radar), motion);
+  }
+}
+
 void OdometryFilter::forget() {
+  faults_.clear();
   output_.bridge(state_.options().max_gap_s);
   output_.forget_predictions();
   vehicle_.forget();
@@ -98,7 +109,7 @@ void OdometryFilter::forget() {
 
 Odometry OdometryFilter::with_condition(Odometry odometry) const {
   odometry.status = condition_.status(odometry);
-  odometry.left_out = consensus_.left_out();
+  odometry.left_out = left_out();
   return odometry;
 }
 
@@ -145,6 +156,11 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
+/// Left-out radars as a bit set: all that are judged if it is not known which is at fault.
+std::uint32_t OdometryFilter::left_out() const {
+  return consensus_.at_fault() | (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
+}
+
 // Doppler.
 
 bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
@@ -157,6 +173,10 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
+  faults_.add_velocity(radar, stamp_us, scan->velocity);
+  if (faults_.is_unknown()) {
+    condition_.doubt();
+  }
   if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
       !condition_.has_used_scans()) {
     // The speed, and so the distance, was unknown since the start: restart here.
@@ -165,7 +185,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     output_.restart_anchor();
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
-  return take_doppler(radar, *scan, stamp_us);
+  return take_doppler(radar, targets, *scan, stamp_us);
 }
 
 /// Velocity of the sensor by the state; none if the speed is unknown.
@@ -197,8 +217,8 @@ bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets
       });
 }
 
-bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
-                                  std::int64_t stamp_us) {
+bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
+                                  const ScanVelocity& scan, std::int64_t stamp_us) {
   RadarTrust& trust = consensus_[radar];
   const double age_s = seconds_between(stamp_us, state_.time_us());
   LinearMeasurement measurement = DopplerMeasurement{state_, radar, age_s}.linearise(scan.velocity);
@@ -207,20 +227,39 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
   const bool is_expected = nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
-  const bool is_used = !trust.is_left_out && trust.is_trusted;
+  const bool is_used = !consensus_.is_left_out(radar) && trust.is_trusted;
   if (is_used) {
     trust.doppler_noise.add(0.5 * nis);
   }
   if (!is_expected) {
+    trust.contradicts_positions = positions_confirm_state(radar, targets, age_s);
     follow_majority(stamp_us);
     return false;
   }
+  trust.contradicts_positions = false;
   if (is_used) {
     state_.update();
     output_.add_radar(radar);
-    condition_.use_scan(scan.is_clear);
+    // Radars that look sideways do not hold the odometry if the others are there but wrong.
+    if (!looks_across(state_.mount(radar)) || !consensus_.has_distrusted(stamp_us)) {
+      condition_.use_scan(scan.is_clear);
+    }
   }
   return is_used;
+}
+
+/// Whether all targets of a scan, whatever their Doppler, are where the state expects the map: it
+/// is then the Doppler that is wrong.
+bool OdometryFilter::positions_confirm_state(std::size_t radar, const TargetSet& targets,
+                                             double age_s) {
+  if (looks_across(state_.mount(radar))) {
+    return false;
+  }
+  TargetMap& map = tracks_[radar]->map;
+  map.place(MapMeasurement{state_, map, radar, age_s}.now_from_node());
+  const auto match = registration_.solve(targets, map, state_.mount(radar));
+  return match && match->matched >= kMinConfirmedShare * static_cast<double>(targets.size()) &&
+         std::abs(match->correction.x()) <= kMaxConfirmedM;
 }
 
 /// If a majority of radars contradicts the filter and agrees with each other, its velocity is reset
@@ -228,6 +267,10 @@ bool OdometryFilter::take_doppler(std::size_t radar, const ScanVelocity& scan,
 void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   const auto majority = consensus_.contradicting_majority(stamp_us);
   if (!majority) {
+    return;
+  }
+  if (consensus_.contradicts_positions(stamp_us)) {
+    condition_.doubt();
     return;
   }
   const Eigen::Vector2d wrong(state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
@@ -256,6 +299,8 @@ void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
   if (static_targets_.size() >= static_cast<std::size_t>(state_.options().min_targets)) {
     match(radar, age_s);
     extend_map(radar, stamp_us, age_s);
+  } else {
+    faults_.add_too_few_targets(radar, stamp_us);
   }
 }
 
@@ -271,6 +316,9 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   RadarTrust& trust = consensus_[radar];
   // Past a radar that looks sideways the reflections of targets move along with the vehicle.
   const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
+  if (has_x) {
+    compare_speed(radar, *match);
+  }
   LinearMeasurement measurement = from_map.linearise(*match, has_x);
   measurement.noise *= trust.position_noise.value();
   const double nis = state_.gaussian.innovate(measurement);
@@ -279,6 +327,21 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   trust.position_noise.add(0.5 * nis);
   if (nis <= state_.options().max_position_nis) {
     state_.update(has_x);
+  }
+}
+
+/// Tells the speed by positions: that of the state, corrected by how much further they moved.
+void OdometryFilter::compare_speed(std::size_t radar, const MapMatch& match) {
+  double since_s = 0.0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    since_s += match.by_node[i](0, 0) / match.x_share *
+               seconds_between(nodes_.stamp_us(i), state_.time_us());
+  }
+  const auto expected = expected_velocity(radar);
+  if (expected && since_s > 0.0) {
+    faults_.add_speed_by_positions(radar, state_.time_us(),
+                                   expected->x() + match.correction.x() / (match.x_share * since_s),
+                                   since_s);
   }
 }
 
@@ -314,8 +377,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  const bool contradicts = !trust.is_trusted && trust.doppler.exceeds(kMaxMeanInnovation);
-  return {trust.is_left_out || contradicts,
+  return {(left_out() >> radar & 1U) != 0,
           trust.doppler.mean(),
           trust.lateral.mean(),
           trust.yaw.mean(),

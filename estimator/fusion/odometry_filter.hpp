@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
 #include "cremed/estimator/fusion/gate/filter_condition.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
 #include "cremed/estimator/fusion/map/map_nodes.hpp"
@@ -69,10 +70,8 @@ class OdometryFilter {
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
   void add(const VehicleReading& reading) { vehicle_.add(reading); }
 
-  /// A radar's own motion, with which these values are compared.
-  void compare(std::size_t radar, const EgoMotion& motion) {
-    vehicle_.compare(state_.mount(radar), motion);
-  }
+  /// A radar's own motion, with which other radars and these values are compared; before its scan.
+  void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
 
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
   /// first scan, or more than max_gap_s after the last. Each prediction is returned once, in order;
@@ -96,11 +95,16 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
+  [[nodiscard]] std::uint32_t left_out() const;
+  void compare_speed(std::size_t radar, const MapMatch& match);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                        std::int64_t stamp_us);
-  bool take_doppler(std::size_t radar, const ScanVelocity& scan, std::int64_t stamp_us);
+  bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
+                    std::int64_t stamp_us);
+  [[nodiscard]] bool positions_confirm_state(std::size_t radar, const TargetSet& targets,
+                                             double age_s);
   void follow_majority(std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   void match(std::size_t radar, double age_s);
@@ -114,6 +118,7 @@ class OdometryFilter {
   TargetSet static_targets_;  // Of the present scan.
   std::vector<TwoWorlds> two_worlds_;
   RadarConsensus consensus_;
+  FaultHypotheses faults_;
   FilterCondition condition_;
   OdometryOutput output_;
   VehicleSignals vehicle_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/motion/self_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cremed/estimator/cost/normal_equations.hpp"
@@ -28,7 +29,7 @@ double duration_s(const EgoMotion& motion) {
 }  // namespace
 
 void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
-  if (targets.is_finite()) {
+  if (targets.is_finite() && !looks_across_) {
     speed_.add(targets, motion.utime_us);
   }
   if (motion.status == MotionStatus::ok) {
@@ -63,8 +64,15 @@ void SelfCheck::compare_with_last(const EgoMotion& motion) {
   }
 }
 
+double SelfCheck::covariance_factor() const {
+  return looks_across_ ? std::max({1.0, doppler_.mean(), next_.mean()}) : 1.0;
+}
+
 std::uint32_t SelfCheck::doubts() const {
   std::uint32_t result = 0;
+  if (looks_across_) {
+    return result;
+  }
   if (doppler_.exceeds(kMaxMeanInnovation)) {
     result |= registration_contradicts_doppler;
   }

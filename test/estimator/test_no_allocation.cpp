@@ -256,7 +256,7 @@ TEST_CASE("the estimator does not allocate with any kind of scan") {
 TEST_CASE("self-check does not allocate with any kind of motion") {
   const EgoMotionOptions options = simulation::drawn_options(2);
   simulation::DrawnVehicle vehicle(simulation::in_bends, simulation::drawn_radars(1), options, 1);
-  const auto check = std::make_unique<SelfCheck>(options.registration);
+  const auto check = std::make_unique<SelfCheck>(options);
   const TargetSet targets;  // test_hot_path covers the speed check.
   long count = 0;
   while (vehicle.time_s() < 20.0) {

@@ -24,7 +24,7 @@ SelfCheck checked(int degrees_of_freedom,
                   double duration_s = kDurationS) {
   const EgoMotionOptions options = drawn_options(degrees_of_freedom);
   DrawnVehicle vehicle(simulation::in_bends, drawn_radars(1), options, 3);
-  SelfCheck check(options.registration);
+  SelfCheck check(options);
   while (vehicle.time_s() < duration_s) {
     DrawnMotion drawn = vehicle.next();
     drawn.motion.doppler_innovation = 1.0;
@@ -88,7 +88,7 @@ TEST_CASE("self-check: only successive estimates of a driving vehicle are compar
 TEST_CASE("self-check: motions before and after the clock was set are not compared") {
   const EgoMotionOptions options = drawn_options(2);
   DrawnVehicle vehicle(simulation::in_bends, drawn_radars(1), options, 3);
-  SelfCheck check(options.registration);
+  SelfCheck check(options);
   while (vehicle.time_s() < 10.0) {
     check.add(vehicle.next().motion, {});
     check.forget();

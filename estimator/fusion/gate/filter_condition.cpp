@@ -49,7 +49,7 @@ bool FilterCondition::is_known() const {
   const OdometryOptions& options = state_.options();
   return state_.gaussian.std(kSpeed) <= options.settled_speed_std_mps &&
          state_.gaussian.std(kYawRate) <= options.settled_yaw_rate_std_radps &&
-         used_scans_ >= options.settled_scans &&
+         used_scans_ >= options.settled_scans && faults_.is_verified() &&
          consensus_.agreeing(used_us_) > consensus_.contradicting(used_us_);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
@@ -14,9 +15,10 @@ namespace cremed {
 /// are.
 class FilterCondition {
  public:
-  /// Both arguments must outlive this object.
-  FilterCondition(const OdometryState& state, const RadarConsensus& consensus)
-      : state_(state), consensus_(consensus) {}
+  /// The arguments must outlive this object.
+  FilterCondition(const OdometryState& state, const RadarConsensus& consensus,
+                  const FaultHypotheses& faults)
+      : state_(state), consensus_(consensus), faults_(faults) {}
 
   void start();
   /// Records that a scan's Doppler was used. `is_clear`: most of its targets are static.
@@ -39,6 +41,7 @@ class FilterCondition {
 
   const OdometryState& state_;
   const RadarConsensus& consensus_;
+  const FaultHypotheses& faults_;
   bool is_settled_ = false;
   int used_scans_ = 0;
   std::int64_t used_us_ = 0;   // Last scan used.

@@ -43,6 +43,29 @@ std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t
   return joint;
 }
 
+bool RadarConsensus::contradicts_positions(std::int64_t time_us) const {
+  int judged = 0;
+  int confirmed = 0;
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const bool is_judged =
+        trusts_[i].votes(time_us) && !trusts_[i].agrees && !looks_across(state_.mount(i));
+    judged += is_judged ? 1 : 0;
+    confirmed += is_judged && trusts_[i].contradicts_positions ? 1 : 0;
+  }
+  return confirmed > 0 && 2 * confirmed >= judged;
+}
+
+bool RadarConsensus::has_distrusted(std::int64_t time_us) const {
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const RadarTrust& trust = trusts_[i];
+    if (!looks_across(state_.mount(i)) && trust.has_verdict && !trust.is_trusted &&
+        seconds_between(trust.verdict_us, time_us) <= kScanVerdictValidS) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double RadarConsensus::longest_contradiction_s() const {
   int scans = 0;
   for (const RadarTrust& trust : trusts_) {
@@ -51,10 +74,12 @@ double RadarConsensus::longest_contradiction_s() const {
   return scans * kScanPeriodS;
 }
 
-std::uint32_t RadarConsensus::left_out() const {
+std::uint32_t RadarConsensus::at_fault() const {
   std::uint32_t radars = 0;
   for (std::size_t i = 0; i < trusts_.size(); ++i) {
-    radars |= trusts_[i].is_left_out ? 1U << i : 0U;
+    const RadarTrust& trust = trusts_[i];
+    const bool lasts = seconds_between(trust.left_out_us, trust.verdict_us) >= RadarTrust::kFaultyS;
+    radars |= is_left_out(i) && lasts ? 1U << i : 0U;
   }
   return radars;
 }

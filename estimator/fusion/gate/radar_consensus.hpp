@@ -10,6 +10,7 @@
 #include "cremed/estimator/fusion/gate/joint_velocity.hpp"
 #include "cremed/estimator/fusion/gate/radar_trust.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
 
@@ -31,10 +32,19 @@ class RadarConsensus {
   /// Joint velocity of the contradicting radars, if they are two or more, the majority, and agree
   /// with each other.
   [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
+  /// Whether half or more of the contradicting radars contradict their own positions.
+  [[nodiscard]] bool contradicts_positions(std::int64_t time_us) const;
+  /// Whether a radar that does not look sideways has scans, but is not trusted.
+  [[nodiscard]] bool has_distrusted(std::int64_t time_us) const;
   /// Longest time for which a radar has contradicted.
   [[nodiscard]] double longest_contradiction_s() const;
-  /// Left-out radars as a bit set.
-  [[nodiscard]] std::uint32_t left_out() const;
+  /// A radar that looks sideways and repeatedly contradicts the filter; FaultHypotheses judges the
+  /// others.
+  [[nodiscard]] bool is_left_out(std::size_t radar) const {
+    return trusts_[radar].is_left_out && looks_across(state_.mount(radar));
+  }
+  /// Those for which it lasts, as a bit set.
+  [[nodiscard]] std::uint32_t at_fault() const;
 
  private:
   [[nodiscard]] int count(std::int64_t time_us, bool agree) const;

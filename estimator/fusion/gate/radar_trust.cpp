@@ -30,6 +30,7 @@ void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, b
   agrees = is_expected;
   contradictions = std::clamp(contradictions + (agrees ? -1 : 1), 0, kMaxContradictions);
   if (contradictions == kMaxContradictions || contradictions == 0) {
+    left_out_us = is_left_out ? left_out_us : stamp_us;
     is_left_out = contradictions != 0;
   }
 }

@@ -32,9 +32,11 @@ inline constexpr double kScanVerdictValidS = 0.3;
 
 /// How much a radar is trusted.
 struct RadarTrust {
-  /// Contradicting minus agreeing scans at which a radar is left out: 0.4 s of an ARS408.
-  /// False-alarm rate of a scan: 1 in 3000 (max_doppler_nis).
+  /// Contradicting minus agreeing scans at which a radar is left out that looks sideways
+  /// (FaultHypotheses judges the others): 0.4 s of an ARS408.
   static constexpr int kMaxContradictions = 5;
+  /// Time after which that is a fault: a passing vehicle takes less.
+  static constexpr double kFaultyS = 3.0;
 
   InnovationMean doppler;  ///< NIS of the last minute.
   InnovationMean lateral;
@@ -43,10 +45,12 @@ struct RadarTrust {
   NoiseFactor position_noise;
   int contradictions = 0;
   bool is_left_out = false;
-  bool is_trusted = true;  ///< By its self-check: it may vote.
+  std::int64_t left_out_us = 0;  ///< Since when.
+  bool is_trusted = true;        ///< By its self-check: it may vote.
   // Its last scan:
   bool has_verdict = false;
   bool agrees = false;
+  bool contradicts_positions = false;  ///< Its Doppler, which the state does not.
   std::int64_t verdict_us = 0;
   DopplerVelocity velocity;
 

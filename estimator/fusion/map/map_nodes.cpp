@@ -14,18 +14,19 @@ bool MapNodes::add_if_due(std::int64_t stamp_us, double age_s) {
     return false;
   }
   newest_ = (newest_ + 1) % state_layout::kNodes;
-  stamp_us_ = stamp_us;
+  stamp_us_[newest_] = stamp_us;
+  is_empty_ = false;
   state_.clone_node(newest_, age_s);
   return true;
 }
 
 bool MapNodes::is_due(std::int64_t stamp_us, double age_s) const {
   const OdometryOptions& options = state_.options();
-  if (!stamp_us_) {
+  if (is_empty_) {
     return true;
   }
   const Eigen::Vector3d moved = relative_pose(state_.node_pose(newest_), state_.pose_before(age_s));
-  return seconds_between(*stamp_us_, stamp_us) >= options.node_period_s &&
+  return seconds_between(stamp_us_[newest_], stamp_us) >= options.node_period_s &&
          (moved.head<2>().norm() > options.node_way_m ||
           std::abs(moved.z()) > options.node_turn_rad);
 }

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <stdexcept>
 #include <string_view>
@@ -110,8 +109,7 @@ LcmListener::LcmListener(const std::string& url, HeardState& state)
   errno = 0;
   lcm_.reset(lcm_create(url.c_str()));
   if (lcm_ == nullptr) {
-    throw std::runtime_error("LCM at " + url + " cannot be set up" +
-                             (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+    throw std::runtime_error("LCM at " + url + ": " + lcm_create_problem(errno));
   }
   for (const Subscription& subscription : kSubscriptions) {
     lcm_subscribe(lcm_.get(), subscription.channel.data(), subscription.hear, &state);

@@ -68,6 +68,9 @@ void check_logs(const Replay& replay) {
     if (log->read_error() != 0) {
       throw std::runtime_error(concat({log->path(), ": ", std::strerror(log->read_error())}));
     }
+    if (const std::string problem = log->stamps().problem(log->path()); !problem.empty()) {
+      throw std::runtime_error(problem);
+    }
   }
 }
 

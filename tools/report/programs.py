@@ -109,6 +109,6 @@ def evaluate(programs, lcm_log, drive, folder):
 
 def read_poses(path):
     """[(utime, x_m, y_m, yaw_rad)] of truth."""
-    with open(path, newline="", encoding="ascii") as file:
+    with open(path, newline="", encoding="utf-8-sig") as file:
         return [tuple(float(row[name]) for name in ("utime", "x_m", "y_m", "yaw_rad"))
                 for row in csv.DictReader(file)]

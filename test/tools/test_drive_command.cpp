@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -365,4 +366,20 @@ TEST_CASE("Odometry without an estimate is no result") {
   const ToolRun result = run(folder, write_drive(folder, {"blind"}));
   CHECK(result.status == 1);
   CHECK_THAT(result.error, Catch::Contains("no estimate in it"));
+}
+
+TEST_CASE("A picture that cannot be drawn is a line that says why") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front"});
+  const ToolRun other = run(folder, drive + " --plot " + folder.file("picture.xyz"));
+  CHECK(other.status == 2);
+  CHECK_THAT(other.error, Catch::Contains(".png, .svg"));
+
+  std::ofstream(folder.file("matplotlib.py")) << "raise ImportError('no', name='matplotlib')\n";
+  REQUIRE(::setenv("PYTHONPATH", folder.file("").c_str(), 1) == 0);
+  const ToolRun without = run(folder, drive + " --plot " + folder.file("picture.png"));
+  ::unsetenv("PYTHONPATH");
+  CHECK(without.status == 1);
+  CHECK_THAT(without.error, Catch::Contains("matplotlib is missing: install python3-matplotlib"));
+  CHECK_THAT(without.error, !Catch::Contains("Traceback"));
 }

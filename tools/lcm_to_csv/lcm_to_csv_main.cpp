@@ -31,7 +31,7 @@ cremed::LcmLogCounters convert(const Arguments& arguments) {
   if (!arguments.odometry.empty()) {
     odometries.emplace(arguments.odometry);
   }
-  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(
+  cremed::LcmLogCounters counters = cremed::lcm_to_csv(
       arguments.log, motions.stream(), odometries ? &odometries->stream() : nullptr);
   motions.finish();
   if (odometries) {

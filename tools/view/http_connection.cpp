@@ -37,7 +37,7 @@ const char* reason_of(int status) {
   }
 }
 
-bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
+bool would_block() { return errno == EAGAIN || errno == EINTR; }
 
 }  // namespace
 

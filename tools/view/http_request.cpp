@@ -37,7 +37,7 @@ std::string_view without_blanks(std::string_view text) {
 HttpRequest parse_http_request(std::string_view text) {
   HttpRequest request;
   const std::size_t end = text.find(kEnd);
-  if (end == std::string_view::npos || end > kLongestRequest) {
+  if (end > kLongestRequest) {  // Or there is none.
     request.status =
         text.size() > kLongestRequest ? HttpRequest::Status::bad : HttpRequest::Status::incomplete;
     return request;

@@ -77,8 +77,9 @@ Addresses addresses_of(const ViewAddress& address) {
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE;
   addrinfo* found = nullptr;
-  ::getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &hints, &found);
-  return {found, &::freeaddrinfo};
+  const std::string port = std::to_string(address.port);
+  return {::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found) == 0 ? found : nullptr,
+          &::freeaddrinfo};
 }
 
 /// -1 if not possible.

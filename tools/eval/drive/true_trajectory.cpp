@@ -26,8 +26,8 @@ void check_order(const std::vector<std::int64_t>& utime_us) {
   }
 }
 
-/// How well the course of the path is that of the vehicle, if yaw is in this unit: 1 if it is, for
-/// a vehicle that drives forward.
+/// How well the path runs along the vehicle's axis, forward or back, if yaw is in this unit: 1 if it
+/// does.
 double mean_cosine_of_slip(const std::vector<Pose2>& poses, double rad_per_unit) {
   double sum = 0.0;
   double way_m = 0.0;
@@ -35,7 +35,7 @@ double mean_cosine_of_slip(const std::vector<Pose2>& poses, double rad_per_unit)
     const double dx = poses[i].x_m - poses[i - 1].x_m;
     const double dy = poses[i].y_m - poses[i - 1].y_m;
     const double yaw_rad = poses[i - 1].yaw_rad * rad_per_unit;
-    sum += dx * std::cos(yaw_rad) + dy * std::sin(yaw_rad);
+    sum += std::abs(dx * std::cos(yaw_rad) + dy * std::sin(yaw_rad));
     way_m += std::hypot(dx, dy);
   }
   return way_m > 0.0 ? sum / way_m : 1.0;

@@ -13,8 +13,18 @@ except ImportError as error:
     sys.exit(f"{error.name or error} is missing: install python3-matplotlib")
 
 
+def _tell(kind, error, trace):
+    if issubclass(kind, OSError):  # No room; cremed-eval was killed, and its tables are gone.
+        print(error, file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = _tell
+
+
 def save(figure, picture, dpi):
     try:
         figure.savefig(picture, dpi=dpi)
-    except (OSError, ValueError) as error:  # No room; a format that it does not know.
+    except ValueError as error:  # A format that it does not know.
         sys.exit(str(error))

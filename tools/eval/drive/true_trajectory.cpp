@@ -26,8 +26,8 @@ void check_order(const std::vector<std::int64_t>& utime_us) {
   }
 }
 
-/// How well the path runs along the vehicle's axis, forward or back, if yaw is in this unit: 1 if it
-/// does.
+/// How well the path runs along the vehicle's axis, forward or back, if yaw is in this unit: 1 if
+/// it does.
 double mean_cosine_of_slip(const std::vector<Pose2>& poses, double rad_per_unit) {
   double sum = 0.0;
   double way_m = 0.0;

@@ -26,6 +26,7 @@ enum BusCondition : int {
   errors_only,
   error_passive,
   silent,
+  late,
 };
 
 int condition_of(const BusStatus& now, const BusStatus& before) {
@@ -50,7 +51,10 @@ int condition_of(const BusStatus& now, const BusStatus& before) {
   if (now.bus == BusState::error_passive) {
     return error_passive;
   }
-  return has_frames ? good : silent;
+  if (has_frames) {
+    return good;
+  }
+  return now.frames_stale != before.frames_stale ? late : silent;
 }
 
 std::string text_of(int condition, const std::string& name, const BusStatus& status) {
@@ -78,6 +82,8 @@ std::string text_of(int condition, const std::string& name, const BusStatus& sta
              "rate";
     case silent:
       return "silent: no frame of a configured radar; `cremed-doctor` finds the cause";
+    case late:
+      return "no frame is read in time: all are dropped as older than live.max_latency_s";
     default:
       return {};
   }
@@ -91,7 +97,8 @@ const char* short_text(int condition) {
                                     " is bus-off",
                                     " has errors only",
                                     " is error passive",
-                                    " is silent"};
+                                    " is silent",
+                                    " is read too late"};
   return kTexts[condition];
 }
 

@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/run_replay.hpp"
 
-#include <algorithm>
 #include <csignal>
-#include <cstring>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
-#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "daemon/configuration/interfaces.hpp"
@@ -23,11 +19,10 @@
 #include "daemon/pipeline.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
-#include "daemon/process/message_text.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "daemon/report/report.hpp"
+#include "daemon/replay_report.hpp"
 #include "daemon/source/replay.hpp"
 
 namespace cremed {
@@ -120,41 +115,6 @@ std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
   return std::make_unique<Replay>(std::move(logs), command_line.speed, stop);
 }
 
-void log_finding(const std::string& radar, const Finding& finding) {
-  const auto level = finding.severity == Severity::error     ? spdlog::level::err
-                     : finding.severity == Severity::warning ? spdlog::level::warn
-                                                             : spdlog::level::info;
-  spdlog::log(level, "{}: {}", radar, to_text(finding));
-}
-
-void log_report(const Configuration& configuration, const Pipeline& pipeline,
-                const FrameSource& source) {
-  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    const RadarConfiguration& radar = configuration.radars[i];
-    const RadarStatus& status = pipeline.radars()[i]->status(0, source);
-    spdlog::info("{}: {}", radar.name, summary(status));
-    for (const Finding& finding : radar_findings(radar, status)) {
-      log_finding(radar.name, finding);
-    }
-    if (const std::string text = irregularities(status); !text.empty()) {
-      spdlog::warn("{}: {}", radar.name, text);
-    }
-  }
-}
-
-void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
-  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
-    if (configuration.vehicle.is_used(signal)) {
-      const VehicleStatus status = pipeline.vehicle(signal);
-      const std::string name = vehicle_signal_name(signal);
-      spdlog::info("{}: {}", name, vehicle_summary(signal, status));
-      for (const Finding& finding : vehicle_findings(configuration.vehicle, signal, status, true)) {
-        log_finding(name, finding);
-      }
-    }
-  }
-}
-
 std::string quantiles(const LatencyHistogram& durations) {
   return fmt::format("p50 {} us, p99 {} us, max {} us", durations.quantile_us(0.5),
                      durations.quantile_us(0.99), durations.max_us());
@@ -167,66 +127,6 @@ void log_durations(const Configuration& configuration, const Pipeline& pipeline)
                  configuration.radars[i].name, radar.latencies.count(), quantiles(radar.latencies),
                  quantiles(radar.solve_times));
   }
-}
-
-/// Logs the faults of the logs; false if one could not be read to its end.
-bool report_logs(const Replay& replay) {
-  bool good = true;
-  for (const auto& log : replay.logs()) {
-    if (log->complaint().line_number != 0) {
-      spdlog::warn("{}:{}: {} ({} such lines)", log->path(), log->complaint().line_number,
-                   log->complaint().reason, log->counters().malformed_lines);
-    }
-    if (log->read_error() != 0) {
-      spdlog::error("{}: {}", log->path(), std::strerror(log->read_error()));
-      good = false;
-    }
-  }
-  if (replay.counters().lost_frames != 0) {
-    spdlog::warn("{} frames were lost before they were logged", replay.counters().lost_frames);
-  }
-  return good;
-}
-
-std::string other_interfaces(const Replay& replay) {
-  std::set<std::string> names;
-  for (const auto& log : replay.logs()) {
-    for (const std::string& name : log->other_interfaces()) {
-      names.insert(printable(name));
-    }
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-/// One of several logs may lack an interface; that is no fault.
-void report_absent_interfaces(const Configuration& configuration, const Replay& replay) {
-  const std::string others = other_interfaces(replay);
-  const std::vector<std::string> names = interface_names(configuration);
-  for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
-    if (std::none_of(replay.logs().begin(), replay.logs().end(),
-                     [i](const auto& log) { return log->has_frames(i); })) {
-      spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
-                    names[i], others);
-    }
-  }
-}
-
-/// Whether any radar had a frame; without one there is no result.
-bool report_frames(const Configuration& configuration, const Replay& replay,
-                   const Pipeline& pipeline) {
-  const SourceCounters& counters = replay.counters();
-  if (counters.frames + counters.other_interface_frames == 0) {
-    spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
-    return false;
-  }
-  report_absent_interfaces(configuration, replay);
-  const bool good =
-      std::any_of(pipeline.radars().begin(), pipeline.radars().end(),
-                  [&](const auto& radar) { return radar->status(0, replay).decoder.frames != 0; });
-  if (!good) {
-    spdlog::error("no frame of a configured radar in the input");
-  }
-  return good;
 }
 
 bool report_sinks(const Sinks& sinks) {
@@ -277,15 +177,11 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
-  log_report(configuration, pipeline, *replay);
-  log_vehicle(configuration, pipeline);
+  const bool input_good =
+      report_replay({configuration_path, configuration, pipeline, *replay, *stop != 0});
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }
-  const bool logs_good = report_logs(*replay);
-  // After a stop before the first frame the input may be good.
-  const bool input_good =
-      *stop != 0 ? logs_good : report_frames(configuration, *replay, pipeline) && logs_good;
   const bool output_good = report_sinks(sinks);
   return input_good && output_good ? 0 : 1;
 }

@@ -11,9 +11,9 @@
 namespace cremed {
 
 /// Replays the logs of the command line through the pipeline. Returns the exit status: 0, or 1 if
-/// input could not be read, held no frame of a configured radar, or output was lost. Throws
-/// UsageError if an output would overwrite an input or another output, std::runtime_error if inputs
-/// or outputs cannot be opened.
+/// input could not be read or was not what it should be (replay_report.hpp), or output was lost.
+/// Throws UsageError if an output would overwrite an input or another output, std::runtime_error if
+/// inputs or outputs cannot be opened.
 int run_replay(const CommandLine& command_line, const std::string& configuration_path,
                const Configuration& configuration);
 

@@ -2,24 +2,84 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A file that is there when it is whole, and else as it was before."""
 import contextlib
+import errno
 import os
+import stat
 import tempfile
+
+STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
+USUAL_PERMISSIONS = 0o644
 
 
 @contextlib.contextmanager
 def replaced_file(path):
-    """To be written in place of `path`: it is renamed to that at the end, if nothing was raised."""
-    with tempfile.NamedTemporaryFile(dir=os.path.dirname(os.path.abspath(path)), delete=False) as file:
-        try:
+    """To be written in place of `path`: what it links to is replaced at the end, if nothing was raised.
+    A device, a pipe and standard output are written to. Errors name `path`."""
+    try:
+        with _written_to(path) if _is_stream(path) else _replaced(os.path.realpath(path)) as file:
             yield file
-            os.chmod(file.name, 0o666 & ~umask())
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
+    except OSError as error:
+        if error.filename is None:  # Of another file.
+            error.filename = "standard output" if path == "-" else str(path)
+            raise OSError(f"cannot write {error.filename}: {error.strerror or error}") from error
+        raise
 
 
-def umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _is_stream(path):
+    if str(path) in STANDARD_OUTPUT:
+        return True
+    try:
+        return not stat.S_ISREG(os.stat(path).st_mode)
+    except OSError:
+        return False
+
+
+@contextlib.contextmanager
+def _nameless():
+    """Errors of what nobody named lose their name."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror) from error
+
+
+@contextlib.contextmanager
+def _written_to(path):
+    with _nameless():
+        file = open(os.dup(1) if str(path) in STANDARD_OUTPUT else path, "wb")
+    with file:
+        yield file
+
+
+@contextlib.contextmanager
+def _replaced(target):
+    with _nameless():
+        permissions = _permissions(target)
+        descriptor, part = tempfile.mkstemp(prefix=f"{os.path.basename(target)}.", dir=os.path.dirname(target))
+    try:
+        with open(descriptor, "wb") as file:
+            yield file
+            with _nameless():
+                file.flush()
+                permissions(descriptor)
+                os.replace(part, target)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(part)
+        raise
+
+
+def _permissions(target):
+    """What gives a new file those of the old; raises, where that may not be written, which renaming would
+    not check."""
+    if not os.path.exists(target):
+        return lambda file: os.fchmod(file, USUAL_PERMISSIONS)
+    if not os.access(target, os.W_OK):
+        raise OSError(errno.EACCES, os.strerror(errno.EACCES))
+    of_old = os.stat(target)
+
+    def give(file):
+        os.fchmod(file, stat.S_IMODE(of_old.st_mode))
+        with contextlib.suppress(PermissionError):  # Only root may change the owner.
+            os.fchown(file, of_old.st_uid, of_old.st_gid)
+    return give

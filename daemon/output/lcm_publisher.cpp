@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cctype>
+#include <cerrno>
 #include <utility>
 
 #include <fcntl.h>
@@ -137,7 +138,9 @@ lcm_t* create_lcm(const std::string& url) {
   for (int i = 0; i < kDescriptors; ++i) {
     before[static_cast<std::size_t>(i)] = is_open(i);
   }
+  errno = 0;
   lcm_t* lcm = lcm_create(url.c_str());
+  const int error = errno;
   for (int i = 0; i < kDescriptors; ++i) {
     struct stat status {};
     if (!before[static_cast<std::size_t>(i)] && is_open(i) && ::fstat(i, &status) == 0 &&
@@ -145,6 +148,7 @@ lcm_t* create_lcm(const std::string& url) {
       ::fcntl(i, F_SETFL, ::fcntl(i, F_GETFL) | O_NONBLOCK);
     }
   }
+  errno = error;
   return lcm;
 }
 
@@ -189,8 +193,7 @@ std::string LcmPublisher::open() {
     return problem;
   }
   lcm_.reset(create_lcm(url_));
-  return lcm_ != nullptr ? std::string()
-                         : "cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0";
+  return lcm_ != nullptr ? std::string() : lcm_create_problem(errno);
 }
 
 std::string LcmPublisher::connect() {

@@ -19,18 +19,21 @@ constexpr std::string_view kScheme = "udpm://";
 constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr std::uint16_t kDefaultPort = 7667;
 
-/// Looks up the route without sending: errno, or 0.
-int connect_error(const sockaddr_in& address) {
+/// Looks up the route without sending. Returns why it cannot be used, with a remedy; empty if it
+/// can.
+std::string route_problem(const sockaddr_in& address, const std::string& group) {
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) {
-    return errno;
+    return std::strerror(errno);
   }
   sockaddr generic{};
   static_assert(sizeof(generic) == sizeof(address));
   std::memcpy(&generic, &address, sizeof(generic));
   const int error = ::connect(descriptor, &generic, sizeof(address)) == 0 ? 0 : errno;
   ::close(descriptor);
-  return error;
+  return error == 0 ? std::string()
+                    : concat({std::strerror(error), ". Give multicast a route, e.g. `ip route add ",
+                              group, "/32 dev lo`, or use --lcm-url none"});
 }
 
 }  // namespace
@@ -39,22 +42,27 @@ std::string multicast_problem(const std::string& url) {
   if (!url.starts_with(kScheme)) {
     return {};
   }
-  const std::string group =
+  const std::string named =
       url.substr(kScheme.size(), url.find_first_of(":?", kScheme.size()) - kScheme.size());
+  const std::string group = named.empty() ? kDefaultGroup : named;
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(kDefaultPort);
-  if (::inet_pton(AF_INET, group.empty() ? kDefaultGroup : group.c_str(), &address.sin_addr) != 1 ||
+  if (::inet_pton(AF_INET, group.c_str(), &address.sin_addr) != 1 ||
       !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
     return concat({"'", group, "' is no IPv4 multicast address, such as ", kDefaultGroup});
   }
-  const int error = connect_error(address);
-  if (error == 0) {
-    return {};
+  return route_problem(address, group);
+}
+
+std::string lcm_create_problem(int error) {
+  // It goes on without the descriptor that it did not get.
+  if (error == EMFILE || error == EBADF) {
+    return std::strerror(EMFILE);
   }
-  return concat({std::strerror(error),
-                 ". Give multicast a route, e.g. `ip route add 224.0.0.0/4 dev lo`, or use "
-                 "--lcm-url none"});
+  return error == ENFILE || error == ENOMEM || error == ENOBUFS
+             ? std::strerror(error)
+             : "cannot be set up. A URL is like udpm://239.255.76.67:7667?ttl=0";
 }
 
 }  // namespace cremed

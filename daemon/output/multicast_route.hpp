@@ -11,4 +11,7 @@ namespace cremed {
 /// obscure message and leaks a descriptor.
 std::string multicast_problem(const std::string& url);
 
+/// Why lcm_create failed after that, by its errno.
+std::string lcm_create_problem(int error);
+
 }  // namespace cremed

@@ -31,16 +31,6 @@ struct KnownFile {
   std::optional<Identity> identity;  // Nothing: equals no other file.
 };
 
-/// Resolves a link whose target does not exist yet.
-fs::path end_of_links(fs::path path) {
-  std::error_code error;
-  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
-    // An absolute target replaces the whole path.
-    path = path.parent_path() / fs::read_symlink(path, error);
-  }
-  return path;
-}
-
 std::optional<Identity> identity(const std::string& path) {
   struct stat status {};
   if (path.empty() || path == "-") {
@@ -94,6 +84,15 @@ void refuse_writing_twice(const KnownFile& output, const KnownFile& other) {
 }
 
 }  // namespace
+
+fs::path end_of_links(fs::path path) {
+  std::error_code error;
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
+    // An absolute target replaces the whole path.
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path;
+}
 
 void refuse_aliases(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
   const KnownFile standard_input = stream(STDIN_FILENO, "standard input");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ struct NamedFile {
 /// or the file of a redirected standard stream, by any path, existing or not. Opens nothing;
 /// devices such as /dev/null are exempt.
 void refuse_aliases(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
+
+/// What a link leads to, existing or not; other paths stay.
+std::filesystem::path end_of_links(std::filesystem::path path);
 
 /// The path in an LCM URL file://PATH?mode=w; empty for others.
 std::string lcm_file(std::string_view url);

@@ -60,6 +60,12 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 
 std::string quoted(std::string_view text) { return concat({"\"", printable(text), "\""}); }
 
+std::string in_shell(std::string_view path) {
+  const std::string text = printable(path);
+  return text.find_first_of(" '\"$`\\()&;<>|*?") == std::string::npos ? text
+                                                                      : concat({"\"", text, "\""});
+}
+
 std::string range_text(std::string_view what, std::string_view min, std::string_view max) {
   return concat({what, " from ", min, " to ", max});
 }

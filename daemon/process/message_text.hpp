@@ -31,6 +31,9 @@ std::string counted(std::uint64_t count, std::string_view noun);
 /// Printable, in double quotes.
 std::string quoted(std::string_view text);
 
+/// A path as an argument of a shell's command.
+std::string in_shell(std::string_view path);
+
 /// "a number from 0 to 1"
 std::string range_text(std::string_view what, std::string_view min, std::string_view max);
 

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/process/file_aliases.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/output_file.hpp"
 #include "daemon/process/signals.hpp"
@@ -80,10 +81,12 @@ class TemporaryFile {
   int file_ = -1;
 };
 
-/// Devices and pipes cannot be replaced; they are written to.
+/// Devices, pipes and standard output, wherever that goes, cannot be replaced; they are written to.
 bool is_no_file(const std::string& path) {
   struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+  const bool is_standard_output =
+      path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+  return is_standard_output || (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode));
 }
 
 void write_through(const std::string& path, std::string_view text) {
@@ -102,7 +105,7 @@ void replace_file(const std::string& path, std::string_view text) {
     return;
   }
   const SignalsBlocked blocked;  // A signal must not leave the temporary file behind.
-  TemporaryFile file(std::filesystem::weakly_canonical(path).string());
+  TemporaryFile file(std::filesystem::weakly_canonical(end_of_links(path)).string());
   file.write(text);
   file.replace();
 }

@@ -61,6 +61,7 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
     } else if (line.status == CandumpStatus::frame && is_ours) {
       ++counters_.frames;
       has_frames_[interface] = true;
+      stamps_.add(line.interface_name, line.frame.stamp_us);
       frame = line.frame;
       frame.interface = static_cast<std::uint8_t>(interface);
       return SourceEvent::frame;

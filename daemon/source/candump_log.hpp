@@ -11,6 +11,7 @@
 #include "daemon/source/candump.hpp"
 #include "daemon/source/frame_source.hpp"
 #include "daemon/source/line_reader.hpp"
+#include "daemon/source/stamp_order.hpp"
 
 namespace cremed {
 
@@ -40,6 +41,7 @@ class CandumpLog final : public FrameSource {
     return other_interfaces_;
   }
   [[nodiscard]] const Complaint& complaint() const { return complaint_; }
+  [[nodiscard]] const StampOrder& stamps() const { return stamps_; }
   /// errno of a failed read, else 0.
   [[nodiscard]] int read_error() const { return read_error_; }
 
@@ -56,6 +58,7 @@ class CandumpLog final : public FrameSource {
   std::vector<std::string> other_interfaces_;
   const volatile std::sig_atomic_t* stop_;
   Complaint complaint_;
+  StampOrder stamps_;
   int read_error_ = 0;
 };
 

@@ -17,6 +17,12 @@ namespace {
 constexpr int kLongestWaitMs = 100;
 constexpr std::size_t kBeginBytes = 256;
 
+/// A byte order mark is how editors say UTF-8.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
 }  // namespace
 
 LineReader::LineReader(const std::string& path)
@@ -39,7 +45,7 @@ std::string LineReader::begin() const {
   const off_t now = ::lseek(descriptor_, 0, SEEK_CUR);
   const ssize_t count = now < 0 ? 0 : ::pread(descriptor_, text.data(), text.size(), now);
   text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
-  return text;
+  return std::string(without_mark(text));
 }
 
 LineReader::Status LineReader::next(std::string_view& line) {
@@ -52,6 +58,7 @@ LineReader::Status LineReader::next(std::string_view& line) {
       begin_ += static_cast<std::size_t>(feed - first) + (unfinished_last ? 0U : 1U);
       ++line_number_;
       line = {first, static_cast<std::size_t>(feed - first)};
+      line = line_number_ == 1 ? without_mark(line) : line;
       const bool was_skipping = skipping_;
       skipping_ = false;
       return was_skipping ? Status::too_long : Status::line;

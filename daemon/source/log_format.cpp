@@ -19,6 +19,7 @@ enum class Way : std::uint8_t {
   asc,
   odometry,
   results,
+  record,  // Nothing at hand converts it.
 };
 
 struct Format {
@@ -40,6 +41,16 @@ constexpr std::array kFormats = {
     Format{";$FILEVERSION"sv, "a PCAN trace", Way::convert, ""},
     Format{"date "sv, "an ASC log", Way::asc, ""},
     Format{"\xED\xA1\xDA\x01"sv, "an LCM log", Way::results, ""},
+    Format{"\xFF\xFE"sv, "UTF-16 text", Way::unpack, "iconv -f UTF-16 -t UTF-8"},
+    Format{"\xD4\xC3\xB2\xA1"sv, "a pcap capture", Way::record, ""},
+    Format{"\xA1\xB2\xC3\xD4"sv, "a pcap capture", Way::record, ""},
+    Format{"\x4D\x3C\xB2\xA1"sv, "a pcap capture", Way::record, ""},
+    Format{"\xA1\xB2\x3C\x4D"sv, "a pcap capture", Way::record, ""},
+    Format{"\x0A\x0D\x0D\x0A"sv, "a pcapng capture", Way::record, ""},
+    Format{"MDF     "sv, "an MDF (MF4) log", Way::record, ""},
+    Format{"#ROSBAG"sv, "a rosbag", Way::record, ""},
+    Format{"SQLite format 3"sv, "an SQLite database (db3)", Way::record, ""},
+    Format{"\x89MCAP0"sv, "an MCAP file", Way::record, ""},
     Format{"utime_start,utime,source,"sv, "cremed's own odometry", Way::odometry, ""},
     Format{"utime,utime_anchor,"sv, "cremed's own odometry", Way::odometry, ""},
 };
@@ -48,14 +59,8 @@ constexpr std::array kFormats = {
 constexpr std::string_view kCsv = "CSV";
 constexpr long kMinCommas = 3;
 
-std::string in_shell(std::string_view path) {
-  return path.find_first_of(" '\"$`\\()&;<>|*?") == std::string_view::npos
-             ? std::string(path)
-             : concat({"\"", path, "\""});
-}
-
 std::string remedy(Way way, std::string_view command, const std::string& path) {
-  const std::string file = path == "-" ? "LOG" : in_shell(printable(path));
+  const std::string file = path == "-" ? "LOG" : in_shell(path);
   switch (way) {
     case Way::unpack:
       return concat({"`", command, " ", file, " >drive.log`"});
@@ -65,6 +70,8 @@ std::string remedy(Way way, std::string_view command, const std::string& path) {
       return concat({"`asc2log -I ", file, " -O drive.log` (can-utils)"});
     case Way::results:
       return concat({"it has messages, not CAN frames: `cremed-lcm-to-csv ", file, "`"});
+    case Way::record:
+      return "frames are read from candump logs: record the bus with `candump -l any`";
     case Way::odometry:
       return concat({"give it to `cremed-eval drive`, and to --replay the frames it was made of"});
   }

@@ -7,10 +7,10 @@
         print(heard.channel, heard.message.utime)
 """
 from .ego_motion_t import ego_motion_t
-from .listener import Heard, Listener, decoded, read_events, read_log
+from .listener import DamagedLog, Heard, Listener, decoded, read_events, read_log
 from .odometry_t import odometry_t
 from .radar_scan_t import radar_scan_t
 from .status_t import status_t
 
-__all__ = ["Heard", "Listener", "decoded", "ego_motion_t", "odometry_t", "radar_scan_t", "read_events",
-           "read_log", "status_t"]
+__all__ = ["DamagedLog", "Heard", "Listener", "decoded", "ego_motion_t", "odometry_t", "radar_scan_t",
+           "read_events", "read_log", "status_t"]

@@ -12,7 +12,9 @@ from .status_t import status_t
 
 GROUP, PORT = "239.255.76.67", 7667  # LCM's default.
 LONGEST_DATAGRAM = 65536
-MAGIC_SHORT, MAGIC_EVENT = 0x4C433032, 0xEDA1DA01
+MAGIC_SHORT, MAGIC_EVENT = 0x4C433032, b"\xED\xA1\xDA\x01"
+# Of a log: more than LCM's own for a channel, and than any message of a robot has.
+LONGEST_CHANNEL, LONGEST_PAYLOAD = 999, 1 << 28
 # linux/socket.h (asm-generic); the socket module does not define it.
 SO_TIMESTAMPNS = 35
 # A message begins with the fingerprint of its type, so the channel is not needed.
@@ -82,16 +84,27 @@ def _stamp_us(ancillary):
     raise OSError("a datagram has no stamp")
 
 
+class DamagedLog(ValueError):
+    """Says where; what comes before was read."""
+
+
 def read_events(path):
-    """Iterates over all of such a log as (channel, received_us, payload), not decoded."""
+    """Iterates over all of such a log as (channel, received_us, payload), not decoded. Raises DamagedLog
+    after what comes before the damage."""
+    at = 0
     with open(path, "rb") as log:
-        while len(header := log.read(28)) == 28:
-            magic, _, received_us, channel_length, length = struct.unpack(">IqqII", header)
-            if magic != MAGIC_EVENT:
-                raise ValueError(f"{path}: is no LCM log, or damaged before byte {log.tell()}")
-            channel, payload = log.read(channel_length), log.read(length)
-            if len(payload) == length:
-                yield channel.decode(errors="replace"), received_us, payload
+        while header := log.read(28):
+            if not MAGIC_EVENT.startswith(header[:4]):
+                raise DamagedLog(f"{path}: damaged at byte {at}: no message begins there" if at else
+                                 f"{path}: is no LCM log")
+            _, received_us, channel_length, length = struct.unpack(">qqII", header[4:].ljust(24, b"\0"))
+            if channel_length > LONGEST_CHANNEL or length > LONGEST_PAYLOAD:
+                raise DamagedLog(f"{path}: damaged at byte {at}: the message there has impossible lengths")
+            event = log.read(channel_length + length)
+            if len(header) + len(event) < 28 + channel_length + length:
+                raise DamagedLog(f"{path}: ends inside a message, which begins at byte {at}")
+            at += len(header) + len(event)
+            yield event[:channel_length].decode(errors="replace"), received_us, event[channel_length:]
 
 
 def read_log(path):

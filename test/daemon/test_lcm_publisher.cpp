@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/output/lcm_publisher.hpp"
@@ -378,6 +380,27 @@ TEST_CASE("A URL that cannot work is refused with what would be right, time and 
     CHECK_THAT(pigeon.connect(), Catch::Contains("udpm://239.255.76.67:7667"));
   }
   CHECK_FALSE(pigeon.is_connected());
+}
+
+TEST_CASE("A lack of descriptors is called that, whatever lacks them") {
+  rlimit usual{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &usual) == 0);
+  const int first_free = ::dup(0);
+  ::close(first_free);
+  for (rlim_t more = 0; more < 3; ++more) {
+    for (const char* url : {"memq://", "udpm://239.255.76.67:7667?ttl=0"}) {
+      CAPTURE(more, url);
+      const rlimit tight{static_cast<rlim_t>(first_free) + more, usual.rlim_max};
+      LcmPublisher publisher(url, two_radars());
+      REQUIRE(::setrlimit(RLIMIT_NOFILE, &tight) == 0);
+      const std::string problem = publisher.connect();
+      REQUIRE(::setrlimit(RLIMIT_NOFILE, &usual) == 0);
+      // With two or three memq:// works; udpm:// may have no route here.
+      if (more == 0 || !(problem.empty() || problem.find("ip route") != std::string::npos)) {
+        CHECK_THAT(problem, Catch::Contains("Too many open files") && !Catch::Contains("ip route"));
+      }
+    }
+  }
 }
 
 TEST_CASE("Without a connection every message is counted, and numbered on") {

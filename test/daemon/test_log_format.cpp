@@ -28,6 +28,12 @@ TEST_CASE("What is no candump log is answered with the command that makes one of
       Row{";$FILEVERSION=1.1\r\n"sv, "`python3 -m can.logconvert "},
       Row{"date Fri Jul 10 2026\nbase hex  timestamps absolute\n"sv, "`asc2log -I "},
       Row{"\xED\xA1\xDA\x01\0\0"sv, "`cremed-lcm-to-csv "},
+      Row{"\xFF\xFE(\0"sv, "UTF-16 text; `iconv -f UTF-16 -t UTF-8 "},
+      Row{"\xD4\xC3\xB2\xA1\x02\0"sv, "a pcap capture; frames are read from candump logs"},
+      Row{"\x0A\x0D\x0D\x0A\x1C"sv, "a pcapng capture; "},
+      Row{"MDF     4.10    "sv, "an MDF (MF4) log; "}, Row{"#ROSBAG V2.0\n"sv, "a rosbag; "},
+      Row{"SQLite format 3\0"sv, "an SQLite database (db3); "},
+      Row{"\x89MCAP0\r\n"sv, "an MCAP file; "},
       Row{"utime_start,utime,source,x_m\n"sv, "`cremed-eval drive`"},
       Row{"timestamp,arbitration_id,extended,remote\n1,"sv, "is CSV; `python3 -m can.logconvert "});
   const std::string answer = foreign_format(row.begin, "a b.x");

@@ -52,6 +52,8 @@ class Gyro:
 
 
 def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     gyro, estimate, last = Gyro(sys.argv[1]), YawFilter(), None
     for heard in cremed.read_log(sys.argv[2]) if sys.argv[2:] else cremed.Listener():
         message = heard.message
@@ -69,4 +71,9 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (OSError, ValueError) as error:  # What came before damage of a log was used.
+        sys.exit(f"fuse_gyro.py: {error}")
+    except KeyboardInterrupt:
+        sys.exit(1)

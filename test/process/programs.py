@@ -8,6 +8,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "test" / "data" / "bends.toml"
 LOG = ROOT / "test" / "data" / "bends.log"
+DYGRAPHS = pathlib.Path("/usr/share/javascript/dygraphs")  # Of cremed-report.
 
 PAIRS = "".join(
     f"T,{pair},0.1,0,0,0.1\n" + "".join(
@@ -28,6 +29,8 @@ class Program:
     at_once: bool = False   # Its outputs appear when they are complete.
     again_lines: int = 1    # Lines at the end of its input that may repeat; 0: all.
     cut_statuses: tuple = (0, 1)  # With half of the input.
+    pipes: bool = True      # Its input may be a pipe.
+    last: bytes = b""       # What its output ends with; empty: lines of as many cells each.
 
     def command(self, folder, files, **named):
         places = {key: str(value) for key, value in {**files, **named}.items()}
@@ -41,6 +44,14 @@ class Program:
         """Its input, and the part that may repeat."""
         content = pathlib.Path(files[self.source]).read_bytes()
         return content, b"".join(content.splitlines(True)[-self.again_lines:])
+
+    def is_whole(self, path):
+        """An output: complete."""
+        text = path.read_bytes()
+        if self.last:
+            return text == b"" or text.endswith(self.last)
+        cells = {len(line.replace(b",", b" ").split(b" ")) for line in text.splitlines()}
+        return (text == b"" or text.endswith(b"\n")) and len(cells) <= 1
 
     def outputs(self):
         return [name for name in ("out", "out2") if f"{{{name}}}" in self.line]
@@ -69,10 +80,15 @@ TABLE = Program("eval table", "cremed-eval table --runs 1 --sets 1 --threads 1",
 
 BENCH = Program("bench", "cremed-bench --benchmark_min_time=0.001 --benchmark_filter=components/16",
                 prints=True, is_timed=True)  # Needs libbenchmark-dev.
+CONVERT = Program("convert mcap", "cremed-convert mcap {in} {out}", "lcm", at_once=True, again_lines=0,
+                  last=b"\x89MCAP0\r\n")
+REPORT = Program("report", "cremed-report {in} --config {config} --output {out} --json", "lcm",
+                 prints=True, at_once=True, again_lines=0, pipes=False, last=b"</html>\n")
 
 ALL = (REPLAY, ODOMETRY, DOCTOR, SIMULATE, SIMULATE_OUT, LCM_TO_CSV, PAIRS_OF, DRIVE, CALIBRATE,
-       TABLE, BENCH)
+       TABLE, BENCH, CONVERT, *([REPORT] if DYGRAPHS.exists() else []))
 WITH_INPUT = tuple(program for program in ALL if program.source)
+WITH_PIPE = tuple(program for program in WITH_INPUT if program.pipes)
 WITH_OUTPUT = tuple(program for program in ALL if program.outputs())
 
 

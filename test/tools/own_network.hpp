@@ -15,8 +15,8 @@
 
 namespace cremed::test {
 
-/// Moves this process into a new network namespace with only lo and a multicast route; false if not
-/// permitted.
+/// Moves this process into a new network namespace with only lo and a route for LCM's group; false
+/// if not permitted.
 inline bool enter_own_network() {
   if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) {
     return false;
@@ -34,9 +34,9 @@ inline bool enter_own_network() {
     static_assert(sizeof(in) == sizeof(target));
     std::memcpy(&target, &in, sizeof(in));
   };
-  address(route.rt_dst, 0xE0000000);      // 224.0.0.0
-  address(route.rt_genmask, 0xF0000000);  // /4
-  route.rt_flags = RTF_UP;
+  address(route.rt_dst, 0xEFFF4C43);  // 239.255.76.67, LCM's default group
+  address(route.rt_genmask, 0xFFFFFFFF);
+  route.rt_flags = RTF_UP | RTF_HOST;
   route.rt_dev = device;
   const bool good = ::ioctl(descriptor, SIOCSIFFLAGS, &interface) == 0 &&
                     ::ioctl(descriptor, SIOCADDRT, &route) == 0;

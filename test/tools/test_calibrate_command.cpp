@@ -80,6 +80,28 @@ TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") 
   CHECK(yaw_rad(text_of(file)) != 0.1);
 }
 
+TEST_CASE("cremed-eval calibrate finds the same yaw, however often its angle went around") {
+  const TemporaryFolder folder;
+  const std::string right =
+      write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.03 }");
+  const std::string around = write_configuration(
+      folder, "around.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 6.283 }");
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration 15 --config " + right + " --output " + log)
+              .status == 0);
+  const ToolRun result =
+      run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + around);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  for (const std::string& text : {text_of(around), text_of(right) + result.output}) {
+    const RadarConfiguration found = parse_configuration(text, "calibrated").radars.at(0);
+    CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.03).margin(0.01));
+  }
+  CHECK_THAT(result.error, !Catch::Contains(" 361."));
+  CHECK_THAT(result.error, Catch::Contains("was -0.01"));
+}
+
 TEST_CASE("cremed-eval calibrate says what is wrong") {
   const auto row = GENERATE(
       Refusal{"calibrate", 2, "LOG"}, Refusal{"calibrate /dev/null", 2, "--config"},

@@ -80,7 +80,7 @@ TEST_CASE("What is wrong with a bus is found") {
              front_bus(o).error = "Operation not permitted";
            },
            "can0 cannot be read: Operation not permitted", "CAN sockets"},
-      Case{"LCM", [](auto& o) { o.lcm_problem = "`ip route add 224.0.0.0/4 dev lo`"; },
+      Case{"LCM", [](auto& o) { o.lcm_problem = "`ip route add 239.255.76.67/32 dev lo`"; },
            "LCM cannot send", "ip route add"});
   CAPTURE(spoilt.name);
   Configuration configuration = demo_configuration();
@@ -189,6 +189,12 @@ TEST_CASE("Frames that the kernel dropped, and a receive buffer that it limits")
   REQUIRE(findings.size() == 2);
   CHECK(findings[1].severity == Severity::note);
   CHECK_THAT(findings[1].what, Catch::Contains("212992 bytes of receive buffer on can1"));
+
+  // A limit that suffices is not lowered.
+  for (BusObservation& bus : observation.buses) {
+    bus.status.receive_buffer_bytes = 2 << 20;
+  }
+  CHECK_THAT(all_text(diagnose(configuration, observation)), !Catch::Contains("rmem_max"));
 }
 
 TEST_CASE("Errors come before warnings, whichever radar they are of") {

@@ -159,6 +159,8 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
       Refusal{config + "--lcm-url tcpq://127.0.0.1:7700", 2, "is not \"none\" or a URL such as"},
       Refusal{config + "--yes", 2, "--sensor-id and --yes need --configure-ars408 or"},
       Refusal{config + "--sensor-id 3", 2, "--sensor-id and --yes need --configure-ars408 or"},
+      Refusal{config + "--configure-ars408 '' --yes", 2, "must be the name of a radar"},
+      Refusal{config + "--ars408-filters '' --yes", 2, "must be the name of a radar"},
       Refusal{config + "--configure-ars408 front --sensor-id 8", 2, "--sensor-id"},
       Refusal{config + "--configure-ars408 front --ars408-filters front", 2, "--ars408-filters"},
       Refusal{config + "--ars408-filters front --filter rcs=5", 2,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -97,7 +98,7 @@ TEST_CASE("An LCM log becomes the CSV that the daemon would have written, byte f
   CHECK(converted.csv == content(folder.file("direct.csv")));
   CHECK(converted.counters.motions > 150);
   CHECK(converted.counters.bad_messages == 0);
-  CHECK_FALSE(converted.counters.ends_inside_message);
+  CHECK(converted.counters.damage.empty());
 
   const ToolRun run = run_tool("cremed-lcm-to-csv", folder,
                                log + " --output " + folder.file("tool.csv") + " --odometry " +
@@ -172,4 +173,40 @@ TEST_CASE("A log that cannot be good is a failure that says why") {
   CHECK(error_of(log + " --output /no/such/a.csv", 1).find("cannot write") != std::string::npos);
   std::filesystem::resize_file(log, std::filesystem::file_size(log) - 1);
   CHECK(error_of(log, 1).find("ends inside a message") != std::string::npos);
+}
+
+TEST_CASE("Of a damaged log what comes before is converted, and where the damage is, is said") {
+  struct Row {
+    const char* what;
+    std::size_t offset;  // In the second message's header.
+    std::uint32_t value;
+    const char* told;
+  };
+  const std::vector<Row> rows = {
+      {"no message", 0, 0, ": damaged at byte 200: no message begins there"},
+      {"channel", 20, 0x7FFFFFFF,
+       ": damaged at byte 200: the message there has impossible lengths"},
+      {"negative", 24, 0xFFFFFFF0,
+       ": damaged at byte 200: the message there has impossible lengths"},
+      {"data", 24, 0x7FFFFFF0, ": damaged at byte 200: the message there has impossible lengths"},
+      {"beyond the end", 24, 0x0FFFFFFF, ": ends inside a message, which begins at byte 200"}};
+  const TemporaryFolder folder;
+  const std::string log = folder.file("log");
+  write_log(log, encoded(message()));
+  const std::string good = content(log);
+  const std::size_t second = good.size() / 2;
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    std::string damaged = good;
+    for (std::size_t i = 0; i < 4; ++i) {
+      damaged[second + row.offset + i] = static_cast<char>(row.value >> (24 - 8 * i));
+    }
+    std::ofstream(log, std::ios::binary) << damaged;
+    const ToolRun run = run_tool("cremed-lcm-to-csv", folder, log);
+    CHECK(run.status == 1);
+    CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 2);
+    std::string told = log + row.told;
+    told.replace(told.find("200"), 3, std::to_string(second));
+    CHECK(run.error.find(told) != std::string::npos);
+  }
 }

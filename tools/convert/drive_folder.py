@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes a converted drive: a folder with can.log, truth.csv and cremed.toml."""
+import contextlib
 import dataclasses
-import os
+import io
 import pathlib
 import sys
-import tempfile
 
 import ars408_log
+from replaced_file import replaced_file
 
 
 @dataclasses.dataclass
@@ -56,12 +57,11 @@ def write(drive, output):
     parts = {"can.log": lambda file: ars408_log.write_log(file, [radar.scans for radar in drive.radars]),
              "truth.csv": lambda file: write_truth(file, drive.truth),
              "cremed.toml": lambda file: write_configuration(file, drive)}
-    with tempfile.TemporaryDirectory(dir=output) as part:
+    with contextlib.ExitStack() as files:
         for name, write_part in parts.items():
-            with open(os.path.join(part, name), "w", encoding="utf-8") as file:
-                write_part(file)
-        for name in parts:
-            os.replace(os.path.join(part, name), folder / name)
+            text = io.TextIOWrapper(files.enter_context(replaced_file(folder / name)), encoding="utf-8")
+            write_part(text)
+            text.detach()
     return folder
 
 

@@ -5,10 +5,12 @@ import math
 
 import cremed
 from mcap_writer import McapWriter
+from replaced_file import replaced_file
 
 # Those of several sources become a topic a source.
 TOPICS = {cremed.odometry_t: "CREMED_ODOMETRY", cremed.ego_motion_t: "CREMED_EGO_MOTION",
           cremed.status_t: "CREMED_STATUS", cremed.radar_scan_t: "CREMED_SCAN"}
+LATEST_US = (1 << 63) // 1000  # MCAP counts nanoseconds.
 JSON_TYPES = {bool: "boolean", int: "integer", float: "number", str: "string"}
 
 
@@ -53,21 +55,36 @@ def topic_of(message):
     return TOPICS[type(message)] + (f"_{source.upper()}" if source else "")
 
 
-def convert(log, file, library):
-    """Returns how many messages were written. Their time is that of the measurement: a log of a replay
-    has the drive's pace. The time of recording is the time of publication."""
-    writer, last, count = McapWriter(file, library), {}, 0
+def write_messages(log, writer):
+    """How many; and what is wrong with the log, of which all before that is written: None, if nothing.
+    The time of a message is that of its measurement: a log of a replay has the drive's pace. The time of
+    recording is the time of publication."""
+    last, count = {}, 0
     schemas = {kind: schema_of(kind) for kind in TOPICS}
-    for heard in cremed.read_log(log):
-        message, topic = heard.message, topic_of(heard.message)
-        key = (message.utime, message.seq)
-        if message.utime == 0:  # A status from before the first frame.
-            continue
-        if last.get(topic) == key:  # On the channel for all, and on that of the source.
-            continue
-        last[topic] = key
-        writer.add(topic, schemas[type(message)], message.seq, message.utime * 1000,
-                   heard.received_us * 1000, as_json(message))
-        count += 1
-    writer.finish()
-    return count
+    try:
+        for heard in cremed.read_log(log):
+            message, topic = heard.message, topic_of(heard.message)
+            key = (message.utime, message.seq)
+            if not 0 < message.utime < LATEST_US:  # 0: a status from before the first frame.
+                continue
+            if last.get(topic) == key:  # On the channel for all, and on that of the source.
+                continue
+            last[topic] = key
+            writer.add(topic, schemas[type(message)], message.seq, message.utime * 1000,
+                       max(heard.received_us, 0) * 1000, as_json(message))
+            count += 1
+    except cremed.DamagedLog as damage:
+        return count, damage
+    return count, None
+
+
+def convert(log, out, library):
+    """Raises, after it has converted what comes before damage, where there is any."""
+    with replaced_file(out) as file:
+        writer = McapWriter(file, library)
+        count, damage = write_messages(log, writer)
+        if count == 0:
+            raise damage or ValueError(f"{log}: has none of cremed's messages; record with lcm-logger")
+        writer.finish()
+    if damage:
+        raise damage

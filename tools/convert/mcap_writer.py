@@ -43,7 +43,8 @@ class McapWriter:
         self.schemas, self.channels, self.counts = {}, {}, {}
         self.definitions = {SCHEMA: [], CHANNEL: []}
         self.chunk_indexes, self.first_ns, self.last_ns = [], math.inf, 0
-        self.file.write(MAGIC + record(HEADER, text("") + text(library)))
+        self.written = 0  # A pipe does not tell.
+        self._write(MAGIC + record(HEADER, text("") + text(library)))
 
     def add(self, topic, schema, sequence, log_time_ns, publish_time_ns, message):
         """`schema`: (name, JSON schema); `message`: what JSON can hold."""
@@ -56,8 +57,8 @@ class McapWriter:
 
     def finish(self):
         self._write_chunk()
-        self.file.write(record(DATA_END, bytes(4)))
-        start = self.file.tell()
+        self._write(record(DATA_END, bytes(4)))
+        start = self.written
         groups = [(SCHEMA, self.definitions[SCHEMA]), (CHANNEL, self.definitions[CHANNEL]),
                   (STATISTICS, [self._statistics()]), (CHUNK_INDEX, self.chunk_indexes)]
         summary, offsets = b"", b""
@@ -68,7 +69,11 @@ class McapWriter:
             summary += group
         footer = struct.pack("<QQ", start, start + len(summary))
         checked = summary + offsets + struct.pack("<BQ", FOOTER, len(footer) + 4) + footer
-        self.file.write(checked + struct.pack("<I", zlib.crc32(checked)) + MAGIC)
+        self._write(checked + struct.pack("<I", zlib.crc32(checked)) + MAGIC)
+
+    def _write(self, data):
+        self.file.write(data)
+        self.written += len(data)
 
     def _define(self, opcode, content):
         self.definitions[opcode].append(content)
@@ -91,17 +96,17 @@ class McapWriter:
         first, last, size = min(chunk.times), max(chunk.times), len(chunk.data)
         self.first_ns = min(self.first_ns, first)
         self.last_ns = max(self.last_ns, last)
-        start = self.file.tell()
-        self.file.write(record(CHUNK, struct.pack("<QQQI", first, last, size, zlib.crc32(chunk.data))
-                               + text("") + struct.pack("<Q", size) + chunk.data))
-        index_start, offsets = self.file.tell(), []
+        start = self.written
+        self._write(record(CHUNK, struct.pack("<QQQI", first, last, size, zlib.crc32(chunk.data))
+                           + text("") + struct.pack("<Q", size) + chunk.data))
+        index_start, offsets = self.written, []
         for channel, entries in chunk.indexes.items():
-            offsets.append((channel, self.file.tell()))
-            self.file.write(record(MESSAGE_INDEX, struct.pack("<H", channel)
-                                   + table("<QQ", sorted(entries))))
+            offsets.append((channel, self.written))
+            self._write(record(MESSAGE_INDEX, struct.pack("<H", channel)
+                               + table("<QQ", sorted(entries))))
         self.chunk_indexes.append(
             struct.pack("<QQQQ", first, last, start, index_start - start) + table("<HQ", offsets)
-            + struct.pack("<Q", self.file.tell() - index_start) + text("")
+            + struct.pack("<Q", self.written - index_start) + text("")
             + struct.pack("<QQ", size, size))
 
     def _statistics(self):

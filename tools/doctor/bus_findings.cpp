@@ -128,6 +128,8 @@ void add_errors(const BusObservation& bus, std::vector<Finding>& findings) {
 void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
   constexpr const char* kRaise = "`sysctl -w net.core.rmem_max=1048576`";
   const std::uint64_t dropped = bus.status.frames_lost - bus.overruns;
+  const int granted_bytes = bus.status.receive_buffer_bytes;
+  const bool is_small = granted_bytes != 0 && granted_bytes < kWantedBufferBytes;
   if (bus.overruns != 0) {
     findings.push_back({Severity::warning,
                         concat({"the controller of ", bus.interface, " lost frames ",
@@ -138,14 +140,12 @@ void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
     findings.push_back(
         {Severity::warning,
          concat({counted(dropped, "frame"), " of ", bus.interface, " lost before they were read"}),
-         concat({"allow a larger receive buffer, ", kRaise,
-                 ", and find what keeps the processor busy"})});
-  } else if (bus.status.receive_buffer_bytes != 0 &&
-             bus.status.receive_buffer_bytes < kWantedBufferBytes) {
+         concat({is_small ? concat({"allow a larger receive buffer, ", kRaise, ", and "}) : "",
+                 "find what keeps the processor busy"})});
+  } else if (is_small) {
     findings.push_back(
         {Severity::note,
-         concat({"the kernel grants ",
-                 number(static_cast<std::uint64_t>(bus.status.receive_buffer_bytes)),
+         concat({"the kernel grants ", number(static_cast<std::uint64_t>(granted_bytes)),
                  " bytes of receive buffer on ", bus.interface, ": too few for a busy computer"}),
          kRaise});
   }

@@ -79,10 +79,15 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
       ->excludes(json);
 }
 
+std::string name_problem(const std::string& name) {
+  return name.empty() ? "must be the name of a radar" : std::string();
+}
+
 void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* configure = app.add_option("--configure-ars408", arguments.ars408,
                                    "Set the sensor of this radar as the configuration "
-                                   "expects; asks before it sends");
+                                   "expects; asks before it sends")
+                        ->check(name_problem);
   app.add_option("--max-distance", arguments.setup.max_distance_m,
                  "Also set its range in m (by model 196 to 260, or up to 1200)")
       ->check(CLI::Range(196.0, 1200.0))
@@ -92,7 +97,8 @@ void add_talk_options(CLI::App& app, Arguments& arguments) {
       ->needs(configure);
   auto* filtered = app.add_option("--ars408-filters", arguments.filtered,
                                   "Show which clusters the filters of this radar's sensor pass; "
-                                  "asks before it sends the request");
+                                  "asks before it sends the request")
+                       ->check(name_problem);
   app.add_option("--filter", arguments.filters,
                  std::string("Set a filter, also in the sensor's flash; may repeat: ") +
                      kArs408FilterWanted)

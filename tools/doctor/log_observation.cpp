@@ -5,19 +5,25 @@
 #include <stdexcept>
 
 #include "daemon/process/message_text.hpp"
+#include "daemon/source/stamp_order.hpp"
 #include "tools/doctor/log_lines.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
 Observation observe_log(const Configuration& configuration, const std::string& path) {
   Observer observer(configuration);
+  StampOrder stamps;
   read_log(path, [&](const CandumpLine& line) {
     if (line.status == CandumpStatus::frame) {
       observer.add(line.interface_name, line.frame);
+      stamps.add(line.interface_name, line.frame.stamp_us);
     } else if (line.status == CandumpStatus::dropped) {
       observer.add_lost(line.interface_name, line.dropped_frames);
     }
   });
+  if (const std::string problem = stamps.problem(path); !problem.empty()) {
+    throw std::runtime_error(problem);
+  }
   Observation observation = observer.finish();
   bool is_empty = true;
   for (BusObservation& bus : observation.buses) {

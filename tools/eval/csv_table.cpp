@@ -22,6 +22,12 @@ std::vector<std::string> split(std::string_view line) {
   return cells;
 }
 
+/// A byte order mark is how editors say UTF-8.
+std::string_view without_mark(std::string_view line) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return line.substr(line.starts_with(kMark) ? kMark.size() : 0);
+}
+
 }  // namespace
 
 CsvTable::CsvTable(std::istream& input) {
@@ -29,7 +35,7 @@ CsvTable::CsvTable(std::istream& input) {
   if (!std::getline(input, line)) {
     throw std::runtime_error("line 1: no header");
   }
-  header_ = split(line);
+  header_ = split(without_mark(line));
   for (std::size_t number = 2; std::getline(input, line); ++number) {
     if (line.empty() || line.front() == '#') {
       continue;

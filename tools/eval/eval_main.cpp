@@ -145,6 +145,7 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)")
+      ->check(cremed::picture_problem)
       ->excludes(drives)
       ->excludes(real);
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON")->excludes(drives);
@@ -168,8 +169,10 @@ CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
       ->check(CLI::IsMember({"exclusive", "max_sum_mixture"}))
       ->capture_default_str();
   command->add_option("--output", arguments.output, "Write each pair's result as CSV");
-  command->add_option("--plot", arguments.plot,
-                      "Draw the number of targets with a partner by the true motion (PNG, SVG)");
+  command
+      ->add_option("--plot", arguments.plot,
+                   "Draw the number of targets with a partner by the true motion (PNG, SVG)")
+      ->check(cremed::picture_problem);
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;
 }

@@ -54,6 +54,16 @@ std::string content(std::istream& input) {
 
 }  // namespace
 
+std::string picture_problem(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  for (const char* known : {".png", ".svg", ".pdf", ".jpg"}) {
+    if (extension == known) {
+      return {};
+    }
+  }
+  return "a picture's name ends with .png, .svg, .pdf or .jpg, not like '" + path + "'";
+}
+
 void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
                const std::string& picture) {
   const TemporaryFolder folder;

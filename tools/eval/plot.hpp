@@ -12,4 +12,7 @@ namespace cremed {
 void draw_plot(const std::string& script, const std::vector<std::string>& inputs,
                const std::string& picture);
 
+/// Why this cannot be a picture's file; empty if it can. For CLI::Option::check.
+std::string picture_problem(const std::string& path);
+
 }  // namespace cremed

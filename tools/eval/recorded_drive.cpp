@@ -68,6 +68,9 @@ void check_logs(const Replay& replay) {
     if (log->read_error() != 0) {
       throw std::runtime_error(concat({log->path(), ": ", std::strerror(log->read_error())}));
     }
+    if (const std::string problem = log->stamps().problem(log->path()); !problem.empty()) {
+      throw std::runtime_error(problem);
+    }
   }
 }
 
@@ -78,6 +81,7 @@ void play_drive(const Configuration& configuration, const std::vector<std::strin
   require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
+  sources.reserve(logs.size());
   for (const std::string& path : logs) {
     sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
   }

@@ -2,18 +2,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/temporary_folder.hpp"
 
+#include <atomic>
+#include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace cremed {
+namespace {
+
+/// For the signal handler.
+char process_folder_path[PATH_MAX];
+
+/// What a handler may call does not remove a folder: another program does.
+void remove_and_die(int number) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl("/bin/rm", "rm", "-rf", "--", process_folder_path, nullptr);
+    ::_exit(1);
+  }
+  ::waitpid(child, nullptr, 0);
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+/// Holds all temporary folders of this process; removed when it ends, by a signal too.
+class ProcessFolder {
+ public:
+  ProcessFolder() {
+    const std::string name = std::filesystem::temp_directory_path() / "cremed-XXXXXX";
+    if (name.size() >= sizeof(process_folder_path)) {
+      throw std::runtime_error("cannot make the folder " + name);
+    }
+    name.copy(process_folder_path, name.size());
+    if (::mkdtemp(process_folder_path) == nullptr) {
+      throw std::runtime_error("cannot make the folder " + name);
+    }
+    for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+      if (::signal(number, remove_and_die) == SIG_IGN) {
+        ::signal(number, SIG_IGN);  // nohup
+      }
+    }
+  }
+  ~ProcessFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(process_folder_path, ignored);
+  }
+  ProcessFolder(const ProcessFolder&) = delete;
+  ProcessFolder& operator=(const ProcessFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path next() {
+    return std::filesystem::path(process_folder_path) / std::to_string(count_++);
+  }
+
+ private:
+  std::atomic<int> count_{0};
+};
+
+}  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = std::filesystem::temp_directory_path() / "cremed-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("cannot make the folder " + name);
-  }
-  path_ = name;
+  static ProcessFolder process_folder;
+  path_ = process_folder.next();
+  std::filesystem::create_directory(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -7,7 +7,8 @@
 
 namespace cremed {
 
-/// A new folder below the system's temporary one, removed with its content by the destructor.
+/// A new folder below the system's temporary one, removed with its content by the destructor, or
+/// when a signal ends the process.
 class TemporaryFolder {
  public:
   /// Throws std::runtime_error.

@@ -3,8 +3,6 @@
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
@@ -12,11 +10,10 @@
 
 #include <cremed/ego_motion_t.hpp>
 #include <cremed/odometry_t.hpp>
-#include <lcm/lcm-cpp.hpp>
 
 #include "daemon/output/csv_writer.hpp"
 #include "daemon/output/odometry_writer.hpp"
-#include "daemon/process/message_text.hpp"
+#include "tools/lcm_log_reader.hpp"
 
 namespace cremed {
 namespace {
@@ -41,10 +38,11 @@ bool is_good(const odometry_t& message) {
 }
 
 template <typename Message>
-std::optional<Message> decode(const lcm::LogEvent& event) {
+std::optional<Message> decode(const LoggedMessage& logged) {
   Message message;
   try {
-    if (message.decode(event.data, 0, event.datalen) != event.datalen) {
+    const int size = static_cast<int>(logged.data.size());
+    if (message.decode(logged.data.data(), 0, size) != size) {
       return std::nullopt;
     }
   } catch (const std::length_error&) {  // The generated code turns a string length of 0 into -1.
@@ -89,9 +87,9 @@ Odometry odometry(const odometry_t& message) {
 
 /// Writes the message as the row that `to_row` makes; counts it, or counts it as bad.
 template <typename Message, typename ToRow>
-void convert(const lcm::LogEvent& event, const ToRow& to_row, std::ostream& csv,
+void convert(const LoggedMessage& logged, const ToRow& to_row, std::ostream& csv,
              std::uint64_t& count, std::uint64_t& bad) {
-  if (const std::optional<Message> message = decode<Message>(event)) {
+  if (const std::optional<Message> message = decode<Message>(logged)) {
     csv << to_row(*message).view();
     ++count;
   } else {
@@ -103,10 +101,7 @@ void convert(const lcm::LogEvent& event, const ToRow& to_row, std::ostream& csv,
 
 LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv,
                           std::ostream* odometry_csv) {
-  lcm::LogFile log(log_path, "r");
-  if (!log.good()) {
-    throw std::runtime_error(concat({"cannot read ", log_path}));
-  }
+  LcmLogReader log(log_path);
   csv << kMotionCsvHeader;
   if (odometry_csv != nullptr) {
     *odometry_csv << kOdometryCsvHeader;
@@ -116,18 +111,15 @@ LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv,
   };
   const auto odometry_row = [](const odometry_t& m) { return odometry_csv_row(odometry(m)); };
   LcmLogCounters counters;
-  std::int64_t read_bytes = 0;
-  while (const lcm::LogEvent* event = log.readNextEvent()) {
-    read_bytes = std::ftell(log.getFilePtr());
-    if (event->channel == kMotionChannel) {
-      convert<ego_motion_t>(*event, motion_row, csv, counters.motions, counters.bad_messages);
-    } else if (event->channel == kOdometryChannel && odometry_csv != nullptr) {
-      convert<odometry_t>(*event, odometry_row, *odometry_csv, counters.odometries,
+  while (const LoggedMessage* logged = log.next()) {
+    if (logged->channel == kMotionChannel) {
+      convert<ego_motion_t>(*logged, motion_row, csv, counters.motions, counters.bad_messages);
+    } else if (logged->channel == kOdometryChannel && odometry_csv != nullptr) {
+      convert<odometry_t>(*logged, odometry_row, *odometry_csv, counters.odometries,
                           counters.bad_messages);
     }
   }
-  counters.ends_inside_message =
-      static_cast<std::uintmax_t>(read_bytes) != std::filesystem::file_size(log_path);
+  counters.damage = log.damage();
   return counters;
 }
 

@@ -14,7 +14,8 @@ struct LcmLogCounters {
   std::uint64_t odometries = 0;  ///< Rows written.
   /// Of another type than the channel's, truncated, or out of range.
   std::uint64_t bad_messages = 0;
-  bool ends_inside_message = false;  ///< The rest after the last complete message was ignored.
+  /// Where the log is damaged, so that the rest was ignored; empty if it is not.
+  std::string damage;
 };
 
 /// Writes each CREMED_EGO_MOTION of the log as a row of `cremed --output-csv` and, unless

@@ -31,7 +31,7 @@ cremed::LcmLogCounters convert(const Arguments& arguments) {
   if (!arguments.odometry.empty()) {
     odometries.emplace(arguments.odometry);
   }
-  const cremed::LcmLogCounters counters = cremed::lcm_to_csv(
+  cremed::LcmLogCounters counters = cremed::lcm_to_csv(
       arguments.log, motions.stream(), odometries ? &odometries->stream() : nullptr);
   motions.finish();
   if (odometries) {
@@ -51,13 +51,13 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
   if (!has_odometry) {
     std::cerr << log << ": no odometry on CREMED_ODOMETRY\n";
   }
-  if (counters.ends_inside_message) {
-    std::cerr << log << ": not an LCM log, or it ends inside a message\n";
+  if (!counters.damage.empty()) {
+    std::cerr << counters.damage << "; what comes before is converted\n";
   }
   if (counters.motions == 0) {
     std::cerr << log << ": no motion on CREMED_EGO_MOTION; record with lcm-logger\n";
   }
-  return counters.bad_messages == 0 && !counters.ends_inside_message && counters.motions != 0 &&
+  return counters.bad_messages == 0 && counters.damage.empty() && counters.motions != 0 &&
          has_odometry;
 }
 

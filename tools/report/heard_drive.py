@@ -37,6 +37,7 @@ class HeardDrive:
         self.motions = {}   # Source: (times, statuses).
         self.statuses = {}  # Radar: its messages, one a second.
         self.scan_times, self.targets = {}, 0
+        self.damage = None
         self._read()
         self.begin_us, self.end_us = self._span()
 
@@ -55,11 +56,21 @@ class HeardDrive:
 
     def _events(self):
         done = 0
-        for number, (channel, _, payload) in enumerate(cremed.read_events(self.path)):
-            done += 28 + len(channel) + len(payload)
-            if number % 4096 == 0:
-                self.told(done / self.size)
-            yield channel, payload
+        try:
+            for number, (channel, _, payload) in enumerate(cremed.read_events(self.path)):
+                done += 28 + len(channel) + len(payload)
+                if number % 4096 == 0:
+                    self.told(done / self.size)
+                yield channel, payload
+        except cremed.DamagedLog as damage:
+            self.damage = damage
+
+    def troubles(self):
+        """What keeps the report from being whole."""
+        found = [str(self.damage)] if self.damage else []
+        if not self.odometry["utime"]:
+            found.append(f"{self.path}: has no odometry on CREMED_ODOMETRY")
+        return found
 
     def _take_odometry(self, message):
         for column, value in zip(self.odometry.values(), odometry_row(message)):
@@ -77,7 +88,7 @@ class HeardDrive:
         columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]
         ends = [time for column in columns if column for time in (column[0], column[-1])]
         if not ends:
-            raise ValueError(f"{self.path}: has none of cremed's motions; record with lcm-logger, or give "
+            raise self.damage or ValueError(f"{self.path}: has none of cremed's motions; record with lcm-logger, or give "
                              "the candump log")
         return int(min(ends)), int(max(ends))
 

@@ -2,18 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/lcm_listener.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <stdexcept>
+#include <string_view>
+#include <thread>
 #include <type_traits>
 
 #include "daemon/output/multicast_route.hpp"
+#include "daemon/process/file_aliases.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr int kWaitMs = 100;
+/// A longer step of a log's clock means that it was set, or that the recording paused.
+constexpr std::uint64_t kLongestPauseUs = 2'000'000;
 // Of radar_scan_t: what stands before the source's length, between its end and the number of
 // targets, and what a target takes.
 constexpr std::size_t kBeforeSource = 24;
@@ -54,23 +63,89 @@ void hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* state) {
   }
 }
 
+struct Subscription {
+  std::string_view channel;  ///< With ".*": the beginning of several.
+  lcm_msg_handler_t hear;
+};
+
+constexpr std::array<Subscription, 4> kSubscriptions{{{"CREMED_ODOMETRY", hear<odometry_t>},
+                                                      {"CREMED_EGO_MOTION", hear<ego_motion_t>},
+                                                      {"CREMED_STATUS", hear<status_t>},
+                                                      {"CREMED_SCAN_.*", hear<radar_scan_t>}}};
+
+bool is_of(const Subscription& subscription, std::string_view channel) {
+  const std::size_t star = subscription.channel.find(".*");
+  return channel.substr(0, star) == subscription.channel.substr(0, star);
+}
+
+/// From 0 to the longest pause; stamps of a damaged log may be anything.
+std::int64_t pause_us(std::int64_t from_us, std::int64_t to_us) {
+  if (from_us == 0 || to_us <= from_us) {
+    return 0;
+  }
+  const auto step_us = static_cast<std::uint64_t>(to_us) - static_cast<std::uint64_t>(from_us);
+  return static_cast<std::int64_t>(std::min(step_us, kLongestPauseUs));
+}
+
+/// Of "file://LOG?speed=2", as LCM has it.
+double speed_of(const std::string& url) {
+  constexpr std::string_view kKey = "speed=";
+  const std::size_t key = url.find(kKey, std::min(url.find('?'), url.size()));
+  const double speed = key == std::string::npos ? 1.0 : std::atof(&url[key + kKey.size()]);
+  return speed > 0.0 ? speed : 1.0;
+}
+
 }  // namespace
 
-LcmListener::LcmListener(const std::string& url, HeardState& state) {
+LcmListener::LcmListener(const std::string& url, HeardState& state)
+    : state_(state), speed_(speed_of(url)) {
+  if (const std::string file = lcm_file(url); !file.empty()) {
+    log_.emplace(file);
+    return;
+  }
   if (const std::string problem = multicast_problem(url); !problem.empty()) {
     throw std::runtime_error("LCM at " + url + ": " + problem);
   }
+  errno = 0;
   lcm_.reset(lcm_create(url.c_str()));
   if (lcm_ == nullptr) {
-    throw std::runtime_error("LCM at " + url + " cannot be set up. A URL is like " +
-                             "udpm://239.255.76.67:7667?ttl=0");
+    throw std::runtime_error("LCM at " + url + ": " + lcm_create_problem(errno));
   }
-  lcm_subscribe(lcm_.get(), "CREMED_ODOMETRY", hear<odometry_t>, &state);
-  lcm_subscribe(lcm_.get(), "CREMED_EGO_MOTION", hear<ego_motion_t>, &state);
-  lcm_subscribe(lcm_.get(), "CREMED_STATUS", hear<status_t>, &state);
-  lcm_subscribe(lcm_.get(), "CREMED_SCAN_.*", hear<radar_scan_t>, &state);
+  for (const Subscription& subscription : kSubscriptions) {
+    lcm_subscribe(lcm_.get(), subscription.channel.data(), subscription.hear, &state);
+  }
 }
 
-bool LcmListener::listen() { return lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
+bool LcmListener::listen() { return log_ ? play() : lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
+
+/// In the recording's pace, without its pauses.
+bool LcmListener::play() {
+  if (logged_ == nullptr) {
+    logged_ = log_->next();
+    if (logged_ == nullptr) {
+      return false;
+    }
+    const double step_us =
+        static_cast<double>(pause_us(recorded_us_, logged_->recorded_us)) / speed_;
+    recorded_us_ = logged_->recorded_us;
+    due_ = std::max(due_, std::chrono::steady_clock::now() - std::chrono::seconds(1)) +
+           std::chrono::microseconds(static_cast<std::int64_t>(step_us));
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now < due_) {
+    std::this_thread::sleep_until(std::min(due_, now + std::chrono::milliseconds(kWaitMs)));
+    return true;
+  }
+  lcm_recv_buf_t buffer{};
+  buffer.data = const_cast<std::uint8_t*>(logged_->data.data());
+  buffer.data_size = static_cast<std::uint32_t>(logged_->data.size());
+  for (const Subscription& subscription : kSubscriptions) {
+    if (is_of(subscription, logged_->channel)) {
+      subscription.hear(&buffer, logged_->channel.c_str(), &state_);
+    }
+  }
+  logged_ = nullptr;
+  return true;
+}
 
 }  // namespace cremed

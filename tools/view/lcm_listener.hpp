@@ -2,18 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <lcm/lcm.h>
 
+#include "tools/lcm_log_reader.hpp"
 #include "tools/view/heard_state.hpp"
 
 namespace cremed {
 
-/// Receives cremed's messages over LCM. Publishes nothing.
+/// Receives cremed's messages over LCM, or plays a log of them. Publishes nothing.
 class LcmListener {
  public:
   /// Throws std::runtime_error with what is wrong and how to mend it.
@@ -22,12 +24,23 @@ class LcmListener {
   /// Waits for messages and takes them; returns after 0.1 s without. False at the end of a log
   /// (file://), after which nothing comes any more.
   bool listen();
+  /// Where a log is damaged; empty if it is not, or before its end.
+  [[nodiscard]] std::string damage() const { return log_ ? log_->damage() : std::string(); }
 
  private:
+  /// LCM's own player crashes on a damaged log.
+  bool play();
+
   struct Destroy {
     void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
   };
+  HeardState& state_;
   std::unique_ptr<lcm_t, Destroy> lcm_;
+  std::optional<LcmLogReader> log_;
+  double speed_ = 1.0;
+  const LoggedMessage* logged_ = nullptr;  // The next, when its time comes.
+  std::int64_t recorded_us_ = 0;           // When the last was recorded; 0: there was none.
+  std::chrono::steady_clock::time_point due_{};
 };
 
 }  // namespace cremed

@@ -41,6 +41,9 @@ void listen(const std::stop_token& stop, cremed::LcmListener& listener,
   while (!stop.stop_requested() && !cremed::stop_requested()) {
     if (hears) {
       hears = listener.listen();
+      if (const std::string damage = listener.damage(); !damage.empty()) {
+        std::fprintf(stderr, "%s; what comes before is shown\n", damage.c_str());
+      }
     } else {
       std::this_thread::sleep_for(kPause);
     }
@@ -49,9 +52,10 @@ void listen(const std::stop_token& stop, cremed::LcmListener& listener,
 }
 
 int show(const Arguments& arguments) {
-  cremed::handle_stop_signals();
   cremed::HeardState state;
+  // LCM may test the network for seconds, in which signals do what they do elsewhere.
   cremed::LcmListener listener(arguments.lcm_url, state);
+  cremed::handle_stop_signals();
   cremed::ViewServer server(state, arguments.address);
   std::printf("http://%s:%d/ shows what is heard at %s\n", arguments.address.host.c_str(),
               server.port(), arguments.lcm_url.c_str());

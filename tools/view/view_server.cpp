@@ -2,27 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/view_server.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <climits>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include <arpa/inet.h>
-#include <httplib.h>
+#include <netdb.h>
+#include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 namespace cremed {
 namespace {
 
-constexpr std::size_t kMostRequests = 1000;  // On one connection.
-constexpr int kForbidden = 403;
-constexpr int kNotFound = 404;
-constexpr int kMethodNotAllowed = 405;
-/// Nothing comes from elsewhere, and nobody frames the page.
-constexpr const char* kPolicy =
-    "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; "
-    "frame-ancestors 'none'";
+constexpr int kTickMs = 100;
+constexpr int kBacklog = 16;
+/// That are answered. As many more are told that there are too many; others wait to be accepted.
+constexpr std::size_t kMostConnections = 32;
 
 /// As installed, and in a build.
 std::filesystem::path shared_folder() {
@@ -44,117 +49,176 @@ bool is_address(const std::string& text) {
          ::inet_pton(AF_INET6, text.c_str(), &address) == 1;
 }
 
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return text;
+}
+
 /// Without port and brackets: of "127.0.0.1:8408", "[::1]:8408".
 std::string host_of(const std::string& header) {
   const std::size_t end = header.find(']');
   if (header.starts_with('[') && end != std::string::npos) {
     return header.substr(1, end - 1);
   }
-  return header.substr(0, header.find(':'));
+  return lower(header.substr(0, header.find(':')));
 }
 
-/// The library takes paths as regular expressions.
-std::string pattern_of(std::string path) {
-  for (std::size_t i = path.find('.'); i != std::string::npos; i = path.find('.', i + 3)) {
-    path.replace(i, 1, "[.]");
-  }
-  return path;
+HttpResponse refusal(int status, const std::string& reason) {
+  return {status, "text/plain", reason + "\n"};
 }
 
-/// As the library's own, but that two may not share a port: the second would wait for ever.
-void set_socket_options(int socket) {
+using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
+
+Addresses addresses_of(const ViewAddress& address) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(address.port);
+  return {::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found) == 0 ? found : nullptr,
+          &::freeaddrinfo};
+}
+
+/// -1 if not possible.
+int listening_socket(const addrinfo& address) {
+  const int socket = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  if (socket >= 0 && (::bind(socket, address.ai_addr, address.ai_addrlen) != 0 ||
+                      ::listen(socket, kBacklog) != 0)) {
+    ::close(socket);
+    return -1;
+  }
+  return socket;
 }
 
-void refuse(httplib::Response& response, int status, const std::string& reason) {
-  response.status = status;
-  response.set_content(reason + "\n", "text/plain");
-}
-
-/// The library would compress other content, for longer than it takes to make this one.
-void send_as_it_is(std::string json, httplib::Response& response) {
-  const std::size_t size = json.size();
-  response.set_content_provider(
-      size, "application/json",
-      [json = std::move(json)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(json.data() + offset, length);
-      });
+int port_of(int socket) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  sockaddr_in6 in{};  // The port is where sockaddr_in has it.
+  static_assert(offsetof(sockaddr_in6, sin6_port) == offsetof(sockaddr_in, sin_port));
+  ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+  std::memcpy(&in, &address, sizeof(in));
+  return ntohs(in.sin6_port);
 }
 
 }  // namespace
 
-bool is_own_host(const std::string& header, const std::string& host) {
+std::vector<std::string> own_host_names() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  const std::string own = lower(name.data());
+  const std::string first = own.substr(0, own.find('.'));
+  return own.empty() ? std::vector<std::string>() : std::vector{own, first, first + ".local"};
+}
+
+bool is_own_host(const std::string& header, const std::vector<std::string>& names) {
   const std::string name = host_of(header);
-  return is_address(name) || name == "localhost" || name == host;
+  return is_address(name) || name == "localhost" ||
+         std::find(names.begin(), names.end(), name) != names.end();
 }
 
 ViewServer::ViewServer(const HeardState& state, const ViewAddress& address)
-    : server_(std::make_unique<httplib::Server>()) {
-  refuse_what_is_not_ours(address.host);
-  serve_page();
-  server_->Get(pattern_of("/state.json"),
-               [&state](const auto&, auto& response) { send_as_it_is(state.json(), response); });
-  bind(address);
+    : state_(state), own_names_(own_host_names()) {
+  own_names_.push_back(lower(address.host));
+  read_page();
+  listen(address);
 }
 
-void ViewServer::refuse_what_is_not_ours(const std::string& own_host) {
-  server_->set_keep_alive_max_count(kMostRequests);
-  server_->set_payload_max_length(0);
-  server_->set_default_headers({{"Content-Security-Policy", kPolicy},
-                                {"X-Content-Type-Options", "nosniff"},
-                                {"Cache-Control", "no-store"}});
-  server_->set_pre_routing_handler([own_host](const auto& request, auto& response) {
-    if (request.method != "GET") {
-      response.set_header("Allow", "GET");
-      refuse(response, kMethodNotAllowed, "only GET: nothing can be changed here");
-    } else if (!is_own_host(request.get_header_value("Host"), own_host)) {
-      refuse(response, kForbidden, "Host must be this computer's address or localhost");
-    } else {
-      return httplib::Server::HandlerResponse::Unhandled;
-    }
-    return httplib::Server::HandlerResponse::Handled;
-  });
-  server_->set_error_handler([](const auto&, auto& response) {
-    if (response.status == kNotFound) {
-      refuse(response, kNotFound, "there is no such page");
-    }
-  });
-}
+ViewServer::~ViewServer() { ::close(socket_); }
 
-void ViewServer::serve_page() {
+void ViewServer::read_page() {
   constexpr const char* kScript = "text/javascript";
   const std::filesystem::path ours = shared_folder();
   const std::filesystem::path dygraphs = "/usr/share/javascript/dygraphs";
-  serve("/", "text/html", content_of(ours / "view.html", "cremed-tools"));
-  serve("/view.js", kScript, content_of(ours / "view.js", "cremed-tools"));
-  serve("/charts.js", kScript, content_of(ours / "charts.js", "cremed-tools"));
-  serve("/style.css", "text/css", content_of(ours / "style.css", "cremed-tools"));
-  serve("/dygraph.min.js", kScript, content_of(dygraphs / "dygraph.min.js", "libjs-dygraphs"));
-  serve("/dygraph.min.css", "text/css", content_of(dygraphs / "dygraph.min.css", "libjs-dygraphs"));
+  const auto add = [&](const std::string& path, const char* type, const std::string& content) {
+    pages_[path] = {200, type, content};
+  };
+  add("/", "text/html", content_of(ours / "view.html", "cremed-tools"));
+  add("/view.js", kScript, content_of(ours / "view.js", "cremed-tools"));
+  add("/charts.js", kScript, content_of(ours / "charts.js", "cremed-tools"));
+  add("/style.css", "text/css", content_of(ours / "style.css", "cremed-tools"));
+  add("/dygraph.min.js", kScript, content_of(dygraphs / "dygraph.min.js", "libjs-dygraphs"));
+  add("/dygraph.min.css", "text/css", content_of(dygraphs / "dygraph.min.css", "libjs-dygraphs"));
 }
 
-void ViewServer::bind(const ViewAddress& address) {
-  server_->set_socket_options(set_socket_options);
-  const bool is_any = address.port == 0;
-  port_ = is_any ? server_->bind_to_any_port(address.host) : address.port;
-  if (port_ < 0 || (!is_any && !server_->bind_to_port(address.host, port_))) {
+void ViewServer::listen(const ViewAddress& address) {
+  const Addresses addresses = addresses_of(address);
+  for (const addrinfo* one = addresses.get(); one != nullptr && socket_ < 0; one = one->ai_next) {
+    socket_ = listening_socket(*one);
+  }
+  if (socket_ < 0) {
     throw std::runtime_error("cannot listen on " + address.host + " port " +
                              std::to_string(address.port) +
                              ": is another cremed-view running? --port says another");
   }
+  port_ = port_of(socket_);
 }
 
-ViewServer::~ViewServer() = default;
-
-void ViewServer::serve(const std::string& path, const std::string& type, std::string content) {
-  server_->Get(pattern_of(path), [type, content = std::move(content)](const auto&, auto& response) {
-    response.set_content(content, type);
-  });
+HttpResponse ViewServer::answer(const HttpRequest& request) const {
+  if (request.status == HttpRequest::Status::bad) {
+    return refusal(400, "this is no request of a browser");
+  }
+  if (request.method != "GET") {
+    return refusal(405, "only GET: nothing can be changed here");
+  }
+  if (!is_own_host(request.host, own_names_)) {
+    return refusal(403, "Host must be this computer's address, its name or localhost");
+  }
+  if (request.has_range) {
+    return refusal(416, "no ranges: pages are sent as a whole");
+  }
+  if (request.path == "/state.json") {
+    return {200, "application/json", state_.json()};
+  }
+  const auto page = pages_.find(request.path);
+  return page != pages_.end() ? page->second : refusal(404, "there is no such page");
 }
 
-void ViewServer::run() { server_->listen_after_bind(); }
+void ViewServer::run() {
+  while (!is_stopped_) {
+    wait_and_advance();
+    const auto now = HttpConnection::Clock::now();
+    connections_.remove_if([&](const HttpConnection& one) { return one.is_over(now); });
+    if (connections_.size() < 2 * kMostConnections) {
+      accept_all();
+    }
+  }
+}
 
-void ViewServer::stop() { server_->stop(); }
+void ViewServer::wait_and_advance() {
+  std::vector<pollfd> waits;
+  for (const HttpConnection& connection : connections_) {
+    waits.push_back({connection.socket(), connection.events(), 0});
+  }
+  if (connections_.size() < 2 * kMostConnections) {
+    waits.push_back({socket_, POLLIN, 0});
+  }
+  if (::poll(waits.data(), waits.size(), kTickMs) <= 0) {
+    return;
+  }
+  auto wait = waits.begin();
+  for (HttpConnection& connection : connections_) {
+    if ((wait++)->revents != 0) {
+      connection.advance([this](const HttpRequest& request) { return answer(request); });
+    }
+  }
+}
+
+void ViewServer::accept_all() {
+  while (connections_.size() < 2 * kMostConnections) {
+    const int socket = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (socket < 0) {
+      return;
+    }
+    connections_.emplace_back(socket, HttpConnection::Clock::now());
+    if (connections_.size() > kMostConnections) {
+      connections_.back().refuse(refusal(503, "too many connections at once"));
+    }
+  }
+}
 
 }  // namespace cremed

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
+#include <atomic>
+#include <functional>
+#include <list>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "tools/view/heard_state.hpp"
-
-namespace httplib {
-class Server;
-}
+#include "tools/view/http_connection.hpp"
 
 namespace cremed {
 
@@ -19,31 +20,44 @@ struct ViewAddress {
 };
 
 /// Shows the state to browsers: a page and its parts, which are read once, and the state as JSON.
-/// Nothing but GET of these is answered, so that nothing can be changed through it.
+/// Nothing but GET of these is answered, so that nothing can be changed through it. One thread,
+/// and a limited number of connections, each for a limited time.
 class ViewServer {
  public:
   /// `state` outlives the server. Throws std::runtime_error.
   ViewServer(const HeardState& state, const ViewAddress& address);
   ~ViewServer();
+  ViewServer(const ViewServer&) = delete;
+  ViewServer& operator=(const ViewServer&) = delete;
 
   [[nodiscard]] int port() const { return port_; }
   /// Answers until stop().
   void run();
-  void stop();
+  /// By another thread, at any time.
+  void stop() { is_stopped_ = true; }
 
  private:
-  void refuse_what_is_not_ours(const std::string& own_host);
-  void serve_page();
-  void bind(const ViewAddress& address);
-  void serve(const std::string& path, const std::string& type, std::string content);
+  void read_page();
+  void listen(const ViewAddress& address);
+  [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
+  void wait_and_advance();
+  void accept_all();
 
-  std::unique_ptr<httplib::Server> server_;
+  const HeardState& state_;
+  std::vector<std::string> own_names_;
+  std::map<std::string, HttpResponse> pages_;  // By path.
+  std::list<HttpConnection> connections_;
+  int socket_ = -1;
   int port_ = 0;
+  std::atomic<bool> is_stopped_{false};
 };
 
+/// The names of this computer: its own, and that of multicast DNS.
+std::vector<std::string> own_host_names();
+
 /// Whether a browser on its way to this server would say so in "Host": an address, "localhost", or
-/// `host` itself. A page from elsewhere that had its own name point here (DNS rebinding) says that
+/// one of `names`. A page from elsewhere that had its own name point here (DNS rebinding) says that
 /// name.
-bool is_own_host(const std::string& header, const std::string& host);
+bool is_own_host(const std::string& header, const std::vector<std::string>& names);
 
 }  // namespace cremed

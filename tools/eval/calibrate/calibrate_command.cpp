@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/calibrate/calibrate_command.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <istream>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -58,7 +60,9 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
   const CalibrationState state = column.state;
   const FittedRadar& fit = radar.is_changed[state] ? radar.fit : radar.free;
   const auto number = [&](double value) {
-    return (value + configured_part(configured, state)) * column.unit;
+    const double whole = value + configured_part(configured, state);
+    const bool is_angle = state == kYaw;
+    return (is_angle ? std::remainder(whole, 2.0 * std::numbers::pi) : whole) * column.unit;
   };
   if (fit.prior_std[state] == 0.0 && state == kLead) {
     return;  // The radar's type has no such state.

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/drive_command.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
+#include "daemon/process/message_text.hpp"
 #include "tools/eval/drive/baselines.hpp"
 #include "tools/eval/drive/drive_json.hpp"
 #include "tools/eval/drive/drive_report.hpp"
@@ -41,6 +43,24 @@ void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
       std::fprintf(stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time\n",
                    source.source.c_str(), source.without_estimate, source.outside_truth);
     }
+  }
+}
+
+bool any_compared(const std::vector<SourceEvaluation>& sources) {
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const SourceEvaluation& source) { return !source.errors.empty(); });
+}
+
+void check_overlap(const DriveFiles& files, const std::vector<SourceEvaluation>& sources,
+                   const TrueTrajectory& truth) {
+  const bool is_outside =
+      std::any_of(sources.begin(), sources.end(),
+                  [](const SourceEvaluation& source) { return source.outside_truth != 0; });
+  if (is_outside && !any_compared(sources)) {
+    throw std::runtime_error(
+        concat({files.truth, ": its time, utime ", std::to_string(truth.utime_us().front()), " to ",
+                std::to_string(truth.utime_us().back()), ", has no motion of ", files.odometry,
+                " in it; is it of the same drive, and in microseconds?"}));
   }
 }
 
@@ -107,6 +127,7 @@ void run_drive(const DriveFiles& files) {
   if (sources.empty()) {
     throw std::runtime_error(files.odometry + ": no odometry");
   }
+  check_overlap(files, sources, reference.truth);
   add_baselines(files, reference, sources);
   const auto print = files.as_json ? print_json : print_tables;
   print(stdout, sources, reference, compare_references(reference));
@@ -119,6 +140,9 @@ void run_drive(const DriveFiles& files) {
   }
   if (!files.plot.empty()) {
     plot_drive(sources, reference.truth, files.plot);
+  }
+  if (!any_compared(sources)) {
+    throw std::runtime_error(concat({files.odometry, ": no estimate in it"}));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "tools/eval/drive/drive_evaluation.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "daemon/configuration/configuration.hpp"
 #include "tools/eval/csv_table.hpp"
@@ -88,6 +89,9 @@ SourceEvaluation evaluate_states(const RecordedStates& states, const DriveRefere
 std::vector<SourceEvaluation> evaluate_drive(std::istream& odometry,
                                              const DriveReference& reference) {
   const CsvTable table(odometry);
+  if (!table.has_column("status")) {
+    throw std::runtime_error("this is no odometry of cremed; ODOMETRY comes before TRUTH");
+  }
   if (holds_states(table)) {
     return {evaluate_states(read_states(table), reference)};
   }

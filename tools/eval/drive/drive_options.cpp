@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/eval/plot.hpp"
+
 namespace cremed {
 namespace {
 
@@ -91,8 +93,10 @@ void add_drive(CLI::App& app, DriveFiles& files) {
   logs->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->needs(config);
   config->needs(logs);
   command->add_flag("--json", files.as_json, "Print one JSON object instead of the tables");
-  command->add_option("--plot", files.plot,
-                      "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)");
+  command
+      ->add_option("--plot", files.plot,
+                   "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)")
+      ->check(picture_problem);
   command->add_option("--tables", files.tables,
                       "Write what --plot draws as CSV files into this folder");
   command->add_option("--truth-tum", files.truth_tum,

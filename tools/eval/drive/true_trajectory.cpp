@@ -26,19 +26,63 @@ void check_order(const std::vector<std::int64_t>& utime_us) {
   }
 }
 
+/// How well the path runs along the vehicle's axis, forward or back, if yaw is in this unit: 1 if
+/// it does.
+double mean_cosine_of_slip(const std::vector<Pose2>& poses, double rad_per_unit) {
+  double sum = 0.0;
+  double way_m = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const double dx = poses[i].x_m - poses[i - 1].x_m;
+    const double dy = poses[i].y_m - poses[i - 1].y_m;
+    const double yaw_rad = poses[i - 1].yaw_rad * rad_per_unit;
+    sum += std::abs(dx * std::cos(yaw_rad) + dy * std::sin(yaw_rad));
+    way_m += std::hypot(dx, dy);
+  }
+  return way_m > 0.0 ? sum / way_m : 1.0;
+}
+
+void check_unit(const std::vector<Pose2>& poses) {
+  const double as_radians = mean_cosine_of_slip(poses, 1.0);
+  const double as_degrees = mean_cosine_of_slip(poses, std::numbers::pi / 180.0);
+  if (as_degrees > 0.95 && as_degrees > as_radians + 0.05) {
+    throw std::runtime_error(
+        "yaw_rad: is it in degrees? So it would be the course of the path; radians are expected");
+  }
+}
+
+/// Odometry has columns of these names too.
+void check_kind(const CsvTable& table) {
+  if (table.has_column("status")) {
+    throw std::runtime_error("this is odometry, not truth; ODOMETRY comes before TRUTH");
+  }
+  if (table.rows() == 0) {
+    throw std::runtime_error("no row but the header");
+  }
+}
+
+std::int64_t read_utime_us(const CsvTable& table, std::size_t row, std::size_t column) {
+  if (const std::string& cell = table.text(row, column); cell.find('.') != std::string::npos) {
+    throw std::runtime_error("row " + std::to_string(row + 1) + ", utime: '" + cell +
+                             "': is it in seconds? Whole microseconds are expected");
+  }
+  return table.integer(row, column);
+}
+
 }  // namespace
 
 TrueTrajectory::TrueTrajectory(std::istream& input) {
   const CsvTable table(input);
+  check_kind(table);
   const std::size_t utime = table.column("utime");
   const std::size_t x = table.column("x_m");
   const std::size_t y = table.column("y_m");
   const std::size_t yaw = table.column("yaw_rad");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    utime_us_.push_back(table.integer(row, utime));
+    utime_us_.push_back(read_utime_us(table, row, utime));
     poses_.push_back({table.number(row, x), table.number(row, y), table.number(row, yaw)});
   }
   check_order(utime_us_);
+  check_unit(poses_);
 }
 
 TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/replay_report.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <spdlog/fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include "daemon/configuration/interfaces.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/report/report.hpp"
+
+namespace cremed {
+namespace {
+
+void log_finding(const std::string& radar, const Finding& finding) {
+  const auto level = finding.severity == Severity::error     ? spdlog::level::err
+                     : finding.severity == Severity::warning ? spdlog::level::warn
+                                                             : spdlog::level::info;
+  spdlog::log(level, "{}: {}", radar, to_text(finding));
+}
+
+void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
+  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+    if (configuration.vehicle.is_used(signal)) {
+      const VehicleStatus status = pipeline.vehicle(signal);
+      const std::string name = vehicle_signal_name(signal);
+      spdlog::info("{}: {}", name, vehicle_summary(signal, status));
+      for (const Finding& finding : vehicle_findings(configuration.vehicle, signal, status, true)) {
+        log_finding(name, finding);
+      }
+    }
+  }
+}
+
+/// Logs the faults of the logs; false if one could not be read to its end, or has no times.
+bool report_logs(const Replay& replay) {
+  bool good = true;
+  for (const auto& log : replay.logs()) {
+    if (log->complaint().line_number != 0) {
+      spdlog::warn("{}:{}: {} ({} such lines)", log->path(), log->complaint().line_number,
+                   log->complaint().reason, log->counters().malformed_lines);
+    }
+    if (log->read_error() != 0) {
+      spdlog::error("{}: {}", log->path(), std::strerror(log->read_error()));
+      good = false;
+    }
+    if (const std::string problem = log->stamps().problem(log->path()); !problem.empty()) {
+      spdlog::error("{}", problem);
+      good = false;
+    }
+  }
+  if (replay.counters().lost_frames != 0) {
+    spdlog::warn("{} frames were lost before they were logged", replay.counters().lost_frames);
+  }
+  return good;
+}
+
+std::string other_interfaces(const Replay& replay) {
+  std::set<std::string> names;
+  for (const auto& log : replay.logs()) {
+    for (const std::string& name : log->other_interfaces()) {
+      names.insert(printable(name));
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// One of several logs may lack an interface; that is no fault.
+void report_absent_interfaces(const Configuration& configuration, const Replay& replay) {
+  const std::string others = other_interfaces(replay);
+  const std::vector<std::string> names = interface_names(configuration);
+  for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
+    if (std::none_of(replay.logs().begin(), replay.logs().end(),
+                     [i](const auto& log) { return log->has_frames(i); })) {
+      spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
+                    names[i], others);
+    }
+  }
+}
+
+/// The command line that finds the cause, as for a shell.
+std::string doctor_command(const Replayed& replayed, std::size_t interface) {
+  const auto& logs = replayed.replay.logs();
+  const auto own = std::find_if(logs.begin(), logs.end(),
+                                [&](const auto& log) { return log->has_frames(interface); });
+  return concat({"`cremed-doctor --config ", in_shell(replayed.configuration_path), " --replay ",
+                 in_shell((own != logs.end() ? *own : logs.front())->path()), "`"});
+}
+
+/// False if it had no scan.
+bool report_radar(const Replayed& replayed, std::size_t number) {
+  const RadarConfiguration& radar = replayed.configuration.radars[number];
+  RadarChannel& channel = *replayed.pipeline.radars()[number];
+  const RadarStatus status = channel.status(0, replayed.replay);
+  spdlog::info("{}: {}", radar.name, summary(status));
+  // Without a frame there is nothing to find in them.
+  for (const Finding& finding :
+       status.decoder.frames != 0 ? radar_findings(radar, status) : std::vector<Finding>()) {
+    log_finding(radar.name, finding);
+  }
+  if (const std::string text = irregularities(status); !text.empty()) {
+    spdlog::warn("{}: {}", radar.name, text);
+  }
+  if (status.assembler.scans == 0) {
+    spdlog::error("{}: no {} of this radar in the input; {} tells why", radar.name,
+                  status.decoder.frames == 0 ? "frame" : "scan",
+                  doctor_command(replayed, channel.interface));
+  }
+  return status.assembler.scans != 0;
+}
+
+/// False if one had no scan, or none an estimate.
+bool report_radars(const Replayed& replayed) {
+  bool is_good = true;
+  std::uint64_t scans = 0;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < replayed.configuration.radars.size(); ++i) {
+    is_good = report_radar(replayed, i) && is_good;
+    const RadarStatus status = replayed.pipeline.radars()[i]->status(0, replayed.replay);
+    scans += status.assembler.scans;
+    count += estimates(status);
+  }
+  if (scans != 0 && count == 0) {
+    spdlog::error("no estimate from {}; {} tells why", counted(scans, "scan"),
+                  doctor_command(replayed, 0));
+  }
+  return is_good && count != 0;
+}
+
+}  // namespace
+
+bool report_replay(const Replayed& replayed) {
+  const SourceCounters& counters = replayed.replay.counters();
+  if (counters.frames + counters.other_interface_frames == 0) {
+    const bool is_read = report_logs(replayed.replay);
+    if (is_read && !replayed.is_stopped) {
+      spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
+    }
+    return is_read && replayed.is_stopped;
+  }
+  if (!report_logs(replayed.replay)) {
+    return false;
+  }
+  if (!replayed.is_stopped) {
+    report_absent_interfaces(replayed.configuration, replayed.replay);
+  }
+  const bool is_good = report_radars(replayed);
+  log_vehicle(replayed.configuration, replayed.pipeline);
+  return is_good || replayed.is_stopped;
+}
+
+}  // namespace cremed

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/pipeline.hpp"
+#include "daemon/source/replay.hpp"
+
+namespace cremed {
+
+/// What is to be told of.
+struct Replayed {
+  const std::string& configuration_path;
+  const Configuration& configuration;
+  const Pipeline& pipeline;
+  const Replay& replay;
+  bool is_stopped = false;  ///< By a signal: what is missing may have come.
+};
+
+/// Logs what came of the logs, causes first. False if that is not what it should be: a log that
+/// could not be read or has no times, a radar without a scan, no estimate at all.
+bool report_replay(const Replayed& replayed);
+
+}  // namespace cremed

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/source/stamp_order.hpp"
+
+#include <algorithm>
+
+#include "daemon/process/message_text.hpp"
+
+namespace cremed {
+namespace {
+
+/// Of all steps; a clock that is set makes a few.
+constexpr std::uint64_t kMostStepsBackPercent = 3;
+constexpr std::uint64_t kFewSteps = 10;
+/// Longer than any drive: stamps beyond are times since 1970.
+constexpr std::int64_t kLongestDriveUs = 1'000'000'000'000;
+
+}  // namespace
+
+void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
+  auto* const end = interfaces_.begin() + count_;
+  auto* known = std::find_if(interfaces_.begin(), end,
+                             [&](const Interface& one) { return one.name == interface; });
+  if (known == end) {
+    if (count_ == kMostInterfaces) {
+      return;
+    }
+    ++count_;
+    known->name = interface;
+  } else {
+    ++steps_;
+    steps_back_ += stamp_us < known->last_us ? 1 : 0;
+  }
+  known->last_us = stamp_us;
+  latest_us_ = std::max(latest_us_, stamp_us);
+}
+
+std::string StampOrder::problem(const std::string& path) const {
+  if (steps_back_ <= kFewSteps || 100 * steps_back_ <= kMostStepsBackPercent * steps_) {
+    return {};
+  }
+  const std::string what = concat({printable(path), ": the stamps run backwards ",
+                                   counted(steps_back_, "time"), " in ", counted(steps_, "step")});
+  return latest_us_ < kLongestDriveUs
+             ? concat({what,
+                       ": they are times between frames, as of `candump -td`, or lines are "
+                       "shuffled; record with `candump -l`"})
+             : concat({what, ": lines are out of order; `sort -s -k1,1 LOG` corrects that"});
+}
+
+}  // namespace cremed

@@ -12,9 +12,6 @@
 namespace cremed {
 namespace {
 
-/// Larger steps backwards mean that the clock was set, not that frames were reordered.
-constexpr std::int64_t kClockSetBackUs = 1'000'000;
-
 std::vector<OdometryRadar> odometry_radars(
     const Configuration& configuration, const std::vector<std::optional<LearnedErrors>>& learned) {
   std::vector<OdometryRadar> radars;
@@ -106,6 +103,9 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
 
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_stamp_clock ? frame.stamp_us : clock_.now_us();
+  if (clocks_.is_set_back(frame)) {
+    on_clock_step();
+  }
   note_clock(frame);
   on_time(frame.interface, frame.stamp_us);
   expire(frame.stamp_us, frame.interface);
@@ -190,6 +190,9 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   while (radar.held_us) {
     publish_odometry(*first_held());  // update() replaces this radar's targets.
   }
+  if (radar.scan_clock.is_set_forward(scan)) {
+    forget_motions();
+  }
   const std::int64_t solve_begin_us = clock_.now_us();
   EgoMotion motion = radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
@@ -215,11 +218,12 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
 
 /// Holds every scan with usable targets, registered or not.
 void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
-  if (!filter_ || radar.estimator.targets().size() == 0) {
-    return;
-  }
-  if (motion.utime_us < motion.utime_start_us - kClockSetBackUs) {
+  const bool was_ahead = std::exchange(radar.is_ahead, clocks_.is_ahead(radar.interface));
+  if (radar.is_ahead != was_ahead) {
     forget_odometry();
+  }
+  if (!filter_ || radar.estimator.targets().size() == 0 || radar.is_ahead) {
+    return;
   }
   radar.held_us = motion.utime_us;
 }
@@ -338,8 +342,16 @@ void Pipeline::on_clock_step() {
     radar->assembler.mark_dropped();
     radar->assembler.finish();
     publish_motions(*radar, clock_.now_us());
+  }
+  forget_motions();
+}
+
+/// No motion spans a step of the clock.
+void Pipeline::forget_motions() {
+  for (const auto& radar : radars_) {
     radar->estimator.forget_reference();
     radar->self_check.forget();
+    radar->scan_clock.forget();
   }
   forget_odometry();
 }

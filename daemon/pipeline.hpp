@@ -10,6 +10,7 @@
 
 #include "cremed/can_decoders/can_frame.hpp"
 #include "cremed/estimator/fusion/odometry_filter.hpp"
+#include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/odometry_sink.hpp"
 #include "daemon/radar_channel.hpp"
@@ -99,6 +100,7 @@ class Pipeline {
   [[nodiscard]] RadarChannel* first_held() const;
   void publish_held();
   [[nodiscard]] bool is_awaiting(const RadarChannel& radar) const;
+  void forget_motions();
   void forget_odometry();
   void publish_odometry(RadarChannel& radar);
   void reach(std::int64_t now_us);
@@ -112,6 +114,7 @@ class Pipeline {
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   std::optional<OdometryFilter> filter_;
   VehicleListener vehicle_;
+  BusClocks clocks_;
   bool is_predicted_;
   double standstill_mps_;
   std::optional<Odometry> odometry_;

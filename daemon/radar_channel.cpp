@@ -13,7 +13,8 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
       assembler(*decoder, std::llround(configuration.scan_timeout_s * 1e6),
                 std::llround(configuration.stamp_offset_s * 1e6)),
       estimator(configuration.ego_motion),
-      self_check(configuration.ego_motion) {}
+      self_check(configuration.ego_motion),
+      scan_clock(decoder->framing().counter_modulus) {}
 
 void RadarChannel::count(const EgoMotion& motion) {
   status_.last_motion_status = motion.status;
@@ -54,7 +55,7 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.belief.next_innovation = self_check.next().mean();
   status_.belief.is_speed_checked = self_check.speed().is_checked();
   status_.belief.doubts =
-      self_check.doubts() |
+      self_check.doubts() | (is_ahead ? std::uint32_t{stamps_run_ahead} : 0U) |
       (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);
   return status_;
 }

@@ -12,6 +12,7 @@
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/motion/self_check.hpp"
+#include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/radar_status.hpp"
 #include "daemon/report/latency_histogram.hpp"
@@ -48,6 +49,8 @@ struct RadarChannel {
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
   SelfCheck self_check;
+  ScanClock scan_clock;
+  bool is_ahead = false;  ///< Its stamps are ahead of all other buses (BusClocks).
   /// Stamp of its last scan while the odometry has not used it.
   std::optional<std::int64_t> held_us;
   LatencyHistogram latencies;    ///< Since the start.

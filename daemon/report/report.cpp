@@ -292,6 +292,17 @@ void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
   }
 }
 
+void add_ahead(const BeliefStatus& belief, Findings& findings) {
+  if ((belief.doubts & stamps_run_ahead) != 0) {
+    findings.push_back(
+        {Severity::warning,
+         "its stamps are half a second or more ahead of those of all other buses: the "
+         "odometry does not use it",
+         "the clock that stamps this bus is wrong: `cremed-doctor`, or how it was "
+         "recorded"});
+  }
+}
+
 void add_left_out(const RadarStatus& status, Findings& findings) {
   if ((status.belief.doubts & other_radars_contradict) != 0) {
     findings.push_back(
@@ -355,6 +366,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
   add_wrong_speed(status.belief, findings);
+  add_ahead(status.belief, findings);
   add_left_out(status, findings);
   return findings;
 }

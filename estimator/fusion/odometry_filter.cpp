@@ -120,6 +120,9 @@ void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const bool is_lost =
       condition_.is_lost() && is_trusted && gap_s > -state_.options().max_lateness_s;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
+    if (is_lost) {
+      faults_.require_positions();
+    }
     output_.bridge(seconds_between(condition_.used_us(), stamp_us));
     has_started_ = false;
   }
@@ -316,7 +319,7 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   RadarTrust& trust = consensus_[radar];
   // Past a radar that looks sideways the reflections of targets move along with the vehicle.
   const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
-  if (has_x) {
+  if (has_x && match->matched >= kMinConfirmedShare * possible) {
     compare_speed(radar, *match);
   }
   LinearMeasurement measurement = from_map.linearise(*match, has_x);

@@ -6,7 +6,8 @@
 const PERIOD_MS = 250, SILENT_MS = 2000;
 // status_t.DOUBT_*, from the lowest bit.
 const DOUBTS = ["registration contradicts Doppler", "motions contradict each other",
-                "other radars contradict", "covariance too large", "positions contradict speed"];
+                "other radars contradict", "covariance too large", "positions contradict speed",
+                "stamps run ahead"];
 const byId = (id) => document.getElementById(id);
 
 let state = null, messages = -1, heardAt = 0;

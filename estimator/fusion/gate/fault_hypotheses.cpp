@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -27,12 +28,20 @@ constexpr double kMaxDecrease = 8.0;
 constexpr double kMaxDecreaseToReturn = 4.0;
 /// Largest part of chi-square by a radar that looks sideways; see the class.
 constexpr double kMaxWitness = 9.0;
+/// Bound of the noise of a velocity's change. Larger steps are not interpolated.
+constexpr double kMaxNoiseMps = 1.0;
+/// Largest standard deviation of a speed by positions that confirms the Doppler. With it 10 % are 3
+/// sigma.
+constexpr double kSupportingStdMps = 0.1;
+constexpr double kSupportingShare = 0.02;
+/// Age of the speed by positions: of the same scan or the one before.
+constexpr double kMaxPositionsAgeS = 0.1;
 /// Change of the velocity between two scans other than linear.
 constexpr double kBetweenScansMps = 0.05;
 /// Errors by positions: of the way, 1.1 % over 2 s on these drives, and that of one scan; of the
 /// yaw rate, 0.1 to 0.35 degrees a second, and turns registered 1 to 4 % too small.
 constexpr double kPositionSpeedShare = 0.01;
-constexpr double kPositionM = 0.1;
+constexpr double kPositionM = 0.05;
 constexpr double kPositionYawRateRadps = 0.008;
 constexpr double kPositionTurnShare = 0.03;
 /// In addition to OdometryOptions: a mount measured by hand that is a degree off is learned.
@@ -40,6 +49,8 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Speed along x of a radar that looks sideways: that of the reflections of passed objects.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
+/// Bound of the difference of two speeds. False-alarm rate: 1 in 16000.
+constexpr double kMaxSpeedSigmas = 4.0;
 /// Decrease of chi-square by which one hypothesis is better than another.
 constexpr double kClearlyBetter = 4.0;
 /// First and longest time for which a radar stays at fault without new evidence: a mirrored mount
@@ -77,7 +88,9 @@ void FaultHypotheses::clear() {
   std::fill(tracks_.begin(), tracks_.end(), Track());
   count_ = 0;
   unknown_epochs_ = 0;
-  is_verified_ = false;
+  known_epochs_ = 0;
+  require_positions();
+  needs_positions_ = false;
 }
 
 std::uint32_t FaultHypotheses::at_fault() const {
@@ -142,7 +155,8 @@ std::optional<FaultHypotheses::Velocity> FaultHypotheses::velocity_at(std::size_
   const Velocity& a = track.velocities[0];
   const Velocity& b = track.velocities[1];
   const double period_s = seconds_between(a.stamp_us, b.stamp_us);
-  if (track.count < 2 || !(period_s > 0.0) || period_s > kMaxScanPeriodS ||
+  const bool is_step = (b.mps - a.mps).norm() > kMaxAccelerationMps2 * period_s + kMaxNoiseMps;
+  if (track.count < 2 || is_step || !(period_s > 0.0) || period_s > kMaxScanPeriodS ||
       std::abs(seconds_between(b.stamp_us, time_us)) > kMaxScanPeriodS) {
     return std::nullopt;
   }
@@ -179,7 +193,8 @@ FaultHypotheses::Sums FaultHypotheses::measurements(std::size_t radar, std::int6
     return sums;
   }
   const Track& track = tracks_[radar];
-  if (track.speed && std::abs(seconds_between(track.speed->stamp_us, time_us)) <= kMaxScanPeriodS) {
+  if (track.speed &&
+      std::abs(seconds_between(track.speed->stamp_us, time_us)) <= kMaxPositionsAgeS) {
     sums.add(along, track.speed->mps, track.speed->variance);
   }
   for (const YawRate& rate : track.yaw_rates) {
@@ -264,11 +279,34 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
   }
 }
 
-FaultHypotheses::Hypothesis FaultHypotheses::best_hypothesis() const {
+/// The judged radars in the newest epoch.
+FaultHypotheses::Set FaultHypotheses::present() const {
   Set present = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     present |= epochs_[(count_ - 1) % kEpochs][i].squares > 0.0 ? judged_ & 1U << i : 0U;
   }
+  return present;
+}
+
+/// The speeds of two radars or more, and of most, contradict their own positions: a fault that all
+/// may share.
+bool FaultHypotheses::contradict_positions() const {
+  int refuted = 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    const Velocity& velocity = track.velocities[1];
+    const bool is_compared =
+        (present() >> i & 1U) != 0 && track.speed && track.speed->stamp_us == velocity.stamp_us;
+    refuted += is_compared && squared(velocity.mps.x() - track.speed->mps) >
+                                  squared(kMaxSpeedSigmas) * track.speed->variance
+                   ? 1
+                   : 0;
+  }
+  return refuted > 1 && 2 * refuted > std::popcount(present());
+}
+
+FaultHypotheses::Hypothesis FaultHypotheses::best_hypothesis() const {
+  const Set present = this->present();
   if (present == 0) {
     return {judged_, 0.0, 0};
   }
@@ -324,7 +362,8 @@ bool FaultHypotheses::is_supported(Set set, std::int64_t time_us) const {
       continue;
     }
     if (track.speed && is_fresh(track.speed->stamp_us)) {
-      return true;
+      const double limit_mps = kSupportingStdMps + kSupportingShare * std::abs(track.speed->mps);
+      return track.speed->variance <= squared(limit_mps);
     }
     has_targets = has_targets || !(track.too_few_targets_us && is_fresh(*track.too_few_targets_us));
   }
@@ -345,9 +384,14 @@ void FaultHypotheses::judge(std::int64_t time_us) {
     return;
   }
   const Hypothesis best = best_hypothesis();
-  const bool is_known = (best.set & judged_) != 0 && best.rivals == 0;
+  const bool is_known =
+      judged_ == 0 || (best.set != 0 && best.rivals == 0 && !contradict_positions());
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
-  is_verified_ = is_known && is_supported(best.set, time_us);
+  known_epochs_ = is_known ? known_epochs_ + 1 : 0;
+  const bool is_alone = std::popcount(best.set & present()) < 2;
+  supported_epochs_ = is_known && is_supported(best.set, time_us) ? supported_epochs_ + 1 : 0;
+  is_verified_ = supported_epochs_ >= kMinEpochs ||
+                 (known_epochs_ >= kMinEpochs && !is_alone && !needs_positions_);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;

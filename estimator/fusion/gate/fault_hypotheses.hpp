@@ -20,7 +20,7 @@ namespace cremed {
 /// integrity monitoring (RAIM) of satellite navigation the radars are compared with each other, not
 /// with the filter, which may follow the wrong one.
 ///
-/// Five times a second, at a common time, each radar gives what it has of
+/// Seven times a second, at a common time, each radar gives what it has of
 ///
 ///     velocity by Doppler        V = (v - w l_y, w l_x + s v)
 ///     speed and yaw rate by its own positions
@@ -55,12 +55,19 @@ class FaultHypotheses {
   [[nodiscard]] std::uint32_t judged() const { return judged_; }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
-  /// The radars in use are consistent, by positions too if there are enough targets.
+  /// The radars in use are consistent, a single one by its positions, if it has targets for that.
   [[nodiscard]] bool is_verified() const { return is_verified_; }
+  /// To be called if the filter was lost: all radars may be wrong alike. From now on their
+  /// positions must confirm them.
+  void require_positions() {
+    needs_positions_ = true;
+    is_verified_ = false;
+    supported_epochs_ = 0;
+  }
 
  private:
-  static constexpr std::size_t kEpochs = 5;
-  /// Longer than half of the window, so that one scan decides nothing.
+  static constexpr std::size_t kEpochs = 7;
+  /// So that one scan decides nothing.
   static constexpr std::size_t kMinEpochs = 3;
   static constexpr int kUnknowns = 3;  // v, w, s.
   using Set = std::uint32_t;           // Of radars, a bit each.
@@ -117,6 +124,8 @@ class FaultHypotheses {
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);
   void judge(std::int64_t time_us);
+  [[nodiscard]] Set present() const;
+  [[nodiscard]] bool contradict_positions() const;
   [[nodiscard]] Hypothesis best_hypothesis() const;
   [[nodiscard]] Hypothesis search(Set present) const;
   void try_set(Set set, Hypothesis& best) const;
@@ -134,6 +143,9 @@ class FaultHypotheses {
   std::int64_t newest_us_ = 0;
   std::int64_t epoch_us_ = 0;
   std::size_t unknown_epochs_ = 0;
+  std::size_t known_epochs_ = 0;
+  std::size_t supported_epochs_ = 0;
+  bool needs_positions_ = false;
   bool is_verified_ = false;
 };
 

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/bus_clocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+
+bool BusClocks::is_set_back(const CanFrame& frame) {
+  Clock& own = clocks_[frame.interface];
+  const bool is_back = own.last_us && frame.stamp_us < *own.last_us - kSetBackUs;
+  own.last_us = frame.stamp_us;
+  for (Clock& other : clocks_) {
+    if (&other == &own || !other.last_us) {
+      continue;
+    }
+    const bool is_behind = frame.stamp_us < *other.last_us - kAheadUs;
+    other.frames_behind = is_behind ? std::min(other.frames_behind + 1, kMinFramesBehind) : 0;
+  }
+  return is_back;
+}
+
+bool ScanClock::is_set_forward(const RadarScan& scan) {
+  const auto last = std::exchange(last_, Scan{scan.stamp_us, scan.counter});
+  if (!last || modulus_ < kMinModulus) {
+    return false;
+  }
+  const std::uint32_t counts = (scan.counter + modulus_ - last->counter) % modulus_;
+  const double passed_s = seconds_between(last->stamp_us, scan.stamp_us);
+  if (counts == 0 || !(passed_s > 0.0)) {
+    return false;
+  }
+  const double excess_s = passed_s - counts * period_s_;
+  if (period_s_ > 0.0 && excess_s > kStepS) {
+    return true;
+  }
+  // A sensor that starts anew begins its counter anew.
+  const double period_s = passed_s / counts;
+  if (period_s_ == 0.0 || std::abs(excess_s) < kStepS) {
+    period_s_ = period_s;
+  }
+  return false;
+}
+
+}  // namespace cremed

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/radar_scan.hpp"
+#include "daemon/configuration/configuration.hpp"
+
+namespace cremed {
+
+/// The stamps of each bus compared with those of its frames before and of the other buses.
+class BusClocks {
+ public:
+  /// Notes a frame, in the order of arrival. True if its stamp is kSetBackUs or more before that of
+  /// the last frame of its bus: the clock was set.
+  bool is_set_back(const CanFrame& frame);
+  /// Whether the stamps of a bus are kAheadUs or more ahead of those of all other buses that send:
+  /// its own clock is wrong, since frames cannot arrive before they are sent.
+  [[nodiscard]] bool is_ahead(std::uint8_t interface) const {
+    return clocks_[interface].frames_behind >= kMinFramesBehind;
+  }
+
+ private:
+  /// Frames of one bus overtake each other by 5 ms at most (20 frames at 500 kbit/s).
+  static constexpr std::int64_t kSetBackUs = 50'000;
+  /// Beyond max_lateness_s of the odometry, which then takes the scans of the others for late.
+  static constexpr std::int64_t kAheadUs = 500'000;
+  /// In a row and of other buses: a cluster list of an ARS408.
+  static constexpr std::uint32_t kMinFramesBehind = 25;
+  struct Clock {
+    std::optional<std::int64_t> last_us;
+    std::uint32_t frames_behind = 0;  // Of other buses, stamped that much earlier.
+  };
+
+  std::array<Clock, kMaxRadars> clocks_{};
+};
+
+/// The stamps of one radar's scans compared with its cycle counter: shows that the clock was set
+/// forward, where a log has only a pause.
+class ScanClock {
+ public:
+  explicit ScanClock(std::uint32_t counter_modulus) : modulus_(counter_modulus) {}
+
+  /// True if a scan comes more than kStepS later than its counter says.
+  bool is_set_forward(const RadarScan& scan);
+  void forget() { last_.reset(); }
+
+ private:
+  /// On recorded drives (nuScenes, RadarScenes, 9000 scans of ARS408) that is 0.008 s at most.
+  static constexpr double kStepS = 0.05;
+  /// Shorter counters pass through zero in a pause.
+  static constexpr std::uint32_t kMinModulus = 4096;
+  struct Scan {
+    std::int64_t stamp_us;
+    std::uint16_t counter;
+  };
+
+  std::uint32_t modulus_;
+  std::optional<Scan> last_;
+  double period_s_ = 0.0;  // Of one count; 0: not known.
+};
+
+}  // namespace cremed

@@ -35,15 +35,15 @@ bool ScanClock::is_set_forward(const RadarScan& scan) {
     return false;
   }
   const double excess_s = passed_s - counts * period_s_;
-  if (period_s_ > 0.0 && excess_s > kStepS) {
-    return true;
+  if (std::abs(excess_s) <= kStepS) {
+    confirmations_ = std::min(confirmations_ + 1, kMinConfirmations);
+    return false;
   }
-  // A sensor that starts anew begins its counter anew.
-  const double period_s = passed_s / counts;
-  if (period_s_ == 0.0 || std::abs(excess_s) < kStepS) {
-    period_s_ = period_s;
-  }
-  return false;
+  // Without a steady counter (a sensor that starts anew, two sensors with one id) nothing is known.
+  const bool is_step = excess_s > kStepS && confirmations_ == kMinConfirmations;
+  period_s_ = passed_s / counts;
+  confirmations_ = 0;
+  return is_step;
 }
 
 }  // namespace cremed

@@ -53,6 +53,8 @@ class ScanClock {
  private:
   /// On recorded drives (nuScenes, RadarScenes, 9000 scans of ARS408) that is 0.008 s at most.
   static constexpr double kStepS = 0.05;
+  /// Scans in a row with one period before a step is believed.
+  static constexpr int kMinConfirmations = 10;
   /// Shorter counters pass through zero in a pause.
   static constexpr std::uint32_t kMinModulus = 4096;
   struct Scan {
@@ -62,7 +64,8 @@ class ScanClock {
 
   std::uint32_t modulus_;
   std::optional<Scan> last_;
-  double period_s_ = 0.0;  // Of one count; 0: not known.
+  double period_s_ = 0.0;  // Of one count.
+  int confirmations_ = 0;
 };
 
 }  // namespace cremed

@@ -63,6 +63,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
   for (const OdometryRadar& radar : radars) {
     tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
     two_worlds_.emplace_back(radar.vehicle_from_radar, kMinRivalDifferenceShare);
+    has_forward_radar_ = has_forward_radar_ || !looks_across(radar.vehicle_from_radar);
   }
   state_.start();
 }
@@ -226,6 +227,9 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   const double age_s = seconds_between(stamp_us, state_.time_us());
   LinearMeasurement measurement = DopplerMeasurement{state_, radar, age_s}.linearise(scan.velocity);
   measurement.noise *= trust.doppler_noise.value();
+  if (is_witness(radar)) {
+    measurement.noise *= state_.options().doppler_noise_factor_across;
+  }
   const double nis = state_.gaussian.innovate(measurement);
   const bool is_expected = nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * nis);
@@ -244,7 +248,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     state_.update();
     output_.add_radar(radar);
     // Radars that look sideways do not hold the odometry if the others are there but wrong.
-    if (!looks_across(state_.mount(radar)) || !consensus_.has_distrusted(stamp_us)) {
+    if (!is_witness(radar) || !consensus_.has_distrusted(stamp_us)) {
       condition_.use_scan(scan.is_clear);
     }
   }
@@ -255,7 +259,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
 /// is then the Doppler that is wrong.
 bool OdometryFilter::positions_confirm_state(std::size_t radar, const TargetSet& targets,
                                              double age_s) {
-  if (looks_across(state_.mount(radar))) {
+  if (is_witness(radar)) {
     return false;
   }
   TargetMap& map = tracks_[radar]->map;
@@ -265,6 +269,12 @@ bool OdometryFilter::positions_confirm_state(std::size_t radar, const TargetSet&
          std::abs(match->correction.x()) <= kMaxConfirmedM;
 }
 
+/// Whether a radar looks sideways, where others do not. Past it the reflections of targets move
+/// along with the vehicle: its positions shorten the way by 16 to 38 %, and are not used.
+bool OdometryFilter::is_witness(std::size_t radar) const {
+  return has_forward_radar_ && looks_across(state_.mount(radar));
+}
+
 /// If a majority of radars contradicts the filter and agrees with each other, its velocity is reset
 /// to theirs. The pose is widened by the error of the velocity over the time of the contradiction.
 void OdometryFilter::follow_majority(std::int64_t stamp_us) {
@@ -272,13 +282,15 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   if (!majority) {
     return;
   }
-  if (consensus_.contradicts_positions(stamp_us)) {
-    condition_.doubt();
-    return;
-  }
   const Eigen::Vector2d wrong(state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
   const Eigen::Vector2d error = majority->value() - wrong;
   const double since_s = consensus_.longest_contradiction_s();
+  // The positions can tell which of the speeds is wrong once they would be that far apart.
+  if (std::abs(error.x()) * since_s > 2.0 * kMaxConfirmedM &&
+      consensus_.contradicts_positions(stamp_us)) {
+    condition_.doubt();
+    return;
+  }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (consensus_[i].has_agreed()) {
       state_.widen_errors(i);
@@ -297,6 +309,9 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
 
 void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
                                    std::int64_t stamp_us) {
+  if (is_witness(radar)) {
+    return;
+  }
   const double age_s = seconds_between(stamp_us, state_.time_us());
   select_static(state_, radar, age_s, targets, static_targets_);
   if (static_targets_.size() >= static_cast<std::size_t>(state_.options().min_targets)) {
@@ -317,7 +332,6 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
     return;
   }
   RadarTrust& trust = consensus_[radar];
-  // Past a radar that looks sideways the reflections of targets move along with the vehicle.
   const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
   if (has_x && match->matched >= kMinConfirmedShare * possible) {
     compare_speed(radar, *match);

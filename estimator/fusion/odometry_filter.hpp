@@ -105,6 +105,7 @@ class OdometryFilter {
                     std::int64_t stamp_us);
   [[nodiscard]] bool positions_confirm_state(std::size_t radar, const TargetSet& targets,
                                              double age_s);
+  [[nodiscard]] bool is_witness(std::size_t radar) const;
   void follow_majority(std::int64_t stamp_us);
   void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   void match(std::size_t radar, double age_s);
@@ -122,6 +123,7 @@ class OdometryFilter {
   FilterCondition condition_;
   OdometryOutput output_;
   VehicleSignals vehicle_;
+  bool has_forward_radar_ = false;  // One that does not look sideways.
   bool has_started_ = false;
 };
 

@@ -58,7 +58,8 @@ TEST_CASE(
     }
     CHECK(twist_error(odometry, drive) < 5.0);
   }
-  CHECK(good > 130);
+  // The start lasts until positions confirm the speed of a single radar.
+  CHECK(good > 115);
   CHECK(most < 8.0);
   CHECK(most > 0.01);
 }
@@ -113,7 +114,7 @@ TEST_CASE("standing still is detected, and so is driving off") {
   CHECK(drive.drive(0.5).status == OdometryStatus::ok);
 }
 
-TEST_CASE("a faulty radar is left out and reported, and used again within a second of agreeing") {
+TEST_CASE("a faulty radar is left out and reported, and used again when it agrees for seconds") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 5);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
   drive.radar(0).world_mps = GENERATE(2.0, 8.0);
@@ -127,7 +128,8 @@ TEST_CASE("a faulty radar is left out and reported, and used again within a seco
     }
   }
   drive.radar(0).world_mps = 0.0;
-  CHECK(drive.drive(1.0).left_out == 0U);
+  CHECK(drive.drive(1.0).left_out == 1U);
+  CHECK(drive.drive(6.0).left_out == 0U);
   std::uint32_t radars = 0;
   for (int i = 0; i < 3; ++i) {
     radars |= drive.next().radars;
@@ -153,15 +155,20 @@ TEST_CASE("a majority of radars overrules the one that the filter followed") {
   }
 }
 
-TEST_CASE("of two radars that contradict each other from the start none is trusted") {
+TEST_CASE(
+    "of two radars that contradict each other that is trusted whose positions agree with it") {
   OdometryDrive drive({kFront, kRearLeft}, 7);
-  drive.radar(GENERATE(std::size_t{0}, std::size_t{1})).world_mps = 4.0;
+  const std::size_t faulty = GENERATE(std::size_t{0}, std::size_t{1});
+  drive.radar(faulty).world_mps = 4.0;
   for (int i = 0; i < 100; ++i) {
-    CHECK_FALSE(is_good(drive.next()));
+    const Odometry odometry = drive.next();
+    if (i > 30) {
+      CHECK((odometry.left_out >> faulty & 1U) != 0);
+      CHECK((is_good(odometry) ? twist_error(odometry, drive) : 0.0) < 5.0);
+    }
   }
-  CHECK(drive.next().status == OdometryStatus::ambiguous);
-  drive.radar(0).world_mps = drive.radar(1).world_mps = 0.0;
-  drive.drive(1.0);
+  drive.radar(faulty).world_mps = 0.0;
+  drive.drive(6.0);
   CHECK(is_good(drive.next()));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -29,7 +30,7 @@ constexpr double kMaxDecreaseToReturn = 4.0;
 /// Largest part of chi-square by a radar that looks sideways; see the class.
 constexpr double kMaxWitness = 9.0;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.
-constexpr double kMaxNoiseMps = 1.0;
+constexpr double kMaxNoiseMps = 0.75;
 /// Largest standard deviation of a speed by positions that confirms the Doppler. With it 10 % are 3
 /// sigma.
 constexpr double kSupportingStdMps = 0.1;
@@ -42,6 +43,8 @@ constexpr double kBetweenScansMps = 0.05;
 /// yaw rate, 0.1 to 0.35 degrees a second, and turns registered 1 to 4 % too small.
 constexpr double kPositionSpeedShare = 0.01;
 constexpr double kPositionM = 0.05;
+/// Of the state's speed, which they correct.
+constexpr double kPositionMps = 0.05;
 constexpr double kPositionYawRateRadps = 0.008;
 constexpr double kPositionTurnShare = 0.03;
 /// In addition to OdometryOptions: a mount measured by hand that is a degree off is learned.
@@ -105,7 +108,8 @@ void FaultHypotheses::add_speed_by_positions(std::size_t radar, std::int64_t sta
                                              double speed_mps, double since_s) {
   tracks_[radar].speed =
       Speed{stamp_us, speed_mps,
-            squared(kPositionSpeedShare * speed_mps) + squared(kPositionM / since_s)};
+            squared(kPositionSpeedShare * speed_mps) + squared(kPositionM / since_s) +
+                squared(kPositionMps)};
 }
 
 void FaultHypotheses::add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {
@@ -155,7 +159,10 @@ std::optional<FaultHypotheses::Velocity> FaultHypotheses::velocity_at(std::size_
   const Velocity& a = track.velocities[0];
   const Velocity& b = track.velocities[1];
   const double period_s = seconds_between(a.stamp_us, b.stamp_us);
-  const bool is_step = (b.mps - a.mps).norm() > kMaxAccelerationMps2 * period_s + kMaxNoiseMps;
+  const Eigen::Vector2d possible_mps(
+      kMaxAccelerationMps2 * period_s + kMaxNoiseMps,
+      kMaxYawAccelerationRadps2 * std::abs(state_.mount(radar).x_m) * period_s + kMaxNoiseMps);
+  const bool is_step = ((b.mps - a.mps).cwiseAbs().array() > possible_mps.array()).any();
   if (track.count < 2 || is_step || !(period_s > 0.0) || period_s > kMaxScanPeriodS ||
       std::abs(seconds_between(b.stamp_us, time_us)) > kMaxScanPeriodS) {
     return std::nullopt;
@@ -269,9 +276,13 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
   if (!is_consistent(set, fit)) {
     return;
   }
-  if (best.set == 0 || fit < best.chi_square - kClearlyBetter) {
+  // Of two single radars that are each right by their own none is better.
+  const double clearly_better = std::has_single_bit(set)
+                                    ? std::numeric_limits<double>::infinity()
+                                    : kClearlyBetter;
+  if (best.set == 0 || fit < best.chi_square - clearly_better) {
     best = {set, fit, 0};
-  } else if (fit > best.chi_square + kClearlyBetter) {
+  } else if (fit > best.chi_square + clearly_better) {
     return;
   } else {
     best = {fit < best.chi_square ? set : best.set, std::min(fit, best.chi_square),

@@ -60,9 +60,6 @@ LinearMeasurement MapMeasurement::linearise(const MapMatch& match, bool has_x) c
   result.noise(2, 2) =
       options.position_noise_factor * match.covariance(0, 0) / squared(match.x_share) +
       squared(options.position_lateral_floor_m);
-  if (looks_across(state.mount(radar))) {
-    result.noise *= options.position_noise_factor_across;
-  }
   result.noise(0, 0) += squared(options.position_lateral_floor_m);
   result.noise(1, 1) += squared(options.position_yaw_floor_rad);
   for (int i = 0; i < kMotionStates; ++i) {

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
+
+namespace cremed {
+namespace {
+
+const Pose2 kFront{3.4, 0.0, 0.0};
+const Pose2 kRearLeft{-0.6, 0.6, 3.05};
+const Pose2 kRearRight{-0.6, -0.6, -3.05};
+const Pose2 kLeft{2.4, 0.8, 1.56};
+const Pose2 kRight{2.4, -0.8, -1.56};
+const std::vector<Pose2> kFive{kFront, kRearLeft, kRearRight, kLeft, kRight};
+
+/// What radars measure of a drive in bends at 8 m/s, and what a fault makes of it.
+class Comparison {
+ public:
+  struct Measured {
+    Eigen::Vector2d velocity_mps;
+    double yaw_rate_radps;
+    double speed_by_positions_mps;
+  };
+  using Fault = std::function<void(std::size_t radar, Measured&)>;
+
+  explicit Comparison(const std::vector<Pose2>& mounts)
+      : mounts_(mounts), state_(OdometryOptions(), mounts), faults_(state_) {}
+
+  /// Radars scan in turn, each every 75 ms.
+  void drive(double duration_s, const Fault& fault = {}, bool has_positions = true) {
+    for (const double until_s = time_s_ + duration_s; time_s_ < until_s;) {
+      for (std::size_t i = 0; i < mounts_.size(); ++i) {
+        time_s_ += 0.075 / static_cast<double>(mounts_.size());
+        scan(i, fault, has_positions);
+      }
+    }
+  }
+  [[nodiscard]] const FaultHypotheses& faults() const { return faults_; }
+
+ private:
+  void scan(std::size_t radar, const Fault& fault, bool has_positions) {
+    const auto stamp_us = static_cast<std::int64_t>(std::llround(time_s_ * 1e6));
+    const double w = 0.2 * std::sin(0.5 * time_s_);
+    const double v = 8.0 + std::sin(0.3 * time_s_);
+    const Pose2& mount = mounts_[radar];
+    const double forward = v - w * mount.y_m;
+    Measured measured{{forward + 0.03 * normal_(random_), w * mount.x_m + 0.1 * normal_(random_)},
+                      w + 0.01 * normal_(random_),
+                      forward + 0.05 * normal_(random_)};
+    if (fault) {
+      fault(radar, measured);
+    }
+    EgoMotion motion;
+    motion.status = MotionStatus::ok;
+    motion.utime_start_us = stamp_us - 75'000;
+    motion.utime_us = stamp_us;
+    motion.motion.z() = 0.075 * measured.yaw_rate_radps;
+    motion.covariance.setZero();
+    motion.covariance(2, 2) = std::pow(0.075 * 0.01, 2);
+    faults_.add_motion(radar, motion);
+    if (has_positions) {
+      faults_.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0);
+    } else {
+      faults_.add_too_few_targets(radar, stamp_us);
+    }
+    DopplerVelocity velocity;
+    velocity.velocity_mps = measured.velocity_mps;
+    velocity.covariance = Eigen::Vector2d(0.001, 0.01).asDiagonal();
+    faults_.add_velocity(radar, stamp_us, velocity);
+  }
+
+  std::vector<Pose2> mounts_;
+  OdometryState state_;
+  FaultHypotheses faults_;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> normal_;
+  double time_s_ = 1000.0;
+};
+
+Comparison::Fault scaled(std::size_t guilty, double factor) {
+  return [=](std::size_t radar, Comparison::Measured& measured) {
+    measured.velocity_mps *= radar == guilty ? factor : 1.0;
+  };
+}
+
+/// Its targets are turned to the other side, in Doppler and in positions.
+Comparison::Fault upside_down(std::size_t guilty) {
+  return [=](std::size_t radar, Comparison::Measured& measured) {
+    if (radar == guilty) {
+      measured.velocity_mps.y() *= -1.0;
+      measured.yaw_rate_radps *= -1.0;
+    }
+  };
+}
+
+TEST_CASE("healthy radars are never at fault, and verified within a second") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft},
+                               kFive, std::vector<Pose2>{kLeft, kRight});
+  const bool has_positions = GENERATE(true, false);
+  Comparison comparison(mounts);
+  comparison.drive(1.0, {}, has_positions);
+  CHECK(comparison.faults().is_verified());
+  for (int i = 0; i < 300; ++i) {
+    comparison.drive(0.2, {}, has_positions);
+    CHECK(comparison.faults().at_fault() == 0U);
+    CHECK_FALSE(comparison.faults().is_unknown());
+  }
+}
+
+TEST_CASE("the radar that differs from the others is at fault, and no other") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
+  const Comparison::Fault fault = GENERATE_REF(scaled(guilty, 0.9), scaled(guilty, 1.05),
+                                               scaled(guilty, -1.0), upside_down(guilty));
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  comparison.drive(10.0, fault);
+  CHECK(comparison.faults().at_fault() == 1U << guilty);
+  CHECK_FALSE(comparison.faults().is_unknown());
+}
+
+TEST_CASE("two radars with each other's mounts are at fault, confirmed by those that look aside") {
+  Comparison comparison(kFive);
+  comparison.drive(10.0, [](std::size_t radar, Comparison::Measured& measured) {
+    const double turn_rad = radar == 1 ? 0.18 : radar == 2 ? -0.18 : 0.0;
+    measured.velocity_mps = {std::cos(turn_rad) * measured.velocity_mps.x() -
+                                 std::sin(turn_rad) * measured.velocity_mps.y(),
+                             std::sin(turn_rad) * measured.velocity_mps.x() +
+                                 std::cos(turn_rad) * measured.velocity_mps.y()};
+  });
+  CHECK(comparison.faults().at_fault() == 0b110U);
+}
+
+TEST_CASE("of two radars only positions tell which is at fault; without them it is not known") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  const bool has_positions = GENERATE(true, false);
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(5.0);
+  comparison.drive(3.0, scaled(guilty, 0.9), has_positions);
+  if (has_positions) {
+    CHECK(comparison.faults().at_fault() == 1U << guilty);
+  } else {
+    CHECK(comparison.faults().at_fault() == 0U);
+    CHECK(comparison.faults().is_unknown());
+  }
+}
+
+TEST_CASE("what all radars share is refuted by their positions") {
+  const double factor = GENERATE(-1.0, 0.0, 0.8);
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  comparison.drive(3.0, [=](std::size_t /*radar*/, Comparison::Measured& measured) {
+    measured.velocity_mps *= factor;
+  });
+  CHECK(comparison.faults().is_unknown());
+  comparison.drive(3.0);
+  CHECK_FALSE(comparison.faults().is_unknown());
+}
+
+TEST_CASE("a radar at fault returns after some seconds of agreement, each time later") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  double last_s = 0.0;
+  for (int time = 0; time < 3; ++time) {
+    comparison.drive(3.0, scaled(0, 0.8));
+    REQUIRE(comparison.faults().is_at_fault(0));
+    double left_out_s = 0.0;
+    for (; comparison.faults().is_at_fault(0) && left_out_s < 100.0; left_out_s += 0.5) {
+      comparison.drive(0.5);
+    }
+    CHECK(left_out_s > 3.0);
+    CHECK(left_out_s > last_s);
+    last_s = left_out_s;
+  }
+  CHECK(last_s < 30.0);
+}
+
+TEST_CASE("after the filter was lost only positions verify") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  REQUIRE(comparison.faults().is_verified());
+  Comparison stale(kFive);
+  stale.drive(5.0);
+  FaultHypotheses lost = stale.faults();
+  lost.require_positions();
+  CHECK_FALSE(lost.is_verified());
+}
+
+}  // namespace
+}  // namespace cremed

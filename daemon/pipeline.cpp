@@ -216,6 +216,13 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
   }
 }
 
+/// That the positions of a radar contradict its Doppler is decisive only if the comparison with the
+/// others is not: a mount may be off that the odometry learns.
+bool Pipeline::is_trusted(const RadarChannel& radar) const {
+  return !radar.self_check.speed().is_contradicted() &&
+         (radar.self_check.is_trusted() || !filter_->is_fault_unknown());
+}
+
 /// Holds every scan with usable targets, registered or not.
 void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   const bool was_ahead = std::exchange(radar.is_ahead, clocks_.is_ahead(radar.interface));
@@ -272,8 +279,7 @@ void Pipeline::publish_odometry(RadarChannel& radar) {
   radar.held_us.reset();
   publish_predictions(stamp_us);
   const std::int64_t begin_us = clock_.now_us();
-  const Odometry odometry =
-      filter_->update(radar.index, targets, stamp_us, !radar.self_check.speed().is_contradicted());
+  const Odometry odometry = filter_->update(radar.index, targets, stamp_us, is_trusted(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
   if (!odometry.is_new) {
     return;

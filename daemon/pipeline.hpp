@@ -96,6 +96,7 @@ class Pipeline {
   RadarChannel* first_to_close(Condition condition);
   void publish_motions(RadarChannel& radar, std::int64_t begin_us);
   void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
+  [[nodiscard]] bool is_trusted(const RadarChannel& radar) const;
   void hold(RadarChannel& radar, const EgoMotion& motion);
   [[nodiscard]] RadarChannel* first_held() const;
   void publish_held();

@@ -70,6 +70,9 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
 
 Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_trusted) {
+  if (!is_trusted) {
+    faults_.accuse(radar, stamp_us);
+  }
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {

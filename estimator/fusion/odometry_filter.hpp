@@ -81,6 +81,8 @@ class OdometryFilter {
   /// To be called when the clock of the stamps was set: restarts all but the pose since the start.
   void forget();
 
+  /// Radars contradict each other, or their own positions, and it is not known which are wrong.
+  [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;
   [[nodiscard]] VehicleSignalReport report(VehicleSignal signal) const {
     return vehicle_.report(signal);

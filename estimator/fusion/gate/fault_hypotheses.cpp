@@ -91,9 +91,6 @@ void FaultHypotheses::clear() {
   std::fill(tracks_.begin(), tracks_.end(), Track());
   count_ = 0;
   unknown_epochs_ = 0;
-  known_epochs_ = 0;
-  require_positions();
-  needs_positions_ = false;
 }
 
 std::uint32_t FaultHypotheses::at_fault() const {
@@ -398,11 +395,8 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   const bool is_known =
       judged_ == 0 || (best.set != 0 && best.rivals == 0 && !contradict_positions());
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
-  known_epochs_ = is_known ? known_epochs_ + 1 : 0;
-  const bool is_alone = std::popcount(best.set & present()) < 2;
   supported_epochs_ = is_known && is_supported(best.set, time_us) ? supported_epochs_ + 1 : 0;
-  is_verified_ = supported_epochs_ >= kMinEpochs ||
-                 (known_epochs_ >= kMinEpochs && !is_alone && !needs_positions_);
+  is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;

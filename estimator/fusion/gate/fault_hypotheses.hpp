@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,7 +39,10 @@ class FaultHypotheses {
   /// Uses options and mounts of `state`, which must outlive this object.
   explicit FaultHypotheses(const OdometryState& state);
 
+  /// To be called when the clock of the stamps was set.
   void clear();
+  /// A radar's own check found it wrong (SelfCheck).
+  void accuse(std::size_t radar, std::int64_t time_us);
   /// Speed along x of the radar by its positions, over the last `since_s`.
   void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,
                               double since_s);
@@ -56,7 +60,9 @@ class FaultHypotheses {
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
   /// The radars in use are consistent, a single one by its positions, if it has targets for that.
-  [[nodiscard]] bool is_verified() const { return is_verified_; }
+  [[nodiscard]] bool is_verified() const {
+    return is_verified_ || (!needs_positions_ && !std::has_single_bit(judged_) && !is_unknown());
+  }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
   /// positions must confirm them.
   void require_positions() {
@@ -132,7 +138,6 @@ class FaultHypotheses {
   [[nodiscard]] bool is_supported(Set set, std::int64_t time_us) const;
   [[nodiscard]] bool is_consistent(Set set, double chi_square) const;
   [[nodiscard]] double chi_square(Set set) const;
-  void accuse(std::size_t radar, std::int64_t time_us);
 
   const OdometryState& state_;
   Set judged_ = 0;  // The radars that do not look sideways.
@@ -143,7 +148,6 @@ class FaultHypotheses {
   std::int64_t newest_us_ = 0;
   std::int64_t epoch_us_ = 0;
   std::size_t unknown_epochs_ = 0;
-  std::size_t known_epochs_ = 0;
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;
   bool is_verified_ = false;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio> //DBG
+#include <cstdlib> //DBG
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
@@ -74,7 +76,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
-    output_.advance_to(stamp_us);
+    advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     if (use_doppler(radar, targets, stamp_us)) {
@@ -83,8 +85,20 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
   const Odometry odometry = with_condition(output_.next());
+  if (std::getenv("P21")) { static std::int64_t t0 = 0; if (stamp_us - t0 > 20000000 || stamp_us < t0) t0 = stamp_us; std::fprintf(stderr, "%.3f r%zu n%zu st%d parked%d v%.3f±%.3f w%.3f±%.3f x%.3f±%.4f y%.3f±%.4f yaw%.4f±%.4f anchor%.2f\n", 1e-6*(stamp_us-t0), radar, targets.size(), int(odometry.status), parked_.is_parked(), odometry.twist.x(), std::sqrt(odometry.twist_covariance(0,0)), odometry.twist.z(), std::sqrt(odometry.twist_covariance(2,2)), odometry.pose.x(), std::sqrt(odometry.covariance(0,0)), odometry.pose.y(), std::sqrt(odometry.covariance(1,1)), odometry.pose.z(), std::sqrt(odometry.covariance(2,2)), 1e-6*(odometry.utime_anchor_us-t0)); } //DBG
   parked_.add_status(odometry.utime_us, odometry.status == OdometryStatus::standing_still);
   return odometry;
+}
+
+/// A parked vehicle may move as estimated or not at all: its pose is uncertain by its way.
+void OdometryFilter::advance_to(std::int64_t stamp_us) {
+  const Eigen::Vector3d before = state_.gaussian.mean().head<kPose>();
+  output_.advance_to(stamp_us);
+  if (parked_.is_parked()) {
+    for (const int i : {kX, kY, kYaw}) {
+      state_.gaussian.add_variance(i, std::max(0.0, squared(state_.gaussian.mean(i)) - squared(before(i))));
+    }
+  }
 }
 
 std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {

@@ -91,6 +91,7 @@ class OdometryFilter {
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
+  void advance_to(std::int64_t stamp_us);
   void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
   void restart(std::int64_t stamp_us);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,

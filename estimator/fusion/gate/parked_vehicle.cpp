@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio> //DBG
+#include <cstdlib> //DBG
 
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -20,13 +22,11 @@ constexpr double kRecentS = 0.5;
 constexpr double kMaxSigmas = 3.0;
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
-/// Least expected Doppler of a vote, and number of votes.
-constexpr double kMinVoteMps = 0.2;
+/// Least expected Doppler of a vote, four standard deviations of a target's, and number of votes.
+constexpr double kMinVoteMps = 0.5;
 constexpr double kMinVotes = 20.0;
 /// Share of the targets at rest up to which there is one world.
 constexpr double kMaxRestShare = 0.1;
-/// Least speed of a start.
-constexpr double kMinStartMps = 0.2;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
 /// Radars differ in speed by this and this share: a scan is up to 0.1 s older than another.
@@ -43,7 +43,6 @@ void ParkedVehicle::Look::decay(double factor) {
   sum_variance *= factor;
   votes *= factor;
   at_rest *= factor;
-  mirrored *= factor;
 }
 
 void ParkedVehicle::Look::add(const TargetSet& targets, const DopplerVelocity& velocity) {
@@ -56,10 +55,8 @@ void ParkedVehicle::Look::add(const TargetSet& targets, const DopplerVelocity& v
     if (std::abs(expected_mps) < kMinVoteMps) {
       continue;
     }
-    const double share = target.doppler_mps / expected_mps;
     votes += 1.0;
-    at_rest += std::abs(share) < 0.5 ? 1.0 : 0.0;
-    mirrored += std::abs(share - 2.0) < 0.5 ? 1.0 : 0.0;
+    at_rest += std::abs(target.doppler_mps) < 0.5 * std::abs(expected_mps) ? 1.0 : 0.0;
   }
 }
 
@@ -71,7 +68,7 @@ bool ParkedVehicle::Look::departs() const {
 bool ParkedVehicle::Look::has_votes() const { return votes >= kMinVotes; }
 
 bool ParkedVehicle::Look::is_one_world() const {
-  return at_rest - mirrored + 2.0 * std::sqrt(at_rest + mirrored) <= kMaxRestShare * votes;
+  return at_rest + std::sqrt(at_rest) <= kMaxRestShare * votes;
 }
 
 ParkedVehicle::ParkedVehicle(const OdometryState& state) : state_(state), looks_(state.radars()) {}
@@ -97,6 +94,7 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
   look.stamp_us = stamp_us;
   look.add(targets, velocity);
   const Verdict result = verdict(stamp_us);
+  if (std::getenv("P21")) std::fprintf(stderr, "   r%zu V %.3f %.3f mean %.3f %.3f std %.3f %.3f votes %.1f rest %.1f  dep%d one%d -> %d\n", radar, velocity.velocity_mps.x(), velocity.velocity_mps.y(), look.mean_mps().x(), look.mean_mps().y(), std::sqrt(look.variance().x()), std::sqrt(look.variance().y()), look.votes, look.at_rest, look.departs(), can_be_start(radar), int(result)); //DBG
   if (result == Verdict::started) {
     clear();
   }
@@ -134,7 +132,7 @@ ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
   }
   const double speed_mps = std::max(std::abs(slowest_mps), std::abs(fastest_mps));
   const bool agree =
-      has_start && speed_mps >= kMinStartMps &&
+      has_start &&
       fastest_mps - slowest_mps <= kMaxDifferenceMps + kMaxDifferenceShare * speed_mps;
   return agree && !is_refuted ? Verdict::started : Verdict::in_doubt;
 }

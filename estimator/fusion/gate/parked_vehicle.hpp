@@ -47,9 +47,8 @@ class ParkedVehicle {
     double scans = 0.0;
     Eigen::Vector2d sum_mps = Eigen::Vector2d::Zero();
     Eigen::Vector2d sum_variance = Eigen::Vector2d::Zero();
-    double votes = 0.0;     ///< Targets that tell rest from the velocity,
-    double at_rest = 0.0;   ///< nearer to rest,
-    double mirrored = 0.0;  ///< and as far beyond the velocity as these are before it: noise.
+    double votes = 0.0;    ///< Targets that tell rest from the velocity,
+    double at_rest = 0.0;  ///< and that are nearer to rest.
 
     [[nodiscard]] Eigen::Vector2d mean_mps() const { return sum_mps / scans; }
     [[nodiscard]] Eigen::Vector2d variance() const { return sum_variance / (scans * scans); }

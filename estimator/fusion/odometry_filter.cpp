@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio> //DBG
-#include <cstdlib> //DBG
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
@@ -85,7 +83,6 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
   const Odometry odometry = with_condition(output_.next());
-  if (std::getenv("P21")) { static std::int64_t t0 = 0; if (stamp_us - t0 > 20000000 || stamp_us < t0) t0 = stamp_us; std::fprintf(stderr, "%.3f r%zu n%zu st%d parked%d v%.3f±%.3f w%.3f±%.3f x%.3f±%.4f y%.3f±%.4f yaw%.4f±%.4f anchor%.2f\n", 1e-6*(stamp_us-t0), radar, targets.size(), int(odometry.status), parked_.is_parked(), odometry.twist.x(), std::sqrt(odometry.twist_covariance(0,0)), odometry.twist.z(), std::sqrt(odometry.twist_covariance(2,2)), odometry.pose.x(), std::sqrt(odometry.covariance(0,0)), odometry.pose.y(), std::sqrt(odometry.covariance(1,1)), odometry.pose.z(), std::sqrt(odometry.covariance(2,2)), 1e-6*(odometry.utime_anchor_us-t0)); } //DBG
   parked_.add_status(odometry.utime_us, odometry.status == OdometryStatus::standing_still);
   return odometry;
 }
@@ -96,7 +93,8 @@ void OdometryFilter::advance_to(std::int64_t stamp_us) {
   output_.advance_to(stamp_us);
   if (parked_.is_parked()) {
     for (const int i : {kX, kY, kYaw}) {
-      state_.gaussian.add_variance(i, std::max(0.0, squared(state_.gaussian.mean(i)) - squared(before(i))));
+      state_.gaussian.add_variance(
+          i, std::max(0.0, squared(state_.gaussian.mean(i)) - squared(before(i))));
     }
   }
 }
@@ -194,7 +192,10 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
-  faults_.add_velocity(radar, stamp_us, scan->velocity);
+  // At rest no fault shows, only noise.
+  if (!parked_.is_at_rest()) {
+    faults_.add_velocity(radar, stamp_us, scan->velocity);
+  }
   if (faults_.is_unknown()) {
     condition_.doubt();
   }

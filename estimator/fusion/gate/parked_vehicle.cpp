@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio> //DBG
-#include <cstdlib> //DBG
+#include <limits>
 
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -22,41 +21,78 @@ constexpr double kRecentS = 0.5;
 constexpr double kMaxSigmas = 3.0;
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
-/// Least expected Doppler of a vote, four standard deviations of a target's, and number of votes.
-constexpr double kMinVoteMps = 0.5;
+/// Least expected Doppler of a vote, in standard deviations of a target's, and number of votes.
+constexpr double kMinVoteSigmas = 2.0;
 constexpr double kMinVotes = 20.0;
-/// Share of the targets at rest up to which there is one world.
+/// Share of the targets at rest up to which there is one world: the vehicle ahead that starts too.
 constexpr double kMaxRestShare = 0.1;
+/// Bound of that share in its standard deviations, and a factor on these: a target's noise is
+/// correlated over its scans.
+constexpr double kShareSigmas = 2.0;
+constexpr double kCorrelation = 1.5;
+/// Standard deviation of a target's Doppler, before it is learned and at least: the grid of an
+/// ARS408, 0.25 / sqrt(12); the share of a scan in it; and three steps of that grid, beyond which a
+/// target moves.
+constexpr double kMinDopplerStdMps = 0.07;
+constexpr double kLearningShare = 0.05;
+constexpr double kMaxNoiseMps = 0.75;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
-/// Radars differ in speed by this and this share: a scan is up to 0.1 s older than another.
-constexpr double kMaxDifferenceMps = 0.2;
-constexpr double kMaxDifferenceShare = 0.1;
+/// Radars differ in speed by this and this share, besides noise: a scan is up to 0.1 s older than
+/// another.
+constexpr double kMaxDifferenceMps = 0.1;
+constexpr double kMaxDifferenceShare = 0.15;
 /// Beyond this sigma a radar does not tell the speed along x.
 constexpr double kMaxStdMps = 0.15;
+
+double variance_at_rest(const TargetSet& targets) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Target& target : targets) {
+    if (std::abs(target.doppler_mps) <= kMaxNoiseMps) {
+      sum += squared(target.doppler_mps);
+      ++count;
+    }
+  }
+  return std::max(squared(kMinDopplerStdMps), count > 0 ? sum / count : 0.0);
+}
 
 }  // namespace
 
 void ParkedVehicle::Look::decay(double factor) {
   scans *= factor;
+  targets *= factor;
   sum_mps *= factor;
   sum_variance *= factor;
   votes *= factor;
-  at_rest *= factor;
+  expected *= factor;
+  missed *= factor;
+  noise *= factor;
 }
 
-void ParkedVehicle::Look::add(const TargetSet& targets, const DopplerVelocity& velocity) {
+void ParkedVehicle::Look::add(const Look& other) {
+  votes += other.votes;
+  expected += other.expected;
+  missed += other.missed;
+  noise += other.noise;
+}
+
+void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velocity,
+                              double doppler_variance) {
   scans += 1.0;
+  targets += static_cast<double>(seen.size());
   sum_mps += velocity.velocity_mps;
   sum_variance += velocity.covariance.diagonal();
-  for (const Target& target : targets) {
+  for (const Target& target : seen) {
     const double expected_mps = -target.cos_bearing * velocity.velocity_mps.x() -
                                 target.sin_bearing * velocity.velocity_mps.y();
-    if (std::abs(expected_mps) < kMinVoteMps) {
+    if (squared(expected_mps) < squared(kMinVoteSigmas) * doppler_variance) {
       continue;
     }
     votes += 1.0;
-    at_rest += std::abs(target.doppler_mps) < 0.5 * std::abs(expected_mps) ? 1.0 : 0.0;
+    expected += squared(expected_mps);
+    missed += std::min(squared(target.doppler_mps - expected_mps), squared(expected_mps));
+    noise += doppler_variance;
   }
 }
 
@@ -67,11 +103,14 @@ bool ParkedVehicle::Look::departs() const {
 
 bool ParkedVehicle::Look::has_votes() const { return votes >= kMinVotes; }
 
-bool ParkedVehicle::Look::is_one_world() const {
-  return at_rest + std::sqrt(at_rest) <= kMaxRestShare * votes;
+double ParkedVehicle::Look::rest_share(double sigmas) const {
+  return (missed - noise + sigmas * kCorrelation * noise * std::sqrt(2.0 / votes)) / expected;
 }
 
-ParkedVehicle::ParkedVehicle(const OdometryState& state) : state_(state), looks_(state.radars()) {}
+ParkedVehicle::ParkedVehicle(const OdometryState& state)
+    : state_(state),
+      looks_(state.radars()),
+      doppler_variances_(state.radars(), squared(kMinDopplerStdMps)) {}
 
 void ParkedVehicle::clear() { is_parked_ = is_standing_ = false; }
 
@@ -92,9 +131,12 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
   Look& look = looks_[radar];
   look.decay(std::exp(-seconds_between(look.stamp_us, stamp_us) / kMemoryS));
   look.stamp_us = stamp_us;
-  look.add(targets, velocity);
+  double& doppler_variance = doppler_variances_[radar];
+  look.add(targets, velocity, doppler_variance);
   const Verdict result = verdict(stamp_us);
-  if (std::getenv("P21")) std::fprintf(stderr, "   r%zu V %.3f %.3f mean %.3f %.3f std %.3f %.3f votes %.1f rest %.1f  dep%d one%d -> %d\n", radar, velocity.velocity_mps.x(), velocity.velocity_mps.y(), look.mean_mps().x(), look.mean_mps().y(), std::sqrt(look.variance().x()), std::sqrt(look.variance().y()), look.votes, look.at_rest, look.departs(), can_be_start(radar), int(result)); //DBG
+  if (result == Verdict::rests) {
+    doppler_variance += kLearningShare * (variance_at_rest(targets) - doppler_variance);
+  }
   if (result == Verdict::started) {
     clear();
   }
@@ -102,48 +144,46 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
 }
 
 ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
-  const auto is_recent = [&](const Look& look) {
-    return look.scans > 0.0 && seconds_between(look.stamp_us, stamp_us) <= kRecentS;
-  };
   bool departs = false;
-  bool is_refuted = false;
-  double slowest_mps = 0.0;
-  double fastest_mps = 0.0;
-  int speeds = 0;
-  bool has_start = false;
+  bool is_doubtful = false;
+  double lowest_mps = std::numeric_limits<double>::infinity();
+  double highest_mps = -lowest_mps;
+  Look all;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const Look& look = looks_[i];
-    if (!is_recent(look)) {
+    if (!(look.scans > 0.0 && seconds_between(look.stamp_us, stamp_us) <= kRecentS)) {
       continue;
     }
     departs = departs || look.departs();
-    const bool is_start = look.has_votes() && can_be_start(i);
-    has_start = has_start || is_start;
-    is_refuted = is_refuted || (look.has_votes() && !is_start);
-    if (std::sqrt(look.variance().x()) <= kMaxStdMps) {
-      const double mps = look.mean_mps().x();
-      slowest_mps = speeds == 0 ? mps : std::min(slowest_mps, mps);
-      fastest_mps = speeds == 0 ? mps : std::max(fastest_mps, mps);
-      ++speeds;
+    if (look.has_votes()) {
+      is_doubtful = is_doubtful || look.rest_share(-kShareSigmas) > kMaxRestShare || !is_along(i);
+      all.add(look);
+    } else {
+      is_doubtful = is_doubtful || (look.targets >= kMinVotes && !looks_across(state_.mount(i)));
+    }
+    const double std_mps = std::sqrt(look.variance().x());
+    if (std_mps <= kMaxStdMps) {
+      lowest_mps = std::min(lowest_mps, look.mean_mps().x() + kMaxSigmas * std_mps);
+      highest_mps = std::max(highest_mps, look.mean_mps().x() - kMaxSigmas * std_mps);
     }
   }
   if (!departs) {
     return Verdict::rests;
   }
-  const double speed_mps = std::max(std::abs(slowest_mps), std::abs(fastest_mps));
+  const double speed_mps = std::max(std::abs(lowest_mps), std::abs(highest_mps));
   const bool agree =
-      has_start &&
-      fastest_mps - slowest_mps <= kMaxDifferenceMps + kMaxDifferenceShare * speed_mps;
-  return agree && !is_refuted ? Verdict::started : Verdict::in_doubt;
+      highest_mps - lowest_mps <= kMaxDifferenceMps + kMaxDifferenceShare * speed_mps;
+  const bool is_one_world = all.has_votes() && all.rest_share(kShareSigmas) <= kMaxRestShare;
+  return agree && is_one_world && !is_doubtful ? Verdict::started : Verdict::in_doubt;
 }
 
-bool ParkedVehicle::can_be_start(std::size_t radar) const {
+/// Whether the velocity is one of a vehicle that cannot move sideways.
+bool ParkedVehicle::is_along(std::size_t radar) const {
   const Look& look = looks_[radar];
   const Eigen::Vector2d mps = look.mean_mps();
-  const double lever_m = std::abs(state_.mount(radar).x_m);
-  return look.is_one_world() &&
-         std::abs(mps.y()) <= lever_m / kMinRadiusM * std::abs(mps.x()) +
-                                  kMaxSigmas * (kFloorYMps + std::sqrt(look.variance().y()));
+  const double per_speed = std::abs(state_.mount(radar).x_m) / kMinRadiusM;
+  const double std_mps = kFloorYMps + std::sqrt(look.variance().y());
+  return std::abs(mps.y()) <= per_speed * std::abs(mps.x()) + kMaxSigmas * std_mps;
 }
 
 }  // namespace cremed

@@ -32,6 +32,7 @@ class ParkedVehicle {
   void clear();
   /// The odometry stands still, or not, at this time.
   void add_status(std::int64_t utime_us, bool is_standing);
+  [[nodiscard]] bool is_at_rest() const { return is_parked_ || is_standing_; }
   /// It stood for kParkedUs, and has not started since.
   [[nodiscard]] bool is_parked() const { return is_parked_; }
   /// Judges by a scan, and by the last ones of the other radars. Not parked if started.
@@ -45,25 +46,31 @@ class ParkedVehicle {
   struct Look {
     std::int64_t stamp_us = 0;
     double scans = 0.0;
+    double targets = 0.0;
     Eigen::Vector2d sum_mps = Eigen::Vector2d::Zero();
     Eigen::Vector2d sum_variance = Eigen::Vector2d::Zero();
-    double votes = 0.0;    ///< Targets that tell rest from the velocity,
-    double at_rest = 0.0;  ///< and that are nearer to rest.
+    double votes = 0.0;  ///< Targets whose Doppler tells rest from the velocity. Sums of squares:
+    double expected = 0.0;  ///< of their Doppler by the velocity,
+    double missed = 0.0;    ///< of what they miss of it, at most all,
+    double noise = 0.0;     ///< and of what of this is noise.
 
     [[nodiscard]] Eigen::Vector2d mean_mps() const { return sum_mps / scans; }
     [[nodiscard]] Eigen::Vector2d variance() const { return sum_variance / (scans * scans); }
     void decay(double factor);
-    void add(const TargetSet& targets, const DopplerVelocity& velocity);
+    void add(const TargetSet& seen, const DopplerVelocity& velocity, double doppler_variance);
+    void add(const Look& other);
     [[nodiscard]] bool departs() const;
     [[nodiscard]] bool has_votes() const;
-    [[nodiscard]] bool is_one_world() const;
+    /// Share of the votes that is at rest, and so many standard deviations.
+    [[nodiscard]] double rest_share(double sigmas) const;
   };
 
   [[nodiscard]] Verdict verdict(std::int64_t stamp_us) const;
-  [[nodiscard]] bool can_be_start(std::size_t radar) const;
+  [[nodiscard]] bool is_along(std::size_t radar) const;
 
   const OdometryState& state_;
   std::vector<Look> looks_;
+  std::vector<double> doppler_variances_;  // Of a target, learned at rest.
   bool is_parked_ = false;
   bool is_standing_ = false;
   std::int64_t standing_us_ = 0;  // Since when.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "cremed/estimator/scan/squared.hpp"
@@ -22,10 +23,11 @@ constexpr double kMaxSigmas = 3.0;
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
 /// Least expected Doppler of a vote, in standard deviations of a target's, and number of votes.
-constexpr double kMinVoteSigmas = 2.0;
+const double kMinVoteSigmas = std::getenv("P_VOTE") ? std::atof(std::getenv("P_VOTE")) : 2.0;
 constexpr double kMinVotes = 20.0;
 /// Share of the targets at rest up to which there is one world: the vehicle ahead that starts too.
-constexpr double kMaxRestShare = 0.1;
+const double kMaxRestShare = std::getenv("P_REST") ? std::atof(std::getenv("P_REST")) : 0.1;
+const double kVoteMemoryS = std::getenv("P_MEM") ? std::atof(std::getenv("P_MEM")) : 1.0;
 /// Bound of that share in its standard deviations, and a factor on these: a target's noise is
 /// correlated over its scans.
 constexpr double kShareSigmas = 2.0;
@@ -40,6 +42,7 @@ constexpr double kMaxNoiseMps = 0.75;
 constexpr double kMinRadiusM = 4.0;
 /// Radars differ in speed by this and this share, besides noise: a scan is up to 0.1 s older than
 /// another.
+constexpr double kSpeedSigmas = 2.0;
 constexpr double kMaxDifferenceMps = 0.1;
 constexpr double kMaxDifferenceShare = 0.15;
 /// Beyond this sigma a radar does not tell the speed along x.
@@ -59,11 +62,13 @@ double variance_at_rest(const TargetSet& targets) {
 
 }  // namespace
 
-void ParkedVehicle::Look::decay(double factor) {
+void ParkedVehicle::Look::decay(double dt_s) {
+  double factor = std::exp(-dt_s / kMemoryS);
   scans *= factor;
   targets *= factor;
   sum_mps *= factor;
   sum_variance *= factor;
+  factor = std::exp(-dt_s / kVoteMemoryS);
   votes *= factor;
   expected *= factor;
   missed *= factor;
@@ -87,6 +92,12 @@ void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velo
     const double expected_mps = -target.cos_bearing * velocity.velocity_mps.x() -
                                 target.sin_bearing * velocity.velocity_mps.y();
     if (squared(expected_mps) < squared(kMinVoteSigmas) * doppler_variance) {
+      continue;
+    }
+    const double sign = expected_mps < 0.0 ? -1.0 : 1.0;
+    const double noise_mps = kMaxSigmas * std::sqrt(doppler_variance);
+    const double along_mps = sign * target.doppler_mps;
+    if (along_mps < -noise_mps || along_mps > std::abs(expected_mps) + noise_mps) {
       continue;
     }
     votes += 1.0;
@@ -129,7 +140,7 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
                                             const DopplerVelocity& velocity,
                                             std::int64_t stamp_us) {
   Look& look = looks_[radar];
-  look.decay(std::exp(-seconds_between(look.stamp_us, stamp_us) / kMemoryS));
+  look.decay(seconds_between(look.stamp_us, stamp_us));
   look.stamp_us = stamp_us;
   double& doppler_variance = doppler_variances_[radar];
   look.add(targets, velocity, doppler_variance);
@@ -163,8 +174,9 @@ ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
     }
     const double std_mps = std::sqrt(look.variance().x());
     if (std_mps <= kMaxStdMps) {
-      lowest_mps = std::min(lowest_mps, look.mean_mps().x() + kMaxSigmas * std_mps);
-      highest_mps = std::max(highest_mps, look.mean_mps().x() - kMaxSigmas * std_mps);
+      is_doubtful = is_doubtful || !look.departs();
+      lowest_mps = std::min(lowest_mps, look.mean_mps().x() + kSpeedSigmas * std_mps);
+      highest_mps = std::max(highest_mps, look.mean_mps().x() - kSpeedSigmas * std_mps);
     }
   }
   if (!departs) {

@@ -56,7 +56,7 @@ class ParkedVehicle {
 
     [[nodiscard]] Eigen::Vector2d mean_mps() const { return sum_mps / scans; }
     [[nodiscard]] Eigen::Vector2d variance() const { return sum_variance / (scans * scans); }
-    void decay(double factor);
+    void decay(double dt_s);
     void add(const TargetSet& seen, const DopplerVelocity& velocity, double doppler_variance);
     void add(const Look& other);
     [[nodiscard]] bool departs() const;

@@ -3,8 +3,8 @@
 #include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "cremed/estimator/scan/squared.hpp"
@@ -23,13 +23,17 @@ constexpr double kMaxSigmas = 3.0;
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
 /// Least expected Doppler of a vote, in standard deviations of a target's, and number of votes.
-const double kMinVoteSigmas = std::getenv("P_VOTE") ? std::atof(std::getenv("P_VOTE")) : 2.0;
+constexpr double kMinVoteSigmas = 2.0;
 constexpr double kMinVotes = 20.0;
 /// Share of the targets at rest up to which there is one world: the vehicle ahead that starts too.
-const double kMaxRestShare = std::getenv("P_REST") ? std::atof(std::getenv("P_REST")) : 0.1;
-const double kVoteMemoryS = std::getenv("P_MEM") ? std::atof(std::getenv("P_MEM")) : 1.0;
+constexpr double kMaxRestShare = 0.04;
+constexpr double kVoteMemoryS = 1.0;
 /// Bound of that share in its standard deviations, and a factor on these: a target's noise is
 /// correlated over its scans.
+/// Expected Doppler, in standard deviations of a target's, of which rest is told in each scan; and
+/// places at rest on average: a car ahead and one behind are one or two each.
+constexpr double kSureSigmas = 6.0;
+constexpr double kMaxRestPlaces = 1.0;
 constexpr double kShareSigmas = 2.0;
 constexpr double kCorrelation = 1.5;
 /// Standard deviation of a target's Doppler, before it is learned and at least: the grid of an
@@ -47,6 +51,23 @@ constexpr double kMaxDifferenceMps = 0.1;
 constexpr double kMaxDifferenceShare = 0.15;
 /// Beyond this sigma a radar does not tell the speed along x.
 constexpr double kMaxStdMps = 0.15;
+
+/// Places of targets, as far as they matter. See RivalSpeed for the radius.
+struct RestPlaces {
+  std::array<const Target*, 6> first{};
+  std::size_t count = 0;
+
+  void add(const Target& target) {
+    constexpr double kPlaceRadiusM = 3.0;
+    const bool is_known =
+        std::any_of(first.begin(), first.begin() + count, [&](const Target* other) {
+          return std::hypot(target.x_m - other->x_m, target.y_m - other->y_m) < kPlaceRadiusM;
+        });
+    if (!is_known && count < first.size()) {
+      first[count++] = &target;
+    }
+  }
+};
 
 double variance_at_rest(const TargetSet& targets) {
   double sum = 0.0;
@@ -68,6 +89,8 @@ void ParkedVehicle::Look::decay(double dt_s) {
   targets *= factor;
   sum_mps *= factor;
   sum_variance *= factor;
+  sure_votes *= factor;
+  rest_places *= factor;
   factor = std::exp(-dt_s / kVoteMemoryS);
   votes *= factor;
   expected *= factor;
@@ -84,6 +107,7 @@ void ParkedVehicle::Look::add(const Look& other) {
 
 void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velocity,
                               double doppler_variance) {
+  RestPlaces places;
   scans += 1.0;
   targets += static_cast<double>(seen.size());
   sum_mps += velocity.velocity_mps;
@@ -100,11 +124,22 @@ void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velo
     if (along_mps < -noise_mps || along_mps > std::abs(expected_mps) + noise_mps) {
       continue;
     }
+    const bool is_sure = std::abs(expected_mps) >= kSureSigmas * std::sqrt(doppler_variance);
+    sure_votes += is_sure ? 1.0 : 0.0;
+    if (is_sure && std::abs(target.doppler_mps) <= kMaxSigmas * std::sqrt(doppler_variance)) {
+      places.add(target);
+    }
     votes += 1.0;
     expected += squared(expected_mps);
     missed += std::min(squared(target.doppler_mps - expected_mps), squared(expected_mps));
     noise += doppler_variance;
   }
+  rest_places += static_cast<double>(places.count);
+}
+
+/// Only vehicles that start too are at rest, ahead and behind: a few places.
+bool ParkedVehicle::Look::has_few_rest_places() const {
+  return sure_votes >= kMinVotes && rest_places <= kMaxRestPlaces * scans;
 }
 
 bool ParkedVehicle::Look::departs() const {
@@ -159,6 +194,8 @@ ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
   bool is_doubtful = false;
   double lowest_mps = std::numeric_limits<double>::infinity();
   double highest_mps = -lowest_mps;
+  bool has_start = false;
+  double rest_places = 0.0;
   Look all;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const Look& look = looks_[i];
@@ -166,7 +203,11 @@ ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
       continue;
     }
     departs = departs || look.departs();
-    if (look.has_votes()) {
+    if (look.has_few_rest_places()) {
+      has_start = true;
+      rest_places += look.rest_places / look.scans;
+      is_doubtful = is_doubtful || !is_along(i);
+    } else if (look.has_votes()) {
       is_doubtful = is_doubtful || look.rest_share(-kShareSigmas) > kMaxRestShare || !is_along(i);
       all.add(look);
     } else {
@@ -185,8 +226,10 @@ ParkedVehicle::Verdict ParkedVehicle::verdict(std::int64_t stamp_us) const {
   const double speed_mps = std::max(std::abs(lowest_mps), std::abs(highest_mps));
   const bool agree =
       highest_mps - lowest_mps <= kMaxDifferenceMps + kMaxDifferenceShare * speed_mps;
-  const bool is_one_world = all.has_votes() && all.rest_share(kShareSigmas) <= kMaxRestShare;
-  return agree && is_one_world && !is_doubtful ? Verdict::started : Verdict::in_doubt;
+  const bool is_one_world =
+      all.has_votes() ? all.rest_share(kShareSigmas) <= kMaxRestShare : has_start;
+  return agree && is_one_world && rest_places <= kMaxRestPlaces && !is_doubtful ? Verdict::started
+                                                                                : Verdict::in_doubt;
 }
 
 /// Whether the velocity is one of a vehicle that cannot move sideways.

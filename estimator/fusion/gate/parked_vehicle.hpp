@@ -49,6 +49,8 @@ class ParkedVehicle {
     double targets = 0.0;
     Eigen::Vector2d sum_mps = Eigen::Vector2d::Zero();
     Eigen::Vector2d sum_variance = Eigen::Vector2d::Zero();
+    double sure_votes = 0.0;   ///< Targets whose Doppler tells rest from the velocity in each scan,
+    double rest_places = 0.0;  ///< and places of those at rest.
     double votes = 0.0;  ///< Targets whose Doppler tells rest from the velocity. Sums of squares:
     double expected = 0.0;  ///< of their Doppler by the velocity,
     double missed = 0.0;    ///< of what they miss of it, at most all,
@@ -61,6 +63,7 @@ class ParkedVehicle {
     void add(const Look& other);
     [[nodiscard]] bool departs() const;
     [[nodiscard]] bool has_votes() const;
+    [[nodiscard]] bool has_few_rest_places() const;
     /// Share of the votes that is at rest, and so many standard deviations.
     [[nodiscard]] double rest_share(double sigmas) const;
   };

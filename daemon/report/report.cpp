@@ -307,10 +307,11 @@ void add_left_out(const RadarStatus& status, Findings& findings) {
   if ((status.belief.doubts & other_radars_contradict) != 0) {
     findings.push_back(
         {Severity::warning,
-         concat({"it contradicts the other radars or its own past and is excluded from the "
+         concat({"it contradicts the other radars or its own positions and is excluded from the "
                  "odometry (normalised innovation squared of its Doppler ",
                  decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
-         "check its mount: was it knocked? `cremed-eval calibrate`"});
+         "its mount, the scale or sign of its Doppler, or its bus is wrong: `cremed-doctor`, "
+         "`cremed-eval calibrate`"});
   }
 }
 

@@ -19,10 +19,6 @@ namespace {
 
 using namespace state_layout;
 
-/// Errors of azimuth spread the static world's Doppler in proportion to the speed: 2674 of 2677
-/// doubts of RadarScenes 105, with 200 targets a scan at 15 to 25 m/s, were by rivals 0.1 to 0.8
-/// m/s beside the vehicle's speed.
-constexpr double kMinRivalDifferenceShare = 0.05;
 /// Least share of the targets in the information of x. Their prior has a sigma of 0.1 m.
 constexpr double kMinShareOfX = 0.2;
 /// Least share of a scan's targets in the map, and their largest distance along x, with which they
@@ -63,7 +59,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       vehicle_(state_, output_) {
   for (const OdometryRadar& radar : radars) {
     tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
-    two_worlds_.emplace_back(radar.vehicle_from_radar, kMinRivalDifferenceShare);
+    two_worlds_.emplace_back(radar.vehicle_from_radar);
     has_forward_radar_ = has_forward_radar_ || !looks_across(radar.vehicle_from_radar);
   }
   state_.start();

@@ -19,12 +19,17 @@ constexpr RivalLimits kRivalLimits{5, 0.25};
 /// Lower limits while in doubt (hysteresis), for a rival that is half hidden in a scan.
 constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
 
+/// Nearer rivals are the tails of the static world: errors of azimuth spread its Doppler in
+/// proportion to the speed. 2674 of 2677 doubts of RadarScenes 105, with 200 targets a scan at 15
+/// to 25 m/s, were by rivals 0.1 to 0.8 m/s beside the vehicle's speed.
+constexpr double kMinDifferenceShare = 0.05;
+
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
   const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
   return std::abs(votes.rival_mps - votes.own_mps) >=
-             min_difference_share_ * std::abs(votes.own_mps) &&
+             kMinDifferenceShare * std::abs(votes.own_mps) &&
          votes.rival >= limits.places &&
          static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
 }

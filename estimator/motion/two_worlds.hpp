@@ -18,10 +18,7 @@ namespace cremed {
 /// smaller rival maintains it.
 class TwoWorlds {
  public:
-  /// `min_difference_share`: rivals nearer to the vehicle's speed than this part of it are taken
-  /// for the tails of the static world.
-  explicit TwoWorlds(const Pose2& vehicle_from_radar, double min_difference_share = 0.0)
-      : rival_speed_(vehicle_from_radar), min_difference_share_(min_difference_share) {}
+  explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}
 
   /// Checks a scan; true if in doubt. `velocity`, `change_mps`: see RivalSpeed::count.
   /// `continues(speed_mps)`: whether the vehicle can have this speed after its previous motion.
@@ -48,7 +45,6 @@ class TwoWorlds {
   [[nodiscard]] bool is_rival(const SpeedVotes& votes) const;
 
   RivalSpeed rival_speed_;
-  double min_difference_share_;
   int doubtful_scans_ = 0;
 };
 

@@ -54,7 +54,6 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       consensus_(state_),
       faults_(state_),
       condition_(state_, consensus_, faults_),
-      parked_(state_),
       output_(state_),
       vehicle_(state_, output_) {
   for (const OdometryRadar& radar : radars) {
@@ -74,7 +73,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
-    advance_to(stamp_us);
+    output_.advance_to(stamp_us);
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     if (use_doppler(radar, targets, stamp_us)) {
@@ -82,21 +81,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     }
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
-  const Odometry odometry = with_condition(output_.next());
-  parked_.add_status(odometry.utime_us, odometry.status == OdometryStatus::standing_still);
-  return odometry;
-}
-
-/// A parked vehicle may move as estimated or not at all: its pose is uncertain by its way.
-void OdometryFilter::advance_to(std::int64_t stamp_us) {
-  const Eigen::Vector3d before = state_.gaussian.mean().head<kPose>();
-  output_.advance_to(stamp_us);
-  if (parked_.is_parked()) {
-    for (const int i : {kX, kY, kYaw}) {
-      state_.gaussian.add_variance(
-          i, std::max(0.0, squared(state_.gaussian.mean(i)) - squared(before(i))));
-    }
-  }
+  return with_condition(output_.next());
 }
 
 std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
@@ -132,8 +117,8 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  const bool is_lost = condition_.is_lost() && is_trusted && !parked_.is_parked() &&
-                       gap_s > -state_.options().max_lateness_s;
+  const bool is_lost =
+      condition_.is_lost() && is_trusted && gap_s > -state_.options().max_lateness_s;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
       faults_.require_positions();
@@ -154,7 +139,6 @@ void OdometryFilter::restart(std::int64_t stamp_us) {
   consensus_.clear();
   state_.restart(stamp_us);
   condition_.start();
-  parked_.clear();
   output_.start();
   has_started_ = true;
 }
@@ -188,14 +172,11 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
-  if (is_doubtful(radar, targets, *scan, stamp_us)) {
+  if (sees_two_worlds(radar, targets, *scan, stamp_us)) {
     condition_.doubt();
     return false;
   }
-  // At rest no fault shows, only noise.
-  if (!parked_.is_at_rest()) {
-    faults_.add_velocity(radar, stamp_us, scan->velocity);
-  }
+  faults_.add_velocity(radar, stamp_us, scan->velocity);
   if (faults_.is_unknown()) {
     condition_.doubt();
   }
@@ -218,18 +199,6 @@ std::optional<Eigen::Vector2d> OdometryFilter::expected_velocity(std::size_t rad
   const Pose2& mount = state_.mount(radar);
   const double w = state_.gaussian.mean(kYawRate);
   return Eigen::Vector2d(state_.gaussian.mean(kSpeed) - w * mount.y_m, w * mount.x_m);
-}
-
-/// Whether the scan may show another world than the road.
-bool OdometryFilter::is_doubtful(std::size_t radar, const TargetSet& targets,
-                                 const ScanVelocity& scan, std::int64_t stamp_us) {
-  if (parked_.is_parked() && consensus_[radar].is_trusted && !consensus_.is_left_out(radar)) {
-    const auto verdict = parked_.judge(radar, targets, scan.velocity, stamp_us);
-    if (verdict != ParkedVehicle::Verdict::rests) {
-      return verdict == ParkedVehicle::Verdict::in_doubt;
-    }
-  }
-  return sees_two_worlds(radar, targets, scan, stamp_us);
 }
 
 /// Whether the radar may have fitted a world that moves along with the vehicle, by its Doppler and

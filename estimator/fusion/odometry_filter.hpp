@@ -13,7 +13,6 @@
 
 #include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
 #include "cremed/estimator/fusion/gate/filter_condition.hpp"
-#include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
 #include "cremed/estimator/fusion/map/map_nodes.hpp"
 #include "cremed/estimator/fusion/map/map_registration.hpp"
@@ -93,7 +92,6 @@ class OdometryFilter {
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
-  void advance_to(std::int64_t stamp_us);
   void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
   void restart(std::int64_t stamp_us);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
@@ -103,8 +101,6 @@ class OdometryFilter {
   void compare_speed(std::size_t radar, const MapMatch& match);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
-  bool is_doubtful(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
-                   std::int64_t stamp_us);
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                        std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
@@ -127,7 +123,6 @@ class OdometryFilter {
   RadarConsensus consensus_;
   FaultHypotheses faults_;
   FilterCondition condition_;
-  ParkedVehicle parked_;
   OdometryOutput output_;
   VehicleSignals vehicle_;
   bool has_forward_radar_ = false;  // One that does not look sideways.

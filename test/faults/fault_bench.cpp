@@ -38,14 +38,12 @@ CREMED_SHARED names the folder with the recorded data.
   --seconds S  only the beginning of 105 and of simulated drives (default 40)
   --case TEXT  only cases whose name and radar contain it
   --seeds N    so many parked vehicles (default 20)
-  --from-seed N  the first of them (default 1)
 
 )";
 
 struct Options {
   double seconds = 40.0;
   std::uint64_t seeds = 20;
-  std::uint64_t first_seed = 1;
   std::string filter;
   std::vector<std::string> drives;
 };
@@ -58,8 +56,6 @@ Options options_of(int argc, char** argv) {
       options.seconds = std::atof(argv[++i]);
     } else if (argument == "--seeds" && i + 1 < argc) {
       options.seeds = std::strtoull(argv[++i], nullptr, 10);
-    } else if (argument == "--from-seed" && i + 1 < argc) {
-      options.first_seed = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--case" && i + 1 < argc) {
       options.filter = argv[++i];
     } else if (argument.starts_with("-")) {
@@ -107,9 +103,9 @@ void run_all(const std::vector<Job>& jobs) {
   std::printf("all holds in %td of %zu\n", held, lines.size());
 }
 
-void run_parked(Neighbour neighbour, std::uint64_t first_seed, std::uint64_t seeds) {
+void run_parked(Neighbour neighbour, std::uint64_t seeds) {
   std::vector<Job> jobs;
-  for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     jobs.emplace_back([neighbour, seed] {
       const FaultDrive drive = ParkedDrive(neighbour, seed).drive();
       const FaultCase none{"none", "", {drive.start_us(), kNever}};
@@ -143,7 +139,7 @@ int main(int argc, char** argv) {
       const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
                                        [&](const auto& each) { return each.first == name; });
       if (parked != kNeighbours.end()) {
-        run_parked(parked->second, options.first_seed, options.seeds);
+        run_parked(parked->second, options.seeds);
       } else {
         run_faults(drive_of(name, options.seconds), options.filter);
       }

@@ -103,9 +103,6 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
 
 void Pipeline::on_frame(const CanFrame& frame) {
   const std::int64_t begin_us = clock_.is_stamp_clock ? frame.stamp_us : clock_.now_us();
-  if (clocks_.is_set_back(frame)) {
-    on_clock_step();
-  }
   note_clock(frame);
   on_time(frame.interface, frame.stamp_us);
   expire(frame.stamp_us, frame.interface);
@@ -114,7 +111,11 @@ void Pipeline::on_frame(const CanFrame& frame) {
   }
   for (const auto& radar : radars_) {
     if (radar->interface == frame.interface) {
-      radar->assembler.add(radar->decoder->decode(frame));
+      const ScanPart part = radar->decoder->decode(frame);
+      if (part.kind != ScanPart::Kind::none && clocks_.is_set_back(frame)) {
+        on_clock_step();
+      }
+      radar->assembler.add(part);
       publish_motions(*radar, begin_us);
     }
   }

@@ -106,32 +106,29 @@ std::vector<Fault> faults() {
   const std::vector<std::string> by_both = {"positions of its targets contradict their Doppler",
                                             "contradicts the other radars"};
   const std::vector<std::string> no_estimates = {"noise is set too small"};
-  return {{"sign of Doppler", kRear,
-           [](RadarConfiguration& radar) {
-             radar.decoder.as<BoschGprOptions>()->invert_doppler = true;
-           },
-           kWrong | positions_contradict_speed, by_both},
-          // The odometry has learned the mount by then and agrees with the radar.
-          {"front yaw",
-           kFront,
-           [](RadarConfiguration& radar) { turn(radar, 0.1); },
-           kWrong,
-           by_both},
-          {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong, by_both,
-           1.6, 50.0},
-          {"front reversed", kFront,
-           [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); }, kWrong, by_both},
-          // With so little noise almost no target is found again: no covariance to doubt.
-          {"front noise / 3", kFront,
-           [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0, no_estimates},
-          {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
-           0, no_estimates},
-          {"front noise * 5",
-           kFront,
-           [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
-           covariance_too_large,
-           {"lower its noise"},
-           1.4}};
+  return {
+      {"sign of Doppler", kRear,
+       [](RadarConfiguration& radar) {
+         radar.decoder.as<BoschGprOptions>()->invert_doppler = true;
+       },
+       kWrong | positions_contradict_speed, by_both},
+      // The odometry has learned the mount by then and agrees with the radar.
+      {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong, by_both},
+      {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong, by_both,
+       1.6, 50.0},
+      {"front reversed", kFront, [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); },
+       kWrong, by_both},
+      // With so little noise almost no target is found again: no covariance to doubt.
+      {"front noise / 3", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
+       no_estimates},
+      {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); }, 0,
+       no_estimates},
+      {"front noise * 5",
+       kFront,
+       [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
+       covariance_too_large,
+       {"lower its noise"},
+       1.4}};
 }
 
 void check_fused(const RecordingSink& sink, const Fault& fault, const Drive& drive) {

@@ -103,10 +103,9 @@ std::uint32_t FaultHypotheses::at_fault() const {
 
 void FaultHypotheses::add_speed_by_positions(std::size_t radar, std::int64_t stamp_us,
                                              double speed_mps, double since_s) {
-  tracks_[radar].speed =
-      Speed{stamp_us, speed_mps,
-            squared(kPositionSpeedShare * speed_mps) + squared(kPositionM / since_s) +
-                squared(kPositionMps)};
+  tracks_[radar].speed = Speed{stamp_us, speed_mps,
+                               squared(kPositionSpeedShare * speed_mps) +
+                                   squared(kPositionM / since_s) + squared(kPositionMps)};
 }
 
 void FaultHypotheses::add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {
@@ -274,9 +273,8 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
     return;
   }
   // Of two single radars that are each right by their own none is better.
-  const double clearly_better = std::has_single_bit(set)
-                                    ? std::numeric_limits<double>::infinity()
-                                    : kClearlyBetter;
+  const double clearly_better =
+      std::has_single_bit(set) ? std::numeric_limits<double>::infinity() : kClearlyBetter;
   if (best.set == 0 || fit < best.chi_square - clearly_better) {
     best = {set, fit, 0};
   } else if (fit > best.chi_square + clearly_better) {

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A virtual CAN bus, and a radar on it."""
 import contextlib
+import errno
 import itertools
 import json
 import mmap
@@ -86,9 +87,14 @@ class BusListener:
     def heard_at(self):
         """[(stamp in microseconds, identifier, data)] since the last call."""
         frames = []
-        with contextlib.suppress(BlockingIOError, OSError):  # OSError: the interface was down.
+        with contextlib.suppress(BlockingIOError):
             while True:
-                frame, ancillary, *_ = self.socket.recvmsg(16, 64)
+                try:
+                    frame, ancillary, *_ = self.socket.recvmsg(16, 64)
+                except OSError as error:
+                    if error.errno == errno.ENETDOWN:
+                        continue  # Told once.
+                    raise
                 identifier, length, data = struct.unpack("=IB3x8s", frame)
                 seconds, nanoseconds = struct.unpack("=qq", ancillary[0][2])
                 frames.append((seconds * 1_000_000 + nanoseconds // 1000, identifier, data[:length]))

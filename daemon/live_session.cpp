@@ -51,8 +51,12 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
 }
 
 LiveSession::~LiveSession() {
-  if (auto text = learned_writer_ ? learned_file_.text(pipeline_.learned()) : std::nullopt) {
-    learned_writer_->put(*std::move(text));
+  if (learned_writer_) {
+    const std::string problem =
+        learned_writer_->finish(learned_file_.text(pipeline_.learned()));
+    if (!problem.empty()) {
+      spdlog::warn("state file: {}; the learned errors are not saved", problem);
+    }
   }
 }
 
@@ -80,11 +84,14 @@ void LiveSession::connect(std::int64_t monotonic_us) {
 }
 
 void LiveSession::save_learned() {
+  if (auto text = learned_writer_ ? learned_file_.text(pipeline_.learned()) : std::nullopt) {
+    learned_writer_->offer(*std::move(text));
+  }
+}
+
+void LiveSession::report_saving() {
   if (!learned_writer_) {
     return;
-  }
-  if (auto text = learned_file_.text(pipeline_.learned())) {
-    learned_writer_->offer(*std::move(text));
   }
   if (const auto problem = learned_writer_->problem()) {
     log_.update("state file", problem->empty() ? 0 : 1, [&] {
@@ -128,6 +135,7 @@ bool LiveSession::turn(const ServiceNotifier& notifier) {
   if (now_us >= next_report_us_) {
     next_report_us_ = now_us + kReportPeriodUs;
     connect(now_us);
+    report_saving();
     notifier.status(reporter_.report());
   }
   if (now_us >= next_save_us_) {

@@ -28,7 +28,7 @@ class LiveSession {
   /// `state_file` (LearnedFile) empty.
   LiveSession(const Configuration& configuration, const std::string& lcm_url,
               const std::string& state_file, const volatile std::sig_atomic_t* stop);
-  /// Saves the learned errors.
+  /// Saves the learned errors, and logs if that fails.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
@@ -44,6 +44,7 @@ class LiveSession {
   void look_for_radars(std::int64_t monotonic_us);
   void use(const Sighting& sighting);
   void save_learned();
+  void report_saving();
 
   LearnedFile learned_file_;
   std::optional<LearnedWriter> learned_writer_;

@@ -65,7 +65,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output");
   app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
   app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
-  app.add_option("--lcm-url", c.lcm_url, "LCM URL, or none; overrides the configuration");
+  app.add_option("--lcm-url", c.lcm_url,
+                 "LCM URL, or none; overrides the configuration. A replay publishes only with it");
   app.add_flag("--publish-scans", c.publish_scans,
                "Publish each scan too, as output.publish_scans = true does");
   app.add_flag("--timing", c.timing,

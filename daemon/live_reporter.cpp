@@ -3,6 +3,7 @@
 #include "daemon/live_reporter.hpp"
 
 #include <cstring>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -112,10 +113,12 @@ void report_clock(const BusStatus& now, const BusStatus& before) {
 }  // namespace
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-                           const LiveSource& source, const LcmPublisher* publisher)
+                           const LiveSource& source, const FreshnessGate& gate,
+                           const LcmPublisher* publisher)
     : configuration_(configuration),
       pipeline_(pipeline),
       source_(source),
+      gate_(gate),
       publisher_(publisher),
       buses_(source.interfaces().size()),
       progress_(configuration.radars.size()) {
@@ -147,6 +150,7 @@ std::string LiveReporter::report() {
       line += "; " + report_vehicle(signal);
     }
   }
+  report_stale();
   report_publisher();
   if (publisher_ != nullptr && !publisher_->is_connected()) {
     line += "; LCM is not connected";
@@ -259,6 +263,13 @@ void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status)
   log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
               status.odometry.is_left_out ? 1 : 0,
               [] { return "excluded: it contradicts the other radars or its own past"; });
+}
+
+void LiveReporter::report_stale() {
+  const std::uint64_t stale = gate_.failures() - std::exchange(stale_, gate_.failures());
+  log_.update("results delay", stale == 0 ? 0 : 1, [] {
+    return "results older than live.max_latency_s are not sent: cremed did not run in time";
+  });
 }
 
 void LiveReporter::report_publisher() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/output/freshness_gate.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/report/condition_log.hpp"
@@ -22,7 +23,8 @@ class LiveReporter {
  public:
   /// All arguments but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-               const LiveSource& source, const LcmPublisher* publisher);
+               const LiveSource& source, const FreshnessGate& gate,
+               const LcmPublisher* publisher);
 
   /// The interface of a radar with "auto" was found.
   void set_interface(std::size_t radar, const std::string& name) {
@@ -46,11 +48,13 @@ class LiveReporter {
   std::string report_odometry();
   std::string report_vehicle(VehicleSignal signal);
   void report_left_out(std::size_t radar, const RadarStatus& status);
+  void report_stale();
   void report_publisher();
 
   Configuration configuration_;
   const Pipeline& pipeline_;
   const LiveSource& source_;
+  const FreshnessGate& gate_;
   const LcmPublisher* publisher_;
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // At the last check.
@@ -60,6 +64,7 @@ class LiveReporter {
   int seconds_without_odometry_ = 0;
   bool is_connected_ = false;
   std::uint64_t failures_ = 0;
+  std::uint64_t stale_ = 0;  // At the last check.
 };
 
 }  // namespace cremed

@@ -3,6 +3,7 @@
 #include "daemon/live_session.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <spdlog/spdlog.h>
 
@@ -36,10 +37,11 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
       source_(configuration, stop),
       publisher_(publisher_of(configuration, lcm_url)),
       feedback_(configuration, source_),
-      pipeline_(configuration, source_, sinks(), PipelineClock{&realtime_us, true},
+      gate_(sinks(), std::llround(configuration.live.max_latency_s * 1e6), &realtime_us),
+      pipeline_(configuration, source_, {&gate_}, PipelineClock{&realtime_us, true},
                 state_file.empty() ? std::vector<std::optional<LearnedErrors>>()
                                    : learned_file_.read_and_log()),
-      reporter_(configuration, pipeline_, source_, publisher_ ? &*publisher_ : nullptr),
+      reporter_(configuration, pipeline_, source_, gate_, publisher_ ? &*publisher_ : nullptr),
       next_report_us_(monotonic_us() + kReportPeriodUs),
       next_save_us_(monotonic_us() + kSavePeriodUs) {
   if (!state_file.empty()) {
@@ -49,8 +51,12 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
 }
 
 LiveSession::~LiveSession() {
-  if (auto text = learned_writer_ ? learned_file_.text(pipeline_.learned()) : std::nullopt) {
-    learned_writer_->put(*std::move(text));
+  if (learned_writer_) {
+    const std::string problem =
+        learned_writer_->finish(learned_file_.text(pipeline_.learned()));
+    if (!problem.empty()) {
+      spdlog::warn("state file: {}; the learned errors are not saved", problem);
+    }
   }
 }
 
@@ -78,11 +84,14 @@ void LiveSession::connect(std::int64_t monotonic_us) {
 }
 
 void LiveSession::save_learned() {
+  if (auto text = learned_writer_ ? learned_file_.text(pipeline_.learned()) : std::nullopt) {
+    learned_writer_->offer(*std::move(text));
+  }
+}
+
+void LiveSession::report_saving() {
   if (!learned_writer_) {
     return;
-  }
-  if (auto text = learned_file_.text(pipeline_.learned())) {
-    learned_writer_->offer(*std::move(text));
   }
   if (const auto problem = learned_writer_->problem()) {
     log_.update("state file", problem->empty() ? 0 : 1, [&] {
@@ -126,6 +135,7 @@ bool LiveSession::turn(const ServiceNotifier& notifier) {
   if (now_us >= next_report_us_) {
     next_report_us_ = now_us + kReportPeriodUs;
     connect(now_us);
+    report_saving();
     notifier.status(reporter_.report());
   }
   if (now_us >= next_save_us_) {

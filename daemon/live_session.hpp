@@ -11,6 +11,7 @@
 #include "daemon/configuration/learned_file.hpp"
 #include "daemon/live_reporter.hpp"
 #include "daemon/motion_feedback.hpp"
+#include "daemon/output/freshness_gate.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "daemon/output/learned_writer.hpp"
 #include "daemon/pipeline.hpp"
@@ -27,7 +28,7 @@ class LiveSession {
   /// `state_file` (LearnedFile) empty.
   LiveSession(const Configuration& configuration, const std::string& lcm_url,
               const std::string& state_file, const volatile std::sig_atomic_t* stop);
-  /// Saves the learned errors.
+  /// Saves the learned errors, and logs if that fails.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
@@ -43,6 +44,7 @@ class LiveSession {
   void look_for_radars(std::int64_t monotonic_us);
   void use(const Sighting& sighting);
   void save_learned();
+  void report_saving();
 
   LearnedFile learned_file_;
   std::optional<LearnedWriter> learned_writer_;
@@ -51,6 +53,7 @@ class LiveSession {
   LiveSource source_;
   std::optional<LcmPublisher> publisher_;
   MotionFeedback feedback_;
+  FreshnessGate gate_;
   Pipeline pipeline_;
   LiveReporter reporter_;
   ConditionLog log_;

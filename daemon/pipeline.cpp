@@ -93,9 +93,6 @@ void Pipeline::on_event(SourceEvent event, const CanFrame& frame) {
     case SourceEvent::idle:
       on_idle(frame.stamp_us);
       break;
-    case SourceEvent::other:
-      on_time(StatusTimer::kNoInterface, clock_.now_us());
-      break;
     case SourceEvent::end:
       break;
   }
@@ -329,7 +326,8 @@ void Pipeline::publish_status() {
     if (filter_) {
       radar->note_report(filter_->report(radar->index));
     }
-    const RadarStatus& status = radar->status(*time_us_, source_);
+    const RadarStatus& status =
+        radar->status(clock_.is_stamp_clock ? clock_.now_us() : *time_us_, source_);
     for (OdometrySink* sink : sinks_) {
       sink->on_status(radar->index, status);
     }

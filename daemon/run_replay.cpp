@@ -36,6 +36,11 @@ std::vector<std::string> radar_names(const Configuration& configuration) {
   return names;
 }
 
+/// Never the configuration's: a vehicle would drive by the old odometry on the service's channels.
+std::string lcm_url(const CommandLine& command_line) {
+  return command_line.lcm_url.value_or("none");
+}
+
 /// The files with their names on the command line or in the configuration.
 void refuse_overwriting(const CommandLine& command_line, const OutputConfiguration& output,
                         const std::string& configuration_path) {
@@ -43,13 +48,12 @@ void refuse_overwriting(const CommandLine& command_line, const OutputConfigurati
   for (const std::string& log : command_line.replay) {
     inputs.push_back({"the log", log});
   }
-  const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
   refuse_aliases(inputs,
                  {{"--output-csv", command_line.output_csv.value_or(output.csv)},
                   {"--output-odometry", command_line.output_odometry.value_or(output.odometry)},
                   {"--output-tum", command_line.output_tum.value_or(output.tum)},
                   {"--state-file", command_line.state_file.value_or("")},
-                  {"LCM", lcm_file(lcm_url)}});
+                  {"LCM", lcm_file(lcm_url(command_line))}});
 }
 
 /// Checks the usage before anything is opened.
@@ -79,13 +83,13 @@ struct Sinks {
 
 Sinks open_sinks(const CommandLine& command_line, const Configuration& configuration) {
   const OutputConfiguration& output = configuration.output;
-  const std::string lcm_url = command_line.lcm_url.value_or(output.lcm_url);
+  const std::string url = lcm_url(command_line);
   const std::string csv = command_line.output_csv.value_or(output.csv);
   const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
   Sinks sinks;
-  if (lcm_url != "none") {
-    auto publisher = std::make_unique<LcmPublisher>(lcm_url, configuration);
+  if (url != "none") {
+    auto publisher = std::make_unique<LcmPublisher>(url, configuration);
     if (const std::string problem = publisher->connect(); !problem.empty()) {
       throw std::runtime_error(problem);
     }

@@ -23,6 +23,8 @@ constexpr std::array<std::string_view, 6> kLevels = {"trace", "debug", "info",
                                                      "warn",  "error", "off"};
 
 constexpr std::array<std::string_view, 3> kRealTimePolicies = {"prefer", "require", "off"};
+/// A list takes 75 ms, and its odometry may wait for another radar's list.
+constexpr double kLeastLatencyS = 0.2;
 constexpr std::int64_t kMinReceiveBuffer = 1 << 16;
 constexpr std::int64_t kMaxReceiveBuffer = 1 << 26;
 
@@ -94,15 +96,29 @@ void read_output(TomlReader& reader, OutputConfiguration& output) {
   reader.finish();
 }
 
-void read_live(TomlReader reader, LiveConfiguration& live) {
+void read_live(TomlReader& reader, LiveConfiguration& live) {
   if (const auto policy = reader.choice("realtime", kRealTimePolicies)) {
     live.real_time = static_cast<RealTimePolicy>(*policy);
   }
   reader.integer("receive_buffer_bytes", live.socket.receive_buffer_bytes, kMinReceiveBuffer,
                  kMaxReceiveBuffer);
   reader.boolean("hardware_stamps", live.socket.hardware_stamps);
-  reader.number("max_latency_s", live.max_latency_s, {0.05, 10.0});
+  reader.number("max_latency_s", live.max_latency_s, {kLeastLatencyS, 10.0});
   reader.finish();
+}
+
+/// A negative stamp_offset_s makes each scan older.
+void check_live(TomlReader& reader, const Configuration& configuration) {
+  const double max_latency_s = configuration.live.max_latency_s;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    if (max_latency_s + radar.stamp_offset_s < kLeastLatencyS) {
+      reader.report("max_latency_s",
+                    concat({"is ", digits(max_latency_s), " while stamp_offset_s of ",
+                            quoted(radar.name), " is ", digits(radar.stamp_offset_s),
+                            ": every scan would be stale; must be at least ",
+                            digits(kLeastLatencyS - radar.stamp_offset_s)}));
+    }
+  }
 }
 
 void read_logging(TomlReader reader, LoggingConfiguration& logging) {
@@ -146,7 +162,8 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
                 "was replaced by [odometry]; must be left out");
   TomlReader output = reader.table("output");
   read_output(output, configuration.output);
-  read_live(reader.table("live"), configuration.live);
+  TomlReader live = reader.table("live");
+  read_live(live, configuration.live);
   read_logging(reader.table("logging"), configuration.logging);
   reader.finish();
   // A wrong value keeps its default, which would cause false clashes.
@@ -154,6 +171,7 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
     check_radars(radars, context.diagnostics);
     check_vehicle(vehicle, configuration);
     check_output(output, configuration);
+    check_live(live, configuration);
   }
   return configuration;
 }

@@ -85,8 +85,7 @@ enum class RealTimePolicy : std::uint8_t {
 struct LiveConfiguration {
   RealTimePolicy real_time = RealTimePolicy::prefer;
   CanSocketOptions socket;
-  double max_latency_s =
-      0.5;  ///< Frames that waited for longer before they were read are not used.
+  double max_latency_s = 0.5;  ///< Older frames are not used, older results not sent.
 };
 
 struct LoggingConfiguration {

@@ -44,7 +44,12 @@ bool is_lcm_url(std::string_view text) {
   if (text.starts_with(kMulticast)) {
     return is_multicast(text.substr(kMulticast.size()));
   }
-  return text == "none" || text.starts_with("file://") || text.starts_with("memq://");
+  constexpr std::string_view kFile = "file://";
+  constexpr std::string_view kWritten = "?mode=w";
+  if (text.starts_with(kFile)) {
+    return text.size() > kFile.size() + kWritten.size() && text.ends_with(kWritten);
+  }
+  return text == "none" || text.starts_with("memq://");
 }
 
 }  // namespace cremed

@@ -7,15 +7,26 @@
 #include <cstring>
 #include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
+namespace {
+
+/// Opening one waits for its reader.
+bool is_pipe(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
+}  // namespace
 
 LcmLogFile::LcmLogFile(std::string path)
-    : path_(std::move(path)), log_(lcm_eventlog_create(path_.c_str(), "w")) {}
+    : path_(std::move(path)),
+      log_(is_pipe(path_) ? nullptr : lcm_eventlog_create(path_.c_str(), "w")) {}
 
 bool LcmLogFile::write(const char* channel, std::span<std::uint8_t> data) {
   if (log_ == nullptr || error_ != 0) {

@@ -187,7 +187,7 @@ std::string LcmPublisher::open() {
   const std::string path = lcm_file(url_);
   if (!path.empty() && url_.ends_with("mode=w")) {
     file_.emplace(path);
-    return file_->is_open() ? std::string() : concat({"cannot write ", path});
+    return file_->is_open() ? std::string() : concat({"cannot write ", path, "; must be a file"});
   }
   if (std::string problem = multicast_problem(url_); !problem.empty()) {
     return problem;

@@ -19,4 +19,11 @@ std::int64_t monotonic_us() { return now_us(CLOCK_MONOTONIC); }
 
 std::int64_t realtime_us() { return now_us(CLOCK_REALTIME); }
 
+void sleep_us(std::int64_t duration_us) {
+  if (duration_us > 0) {
+    const timespec duration{0, duration_us * 1000};
+    ::nanosleep(&duration, nullptr);
+  }
+}
+
 }  // namespace cremed

@@ -12,4 +12,7 @@ std::int64_t monotonic_us();
 /// CLOCK_REALTIME: the clock of the stamps. It may jump.
 std::int64_t realtime_us();
 
+/// Returns earlier at a signal; at once if the duration is not positive. Less than a second.
+void sleep_us(std::int64_t duration_us);
+
 }  // namespace cremed

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,14 +22,24 @@ namespace cremed {
 namespace {
 
 constexpr mode_t kUsualPermissions = 0644;
+constexpr const char* kDescriptors = "/proc/self/fd/";
 
-/// The temporary file beside the target; removed unless it was renamed.
+/// The new content, beside the target; removed unless it was renamed. Where the file system can, it
+/// has no name until it is on the disk: a process that ends meanwhile leaves nothing behind.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& target) : target_(target), path_(target + ".XXXXXX") {
+  explicit TemporaryFile(const std::string& target) : target_(target) {
     // rename(2) does not check this permission.
     check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);
-    file_ = ::mkstemp(path_.data());
+    const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+    if (::access(kDescriptors, X_OK) == 0) {
+      file_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC,
+                     S_IRUSR | S_IWUSR);
+    }
+    if (file_ < 0) {
+      path_ = target + ".XXXXXX";
+      file_ = ::mkostemp(path_.data(), O_CLOEXEC);
+    }
     check(file_ >= 0);
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -52,11 +63,22 @@ class TemporaryFile {
 
   void replace() {
     keep_permissions();
-    check(::fsync(file_) == 0 && std::rename(path_.c_str(), target_.c_str()) == 0);
+    check(::fsync(file_) == 0);
+    if (path_.empty()) {
+      give_name();
+    }
+    check(std::rename(path_.c_str(), target_.c_str()) == 0);
     path_.clear();
   }
 
  private:
+  void give_name() {
+    const std::string content = kDescriptors + std::to_string(file_);
+    const std::string name = concat({target_, ".", std::to_string(::gettid())});
+    check(::linkat(AT_FDCWD, content.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0);
+    path_ = name;
+  }
+
   void keep_permissions() const {
     struct stat status {};
     if (::stat(target_.c_str(), &status) != 0) {
@@ -102,7 +124,14 @@ void write_through(const std::string& path, std::string_view text) {
 void replace_file(const std::string& path, std::string_view text) {
   if (is_no_file(path)) {
     write_through(path, text);
-    return;
+  } else {
+    replace_regular_file(path, text);
+  }
+}
+
+void replace_regular_file(const std::string& path, std::string_view text) {
+  if (is_no_file(path)) {
+    throw std::runtime_error(concat({"cannot write ", path, ": it is a folder, pipe or device"}));
   }
   const SignalsBlocked blocked;  // A signal must not leave the temporary file behind.
   TemporaryFile file(std::filesystem::weakly_canonical(end_of_links(path)).string());

@@ -11,4 +11,7 @@ namespace cremed {
 /// default ones). Devices and pipes are written to. Throws std::runtime_error.
 void replace_file(const std::string& path, std::string_view text);
 
+/// The same for files only: a pipe would wait for its reader.
+void replace_regular_file(const std::string& path, std::string_view text);
+
 }  // namespace cremed

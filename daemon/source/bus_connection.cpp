@@ -22,6 +22,11 @@ void BusConnection::maintain(const Link& link) {
   }
 }
 
+void BusConnection::adopt(int descriptor) {
+  status_.receive_buffer_bytes = socket_.adopt(descriptor, options_).receive_buffer_bytes;
+  status_.link = LinkState::up;
+}
+
 void BusConnection::add_ids(const std::vector<std::uint32_t>& ids) {
   ids_.insert(ids_.end(), ids.begin(), ids.end());
   if (socket_.is_open() && !socket_.set_ids(ids_)) {

@@ -24,6 +24,9 @@ class BusConnection {
   /// interface.
   void maintain(const Link& link);
 
+  /// For tests without CAN: as CanSocket::adopt.
+  void adopt(int descriptor);
+
   /// Frames available now, as CanSocket::receive. Notes an interface that went down or was removed.
   CanReceiveResult receive();
 

@@ -29,7 +29,7 @@ struct BusStatus {
   BusState bus = BusState::error_active;
   std::uint64_t frames = 0;            ///< Handed to the decoders.
   std::uint64_t frames_lost = 0;       ///< Dropped by the kernel or the controller.
-  std::uint64_t frames_stale = 0;      ///< Older than max_latency_s when read: dropped.
+  std::uint64_t frames_stale = 0;      ///< Older than max_latency_s: dropped.
   std::uint64_t frames_discarded = 0;  ///< Dropped because the clock was set.
   std::uint64_t error_frames = 0;
   std::uint64_t bus_offs = 0;

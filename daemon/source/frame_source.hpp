@@ -13,8 +13,7 @@ enum class SourceEvent : std::uint8_t {
   frame,       ///< A frame of a known interface.
   dropped,     ///< Frames were lost on `frame.interface` before the next one.
   clock_step,  ///< Live: the system clock was set; stamps before and after are not comparable.
-  idle,        ///< Live: nothing to read for a while; all before `frame.stamp_us` was read.
-  other,       ///< Live: only error frames were read.
+  idle,        ///< Live: no frame to hand out; all before `frame.stamp_us` were handed out.
   end,         ///< End of input, or a stop was requested.
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <utility>
 
@@ -39,14 +38,6 @@ std::int64_t rest_us(std::size_t expected_frames) {
   return static_cast<std::int64_t>(std::min(expected_frames / kFramesPerMs, kLongestRestMs)) * 1000;
 }
 
-/// Does nothing if not positive.
-void sleep_us(std::int64_t duration_us) {
-  if (duration_us > 0) {
-    const timespec duration{0, duration_us * 1000};
-    ::nanosleep(&duration, nullptr);
-  }
-}
-
 }  // namespace
 
 LiveSource::LiveSource(const Configuration& configuration, const volatile std::sig_atomic_t* stop)
@@ -60,7 +51,7 @@ LiveSource::LiveSource(const Configuration& configuration, const volatile std::s
   maintain();
   polled_.resize(interfaces_.size() + 1);
   next_to_read_ = interfaces_.size();
-  batches_.resize(interfaces_.size());
+  is_late_.resize(interfaces_.size());
 }
 
 BusStatus LiveSource::bus(std::uint8_t interface) const {
@@ -91,8 +82,7 @@ SourceEvent LiveSource::next(CanFrame& frame) {
     const bool is_reading = next_to_read_ < interfaces_.size();
     const auto oldest = merge_.oldest();
     if (!is_reading && oldest && !merge_.awaited()) {
-      // Error frames must not keep the caller waiting.
-      return take(*oldest, frame).value_or(SourceEvent::other);
+      return take(*oldest, frame);
     }
     const SourceEvent event = is_reading ? read_all(frame) : refill(frame);
     if (event != SourceEvent::frame) {
@@ -102,7 +92,7 @@ SourceEvent LiveSource::next(CanFrame& frame) {
   return SourceEvent::end;
 }
 
-std::optional<SourceEvent> LiveSource::take(std::size_t interface, CanFrame& frame) {
+SourceEvent LiveSource::take(std::size_t interface, CanFrame& frame) {
   ReceivedFrame& received = merge_.front(interface);
   if (const std::uint32_t lost = std::exchange(received.lost_before, 0U); lost != 0) {
     interfaces_[interface]->status().frames_lost += lost;
@@ -115,29 +105,36 @@ std::optional<SourceEvent> LiveSource::take(std::size_t interface, CanFrame& fra
   return event;
 }
 
-/// The event of a received frame; nothing for one that is only counted.
-std::optional<SourceEvent> LiveSource::judge(std::size_t interface, const ReceivedFrame& received,
-                                             CanFrame& frame) {
+/// The event of a received frame. Error frames and stale ones must not keep the caller waiting:
+/// they tell the time, as silence does, with its margin.
+SourceEvent LiveSource::judge(std::size_t interface, const ReceivedFrame& received,
+                              CanFrame& frame) {
   BusStatus& status = interfaces_[interface]->status();
-  Batch& batch = batches_[interface];
   frame.interface = static_cast<std::uint8_t>(interface);
+  frame.stamp_us = received.received_us - kIdleMs * 1000;
   if (received.frame.error) {
-    return note_error_frame(received.frame, status) ? std::optional(SourceEvent::dropped)
-                                                    : std::nullopt;
+    return note_error_frame(received.frame, status) ? SourceEvent::dropped : SourceEvent::idle;
   }
   if (status.bus == BusState::bus_off) {
     status.bus = BusState::error_active;  // Not every driver reports a restart.
   }
-  if (batch.read_us - received.frame.stamp_us > max_latency_us_) {
+  const bool was_late = is_late_[interface];
+  is_late_[interface] = is_late(received.frame.stamp_us, was_late);
+  if (is_late_[interface]) {
     ++status.frames_stale;
-    return std::exchange(batch.is_stale_reported, true) ? std::nullopt
-                                                        : std::optional(SourceEvent::dropped);
+    return was_late ? SourceEvent::idle : SourceEvent::dropped;
   }
   ++status.frames;
   ++counters_.frames;
   frame = received.frame;
   frame.interface = static_cast<std::uint8_t>(interface);
   return SourceEvent::frame;
+}
+
+/// Once late, half of the limit is caught up: a computer that is too slow would otherwise handle
+/// only frames that are stale at the end of their scan.
+bool LiveSource::is_late(std::int64_t stamp_us, bool was_late) const {
+  return realtime_us() - stamp_us > (was_late ? max_latency_us_ / 2 : max_latency_us_);
 }
 
 void LiveSource::maintain() {
@@ -217,7 +214,6 @@ CanReceiveStatus LiveSource::read(std::size_t interface) {
   for (const ReceivedFrame& received : result.frames) {
     merge_.push(interface, received);
   }
-  batches_[interface] = {realtime_us(), false};
   if (result.frames.size() < CanSocket::kBatchFrames) {
     merge_.set_read_until(interface, read_until_us());
   }

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <poll.h>
@@ -31,6 +30,8 @@ namespace cremed {
 ///
 /// Stamps are the kernel's (CLOCK_REALTIME). When the clock is set, queued frames are discarded,
 /// because their clock is unknown, and clock_step is reported.
+///
+/// A frame older than live.max_latency_s when it would be handed out is dropped and counted.
 ///
 /// Sends only by send(); allocates only in the constructor.
 class LiveSource final : public FrameSource {
@@ -59,14 +60,9 @@ class LiveSource final : public FrameSource {
   }
 
  private:
-  /// The last frames read from one interface.
-  struct Batch {
-    std::int64_t read_us = 0;        // Realtime clock.
-    bool is_stale_reported = false;  // Of these frames.
-  };
-  std::optional<SourceEvent> take(std::size_t interface, CanFrame& frame);
-  std::optional<SourceEvent> judge(std::size_t interface, const ReceivedFrame& received,
-                                   CanFrame& frame);
+  SourceEvent take(std::size_t interface, CanFrame& frame);
+  SourceEvent judge(std::size_t interface, const ReceivedFrame& received, CanFrame& frame);
+  [[nodiscard]] bool is_late(std::int64_t stamp_us, bool was_late) const;
   void maintain();
   SourceEvent refill(CanFrame& frame);
   SourceEvent wait(CanFrame& frame);
@@ -89,7 +85,7 @@ class LiveSource final : public FrameSource {
   std::size_t next_to_read_;    // Index in polled_; the number of interfaces: none.
   std::size_t expected_frames_ = 0;
   StampMerge merge_;  // A lane per interface.
-  std::vector<Batch> batches_;
+  std::vector<bool> is_late_;  // By interface: its last frame was stale.
 };
 
 }  // namespace cremed

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -13,10 +14,23 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include "daemon/configuration/learned_file.hpp"
 #include "daemon/output/learned_writer.hpp"
 #include "test/daemon/temporary_file.hpp"
+
+namespace {
+std::atomic<bool> is_disk_stuck = false;
+}  // namespace
+
+/// Replaces the system's.
+extern "C" int fsync(int /*descriptor*/) {
+  while (is_disk_stuck) {
+    std::this_thread::yield();
+  }
+  return 0;
+}
 
 namespace cremed {
 bool operator==(const LearnedError& a, const LearnedError& b) {
@@ -204,13 +218,14 @@ TEST_CASE("The writer replaces the file at once, and makes it where there is non
     LearnedWriter writer(file.path());
     while (!writer.offer(good_text())) {
     }
+    CHECK(writer.finish().empty());
   }
   CHECK(file_of(two_radars(), file.path()).read().radars == kLearned);
   const std::string other = file.path() + ".new";
   {
     LearnedWriter writer(other);
-    writer.put("never written alone\n");
-    writer.put(good_text());
+    writer.offer("replaced by the next");
+    CHECK(writer.finish(good_text()).empty());
   }
   CHECK(file_of(two_radars(), other).read().radars == kLearned);
   CHECK(std::filesystem::remove(other));
@@ -228,11 +243,41 @@ TEST_CASE("Nothing is written where nothing was offered") {
 
 TEST_CASE("A file that cannot be written is a problem that is told, not an end") {
   LearnedWriter writer("/nowhere/learned.toml");
-  writer.put("text");
+  while (!writer.offer("text")) {
+  }
   std::optional<std::string> problem = std::string();
   while (!problem || problem->empty()) {  // Until the thread has tried.
     problem = writer.problem();
     std::this_thread::yield();
   }
   CHECK(problem->find("cannot write /nowhere/learned.toml") == 0);
+  CHECK(writer.finish("last text").find("cannot write /nowhere/learned.toml") == 0);
+}
+
+TEST_CASE("A pipe is not waited for, nor is a device written") {
+  const TemporaryFile place;
+  const std::string pipe = place.path() + ".pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  for (const std::string& path : {pipe, std::string("/dev/full")}) {
+    LearnedWriter writer(path);
+    CHECK_THAT(writer.finish("text"), Catch::Contains("it is a folder, pipe or device"));
+  }
+  std::filesystem::remove(pipe);
+}
+
+TEST_CASE("A disk that does not answer is waited for shortly, and nothing is left in its folder") {
+  const TemporaryFile file("as it was");
+  is_disk_stuck = true;
+  {
+    LearnedWriter writer(file.path());
+    CHECK_THAT(writer.finish("text"), Catch::Contains("does not answer"));
+  }
+  CHECK(file.content() == "as it was");
+  CHECK(std::none_of(std::filesystem::directory_iterator("/tmp"), {}, [&](const auto& entry) {
+    return entry.path().string().find(file.path() + ".") == 0;
+  }));
+  is_disk_stuck = false;  // The thread goes on.
+  while (file.content() != "text") {
+    std::this_thread::yield();
+  }
 }

@@ -220,14 +220,6 @@ TEST_CASE("Silence tells the time as frames do: live and replay give the same ro
   CHECK(live == replayed);
 }
 
-TEST_CASE("Error frames tell no time: others may have been stamped before that are not read yet") {
-  const Drive simulated = simulate("straight", 7, 3.0);
-  const std::string without = rows(run(simulated, kRateHz));
-  CHECK(rows(run(simulated, kRateHz, [](Pipeline& pipeline, std::size_t) {
-          pipeline.on_event(SourceEvent::other, {});
-        })) == without);
-}
-
 TEST_CASE("After the clock was set predictions go on in the new time") {
   const std::int64_t step_us = GENERATE(-3'600'000'000, 3'600'000'000);
   CAPTURE(step_us);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A virtual CAN bus, and a radar on it."""
 import contextlib
+import errno
 import itertools
 import json
 import mmap
@@ -17,6 +18,8 @@ EXTENDED, REMOTE, ERROR = 0x80000000, 0x40000000, 0x20000000
 # Classes of error frames, as in linux/can/error.h.
 ERROR_CONTROLLER, ERROR_PROTOCOL, ERROR_BUS_OFF = 0x04, 0x08, 0x40
 ERROR_BUS, ERROR_RESTARTED = 0x80, 0x100
+# linux/socket.h (asm-generic); the socket module does not define it.
+SO_TIMESTAMPNS = 35
 
 
 def ip(*arguments, check=True):
@@ -77,17 +80,29 @@ class BusListener:
         self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
         filters = b"".join(struct.pack("=II", identifier, 0x7FF) for identifier in identifiers)
         self.socket.setsockopt(socket.SOL_CAN_RAW, socket.CAN_RAW_FILTER, filters)
+        self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
         self.socket.bind((bus.name,))
         self.socket.setblocking(False)
 
-    def heard(self):
-        """[(identifier, data)] since the last call."""
+    def heard_at(self):
+        """[(stamp in microseconds, identifier, data)] since the last call."""
         frames = []
         with contextlib.suppress(BlockingIOError):
             while True:
-                identifier, length, data = struct.unpack("=IB3x8s", self.socket.recv(16))
-                frames.append((identifier, data[:length]))
+                try:
+                    frame, ancillary, *_ = self.socket.recvmsg(16, 64)
+                except OSError as error:
+                    if error.errno == errno.ENETDOWN:
+                        continue  # Told once.
+                    raise
+                identifier, length, data = struct.unpack("=IB3x8s", frame)
+                seconds, nanoseconds = struct.unpack("=qq", ancillary[0][2])
+                frames.append((seconds * 1_000_000 + nanoseconds // 1000, identifier, data[:length]))
         return frames
+
+    def heard(self):
+        """[(identifier, data)] since the last call."""
+        return [(identifier, data) for _, identifier, data in self.heard_at()]
 
 
 # A longer pause of a radar separates two scans.

@@ -19,6 +19,9 @@ def cremed_module():
     raise FileNotFoundError(f"no lcm_types/python in the build of {sys.argv[1]}")
 
 
+CHANNELS = ("CREMED_EGO_MOTION", "CREMED_ODOMETRY", "CREMED_SCAN_FRONT", "CREMED_STATUS")
+
+
 @dataclass
 class Heard:
     """A message and its time of arrival; monotonic_s: of reading."""
@@ -34,7 +37,7 @@ class Heard:
 class LcmListener(threading.Thread):
     def __init__(self):
         super().__init__(daemon=True)
-        self.heard = {"CREMED_EGO_MOTION": [], "CREMED_STATUS": []}
+        self.heard = {channel: [] for channel in CHANNELS}
         # By address, to receive on lo with any routes.
         self.listener = cremed_module().Listener(interface="127.0.0.1")
         self.start()

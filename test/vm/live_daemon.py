@@ -51,6 +51,8 @@ class LiveDaemon:
 
     def __init__(self, folder, program, configuration, live=('realtime = "off"',), user="nobody"):
         self.folder = pathlib.Path(folder)
+        self.max_latency_s = next((float(option.split("=")[1]) for option in live
+                                   if option.startswith("max_latency_s")), 0.5)
         self.configuration = self.folder / "cremed.toml"
         self.configuration.write_text("\n".join(["[live]", *live, configuration]))
         # The build may be readable by root only.

@@ -102,6 +102,9 @@ int run_live(const CommandLine& command_line, const std::string& path,
   std::signal(SIGPIPE, SIG_IGN);  // The reader of the log may end first.
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   handle_reload_signal();
+  if (configuration.live.real_time != RealTimePolicy::off) {
+    keep_heap();
+  }
   const ServiceNotifier notifier;
   std::unique_ptr<LiveSession> session = begin(command_line, configuration, stop);
   set_up_real_time(configuration.live.real_time);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "daemon/process/real_time.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "daemon/process/signals.hpp"
 
@@ -49,6 +50,7 @@ std::optional<std::string> LearnedWriter::problem() {
 }
 
 void LearnedWriter::run() {
+  leave_real_time();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return is_ending_ || text_; });

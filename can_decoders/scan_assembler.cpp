@@ -14,6 +14,10 @@ constexpr std::uint64_t kPauseUs = 1500;
 constexpr std::uint8_t kLatestFirstSlot = 3;
 /// A larger counter step in the middle of a list is a damaged header, not a gap.
 constexpr std::uint32_t kMaxLostCycles = 8;
+/// Equal counter steps in a row before a smaller, or a larger one, is the cycle. A damaged counter
+/// gives one small step, a bus that loses every second list many large ones.
+constexpr std::uint32_t kSmallerSteps = 2;
+constexpr std::uint32_t kLargerSteps = 16;
 
 /// Bits 0 to message - 1.
 constexpr unsigned before(unsigned message) { return (1U << message) - 1U; }
@@ -73,7 +77,8 @@ std::optional<std::int64_t> ScanAssembler::deadline_us() const {
 }
 
 std::optional<std::int64_t> ScanAssembler::open_stamp_us() const {
-  return is_open_ ? std::optional(open_.stamp_us + stamp_offset_us_) : std::nullopt;
+  return is_open_ && !open_.may_repeat ? std::optional(shifted(open_.stamp_us, stamp_offset_us_))
+                                       : std::nullopt;
 }
 
 void ScanAssembler::mark_dropped() { open_.dropped = true; }
@@ -85,7 +90,8 @@ void ScanAssembler::finish() {
 }
 
 std::optional<std::size_t> ScanAssembler::awaited_parts() const {
-  return is_open_ ? std::optional<std::size_t>(missing_parts(capacity())) : std::nullopt;
+  return is_open_ && !open_.may_repeat ? std::optional<std::size_t>(missing_parts(capacity()))
+                                       : std::nullopt;
 }
 
 const RadarScan* ScanAssembler::next() {
@@ -116,12 +122,12 @@ bool ScanAssembler::in_time(std::int64_t stamp_us, std::int64_t last_part_us) co
 }
 
 void ScanAssembler::time_out() {
-  ++counters_.timeouts;
+  counters_.timeouts += open_.may_repeat ? 0 : 1;
   close();
 }
 
 void ScanAssembler::add_header(const ScanPart& part) {
-  if (is_open_ && part.counter == open_.counter) {
+  if (is_open_ && part.counter == open_.counter && !begins_next(part)) {
     open_.has_header ? add_repeated_header(part) : adopt_header(part);
     return;
   }
@@ -129,15 +135,20 @@ void ScanAssembler::add_header(const ScanPart& part) {
     note_conflict(part);
     return;
   }
-  is_list_refused_ = part.counter == closed_counter_;
-  if (is_open_) {
-    close();
-  }
+  is_list_refused_ =
+      is_open_ && open_.counter != closed_counter_ && part.counter == closed_counter_;
+  finish();
   if (is_list_refused_) {
     ++counters_.repeated_scans;
   } else {
-    open(part, part.target_count);
+    open(part, part.target_count, part.counter == closed_counter_);
   }
+}
+
+/// While the counter stands still, a pause tells the next list from the open one.
+bool ScanAssembler::begins_next(const ScanPart& part) const {
+  return open_.counter == closed_counter_ && open_.parts != 0 && is_after_pause_ &&
+         part.slot <= kLatestFirstSlot;
 }
 
 void ScanAssembler::add_repeated_header(const ScanPart& part) {
@@ -181,7 +192,7 @@ void ScanAssembler::open_without_header(const ScanPart& part) {
   const std::uint32_t next = *closed_counter_ + std::max(cycle_step_, 1U);
   ScanPart begin = part;
   begin.counter = static_cast<std::uint16_t>(next % framing_.counter_modulus);
-  open(begin, kMaxDetections);
+  open(begin, kMaxDetections, false);
   open_.has_header = false;
 }
 
@@ -198,14 +209,15 @@ void ScanAssembler::add_announced(const ScanPart& part) {
 
 void ScanAssembler::add_unannounced(const ScanPart& part) {
   const bool of_open = is_open_ && part.counter == open_.counter;
-  if (!of_open && part.counter == closed_counter_ && in_time(part.stamp_us, closed_part_us_)) {
+  const bool of_closed = part.counter == closed_counter_ && in_time(part.stamp_us, closed_part_us_);
+  if (is_open_ && !of_open && of_closed) {
     ++counters_.orphan_parts;
     closed_part_us_ = part.stamp_us;
     return;
   }
-  if (!of_open) {
+  if (!of_open || begins_next(part)) {
     finish();
-    open(part, framing_.slot_count);
+    open(part, framing_.slot_count, of_closed);
   }
   store(part);
 }
@@ -221,6 +233,7 @@ void ScanAssembler::store(const ScanPart& part) {
   if (present == 0 && !admit(part.slot)) {
     return;
   }
+  open_.may_repeat = open_.may_repeat && !differs_from_last(part);
   counters_.reordered_parts += (~present & before(part.message)) != 0 ? 1 : 0;
   stored = part.payload;
   present = static_cast<std::uint8_t>(present | 1U << part.message);
@@ -232,6 +245,12 @@ void ScanAssembler::store(const ScanPart& part) {
   if (is_whole()) {
     close();
   }
+}
+
+/// Whether the last list had the part too, with other bytes. Those stay until they are replaced.
+bool ScanAssembler::differs_from_last(const ScanPart& part) const {
+  return (last_messages_[part.slot] >> part.message & 1U) != 0 &&
+         targets_[part.slot][part.message] != part.payload;
 }
 
 void ScanAssembler::compare(const Payload& stored, const Payload& repeated) {
@@ -253,12 +272,15 @@ bool ScanAssembler::admit(std::uint8_t slot) {
   return true;
 }
 
-void ScanAssembler::open(const ScanPart& part, std::uint16_t announced) {
-  note_step(part.counter);
+void ScanAssembler::open(const ScanPart& part, std::uint16_t announced, bool may_repeat) {
+  if (!may_repeat) {
+    note_step(part.counter);
+  }
   open_ = {.stamp_us = part.stamp_us,
            .last_part_us = part.stamp_us,
            .counter = part.counter,
-           .announced = announced};
+           .announced = announced,
+           .may_repeat = may_repeat};
   is_open_ = true;
   if (is_whole()) {
     close();
@@ -275,8 +297,12 @@ void ScanAssembler::note_step(std::uint16_t counter) {
     return;
   }
   step = step == 0 ? modulus : step;
-  cycle_step_ = cycle_step_ == 0 ? step : std::min(cycle_step_, step);
-  counters_.missed_scans += step / cycle_step_ - 1;
+  equal_steps_ = step == last_step_ ? equal_steps_ + 1 : 1;
+  last_step_ = step;
+  if (cycle_step_ == 0 || equal_steps_ >= (step < cycle_step_ ? kSmallerSteps : kLargerSteps)) {
+    cycle_step_ = step;
+  }
+  counters_.missed_scans += std::max(step / cycle_step_, 1U) - 1;
 }
 
 std::size_t ScanAssembler::capacity() const {
@@ -303,6 +329,19 @@ ScanStatus ScanAssembler::status() const {
 }
 
 void ScanAssembler::close() {
+  open_.may_repeat ? drop() : hand_out();
+  last_messages_ = open_.messages;
+  closed_counter_ = open_.counter;
+  closed_part_us_ = open_.last_part_us;
+  is_open_ = false;
+}
+
+void ScanAssembler::drop() {
+  ++counters_.repeated_scans;
+  counters_.orphan_parts += open_.parts;
+}
+
+void ScanAssembler::hand_out() {
   if (waiting_count_ == waiting_.size()) {
     next();
   }
@@ -313,9 +352,6 @@ void ScanAssembler::close() {
   ++waiting_count_;
   fill(scan);
   count(scan);
-  closed_counter_ = open_.counter;
-  closed_part_us_ = open_.last_part_us;
-  is_open_ = false;
 }
 
 void ScanAssembler::fill(RadarScan& scan) const {

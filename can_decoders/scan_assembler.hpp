@@ -23,7 +23,7 @@ struct AssemblerCounters {
   std::uint64_t reordered_parts = 0;    ///< Later message of a target before an earlier one: used.
   std::uint64_t excess_parts = 0;       ///< Targets beyond the announced number: dropped.
   std::uint64_t orphan_parts = 0;       ///< Parts while no scan is open: dropped.
-  std::uint64_t repeated_scans = 0;     ///< Header with the counter of the last scan: dropped.
+  std::uint64_t repeated_scans = 0;     ///< The last list again, by counter and bytes: dropped.
   std::uint64_t missed_scans = 0;       ///< Cycles the counter skipped.
   std::uint64_t stamps_backwards = 0;   ///< Stamp earlier than the one before it.
   std::uint64_t headerless_scans = 0;   ///< Scans whose header was lost; all of them incomplete.
@@ -43,9 +43,8 @@ struct AssemblerCounters {
 /// all arrived, in the order of their first messages, without empty slots.
 ///
 /// With header: a repeated header of the open scan is a duplicate, or a conflict if it announces
-/// another number. A repeated header of the last closed scan closes the open scan and opens none,
-/// so that a repeated list never passes for a new one. A header in the middle of a list whose
-/// counter does not continue the last is damaged: a conflict.
+/// another number. The header of the last closed scan closes the open scan. A header in the middle
+/// of a list whose counter does not continue the last is damaged: a conflict.
 ///
 /// A lost header does not lose the scan. A new scan begins with the first message of one of the
 /// first four targets, after a pause and when no first messages are due (with one message per
@@ -53,11 +52,13 @@ struct AssemblerCounters {
 /// most four. Its counter is one cycle after the last; `announced` is the number of targets with at
 /// least one part.
 ///
-/// Without header: a part of the last closed scan that arrives within the time-out after that
-/// scan's last part is late and dropped; afterwards it opens a new scan.
+/// A list with the counter of the last one (without header: within the time-out of its last part)
+/// is that list again, and dropped, until one of its parts has other bytes than in the last list:
+/// then the sensor's counter stands still, and the list is a new scan.
 ///
-/// Counter steps: the smallest step seen is one cycle; larger steps are gaps. A 16-bit counter that
-/// goes back by less than half its range is a restarted sensor, not a gap.
+/// Counter steps: the first step is one cycle until a smaller one comes twice in a row, or a larger
+/// one 16 times; larger steps are gaps. A 16-bit counter that goes back by less than half its range
+/// is a restarted sensor, not a gap.
 ///
 /// Stamps may run backwards. A part is in time if it is within the time-out of the last part, in
 /// either direction.
@@ -110,6 +111,7 @@ class ScanAssembler {
     bool conflicting = false;
     bool dropped = false;
     bool has_header = true;
+    bool may_repeat = false;  ///< So far the last list again, which is no scan.
     /// By slot; bit n: message n came.
     std::array<std::uint8_t, kMaxDetections> messages{};
   };
@@ -120,6 +122,7 @@ class ScanAssembler {
   void time_out();
 
   void add_header(const ScanPart& part);
+  [[nodiscard]] bool begins_next(const ScanPart& part) const;
   void add_repeated_header(const ScanPart& part);
   void adopt_header(const ScanPart& part);
   [[nodiscard]] bool is_damaged_header(const ScanPart& part) const;
@@ -129,16 +132,19 @@ class ScanAssembler {
   void add_unannounced(const ScanPart& part);
   void store(const ScanPart& part);
   void note_conflict(const ScanPart& part);
+  [[nodiscard]] bool differs_from_last(const ScanPart& part) const;
   void compare(const Payload& stored, const Payload& repeated);
   bool admit(std::uint8_t slot);
 
-  void open(const ScanPart& part, std::uint16_t announced);
+  void open(const ScanPart& part, std::uint16_t announced, bool may_repeat);
   void note_step(std::uint16_t counter);
   [[nodiscard]] std::size_t capacity() const;
   [[nodiscard]] std::uint64_t missing_parts(std::uint64_t targets) const;
   [[nodiscard]] bool is_whole() const;
   [[nodiscard]] ScanStatus status() const;
   void close();
+  void drop();
+  void hand_out();
   void fill(RadarScan& scan) const;
   void count(const RadarScan& scan);
 
@@ -158,7 +164,11 @@ class ScanAssembler {
 
   std::optional<std::uint16_t> closed_counter_;  ///< Of the last closed scan.
   std::int64_t closed_part_us_ = 0;              ///< Last part of that scan, including late ones.
-  std::uint32_t cycle_step_ = 0;                 ///< Smallest counter step seen; 0: none yet.
+  /// OpenScan::messages of the last list, a repeated one too.
+  std::array<std::uint8_t, kMaxDetections> last_messages_{};
+  std::uint32_t cycle_step_ = 0;  ///< Of the counter; 0: not known yet.
+  std::uint32_t last_step_ = 0;   ///< Of the counter, and how often in a row.
+  std::uint32_t equal_steps_ = 0;
 
   std::array<RadarScan, 2> waiting_{};
   std::size_t oldest_ = 0;

@@ -43,14 +43,6 @@ void refuse_files(const CommandLine& command_line, const Configuration& configur
   }
 }
 
-/// The outputs of the live daemon besides messages.
-void refuse_overwriting(const CommandLine& command_line, const std::string& path,
-                        const Configuration& configuration) {
-  refuse_aliases({{"the configuration", path}},
-                 {{"odometry.state_file", state_file(command_line, configuration)},
-                  {"LCM", lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url))}});
-}
-
 void set_up_real_time(RealTimePolicy policy) {
   if (policy == RealTimePolicy::off) {
     return;
@@ -75,16 +67,32 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
 }
 
 /// The new configuration of the file, or nothing if it is invalid.
-std::unique_ptr<Configuration> reload(const std::string& path, const CommandLine& command_line) {
+std::unique_ptr<Configuration> reload(const CommandLine& command_line, const std::string& path,
+                                      RealTimePolicy real_time) {
   try {
-    return std::make_unique<Configuration>(load_configuration(path, command_line));
-  } catch (const ConfigurationError& error) {
+    auto configuration = std::make_unique<Configuration>(load_configuration(path, command_line));
+    refuse_overwriting(command_line, path, *configuration);
+    if (configuration->live.real_time != real_time) {
+      spdlog::warn(
+          "live.realtime has changed: that is used at the next start "
+          "(`systemctl restart cremed`)");
+    }
+    return configuration;
+  } catch (const UsageError& error) {
     spdlog::error("{}\nthe configuration is kept as it was", error.what());
     return nullptr;
   }
 }
 
 }  // namespace
+
+/// The outputs of the live daemon besides messages.
+void refuse_overwriting(const CommandLine& command_line, const std::string& path,
+                        const Configuration& configuration) {
+  refuse_aliases({{"the configuration", path}},
+                 {{"odometry.state_file", state_file(command_line, configuration)},
+                  {"LCM", lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url))}});
+}
 
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration) {
@@ -94,6 +102,9 @@ int run_live(const CommandLine& command_line, const std::string& path,
   std::signal(SIGPIPE, SIG_IGN);  // The reader of the log may end first.
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   handle_reload_signal();
+  if (configuration.live.real_time != RealTimePolicy::off) {
+    keep_heap();
+  }
   const ServiceNotifier notifier;
   std::unique_ptr<LiveSession> session = begin(command_line, configuration, stop);
   set_up_real_time(configuration.live.real_time);
@@ -108,7 +119,7 @@ int run_live(const CommandLine& command_line, const std::string& path,
     }
     if (take_reload_request()) {
       notifier.reloading();
-      if (const auto changed = reload(path, command_line)) {
+      if (const auto changed = reload(command_line, path, configuration.live.real_time)) {
         session.reset();  // Two sessions must not use the same buses.
         session = begin(command_line, *changed, stop);
         spdlog::set_level(spdlog::level::from_str(changed->logging.level));

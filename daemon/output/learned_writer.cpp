@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/real_time.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "daemon/process/signals.hpp"
 
@@ -86,6 +87,7 @@ std::string LearnedWriter::finish(std::optional<std::string> text) {
 }
 
 void LearnedWriter::run(const std::shared_ptr<Shared>& shared) {
+  leave_real_time();
   std::unique_lock lock(shared->mutex);
   while (true) {
     shared->changed.wait(lock, [&] { return shared->is_ending || shared->text; });

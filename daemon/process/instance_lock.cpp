@@ -5,54 +5,82 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <stdexcept>
+#include <string_view>
 
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <sys/socket.h>
-#include <sys/un.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
-
-#include "daemon/process/usage_error.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr std::string_view kPrefix = "cremed:";
+/// RuntimeDirectory= of the unit, and of whoever is root without it.
+constexpr const char* kSystemFolder = "/run/cremed";
 
-/// Independent of how the path is written; `ss -xl` shows it as "@cremed:/etc/...". A path too long
-/// for a socket name is cut at its beginning.
-std::string lock_name(const std::string& path) {
-  constexpr std::size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1 - kPrefix.size();
-  const std::string whole = std::filesystem::weakly_canonical(path).string();
-  return std::string(kPrefix) + whole.substr(whole.size() - std::min(whole.size(), kLongestPath));
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view() : value;
 }
 
-/// In the abstract namespace: after a zero.
-int bind_name(int descriptor, const std::string& name) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::copy(name.begin(), name.end(), &address.sun_path[1]);
-  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
-  return ::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), size);
+/// systemd's, else one that only this user can write; empty: there is none.
+std::string runtime_folder() {
+  const std::string_view given = environment("RUNTIME_DIRECTORY");
+  if (!given.empty()) {
+    return std::string(given.substr(0, given.find(':')));
+  }
+  if (::geteuid() == 0) {
+    ::mkdir(kSystemFolder, 0755);
+    return kSystemFolder;
+  }
+  if (::access(kSystemFolder, F_OK) == 0 || errno == EACCES) {
+    spdlog::warn(
+        "only root sees whether the service runs with this configuration too "
+        "(`systemctl status cremed`)");
+  }
+  return std::string(environment("XDG_RUNTIME_DIR"));
+}
+
+/// The path of the configuration, however it is written, as a file name. One too long for that is
+/// cut at its beginning.
+std::string lock_name(const std::string& path) {
+  constexpr std::size_t kLongest = 200;
+  struct stat network {};
+  ::stat("/proc/self/ns/net", &network);
+  std::string name;
+  for (const char c : std::filesystem::weakly_canonical(path).string()) {
+    name += c == '/' ? "%2F" : c == '%' ? "%25" : std::string(1, c);
+  }
+  name.erase(0, name.size() - std::min(name.size(), kLongest));
+  return std::to_string(network.st_ino) + name + ".lock";
 }
 
 }  // namespace
 
-InstanceLock::InstanceLock(const std::string& configuration_path)
-    : descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-  if (descriptor_ >= 0 && bind_name(descriptor_, lock_name(configuration_path)) == 0) {
+InstanceLock::InstanceLock(const std::string& configuration_path) {
+  const std::string folder = runtime_folder();
+  const std::string file = folder + "/" + lock_name(configuration_path);
+  descriptor_ =
+      folder.empty() ? -1 : ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) {
+    spdlog::warn(
+        "another instance would not be noticed: {}",
+        folder.empty() ? "XDG_RUNTIME_DIR is not set" : file + ": " + std::strerror(errno));
     return;
   }
-  const int error = errno;
-  if (error != EADDRINUSE) {
-    spdlog::warn("another instance would not be noticed: {}", std::strerror(error));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
     return;
   }
   ::close(descriptor_);
-  throw UsageError("another cremed runs with " + configuration_path +
-                   " (`pgrep -a cremed`): every message would be sent twice; end that one "
-                   "(`systemctl stop cremed`), or give this one a configuration of its own");
+  throw std::runtime_error(
+      "another cremed runs with " + configuration_path +
+      " (`pgrep -a cremed`): every message would be sent twice; end that one "
+      "(`systemctl stop cremed`), or give this one a configuration of its own");
 }
 
 InstanceLock::~InstanceLock() {

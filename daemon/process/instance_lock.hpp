@@ -7,19 +7,19 @@
 namespace cremed {
 
 /// Prevents a second live instance with one configuration, which would send every message twice.
-/// The lock is an abstract socket named after the configuration: the kernel releases it however the
-/// process ends, and it needs no writable folder. Network namespaces, which have their own buses,
-/// have their own locks.
+/// The lock is of a file in the runtime directory that only the same user and root can open: no
+/// other user can hold it, or sees who does. The kernel releases it however the process ends.
+/// Network namespaces, which have their own buses, have their own locks.
 class InstanceLock {
  public:
-  /// Locks the configuration at that path. Throws UsageError if another process holds it.
+  /// Locks the configuration at that path. Throws std::runtime_error if another process holds it.
   explicit InstanceLock(const std::string& configuration_path);
   ~InstanceLock();
   InstanceLock(const InstanceLock&) = delete;
   InstanceLock& operator=(const InstanceLock&) = delete;
 
  private:
-  int descriptor_;
+  int descriptor_ = -1;
 };
 
 }  // namespace cremed

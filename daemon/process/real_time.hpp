@@ -17,8 +17,15 @@ struct RealTimeState {
   [[nodiscard]] std::string problem() const;
 };
 
-/// Locks present and future memory and touches the stack of the hot path: a page fault costs more
-/// than an estimate.
+/// Keeps the heap as it is: what is freed stays for the next use, in one piece for all threads.
+/// Called before any other thread starts.
+void keep_heap();
+
+/// Locks present and future memory and touches stack and heap: a page fault costs more than an
+/// estimate.
 RealTimeState enter_real_time();
+
+/// Makes this thread an ordinary one: a thread begins with the priority of the one that starts it.
+void leave_real_time();
 
 }  // namespace cremed

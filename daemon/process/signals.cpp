@@ -38,9 +38,11 @@ bool stop_requested() { return stop_was_requested != 0; }
 void handle_reload_signal() { handle(SIGHUP, request_reload); }
 
 bool take_reload_request() {
-  const bool requested = reload_requested != 0;
+  if (reload_requested == 0) {
+    return false;  // Clearing it all the same would lose a signal that comes meanwhile.
+  }
   reload_requested = 0;
-  return requested;
+  return true;
 }
 
 SignalsBlocked::SignalsBlocked() {

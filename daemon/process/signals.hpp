@@ -16,7 +16,7 @@ bool stop_requested();
 
 /// SIGHUP requests a reload of the configuration.
 void handle_reload_signal();
-/// Whether a reload was requested since the last call.
+/// Whether a reload was requested since the last call that returned true.
 bool take_reload_request();
 
 /// Blocks signals in this thread, and in threads started meanwhile, during its lifetime.

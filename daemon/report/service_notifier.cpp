@@ -19,7 +19,8 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kMaxMessage = 512;
+/// systemd ignores longer messages; 16 radars need 2000.
+constexpr std::size_t kMaxMessage = 4096;
 
 std::string_view environment(const char* name) {
   const char* value = std::getenv(name);

@@ -102,12 +102,15 @@ CanReceiveStatus status_of(int error) {
 }  // namespace
 
 struct CanSocket::Control {
+  bool is_from_bus = false;  ///< Only such frames must have a hardware stamp.
   std::int64_t kernel_ns = 0;
   std::int64_t hardware_ns = 0;
   std::uint32_t drops = 0;
   bool has_drops = false;
 
-  explicit Control(msghdr& header) {
+  /// The driver makes error frames; frames sent on this computer never were in the controller.
+  Control(msghdr& header, canid_t id)
+      : is_from_bus((id & CAN_ERR_FLAG) == 0 && (header.msg_flags & MSG_DONTROUTE) == 0) {
     for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
       if (c->cmsg_level == SOL_SOCKET) {
         take(*c);
@@ -241,7 +244,7 @@ CanReceiveResult CanSocket::receive() {
     if (is_cut || (size != CAN_MTU && size != CANFD_MTU)) {
       continue;
     }
-    const Control said(headers[i].msg_hdr);
+    const Control said(headers[i].msg_hdr, raw[i].can_id);
     fill(raw[i], size, batch_[kept].frame);
     batch_[kept].frame.stamp_us = stamp_us(said);
     batch_[kept].received_us = said.kernel_ns / 1000;
@@ -254,6 +257,9 @@ CanReceiveResult CanSocket::receive() {
 
 std::int64_t CanSocket::stamp_us(const Control& control) {
   if (!hardware_stamps_ || !hardware_stamps_work_) {
+    return control.kernel_ns / 1000;
+  }
+  if (control.hardware_ns == 0 && !control.is_from_bus) {
     return control.kernel_ns / 1000;
   }
   const std::int64_t difference_ns = control.hardware_ns - control.kernel_ns;

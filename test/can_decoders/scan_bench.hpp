@@ -60,13 +60,13 @@ class ScanBench {
     message(1, slot, value, counter);
   }
   /// Header, all first and all second messages of slots 0..count-1.
-  void list(std::uint16_t counter, std::uint16_t count) {
+  void list(std::uint16_t counter, std::uint16_t count, std::uint8_t value = 1) {
     header(counter, count);
     for (std::uint16_t slot = 0; slot < count; ++slot) {
-      first(static_cast<std::uint8_t>(slot));
+      first(static_cast<std::uint8_t>(slot), value);
     }
     for (std::uint16_t slot = 0; slot < count; ++slot) {
-      second(static_cast<std::uint8_t>(slot));
+      second(static_cast<std::uint8_t>(slot), value);
     }
   }
   void expire(std::int64_t stamp_us) {
@@ -79,6 +79,8 @@ class ScanBench {
   }
   void mark_dropped() { assembler_.mark_dropped(); }
 
+  [[nodiscard]] auto open_stamp_us() const { return assembler_.open_stamp_us(); }
+  [[nodiscard]] auto awaited_parts() const { return assembler_.awaited_parts(); }
   [[nodiscard]] const AssemblerCounters& counters() const { return assembler_.counters(); }
   std::vector<RadarScan> scans;
   std::size_t most_waiting = 0;  ///< Most scans that one call closed.

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
 #include "cremed/can_decoders/scan_assembler.hpp"
 #include "test/can_decoders/scan_bench.hpp"
 
@@ -104,6 +106,7 @@ TEST_CASE("A radar's stamp offset is in the stamps of its scans, and nowhere els
     ScanAssembler assembler(decoder, kTimeoutUs, offset_us);
     const std::int64_t stamp_us = 1'000'000;
     assembler.add({.kind = ScanPart::Kind::header, .target_count = 1, .stamp_us = stamp_us});
+    CHECK(assembler.open_stamp_us() == stamp_us + offset_us);
     assembler.expire(stamp_us + kTimeoutUs);
     CHECK(assembler.next() == nullptr);
     assembler.expire(stamp_us + kTimeoutUs + 1);
@@ -214,6 +217,84 @@ TEST_CASE("A repeated list never looks like a fresh one") {
   bench.header(1, 0);
   CHECK(bench.scans.size() == 1);
   CHECK(bench.counters().repeated_scans == 2);
+}
+
+TEST_CASE("A counter that stands still loses no list, whatever the lists hold") {
+  ScanBench bench(kWithHeader);
+  const std::vector<std::uint16_t> counts = {5, 5, 3, 9, 0, 0, 4, 4, 4};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    bench.now_us += kTimeoutUs / 2;
+    bench.list(7, counts[i], static_cast<std::uint8_t>(i + 1));
+  }
+  // Two empty lists are alike, and the first one after them has nothing to differ from.
+  const std::vector<std::size_t> fresh = {0, 1, 2, 3, 7, 8};
+  REQUIRE(bench.scans.size() == fresh.size());
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    CAPTURE(i);
+    CHECK(bench.scans[i].status == ScanStatus::complete);
+    REQUIRE(bench.scans[i].count == counts[fresh[i]]);
+    CHECK(bench.scans[i].detections[0].range_m == static_cast<double>(fresh[i] + 1));
+    CHECK(bench.scans[i].detections[0].range_std_m == static_cast<double>(fresh[i] + 1));
+  }
+  CHECK(bench.counters().repeated_scans == 3);
+  CHECK(bench.counters().missed_scans == 0);
+}
+
+TEST_CASE("A list is fresh from the first part that differs from the last list") {
+  ScanBench bench(kWithHeader);
+  bench.list(1, 3);
+  bench.header(1, 3);
+  bench.first(0);
+  bench.first(1);
+  CHECK(bench.open_stamp_us() == std::nullopt);
+  bench.first(2, 9);
+  CHECK(bench.open_stamp_us() == 1'000'000 + 7 * 100);
+  CHECK(bench.awaited_parts() == 3U);
+  for (std::uint8_t slot = 0; slot < 3; ++slot) {
+    bench.second(slot);
+  }
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.scans[1].count == 3);
+  CHECK(bench.scans[1].stamp_us == 1'000'000 + 7 * 100);
+}
+
+TEST_CASE("A repeated list with a part that the last one lacked, or cut short, is no scan") {
+  ScanBench bench(kWithHeader);
+  bench.header(1, 2);
+  bench.first(0);
+  bench.first(1);
+  bench.second(0);
+  bench.now_us += 2 * kTimeoutUs;
+  bench.list(1, 2);
+  bench.now_us += 2 * kTimeoutUs;
+  bench.header(1, 2);
+  bench.first(0);
+  bench.expire(bench.now_us + 2 * kTimeoutUs);
+  CHECK(bench.scans.size() == 1);
+  CHECK(bench.counters().timeouts == 1);
+  CHECK(bench.counters().repeated_scans == 2);
+  CHECK(bench.counters().orphan_parts == 5);
+}
+
+TEST_CASE("With a counter that stands still, parts of two lists are in no complete scan") {
+  ScanBench bench(kWithHeader);
+  for (std::uint8_t value = 1; value <= 9; ++value) {
+    bench.now_us += kTimeoutUs / 2;
+    bench.header(7, 3);
+    for (std::uint8_t slot = value == 4 ? 1 : 0; slot < 3; ++slot) {
+      bench.first(slot, value);
+    }
+    for (std::uint8_t slot = 0; slot < 3; ++slot) {
+      bench.second(slot, value);
+    }
+  }
+  REQUIRE(bench.scans.size() == 9);
+  for (std::size_t i = 0; i < bench.scans.size(); ++i) {
+    CAPTURE(i);
+    CHECK(bench.scans[i].status == (i == 3 ? ScanStatus::missing_parts : ScanStatus::complete));
+    CHECK(bench.scans[i].detections[0].range_std_m == static_cast<double>(i + 1));
+  }
 }
 
 TEST_CASE("The header of the last scan closes the open one") {

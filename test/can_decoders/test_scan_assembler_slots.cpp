@@ -187,5 +187,71 @@ TEST_CASE("A big step back opens a new scan, even of the last counter") {
   CHECK(bench.counters().stamps_backwards == 1);
 }
 
+/// A burst whose slots all have `value`.
+void burst_of(ScanBench& bench, std::uint16_t counter, std::uint8_t value, std::uint8_t from = 0) {
+  for (std::uint8_t slot = from; slot < 4; ++slot) {
+    bench.first(slot, value, counter);
+    bench.second(slot, value, counter);
+  }
+}
+
+TEST_CASE("A counter that stands still loses no burst, however short the pauses") {
+  ScanBench bench(kSlots);
+  burst_of(bench, 0, 1);
+  for (std::uint8_t value = 2; value <= 20; ++value) {
+    bench.now_us += kTimeoutUs / 2;
+    burst_of(bench, 1, value);
+  }
+  REQUIRE(bench.scans.size() == 20);
+  for (std::size_t i = 0; i < bench.scans.size(); ++i) {
+    CAPTURE(i);
+    CHECK(bench.scans[i].status == ScanStatus::complete);
+    CHECK(bench.scans[i].detections[0].range_m == static_cast<double>(i + 1));
+    CHECK(bench.scans[i].detections[3].range_std_m == static_cast<double>(i + 1));
+  }
+  CHECK(bench.counters().missed_scans == 0);
+  CHECK(bench.counters().orphan_parts == 0);
+}
+
+TEST_CASE("With a counter that stands still, parts of two bursts are in no complete scan") {
+  const std::uint8_t lost = GENERATE(std::uint8_t{0}, std::uint8_t{2});
+  CAPTURE(lost);
+  ScanBench bench(kSlots);
+  burst_of(bench, 1, 1);
+  for (std::uint8_t value = 2; value <= 9; ++value) {
+    bench.now_us += kTimeoutUs / 2;
+    for (std::uint8_t slot = 0; slot < 4; ++slot) {
+      if (value != 4 || slot != lost) {
+        bench.first(slot, value, 1);
+      }
+      bench.second(slot, value, 1);
+    }
+  }
+  REQUIRE(bench.scans.size() == 9);
+  for (std::size_t i = 0; i < bench.scans.size(); ++i) {
+    CAPTURE(i);
+    CHECK(bench.scans[i].status == (i == 3 ? ScanStatus::missing_parts : ScanStatus::complete));
+    const RadarScan& scan = bench.scans[i];
+    CHECK(scan.detections[scan.count - 1].range_m == static_cast<double>(i + 1));
+  }
+}
+
+TEST_CASE("A late part of the last burst delays and spoils nothing of the next") {
+  const std::uint16_t next = GENERATE(std::uint16_t{1}, std::uint16_t{2});  // Also stands still.
+  CAPTURE(next);
+  ScanBench bench(kSlots);
+  burst_of(bench, 1, 1);
+  bench.second(3, 1, 1);
+  CHECK(bench.open_stamp_us() == std::nullopt);
+  CHECK(bench.awaited_parts() == std::nullopt);
+  bench.now_us += kTimeoutUs / 2;
+  const std::int64_t begin_us = bench.now_us;
+  burst_of(bench, next, 2);
+  REQUIRE(bench.scans.size() == 2);
+  CHECK(bench.scans[1].status == ScanStatus::complete);
+  CHECK(bench.scans[1].stamp_us == begin_us);
+  CHECK(bench.counters().orphan_parts == 1);
+}
+
 }  // namespace
 }  // namespace cremed::test

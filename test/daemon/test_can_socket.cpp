@@ -94,6 +94,11 @@ TEST_CASE("Hardware stamps that a device does not have give way to the kernel's"
   options.hardware_stamps = true;
   REQUIRE(socket.adopt(pair.receiver(), options).status == CanOpenStatus::open);
   CHECK(socket.hardware_stamps_work());
+  pair.send(0x40 | CAN_ERR_FLAG, 8);  // No device has one for what its driver makes.
+  const auto errors = receive_all(socket);
+  REQUIRE(errors.size() == 1);
+  CHECK(std::abs(errors[0].frame.stamp_us - realtime_us()) < kSecondUs);
+  CHECK(socket.hardware_stamps_work());
   pair.send(1, 8);
   const auto frames = receive_all(socket);
   REQUIRE(frames.size() == 1);

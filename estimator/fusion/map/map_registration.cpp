@@ -25,6 +25,8 @@ const Eigen::Vector3d kPriorStd(0.1, 0.3, 0.02);
 constexpr int kMaxIterations = 8;
 /// Squared step over the standard deviation: 1 % of it.
 constexpr double kConverged = 1e-4;
+/// Squared distance in sigmas beyond which a pair's weight, 4e-6 of its greatest, is left out.
+constexpr double kNoPartner = 25.0;
 /// Least share of the complete information, in every direction, that is left after the missing
 /// information, for a step and for a result. Where less is left neighbours are confused.
 constexpr double kMinObservedShareOfStep = 0.2;
@@ -43,6 +45,9 @@ Eigen::Matrix3d information_of(const Symmetric2& w, const Eigen::Vector2d& at) {
   result << w.xx, w.xy, wa.x(), w.xy, w.yy, wa.y(), wa.x(), wa.y(), across.dot(wa);
   return result;
 }
+
+/// v v'
+Symmetric2 outer(const Eigen::Vector2d& v) { return {v.x() * v.x(), v.x() * v.y(), v.y() * v.y()}; }
 
 bool is_positive(const Eigen::Matrix3d& matrix) {
   return Eigen::LLT<Eigen::Matrix3d>(matrix).info() == Eigen::Success;
@@ -85,20 +90,28 @@ MapRegistration::Sums MapRegistration::sum_up(const TargetSet& targets,
     auto end = begin;
     for (; end != pairs_.end() && end->target == begin->target; ++end) {
       const Eigen::Vector2d e = at - end->at_m;
-      end->weight = end->density * std::exp(-0.5 * e.dot(end->information * e));
+      const double squared_distance = e.dot(end->information * e);
+      end->weight =
+          squared_distance < kNoPartner ? end->density * std::exp(-0.5 * squared_distance) : 0.0;
       sum += end->weight;
     }
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    // Of the point of this target, which all pairs share.
+    Symmetric2 complete;
+    Symmetric2 missing;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (; begin != end; ++begin) {
-      begin->weight /= sum;
-      const Eigen::Vector3d g = gradient_of(begin->information * (at - begin->at_m), turned);
-      sums.complete += begin->weight * information_of(begin->information, turned);
-      sums.missing += begin->weight * g * g.transpose();
-      sums.matched += begin->weight;
-      mean += begin->weight * g;
+      if (begin->weight > 0.0) {
+        begin->weight /= sum;
+        const Eigen::Vector2d force = begin->information * (at - begin->at_m);
+        complete = complete + begin->weight * begin->information;
+        missing = missing + begin->weight * outer(force);
+        mean += begin->weight * force;
+        sums.matched += begin->weight;
+      }
     }
-    sums.missing -= mean * mean.transpose();
-    sums.gradient += mean;
+    sums.complete += information_of(complete, turned);
+    sums.missing += information_of(missing + -1.0 * outer(mean), turned);
+    sums.gradient += gradient_of(mean, turned);
   }
   return sums;
 }

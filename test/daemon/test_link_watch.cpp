@@ -4,7 +4,6 @@
 // In a network namespace of its own; CAN interfaces that come and go are tested in test/vm.
 #include <catch2/catch.hpp>
 
-#include "daemon/source/clock_watch.hpp"
 #include "daemon/source/link_watch.hpp"
 #include "test/tools/own_network.hpp"
 
@@ -43,12 +42,4 @@ TEST_CASE("An interface is followed up and down, and one that is absent is no er
     CHECK(links.link(name).error == 0);
   }
   CHECK(links.up_can_names().empty());
-}
-
-TEST_CASE("A clock that runs was not set, however often it is asked") {
-  ClockWatch clock;
-  REQUIRE(clock.descriptor() >= 0);
-  for (int i = 0; i < 3; ++i) {
-    CHECK_FALSE(clock.was_set());
-  }
 }

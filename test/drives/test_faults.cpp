@@ -22,7 +22,7 @@ TEST_CASE("Simulated drives: each fault, what each source makes of it", "[long]"
 }
 
 TEST_CASE("Each fault of a short drive leaves estimates") {
-  const FaultDrive drive = simulated_fault_drive("bends", 5.0);
+  const FaultDrive drive = simulated_fault_drive("bends", 3.0);
   for (const FaultCase& fault : fault_cases(drive)) {
     CAPTURE(fault.kind, fault.of);
     const FaultOutcome outcome = run(drive, fault);

@@ -31,7 +31,7 @@ TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that st
 }
 
 TEST_CASE("Each systematic fault of a short drive leaves odometry") {
-  const FaultDrive drive = simulated_fault_drive("bends", 4.0);
+  const FaultDrive drive = simulated_fault_drive("bends", 2.0);
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
     CAPTURE(fault.kind, fault.of);
     CHECK_FALSE(record(drive, fault).sink.odometries.empty());

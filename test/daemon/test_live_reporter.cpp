@@ -27,6 +27,7 @@ Configuration one_radar() {
   radar.decoder = Ars408Options{.motion_feedback = true};
   configuration.radars.push_back(radar);
   configuration.odometry.enabled = false;
+  configuration.live.max_latency_s = 60.0;  // However busy the computer is.
   return configuration;
 }
 
@@ -42,8 +43,10 @@ class Bench {
   /// Reads what was sent, and reports.
   std::string report() {
     CanFrame frame;
-    for (SourceEvent event = source_.next(frame); event != SourceEvent::idle;
-         event = source_.next(frame)) {
+    // A busy kernel may deliver after the first silence.
+    for (int silences = 0; silences < 2;) {
+      const SourceEvent event = source_.next(frame);
+      silences += event == SourceEvent::idle ? 1 : 0;
       if (event == SourceEvent::frame) {
         feedback_.hear(frame);
       }
@@ -73,7 +76,7 @@ TEST_CASE("The line names the state of the bus, and what follows from it only if
   bench.send(CAN_ERR_FLAG | 0x80);  // CAN_ERR_BUSERROR.
   // An error frame is an idle event too.
   CHECK(bench.report() == "front: absent has errors only");
-  bench.send(0x600);
+  bench.send(0x201);  // Begins no scan, which would end some time later.
   CHECK(bench.report() == "front: 0 scans/s, 0 estimates/s");
   CHECK(bench.report() == "front: absent is silent");
 }
@@ -81,7 +84,7 @@ TEST_CASE("The line names the state of the bus, and what follows from it only if
 TEST_CASE("The line names another node that tells the sensor its motion") {
   Bench bench;
   bench.connect();
-  bench.send(0x600);
+  bench.send(0x201);
   CHECK(bench.report() == "front: 0 scans/s, 0 estimates/s");
   bench.send(encode_ars408_speed(0, 1.0).id);
   CHECK(bench.report() ==

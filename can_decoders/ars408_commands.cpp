@@ -105,4 +105,8 @@ CanFrame encode_ars408_yaw_rate(std::uint8_t sensor_id, double yaw_rate_radps) {
   return frame(kYawRateId, sensor_id, 2, bits);
 }
 
+bool is_ars408_motion(std::uint32_t id, std::uint8_t sensor_id) {
+  return id == ars408_id(kSpeedId, sensor_id) || id == ars408_id(kYawRateId, sensor_id);
+}
+
 }  // namespace cremed

@@ -43,4 +43,7 @@ CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps);
 /// 0x301, to be sent at least every 500 ms; counter-clockwise. In steps of 0.01 deg/s.
 CanFrame encode_ars408_yaw_rate(std::uint8_t sensor_id, double yaw_rate_radps);
 
+/// Whether that is the identifier of one of the last two.
+bool is_ars408_motion(std::uint32_t id, std::uint8_t sensor_id);
+
 }  // namespace cremed

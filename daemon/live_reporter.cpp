@@ -114,11 +114,12 @@ void report_clock(const BusStatus& now, const BusStatus& before) {
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
                            const LiveSource& source, const FreshnessGate& gate,
-                           const LcmPublisher* publisher)
+                           const MotionFeedback& feedback, const LcmPublisher* publisher)
     : configuration_(configuration),
       pipeline_(pipeline),
       source_(source),
       gate_(gate),
+      feedback_(feedback),
       publisher_(publisher),
       buses_(source.interfaces().size()),
       progress_(configuration.radars.size()) {
@@ -131,7 +132,7 @@ std::string LiveReporter::report() {
   std::string line;
   has_scans_ = false;
   for (std::size_t i = 0; i < progress_.size(); ++i) {
-    line += (line.empty() ? "" : "; ") + report_radar(i);
+    line += (line.empty() ? "" : "; ") + report_radar(i) + report_feedback(i);
   }
   for (std::size_t i = 0; i < buses_.size(); ++i) {
     const BusStatus now = source_.bus(static_cast<std::uint8_t>(i));
@@ -263,6 +264,16 @@ void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status)
   log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
               status.odometry.is_left_out ? 1 : 0,
               [] { return "excluded: it contradicts the other radars or its own past"; });
+}
+
+std::string LiveReporter::report_feedback(std::size_t radar) {
+  const bool has_rival = feedback_.has_rival(radar);
+  log_.update(concat({configuration_.radars[radar].name, " motion_feedback"}), has_rival ? 1 : 0,
+              [] {
+                return "another node sends the sensor 0x300 or 0x301 too: nothing is sent until "
+                       "that is silent for 10 s; set motion_feedback = false, or stop the other";
+              });
+  return has_rival ? ", motion_feedback paused: another node sends it" : "";
 }
 
 void LiveReporter::report_stale() {

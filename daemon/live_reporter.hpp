@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/motion_feedback.hpp"
 #include "daemon/output/freshness_gate.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
@@ -23,7 +24,7 @@ class LiveReporter {
  public:
   /// All arguments but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-               const LiveSource& source, const FreshnessGate& gate,
+               const LiveSource& source, const FreshnessGate& gate, const MotionFeedback& feedback,
                const LcmPublisher* publisher);
 
   /// The interface of a radar with "auto" was found.
@@ -48,6 +49,7 @@ class LiveReporter {
   std::string report_odometry();
   std::string report_vehicle(VehicleSignal signal);
   void report_left_out(std::size_t radar, const RadarStatus& status);
+  std::string report_feedback(std::size_t radar);
   void report_stale();
   void report_publisher();
 
@@ -55,6 +57,7 @@ class LiveReporter {
   const Pipeline& pipeline_;
   const LiveSource& source_;
   const FreshnessGate& gate_;
+  const MotionFeedback& feedback_;
   const LcmPublisher* publisher_;
   ConditionLog log_;
   std::vector<BusStatus> buses_;  // At the last check.

@@ -41,7 +41,8 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
       pipeline_(configuration, source_, {&gate_}, PipelineClock{&realtime_us, true},
                 state_file.empty() ? std::vector<std::optional<LearnedErrors>>()
                                    : learned_file_.read_and_log()),
-      reporter_(configuration, pipeline_, source_, gate_, publisher_ ? &*publisher_ : nullptr),
+      reporter_(configuration, pipeline_, source_, gate_, feedback_,
+                publisher_ ? &*publisher_ : nullptr),
       next_report_us_(monotonic_us() + kReportPeriodUs),
       next_save_us_(monotonic_us() + kSavePeriodUs) {
   if (!state_file.empty()) {
@@ -52,8 +53,7 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
 
 LiveSession::~LiveSession() {
   if (learned_writer_) {
-    const std::string problem =
-        learned_writer_->finish(learned_file_.text(pipeline_.learned()));
+    const std::string problem = learned_writer_->finish(learned_file_.text(pipeline_.learned()));
     if (!problem.empty()) {
       spdlog::warn("state file: {}; the learned errors are not saved", problem);
     }
@@ -127,7 +127,12 @@ void LiveSession::use(const Sighting& sighting) {
 
 bool LiveSession::turn(const ServiceNotifier& notifier) {
   source_.expect(pipeline_.frames_to_next_scan());
-  const bool goes_on = pipeline_.take_next(source_);
+  CanFrame frame;
+  const SourceEvent event = source_.next(frame);
+  if (event == SourceEvent::frame) {
+    feedback_.hear(frame);
+  }
+  pipeline_.on_event(event, frame);
   const std::int64_t now_us = monotonic_us();
   if (!search_.is_over()) {
     look_for_radars(now_us);
@@ -142,7 +147,7 @@ bool LiveSession::turn(const ServiceNotifier& notifier) {
     next_save_us_ = now_us + kSavePeriodUs;
     save_learned();
   }
-  return goes_on;
+  return event != SourceEvent::end;
 }
 
 }  // namespace cremed

@@ -8,6 +8,12 @@
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
+namespace {
+
+/// A longer pause between frames shows that the bus was not read: a scan comes every 75 ms.
+constexpr std::int64_t kLongestPauseUs = 100'000;
+
+}  // namespace
 
 MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& bus) : bus_(bus) {
   for (const RadarConfiguration& radar : configuration.radars) {
@@ -25,10 +31,30 @@ bool MotionFeedback::is_needed() const {
                      [](const Sensor& sensor) { return sensor.wants_feedback; });
 }
 
+bool MotionFeedback::may_speak(const Sensor& sensor) {
+  return sensor.silence_us >= (sensor.has_rival ? kSilenceUs : kFirstSilenceUs);
+}
+
+void MotionFeedback::hear(const CanFrame& frame) {
+  for (Sensor& sensor : sensors_) {
+    if (!sensor.wants_feedback || sensor.interface != frame.interface) {
+      continue;
+    }
+    const std::int64_t pause_us = frame.stamp_us - sensor.heard_us;
+    sensor.heard_us = frame.stamp_us;
+    sensor.silence_us += std::clamp(pause_us, std::int64_t{0}, kLongestPauseUs);
+    if (frame.is_classic_data() && is_ars408_motion(frame.id, sensor.sensor_id)) {
+      sensor.silence_us = 0;
+      sensor.has_rival = true;
+    }
+    sensor.has_rival = sensor.has_rival && !may_speak(sensor);
+  }
+}
+
 void MotionFeedback::on_motion(std::size_t radar, const EgoMotion& motion,
                                std::int32_t /*solve_us*/) {
   const Sensor& sensor = sensors_[radar];
-  if (!sensor.wants_feedback || !motion.has_estimate()) {
+  if (!sensor.wants_feedback || !motion.has_estimate() || !may_speak(sensor)) {
     return;
   }
   const double duration_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;

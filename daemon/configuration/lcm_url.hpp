@@ -11,7 +11,8 @@ namespace cremed {
 /// is read.
 bool is_lcm_url(std::string_view text);
 inline constexpr const char* kLcmUrlWanted =
-    "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\", with a port of 1 to 65535 and a "
+    "\"none\" or a URL such as \"udpm://239.255.76.67:7667?ttl=0\", with a port of 1 to 65535 and "
+    "a "
     "ttl of 0 to 255, or \"file://PATH?mode=w\"";
 
 }  // namespace cremed

@@ -5,6 +5,17 @@
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
+namespace {
+
+/// What it sends, and what it is told by others if cremed is to tell it too: MotionFeedback.
+IdSet heard_ids(const RadarSettings& radar) {
+  const auto* ars408 = radar.as<Ars408Options>();
+  const bool is_told = ars408 != nullptr && ars408->motion_feedback;
+  return is_told ? radar.sent_ids() | radar.obeyed_ids() : radar.sent_ids();
+}
+
+}  // namespace
+
 IdSet used_ids(const RadarConfiguration& radar) {
   return radar.decoder.sent_ids() | radar.decoder.obeyed_ids();
 }
@@ -13,7 +24,7 @@ std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& co
   IdSet ids;
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const bool is_there = interface_index(configuration, i) == interface;
-    ids |= is_there ? configuration.radars[i].decoder.sent_ids() : IdSet{};
+    ids |= is_there ? heard_ids(configuration.radars[i].decoder) : IdSet{};
   }
   const VehicleConfiguration& vehicle = configuration.vehicle;
   if (!vehicle.interface.empty() && vehicle_interface_index(configuration) == interface) {

@@ -13,8 +13,8 @@ namespace cremed {
 /// What the radar sends or obeys.
 IdSet used_ids(const RadarConfiguration& radar);
 
-/// What the radars on an interface and [vehicle] send, in ascending order; `interface` is that of
-/// interface_index().
+/// What the radars on an interface and [vehicle] send, and with motion_feedback what a radar obeys,
+/// in ascending order; `interface` is that of interface_index().
 std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& configuration);
 
 }  // namespace cremed

@@ -15,7 +15,8 @@ namespace cremed {
 /// file://PATH?mode=w does not report lost messages.
 class LcmLogFile {
  public:
-  /// Creates or truncates the file, which must not be a pipe; is_open() tells whether that succeeded.
+  /// Creates or truncates the file, which must not be a pipe; is_open() tells whether that
+  /// succeeded.
   explicit LcmLogFile(std::string path);
 
   [[nodiscard]] bool is_open() const { return log_ != nullptr; }

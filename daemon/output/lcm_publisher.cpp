@@ -198,6 +198,7 @@ std::string LcmPublisher::open() {
 
 std::string LcmPublisher::connect() {
   if (const std::string problem = open(); !problem.empty()) {
+    file_.reset();
     return concat({"LCM at ", url_, ": ", problem});
   }
   const std::uint64_t failures = failures_;

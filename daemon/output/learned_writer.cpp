@@ -43,7 +43,8 @@ struct LearnedWriter::Shared {
   bool has_ended = false;
 };
 
-LearnedWriter::LearnedWriter(std::string path) : shared_(std::make_shared<Shared>(std::move(path))) {
+LearnedWriter::LearnedWriter(std::string path)
+    : shared_(std::make_shared<Shared>(std::move(path))) {
   const SignalsBlocked blocked;  // Signals must reach the main loop, to interrupt its reads.
   thread_ = std::thread(&LearnedWriter::run, shared_);
 }
@@ -79,8 +80,8 @@ std::string LearnedWriter::finish(std::optional<std::string> text) {
   shared_->changed.notify_all();
   const bool has_ended =
       shared_->changed.wait_for(lock, kLongestWait, [&] { return shared_->has_ended; });
-  const std::string problem = has_ended ? shared_->problem : concat({"the disk of ", shared_->path,
-                                                                     " does not answer"});
+  const std::string problem =
+      has_ended ? shared_->problem : concat({"the disk of ", shared_->path, " does not answer"});
   lock.unlock();
   has_ended ? thread_.join() : thread_.detach();
   return problem;

@@ -44,10 +44,14 @@ ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
   return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-/// A stream buffer that writes to a FILE, as std::cout does to stdout.
+/// A stream buffer that writes to a FILE of plain text, as std::cout does to stdout.
 class FileBuffer final : public std::streambuf {
  public:
-  explicit FileBuffer(std::FILE* file) : file_(file) {}
+  explicit FileBuffer(int descriptor)
+      : output_{descriptor, {}},
+        file_(::fopencookie(&output_, "w", {nullptr, write_plain, nullptr, nullptr})) {}
+
+  [[nodiscard]] std::FILE* file() const { return file_; }
 
  protected:
   int_type overflow(int_type c) override {
@@ -60,18 +64,18 @@ class FileBuffer final : public std::streambuf {
   int sync() override { return std::fflush(file_); }
 
  private:
+  PlainOutput output_;
   std::FILE* file_;
 };
 
 /// Never destroyed: standard streams are flushed after all other objects.
 std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
-  auto* const output = new PlainOutput{descriptor, {}};
-  std::FILE* const file = ::fopencookie(output, "w", {nullptr, write_plain, nullptr, nullptr});
-  if (file != nullptr) {
-    std::setvbuf(file, nullptr, buffering, BUFSIZ);
-    stream.rdbuf(new FileBuffer(file));
+  auto* const buffer = new FileBuffer(descriptor);
+  if (buffer->file() != nullptr) {
+    std::setvbuf(buffer->file(), nullptr, buffering, BUFSIZ);
+    stream.rdbuf(buffer);
   }
-  return file;
+  return buffer->file();
 }
 
 }  // namespace

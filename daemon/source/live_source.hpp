@@ -84,7 +84,7 @@ class LiveSource final : public FrameSource {
   std::int64_t polled_us_ = 0;  // Realtime clock.
   std::size_t next_to_read_;    // Index in polled_; the number of interfaces: none.
   std::size_t expected_frames_ = 0;
-  StampMerge merge_;  // A lane per interface.
+  StampMerge merge_;           // A lane per interface.
   std::vector<bool> is_late_;  // By interface: its last frame was stale.
 };
 

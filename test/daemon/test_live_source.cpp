@@ -116,7 +116,8 @@ TEST_CASE("Error frames are counted and tell the time; those that lost frames ar
 
 TEST_CASE("Frames of several interfaces come by stamp, and none is waited for on a silent one") {
   Bench bench(3);
-  const std::vector<std::pair<std::size_t, canid_t>> sent = {{0, 1}, {1, 2}, {0, 3}, {1, 4}, {1, 5}};
+  const std::vector<std::pair<std::size_t, canid_t>> sent = {
+      {0, 1}, {1, 2}, {0, 3}, {1, 4}, {1, 5}};
   for (const auto& [interface, id] : sent) {
     bench.pairs[interface].send(id, 8);
   }

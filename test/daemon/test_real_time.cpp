@@ -61,6 +61,8 @@ TEST_CASE("The heap stays as it is, whatever the report of a second takes and fr
 }
 
 TEST_CASE("The thread that writes to the disk has no real-time priority") {
+  // A sanitizer's own thread begins with the first one: here, without the priority.
+  std::thread([] {}).join();
   const sched_param priority{.sched_priority = 1};
   if (::sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
     WARN("skipped: no permission for SCHED_FIFO");
@@ -72,7 +74,9 @@ TEST_CASE("The thread that writes to the disk has no real-time priority") {
     while (!writer.offer("x") || file.content() != "x") {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    CHECK(policies_of_others() == std::vector<int>{SCHED_OTHER});
+    const std::vector<int> policies = policies_of_others();
+    CHECK_FALSE(policies.empty());
+    CHECK(policies == std::vector<int>(policies.size(), SCHED_OTHER));
   }
   const sched_param ordinary{};
   ::sched_setscheduler(0, SCHED_OTHER, &ordinary);

@@ -41,6 +41,7 @@ struct Ars408Manners {
   bool obeys = true;
   bool keeps_range = false;   ///< A model with a shorter range than commanded.
   bool falls_silent = false;  ///< Sends no 0x201 after a command.
+  int filters_taken = 1000;   ///< It obeys that many, and then no more.
 };
 
 /// Sensors at the other end of a socket that replaces a bus: each reports its state about a hundred
@@ -71,6 +72,14 @@ class FakeArs408s {
   FakeArs408s& operator=(const FakeArs408s&) = delete;
 
   CanSocket& socket() { return socket_; }
+
+  void send(const CanFrame& frame) const {
+    can_frame raw{};
+    raw.can_id = frame.id;
+    raw.can_dlc = frame.length;
+    std::memcpy(raw.data, frame.data.data(), sizeof(raw.data));
+    ::send(bus_, &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
 
   /// All frames sent to the bus; stops the sensors.
   const std::vector<CanFrame>& all_received() {
@@ -119,14 +128,6 @@ class FakeArs408s {
     }
   }
 
-  void send(const CanFrame& frame) const {
-    can_frame raw{};
-    raw.can_id = frame.id;
-    raw.can_dlc = frame.length;
-    std::memcpy(raw.data, frame.data.data(), sizeof(raw.data));
-    ::send(bus_, &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
-  }
-
   void take(const can_frame& raw) {
     CanFrame frame;
     frame.id = raw.can_id;
@@ -149,7 +150,7 @@ class FakeArs408s {
     const auto filter = decode_ars408_filter_state(std::span(asked.data).first(asked.length));
     const auto index = static_cast<std::size_t>(filter->criterion);
     const bool is_valid = (asked.data[0] & 2U) != 0;
-    if (is_valid && manners_.obeys) {
+    if (is_valid && manners_.obeys && manners_.filters_taken-- > 0) {
       filters_[index] = asked;
     }
     CanFrame told = filters_[index];

@@ -86,6 +86,15 @@ TEST_CASE("After a filter that does not take nothing more is sent") {
   CHECK_THAT(silent.text, Catch::EndsWith("no 0x204 came after it: the sensor does not answer\n"));
 }
 
+TEST_CASE("Filters that were written to flash are named when a later one fails") {
+  const Outcome outcome =
+      talk({.filters_taken = 2}, {"range=5..100", "rcs=-10..30", "count=0..90", "azimuth=-9..9"});
+  CHECK(outcome.result == TalkResult::not_taken);
+  CHECK(outcome.sent.size() == 3);
+  CHECK_THAT(outcome.text,
+             Catch::EndsWith("already in its flash: range: 5 to 100 m; rcs: -10 to 30 dBm^2\n"));
+}
+
 TEST_CASE("How filters are worded") {
   const auto round_trip = [](const std::string& text) {
     const auto filter = parse_ars408_filter(text);

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -43,6 +46,19 @@ Outcome set_up(const std::vector<Ars408RadarState>& states, const Ars408Manners&
       {configuration, configuration.radars[0], options, sensors.socket(), out}, said.setup);
   return {result, out.str(), sensors.all_received()};
 }
+
+/// Text that tells when the user is asked.
+class WhenFlushed final : public std::stringbuf {
+ public:
+  explicit WhenFlushed(std::function<void()> then) : then_(std::move(then)) {}
+
+ private:
+  int sync() override {
+    then_();
+    return 0;
+  }
+  std::function<void()> then_;
+};
 
 void check_sent(const Outcome& outcome, const std::string& expected) {
   CAPTURE(outcome.text);
@@ -124,7 +140,7 @@ TEST_CASE("What did not take is named") {
   CHECK_THAT(outcome.text, Catch::Contains(row.text));
 }
 
-TEST_CASE("A sensor that is set as wanted is left alone, unless it is to store it") {
+TEST_CASE("A sensor that is set as wanted is left alone, unless it has not stored it and is to") {
   Ars408RadarState state = factory_state(0);
   state.output_code = 2;
   state.sends_extended = false;
@@ -133,6 +149,27 @@ TEST_CASE("A sensor that is set as wanted is left alone, unless it is to store i
   CHECK(outcome.sent.empty());
   CHECK_THAT(outcome.text, Catch::Contains("It already has these settings"));
   CHECK(set_up({state}, {}, {.setup = {.store = true}}).sent.size() == 1);
+  state.nvm_written = true;
+  const Outcome repeated = set_up({state}, {}, {.setup = {.store = true}});
+  CHECK(repeated.result == TalkResult::took);
+  CHECK(repeated.sent.empty());
+  CHECK_THAT(repeated.text, Catch::Contains("in its flash too; nothing was sent"));
+  CHECK(set_up({state}, {}, {.setup = {.max_distance_m = 250.0, .store = true}}).sent.size() == 1);
+}
+
+TEST_CASE("What came while the user was asked confirms nothing") {
+  FakeArs408s sensors({factory_state(0)}, {.obeys = false}, {});
+  const Configuration configuration = two_ars408s();
+  const Input input(Input::Kind::terminal, "y\n");
+  Ars408TalkOptions options = quick_talk({.obeys = false});
+  options.consent.terminal = input.descriptor();
+  WhenFlushed prompt([&] { sensors.send(encode_ars408(0, good_state())); });
+  std::ostream out(&prompt);
+  const TalkResult result =
+      set_up_ars408({configuration, configuration.radars[0], options, sensors.socket(), out}, {});
+  CAPTURE(prompt.str());
+  CHECK(result == TalkResult::not_taken);
+  CHECK(sensors.all_received().size() == 1);
 }
 
 TEST_CASE("Nothing is sent where it is not certain which sensor is meant") {
@@ -197,4 +234,23 @@ TEST_CASE("Two sensors that are set alike are told by how often their id reports
                       {}) == TalkResult::not_sent);
   CHECK(sensors.all_received().empty());
   CHECK_THAT(out.str(), Catch::Contains("two sensors with id 0 seem to be on can0"));
+}
+
+TEST_CASE("Of two sensors with one id, one may report every 5 s only") {
+  constexpr std::int64_t kSecondUs = 1'000'000;
+  const Ars408TalkOptions options;
+  const Configuration configuration = two_ars408s();
+  const std::int64_t phase_us = GENERATE(range(std::int64_t{0}, 5 * kSecondUs, kSecondUs / 10));
+  Ars408States states;
+  for (std::int64_t us = kSecondUs / 20; us < options.listen_us; us += kSecondUs / 20) {
+    if (us % kSecondUs == kSecondUs / 20 || us % (5 * kSecondUs) == phase_us) {
+      CanFrame report = encode_ars408(0, good_state());
+      report.stamp_us = us;
+      note_state(report, states);
+    }
+  }
+  const auto bus = std::make_unique<BusObservation>();
+  CHECK_THAT(
+      find_ars408(configuration, configuration.radars[0], options.address, *bus, states).problem,
+      Catch::Contains("two sensors with id 0"));
 }

@@ -125,6 +125,17 @@ bool exchange(const CanFrame& frame, const std::optional<Ars408FilterState>& wan
   return took;
 }
 
+/// After a failure: what was set before it stays.
+void tell_written(std::span<const Ars408FilterState> written, std::ostream& out) {
+  std::string list;
+  for (const Ars408FilterState& filter : written) {
+    list += concat({list.empty() ? "" : "; ", to_text(filter)});
+  }
+  if (!list.empty()) {
+    out << "already in its flash: " << list << '\n';
+  }
+}
+
 }  // namespace
 
 std::optional<Ars408FilterState> parse_ars408_filter(std::string_view text) {
@@ -166,6 +177,7 @@ TalkResult talk_about_filters(const Ars408Talk& talk,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto expected = wanted.empty() ? std::nullopt : filter_in(frames[i]);
     if (!exchange(frames[i], expected, talk)) {
+      tell_written(std::span(wanted).first(std::min(i, wanted.size())), talk.out);
       return TalkResult::not_taken;
     }
   }

@@ -143,8 +143,10 @@ TalkResult set_up_ars408(const Ars408Talk& talk, const Ars408Setup& setup) {
   const Ars408RadarState wanted =
       wanted_state(*talk.radar.decoder.as<Ars408Options>(), setup, met->state);
   const std::vector<Setting> settings = settings_of(setup);
-  if (!setup.store && is_as_wanted(settings, wanted, met->state)) {
-    talk.out << "It already has these settings; nothing was sent.\n";
+  // Flash that holds them is not written again.
+  if (is_as_wanted(settings, wanted, met->state)) {
+    talk.out << "It already has these settings" << (setup.store ? ", in its flash too" : "")
+             << "; nothing was sent.\n";
     return TalkResult::took;
   }
   show_plan(settings, met->state, wanted, setup, talk.out);

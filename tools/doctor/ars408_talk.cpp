@@ -25,6 +25,13 @@ std::string frame_text(const std::string& interface, const CanFrame& frame) {
   return std::string(text.substr(begin, text.find('\n') - begin));
 }
 
+/// Discards what came before, such as while the user was asked: it is no answer.
+void drain(CanSocket& socket) {
+  constexpr int kMostBatches = 1000;  // More than a receive buffer holds.
+  for (int i = 0; i < kMostBatches && socket.receive().status == CanReceiveStatus::frames; ++i) {
+  }
+}
+
 }  // namespace
 
 void listen(CanSocket& socket, std::int64_t duration_us,
@@ -75,6 +82,7 @@ bool is_agreed(const Ars408Talk& talk, std::span<const CanFrame> frames) {
 }
 
 bool send(const Ars408Talk& talk, const CanFrame& frame) {
+  drain(talk.socket);
   const int error = talk.socket.send(frame);
   if (error != 0) {
     talk.out << frame_text(talk.radar.interface, frame) << " was not sent: " << std::strerror(error)

@@ -20,7 +20,8 @@ namespace cremed {
 struct Ars408TalkOptions {
   Ars408Address address{};
   Consent consent{};
-  std::int64_t listen_us = 2'200'000;  ///< A sensor reports once a second.
+  /// A sensor reports once a second; a second one with its id perhaps every 5 s only.
+  std::int64_t listen_us = 6'200'000;
   std::int64_t confirm_us = 3'000'000;
 };
 
@@ -50,7 +51,7 @@ std::optional<MetArs408> meet(const Ars408Talk& talk);
 /// Shows the frames to send, and asks for consent.
 bool is_agreed(const Ars408Talk& talk, std::span<const CanFrame> frames);
 
-/// Sends the frame once; prints why if that fails.
+/// Sends the frame once; prints why if that fails. What is received next came after it.
 bool send(const Ars408Talk& talk, const CanFrame& frame);
 
 /// Calls `use(frame)` for each frame within the time, until it returns true.

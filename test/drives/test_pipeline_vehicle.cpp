@@ -160,7 +160,8 @@ std::int64_t begin_us(const Drive& drive) { return drive.frames.front().stamp_us
 
 // Turns by positions are about 1 % too small in the simulated town, which the scale of the yaw rate
 // follows: the signals improve the yaw little there. On real drives see test_real_vehicle_bus.
-TEST_CASE("Speed and yaw rate of the vehicle lower the errors, and are as certain as they say") {
+TEST_CASE("Speed and yaw rate of the vehicle lower the errors, and are as certain as they say",
+          "[long]") {
   const std::string interface = GENERATE("can0", "can7");
   const Drive simulated = town(interface);
   const WindowErrors without = errors_of(run_without(simulated), simulated);
@@ -184,7 +185,7 @@ TEST_CASE("Speed and yaw rate of the vehicle lower the errors, and are as certai
   }
 }
 
-TEST_CASE("A lost signal is named, and the radars go on; it returns") {
+TEST_CASE("A lost signal is named, and the radars go on; it returns", "[long]") {
   const Drive simulated = town();
   const std::int64_t from_us = begin_us(simulated) + 20'000'000;
   const std::int64_t until_us = from_us + GENERATE(10'000'000, 100'000'000);
@@ -213,7 +214,7 @@ TEST_CASE("A signal that never comes is lost, and changes nothing") {
   CHECK(outcome.sink.odometries.back().odom_pose == without.sink.odometries.back().odom_pose);
 }
 
-TEST_CASE("A frozen signal is named, and does not hold the odometry back") {
+TEST_CASE("A frozen signal is named, and does not hold the odometry back", "[long]") {
   const Drive simulated = town();
   for (const std::uint32_t id : {kSpeedId, kYawRateId}) {
     CAPTURE(id);
@@ -226,7 +227,7 @@ TEST_CASE("A frozen signal is named, and does not hold the odometry back") {
   }
 }
 
-TEST_CASE("A speed that is 10 % too large is excluded and named") {
+TEST_CASE("A speed that is 10 % too large is excluded and named", "[long]") {
   const Drive simulated = town();
   const VehicleOutcome outcome = run_with(simulated, scaled(simulated.frames, kSpeedId, 1.1));
   CHECK(signal_state(outcome.speed) == SignalState::excluded);
@@ -237,7 +238,8 @@ TEST_CASE("A speed that is 10 % too large is excluded and named") {
   CHECK(errors_of(outcome, simulated).path < errors_of(run_without(simulated), simulated).path);
 }
 
-TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the first turns") {
+TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the first turns",
+          "[long]") {
   const Drive simulated = town();
   const VehicleOutcome outcome = run_with(simulated, scaled(simulated.frames, kYawRateId, 1.1));
   CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);
@@ -247,7 +249,8 @@ TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the fir
   check_credible(outcome, simulated, begin_us(simulated) + 45'000'000);
 }
 
-TEST_CASE("Signals that come 0.3 s late are excluded and named after the first manoeuvres") {
+TEST_CASE("Signals that come 0.3 s late are excluded and named after the first manoeuvres",
+          "[long]") {
   const Drive simulated = town();
   const VehicleOutcome outcome = run_with(simulated, delayed(simulated.frames, 300'000));
   for (const VehicleStatus& status : {outcome.speed, outcome.yaw_rate}) {
@@ -259,7 +262,8 @@ TEST_CASE("Signals that come 0.3 s late are excluded and named after the first m
 }
 
 TEST_CASE(
-    "Signals in a wrong unit or of a wrong sign are excluded in the first turn, and cost little") {
+    "Signals in a wrong unit or of a wrong sign are excluded in the first turn, and cost little",
+    "[long]") {
   const Drive simulated = town("can0", 60.0);
   const auto frames =
       scaled(scaled(simulated.frames, kSpeedId, 3.6), kYawRateId, GENERATE(-1.0, 57.3));

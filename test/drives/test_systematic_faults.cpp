@@ -11,7 +11,7 @@
 using namespace cremed;
 using namespace cremed::test;
 
-TEST_CASE("Simulated drive of the nuScenes car: each systematic fault") {
+TEST_CASE("Simulated drive of the nuScenes car: each systematic fault", "[long]") {
   const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
   const FaultDrive drive = simulated_fault_drive("bends", 20.0, car.radars);
   SystematicMatrix matrix(&NotYet::simulated);
@@ -20,7 +20,7 @@ TEST_CASE("Simulated drive of the nuScenes car: each systematic fault") {
   matrix.check();
 }
 
-TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that starts") {
+TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that starts", "[long]") {
   SystematicMatrix matrix(&NotYet::simulated);
   for (const auto& [name, neighbour] : kNeighbours) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -28,4 +28,12 @@ TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that st
     }
   }
   matrix.check();
+}
+
+TEST_CASE("Each systematic fault of a short drive leaves odometry") {
+  const FaultDrive drive = simulated_fault_drive("bends", 2.0);
+  for (const FaultCase& fault : SystematicFaults(drive).all()) {
+    CAPTURE(fault.kind, fault.of);
+    CHECK_FALSE(record(drive, fault).sink.odometries.empty());
+  }
 }

@@ -153,7 +153,7 @@ std::string report(const RadarConfiguration& radar, const RadarStatus& status) {
 
 }  // namespace
 
-TEST_CASE("Self-check: a healthy drive raises no doubt") {
+TEST_CASE("Self-check: a healthy drive raises no doubt", "[long]") {
   const std::string name = GENERATE("straight", "bends", "stop-and-go", "city", "reversing");
   const std::uint64_t seed = GENERATE(1U, 2U);
   CAPTURE(name, seed);
@@ -177,7 +177,8 @@ TEST_CASE("Self-check: a healthy drive raises no doubt") {
   }
 }
 
-TEST_CASE("Self-check: each fault shows within a minute, and the fused motion stays right") {
+TEST_CASE("Self-check: each fault shows within a minute, and the fused motion stays right",
+          "[long]") {
   const Drive healthy = simulated("bends", default_radars(), 3, 60.0);
   for (const Fault& fault : faults()) {
     Radars told = healthy.radars;

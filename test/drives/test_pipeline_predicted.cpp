@@ -97,7 +97,8 @@ TEST_CASE("A rate that is no divisor of a second keeps to its multiples too") {
   }
 }
 
-TEST_CASE("Predicted poses are as credible as those at scans, from anchor to anchor too") {
+TEST_CASE("Predicted poses are as credible as those at scans, from anchor to anchor too",
+          "[long]") {
   // Two paths: since the anchor, and from anchor to anchor, which is chained.
   Credibility since_anchor(3);
   Credibility chained(3);

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The line for `systemctl status`. UDP replaces CAN; the clock stands still, so that nothing looks
+// for the interface.
+#include <csignal>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "cremed/can_decoders/ars408_commands.hpp"
+#include "daemon/live_reporter.hpp"
+#include "daemon/process/clocks.hpp"
+#include "test/daemon/datagram_pair.hpp"
+#include "test/daemon/moved_clock.hpp"
+
+using namespace cremed;
+using cremed::test::DatagramPair;
+
+namespace {
+
+Configuration one_radar() {
+  Configuration configuration;
+  RadarConfiguration radar;
+  radar.name = "front";
+  radar.interface = "absent";
+  radar.decoder = Ars408Options{.motion_feedback = true};
+  configuration.radars.push_back(radar);
+  configuration.odometry.enabled = false;
+  configuration.live.max_latency_s = 60.0;  // However busy the computer is.
+  return configuration;
+}
+
+class Bench {
+ public:
+  void connect() { source_.interfaces()[0]->adopt(bus_.receiver()); }
+  void send(canid_t id, int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      bus_.send(id, 8);
+    }
+  }
+
+  /// Reads what was sent, and reports.
+  std::string report() {
+    CanFrame frame;
+    // A busy kernel may deliver after the first silence.
+    for (int silences = 0; silences < 2;) {
+      const SourceEvent event = source_.next(frame);
+      silences += event == SourceEvent::idle ? 1 : 0;
+      if (event == SourceEvent::frame) {
+        feedback_.hear(frame);
+      }
+      pipeline_.on_event(event, frame);
+    }
+    return reporter_.report();
+  }
+
+ private:
+  volatile std::sig_atomic_t stop_ = 0;
+  DatagramPair bus_;
+  Configuration configuration_ = one_radar();
+  LiveSource source_{configuration_, &stop_};
+  FreshnessGate gate_{{}, 500'000, &realtime_us};
+  Pipeline pipeline_{configuration_, source_, {&gate_}, PipelineClock{&realtime_us, true}};
+  MotionFeedback feedback_{configuration_, source_};
+  LiveReporter reporter_{configuration_, pipeline_, source_, gate_, feedback_, nullptr};
+};
+
+}  // namespace
+
+TEST_CASE("The line names the state of the bus, and what follows from it only if that is well") {
+  Bench bench;
+  CHECK_THAT(bench.report(), Catch::StartsWith("front: absent "));
+  bench.connect();
+  CHECK(bench.report() == "front: absent is silent");
+  bench.send(CAN_ERR_FLAG | 0x80);  // CAN_ERR_BUSERROR.
+  // An error frame is an idle event too.
+  CHECK(bench.report() == "front: absent has errors only");
+  bench.send(0x201);  // Begins no scan, which would end some time later.
+  CHECK(bench.report() == "front: 0 scans/s, 0 estimates/s");
+  CHECK(bench.report() == "front: absent is silent");
+}
+
+TEST_CASE("The line names another node that tells the sensor its motion") {
+  Bench bench;
+  bench.connect();
+  bench.send(0x201);
+  CHECK(bench.report() == "front: 0 scans/s, 0 estimates/s");
+  bench.send(encode_ars408_speed(0, 1.0).id);
+  CHECK(bench.report() ==
+        "front: 0 scans/s, 0 estimates/s, motion_feedback paused: another node sends it");
+}

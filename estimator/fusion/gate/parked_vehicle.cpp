@@ -35,6 +35,8 @@ constexpr double kNoiseError = 0.3;
 constexpr double kMinDopplerStdMps = kArs408DopplerStdMps;
 constexpr double kLearningShare = 0.03;
 constexpr double kMaxNoiseMps = 0.75;
+/// Of the own lane: a car in it that starts as we do rests beside us, and does not count.
+constexpr double kHalfLaneM = 1.75;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
 /// Radars differ in velocity by this and this share, besides noise: a scan is up to 0.1 s older
@@ -63,6 +65,9 @@ void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velo
   scans += 1.0;
   const double margin_mps = kMaxSigmas * std::sqrt(noise);
   for (const Target& target : seen) {
+    if (std::abs(target.y_m) < kHalfLaneM) {
+      continue;
+    }
     const double expected_mps = -target.cos_bearing * velocity.velocity_mps.x() -
                                 target.sin_bearing * velocity.velocity_mps.y();
     const auto [low, high] = std::minmax({0.0, expected_mps});
@@ -94,10 +99,10 @@ bool ParkedVehicle::Look::departs() const {
 }
 
 bool ParkedVehicle::Look::rests_beside(const Eigen::Vector2d& departing_mps, double sigmas) const {
-  const Eigen::Array2d missed = (departing_mps - mean_mps()).array().abs();
+  const Eigen::Array2d differing = (departing_mps - mean_mps()).array().abs();
   const Eigen::Array2d bound =
       kMaxDifferenceMps + sigmas * std_mps() + kMaxDifferenceShare * departing_mps.norm();
-  return (missed > bound).any() && mean_mps().norm() < kMaxRestingShare * departing_mps.norm();
+  return (differing > bound).any() && mean_mps().norm() < kMaxRestingShare * departing_mps.norm();
 }
 
 ParkedVehicle::Share ParkedVehicle::Look::share() const {

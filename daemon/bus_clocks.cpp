@@ -12,15 +12,21 @@ namespace cremed {
 
 bool BusClocks::is_set_back(const CanFrame& frame) {
   Clock& own = clocks_[frame.interface];
-  const bool is_back = own.last_us && frame.stamp_us < *own.last_us - kSetBackUs;
-  own.last_us = frame.stamp_us;
   for (Clock& other : clocks_) {
-    if (&other == &own || !other.last_us) {
+    if (&other == &own || !other.latest_us) {
       continue;
     }
-    const bool is_behind = frame.stamp_us < *other.last_us - kAheadUs;
+    const bool is_behind = frame.stamp_us < *other.latest_us - kAheadUs;
     other.frames_behind = is_behind ? std::min(other.frames_behind + 1, kMinFramesBehind) : 0;
   }
+  const bool is_back = own.latest_us && frame.stamp_us < *own.latest_us - kSetBackUs;
+  own.frames_back = is_back ? own.frames_back + 1 : 0;
+  if (is_back && own.frames_back < kMinFramesBack) {
+    return false;
+  }
+  own.latest_us =
+      is_back ? frame.stamp_us : std::max(own.latest_us.value_or(frame.stamp_us), frame.stamp_us);
+  own.frames_back = 0;
   return is_back;
 }
 

@@ -16,8 +16,8 @@ namespace cremed {
 /// The stamps of each bus compared with those of its frames before and of the other buses.
 class BusClocks {
  public:
-  /// Notes a frame, in the order of arrival. True if its stamp is kSetBackUs or more before that of
-  /// the last frame of its bus: the clock was set.
+  /// Notes a frame, in the order of arrival. True if its stamp and those of the frames before it
+  /// are kSetBackUs or more before the latest of its bus: the clock was set.
   bool is_set_back(const CanFrame& frame);
   /// Whether the stamps of a bus are kAheadUs or more ahead of those of all other buses that send:
   /// its own clock is wrong, since frames cannot arrive before they are sent.
@@ -28,12 +28,15 @@ class BusClocks {
  private:
   /// Frames of one bus overtake each other by 5 ms at most (20 frames at 500 kbit/s).
   static constexpr std::int64_t kSetBackUs = 50'000;
+  /// In a row: a single frame may have waited for the next list.
+  static constexpr std::uint32_t kMinFramesBack = 3;
   /// Beyond max_lateness_s of the odometry, which then takes the scans of the others for late.
   static constexpr std::int64_t kAheadUs = 500'000;
   /// In a row and of other buses: a cluster list of an ARS408.
   static constexpr std::uint32_t kMinFramesBehind = 25;
   struct Clock {
-    std::optional<std::int64_t> last_us;
+    std::optional<std::int64_t> latest_us;
+    std::uint32_t frames_back = 0;    // Stamped that much before it.
     std::uint32_t frames_behind = 0;  // Of other buses, stamped that much earlier.
   };
 

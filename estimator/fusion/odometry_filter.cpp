@@ -293,8 +293,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   if (is_used) {
     state_.update();
     output_.add_radar(radar);
-    // Radars that look sideways do not hold the odometry if the others are there but wrong.
-    if (!is_witness(radar) || !consensus_.has_distrusted(stamp_us)) {
+    if (!is_witness(radar)) {
       condition_.use_scan(scan.is_clear);
     }
   }
@@ -316,7 +315,9 @@ bool OdometryFilter::positions_confirm_state(std::size_t radar, const TargetSet&
 }
 
 /// Whether a radar looks sideways, where others do not. Past it the reflections of targets move
-/// along with the vehicle: its positions shorten the way by 16 to 38 %, and are not used.
+/// along with the vehicle: its positions shorten the way by 16 to 38 %, and are not used. It does
+/// not hold the odometry either: without the others 1.8 % of the rows were beyond 5 sigma (passing
+/// vehicles, nuScenes).
 bool OdometryFilter::is_witness(std::size_t radar) const {
   return has_forward_radar_ && looks_across(state_.mount(radar));
 }

@@ -24,8 +24,18 @@ TEST_CASE("frames in order or reordered by some milliseconds are no clock that w
     const std::int64_t stamp_us = kStartUs + 250 * i - (i % 50 == 49 ? 5'000 : 0);
     CHECK_FALSE(clocks.is_set_back(frame_of(static_cast<std::uint8_t>(i % 3), stamp_us)));
   }
-  CHECK(clocks.is_set_back(frame_of(1, kStartUs + 100'000)));
+  CHECK_FALSE(clocks.is_set_back(frame_of(1, kStartUs + 100'000)));
   CHECK_FALSE(clocks.is_set_back(frame_of(1, kStartUs + 100'250)));
+  CHECK(clocks.is_set_back(frame_of(1, kStartUs + 100'500)));
+  CHECK_FALSE(clocks.is_set_back(frame_of(1, kStartUs + 100'750)));
+}
+
+TEST_CASE("a frame that waited for the next list is no clock that was set back") {
+  BusClocks clocks;
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    const std::int64_t late_us = i % 50 == 49 ? 75'000 : 0;
+    CHECK_FALSE(clocks.is_set_back(frame_of(0, kStartUs + 250 * i - late_us)));
+  }
 }
 
 TEST_CASE("the bus that is ahead of all others is told, not the others, and not one that is late") {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -66,6 +67,14 @@ int show(const Arguments& arguments) {
   return cremed::stop_requested() ? 0 : kRunTimeFailure;
 }
 
+/// A log is read; with mode=w LCM would empty it.
+bool can_be_heard(std::string_view url) {
+  if (url.starts_with("file://")) {
+    return url.find("mode=w") == std::string_view::npos;
+  }
+  return url != "none" && cremed::is_lcm_url(url);
+}
+
 int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   arguments.lcm_url = default_url();
@@ -79,7 +88,7 @@ int run(CLI::App& app, int argc, char** argv) {
       ->check(CLI::Range(0, kHighestPort))
       ->capture_default_str();
   app.parse(argc, argv);
-  if (arguments.lcm_url == "none" || !cremed::is_lcm_url(arguments.lcm_url)) {
+  if (!can_be_heard(arguments.lcm_url)) {
     throw CLI::ValidationError("--lcm-url", "'" + arguments.lcm_url + "' is no URL such as " +
                                                 cremed::OutputConfiguration{}.lcm_url);
   }

@@ -55,17 +55,6 @@ bool RadarConsensus::contradicts_positions(std::int64_t time_us) const {
   return confirmed > 0 && 2 * confirmed >= judged;
 }
 
-bool RadarConsensus::has_distrusted(std::int64_t time_us) const {
-  for (std::size_t i = 0; i < trusts_.size(); ++i) {
-    const RadarTrust& trust = trusts_[i];
-    if (!looks_across(state_.mount(i)) && trust.has_verdict && !trust.is_trusted &&
-        seconds_between(trust.verdict_us, time_us) <= kScanVerdictValidS) {
-      return true;
-    }
-  }
-  return false;
-}
-
 double RadarConsensus::longest_contradiction_s() const {
   int scans = 0;
   for (const RadarTrust& trust : trusts_) {

@@ -34,8 +34,6 @@ class RadarConsensus {
   [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
   /// Whether half or more of the contradicting radars contradict their own positions.
   [[nodiscard]] bool contradicts_positions(std::int64_t time_us) const;
-  /// Whether a radar that does not look sideways has scans, but is not trusted.
-  [[nodiscard]] bool has_distrusted(std::int64_t time_us) const;
   /// Longest time for which a radar has contradicted.
   [[nodiscard]] double longest_contradiction_s() const;
   /// A radar that looks sideways and repeatedly contradicts the filter; FaultHypotheses judges the

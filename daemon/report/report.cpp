@@ -262,7 +262,9 @@ struct DoubtText {
 constexpr std::array<DoubtText, 3> kDoubts{{
     {registration_contradicts_doppler, &BeliefStatus::doppler_innovation,
      "the positions of its targets contradict their Doppler",
-     "check the mount's yaw and the sign of Doppler and azimuth: `cremed-eval calibrate`"},
+     "check the mount's yaw, the sign of Doppler and azimuth, and whether its noise is set too "
+     "small: "
+     "`cremed-eval calibrate`"},
     {motions_contradict_each_other, &BeliefStatus::next_innovation,
      "its motion jumps more than a vehicle's can",
      "check mount and detections; `cremed-eval calibrate` estimates its noise"},

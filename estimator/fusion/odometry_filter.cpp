@@ -54,6 +54,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       consensus_(state_),
       faults_(state_),
       condition_(state_, consensus_, faults_),
+      parked_(state_),
       output_(state_),
       vehicle_(state_, output_) {
   for (const OdometryRadar& radar : radars) {
@@ -81,7 +82,11 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     }
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
-  return with_condition(output_.next());
+  Odometry odometry = output_.next();
+  const Odometry result = with_condition(odometry);
+  odometry.status = result.status;
+  parked_.add_output(odometry);
+  return result;
 }
 
 std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
@@ -108,6 +113,7 @@ void OdometryFilter::forget() {
 }
 
 Odometry OdometryFilter::with_condition(Odometry odometry) const {
+  parked_.widen(odometry);
   odometry.status = condition_.status(odometry);
   odometry.left_out = left_out();
   return odometry;
@@ -117,8 +123,8 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  const bool is_lost =
-      condition_.is_lost() && is_trusted && gap_s > -state_.options().max_lateness_s;
+  const bool is_lost = condition_.is_lost() && is_trusted && !parked_.is_in_doubt() &&
+                       gap_s > -state_.options().max_lateness_s;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
       faults_.require_positions();
@@ -139,6 +145,7 @@ void OdometryFilter::restart(std::int64_t stamp_us) {
   consensus_.clear();
   state_.restart(stamp_us);
   condition_.start();
+  parked_.clear();
   output_.start();
   has_started_ = true;
 }
@@ -172,11 +179,15 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
-  if (sees_two_worlds(radar, targets, *scan, stamp_us)) {
+  using Parked = ParkedVehicle::Verdict;
+  const Parked parked = judge_parked(radar, targets, *scan, stamp_us);
+  if (parked == Parked::two_worlds || sees_two_worlds(radar, targets, *scan, stamp_us)) {
     condition_.doubt();
     return false;
   }
-  faults_.add_velocity(radar, stamp_us, scan->velocity);
+  if (parked != Parked::undecided) {
+    faults_.add_velocity(radar, stamp_us, scan->velocity);
+  }
   if (faults_.is_unknown()) {
     condition_.doubt();
   }
@@ -199,6 +210,42 @@ std::optional<Eigen::Vector2d> OdometryFilter::expected_velocity(std::size_t rad
   const Pose2& mount = state_.mount(radar);
   const double w = state_.gaussian.mean(kYawRate);
   return Eigen::Vector2d(state_.gaussian.mean(kSpeed) - w * mount.y_m, w * mount.x_m);
+}
+
+/// What a parked vehicle sees. The way that it seemed to go before two worlds showed, or before it
+/// seemed to rest again, remains as uncertainty.
+ParkedVehicle::Verdict OdometryFilter::judge_parked(std::size_t radar, const TargetSet& targets,
+                                                    const ScanVelocity& scan,
+                                                    std::int64_t stamp_us) {
+  using Verdict = ParkedVehicle::Verdict;
+  const Verdict before = parked_.verdict();
+  if (!parked_.is_parked() || !consensus_[radar].is_trusted || consensus_.is_left_out(radar)) {
+    return before;
+  }
+  const Verdict of_scan = parked_.judge(radar, targets, scan.velocity, stamp_us);
+  const Verdict now = parked_.verdict();
+  if (now == Verdict::two_worlds && before != Verdict::two_worlds) {
+    rest();
+  } else if (now == Verdict::rests && before == Verdict::undecided) {
+    add_way();
+  }
+  return of_scan;
+}
+
+/// The vehicle is taken to rest, with the speed that it seemed to have as uncertainty.
+void OdometryFilter::rest() {
+  const GaussianState& state = state_.gaussian;
+  const Eigen::Vector2d variance(squared(state.mean(kSpeed)) + squared(state.std(kSpeed)),
+                                 squared(state.mean(kYawRate)) + squared(state.std(kYawRate)));
+  state_.start_motion(Eigen::Vector2d::Zero(), variance.asDiagonal());
+  add_way();
+}
+
+void OdometryFilter::add_way() {
+  const Eigen::Vector3d way = parked_.way();
+  for (const int i : {kX, kY, kYaw}) {
+    state_.gaussian.add_variance(i, squared(way[i]));
+  }
 }
 
 /// Whether the radar may have fitted a world that moves along with the vehicle, by its Doppler and

@@ -13,6 +13,7 @@
 
 #include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
 #include "cremed/estimator/fusion/gate/filter_condition.hpp"
+#include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
 #include "cremed/estimator/fusion/map/map_nodes.hpp"
 #include "cremed/estimator/fusion/map/map_registration.hpp"
@@ -48,7 +49,8 @@ struct OdometryRadar {
 ///
 /// `gate/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly fails
 /// it is left out until it agrees again. If a majority of radars contradicts the filter and agrees
-/// with each other, the velocity is reset to theirs.
+/// with each other, the velocity is reset to theirs. A vehicle that stood is not moved by what
+/// departs beside it (ParkedVehicle).
 ///
 /// `output/`: poses relative to an anchor and since the start, and predictions between scans.
 ///
@@ -98,6 +100,10 @@ class OdometryFilter {
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
   [[nodiscard]] std::uint32_t left_out() const;
+  ParkedVehicle::Verdict judge_parked(std::size_t radar, const TargetSet& targets,
+                                      const ScanVelocity& scan, std::int64_t stamp_us);
+  void rest();
+  void add_way();
   void compare_speed(std::size_t radar, const MapMatch& match);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
@@ -123,6 +129,7 @@ class OdometryFilter {
   RadarConsensus consensus_;
   FaultHypotheses faults_;
   FilterCondition condition_;
+  ParkedVehicle parked_;
   OdometryOutput output_;
   VehicleSignals vehicle_;
   bool has_forward_radar_ = false;  // One that does not look sideways.

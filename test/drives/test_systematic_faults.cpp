@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/faults/parked_drive.hpp"
+#include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_matrix.hpp"
 
 using namespace cremed;
@@ -35,5 +36,18 @@ TEST_CASE("Each systematic fault of a short drive leaves odometry") {
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
     CAPTURE(fault.kind, fault.of);
     CHECK_FALSE(record(drive, fault).sink.odometries.empty());
+  }
+}
+
+TEST_CASE("An own start beside resting and moving traffic is usable at once, and right") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const FaultDrive drive = StartDrive(seed).drive();
+    const FaultCase none{"none", "", {drive.start_us() + 1'000'000, kNever}};
+    const DriveFigures figures = judged(drive, none);
+    CAPTURE(drive.name);
+    CHECK(figures.status_share(OdometryStatus::ok) +
+              figures.status_share(OdometryStatus::standing_still) >=
+          0.98);
+    CHECK(verdict_of(none, figures).is_right);
   }
 }

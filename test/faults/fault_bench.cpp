@@ -22,6 +22,7 @@
 #include "test/faults/drive_figures.hpp"
 #include "test/faults/figures_line.hpp"
 #include "test/faults/parked_drive.hpp"
+#include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
 
 namespace {
@@ -33,16 +34,19 @@ constexpr const char* kUsage =
     R"(fault_bench [--seconds S] [--case TEXT] DRIVE...
 
 Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of
-cremed-simulate (bends), or what departs beside a parked vehicle: train, convoy, jam-starts.
+cremed-simulate (bends), what departs beside a parked vehicle: train, convoy, jam-starts, or a start
+of the vehicle itself: own-start.
 CREMED_SHARED names the folder with the recorded data.
   --seconds S  only the beginning of 105 and of simulated drives (default 40)
   --case TEXT  only cases whose name and radar contain it
-  --seeds N    so many parked vehicles (default 20)
+  --seeds N    so many of the latter two (default 20)
+  --seed N     only this one
 
 )";
 
 struct Options {
   double seconds = 40.0;
+  std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
   std::string filter;
   std::vector<std::string> drives;
@@ -56,6 +60,8 @@ Options options_of(int argc, char** argv) {
       options.seconds = std::atof(argv[++i]);
     } else if (argument == "--seeds" && i + 1 < argc) {
       options.seeds = std::strtoull(argv[++i], nullptr, 10);
+    } else if (argument == "--seed" && i + 1 < argc) {
+      options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--case" && i + 1 < argc) {
       options.filter = argv[++i];
     } else if (argument.starts_with("-")) {
@@ -103,12 +109,15 @@ void run_all(const std::vector<Job>& jobs) {
   std::printf("all holds in %td of %zu\n", held, lines.size());
 }
 
-void run_parked(Neighbour neighbour, std::uint64_t seeds) {
+/// `drive_of(seed)`
+void run_seeds(const std::function<FaultDrive(std::uint64_t)>& drive_of, std::uint64_t first,
+               std::uint64_t last) {
   std::vector<Job> jobs;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    jobs.emplace_back([neighbour, seed] {
-      const FaultDrive drive = ParkedDrive(neighbour, seed).drive();
-      const FaultCase none{"none", "", {drive.start_us(), kNever}};
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
+    jobs.emplace_back([&drive_of, seed] {
+      const FaultDrive drive = drive_of(seed);
+      const auto stands_us = static_cast<std::int64_t>(1e6 * ParkedDrive::kDepartureS);
+      const FaultCase none{"none", "", {drive.start_us() + stands_us, kNever}};
       return figures_line(drive, none, judged(drive, none));
     });
   }
@@ -139,7 +148,10 @@ int main(int argc, char** argv) {
       const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
                                        [&](const auto& each) { return each.first == name; });
       if (parked != kNeighbours.end()) {
-        run_parked(parked->second, options.seeds);
+        run_seeds([&](auto seed) { return ParkedDrive(parked->second, seed).drive(); },
+                  options.seed, options.seeds);
+      } else if (name == "own-start") {
+        run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options.seed, options.seeds);
       } else {
         run_faults(drive_of(name, options.seconds), options.filter);
       }

@@ -30,6 +30,41 @@ enum class Neighbour : std::uint8_t {
 inline constexpr std::array<std::pair<std::string_view, Neighbour>, 3> kNeighbours{
     {{"train", Neighbour::train}, {"convoy", Neighbour::convoy}, {"jam-starts", Neighbour::jam}}};
 
+/// Radars of a vehicle: the demo's car with side radars; four corners as on RadarScenes' car; two
+/// Bosch GPR. All targets of the ARS408s are used, or those that they call static.
+struct RadarLayout {
+  std::size_t kind;
+  bool are_flags_used;
+
+  [[nodiscard]] std::string name() const {
+    constexpr std::array<const char*, 3> kNames{"car", "corners", "GPR"};
+    return std::string(kNames.at(kind)) + (are_flags_used && kind != 2 ? " flags" : "");
+  }
+
+  [[nodiscard]] std::vector<RadarConfiguration> radars() const {
+    std::vector<RadarConfiguration> result;
+    if (kind == 0) result = four_radars();
+    if (kind == 1) {
+      result = {radar("right_front", "can0", {3.86, -0.7, -0.436}, Ars408Options{}),
+                radar("left_front", "can1", {3.86, 0.7, 0.436}, Ars408Options{}),
+                radar("right_side", "can2", {3.66, -0.87, -1.484}, Ars408Options{}),
+                radar("left_side", "can3", {3.66, 0.87, 1.484}, Ars408Options{})};
+    }
+    if (kind == 2) {
+      result = {radar("front", "can0", {3.6, 0.0, 0.0}, BoschGprOptions{}),
+                radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
+    }
+    for (RadarConfiguration& each : result) {
+      if (const auto* ars408 = each.decoder.as<Ars408Options>(); ars408 && !are_flags_used) {
+        Ars408Options unflagged = *ars408;
+        unflagged.keep_dyn_props = 0xFF;
+        each.decoder = unflagged;
+      }
+    }
+    return result;
+  }
+};
+
 /// A vehicle that is parked for 16 s; after 6 s its neighbours depart, with 0.1 to 2 m/s^2 and 30
 /// to 100 % of the targets. With half of the ARS408s all targets are used, with the others those
 /// that they call static. All by `seed`.
@@ -41,8 +76,7 @@ class ParkedDrive {
         acceleration_mps2_(0.1 * std::pow(20.0, random_.uniform())),
         share_(random_.uniform(0.3, 1.0)),
         side_(random_.index(3)),
-        layout_(random_.index(3)),
-        are_flags_used_(random_.chance(0.5)) {
+        layout_{random_.index(3), random_.chance(0.5)} {
     options_.seed = seed;
     options_.duration_s = 16.0;
   }
@@ -53,15 +87,15 @@ class ParkedDrive {
     scene.traffic.departures = departures();
     scene.world = {.built_share = 0.0, .clutter_per_m = 1.0};
     scene.world.clutter_per_m = clutter_per_m(scene);
-    const Drive parked = cremed::test::drive(scene, radars(), options_);
+    const Drive parked = cremed::test::drive(scene, layout_.radars(), options_);
     return {name(count(parked).departing_share()), parked.radars, parked.frames, truth_of(parked),
             TruthNoise()};
   }
 
- private:
   static constexpr double kDepartureS = 6.0;
+
+ private:
   static constexpr std::array<const char*, 3> kSides{"left", "right", "ahead"};
-  static constexpr std::array<const char*, 3> kLayouts{"car", "corners", "GPR"};
 
   /// Targets before the departure, without ghosts.
   struct TargetCount {
@@ -89,7 +123,7 @@ class ParkedDrive {
     SimulationOptions short_trial = options_;
     short_trial.duration_s = 1.0;
     for (int i = 0; i < kTrials; ++i) {
-      const TargetCount found = count(cremed::test::drive(scene, radars(), short_trial));
+      const TargetCount found = count(cremed::test::drive(scene, layout_.radars(), short_trial));
       const double wanted = found.departing * (1.0 - share_) / share_;
       scene.world.clutter_per_m =
           std::min(kMostPerM, scene.world.clutter_per_m * wanted / std::max(1.0, found.fixed));
@@ -99,37 +133,12 @@ class ParkedDrive {
 
   [[nodiscard]] std::string name(double share) const {
     char text[96];
-    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f%% %s%s",
+    std::snprintf(text, sizeof text, "%s %llu %s %.2f m/s2 %.0f%% %s",
                   kNeighbours.at(static_cast<std::size_t>(neighbour_)).first.data(),
                   static_cast<unsigned long long>(options_.seed),
                   neighbour_ == Neighbour::train ? kSides.at(side_) : "around", acceleration_mps2_,
-                  100.0 * share, kLayouts.at(layout_),
-                  are_flags_used_ && layout_ != 2 ? " flags" : "");
+                  100.0 * share, layout_.name().c_str());
     return text;
-  }
-
-  /// The demo's car with side radars; four corners as on RadarScenes' car; two Bosch GPR.
-  [[nodiscard]] std::vector<RadarConfiguration> radars() const {
-    std::vector<RadarConfiguration> result;
-    if (layout_ == 0) result = four_radars();
-    if (layout_ == 1) {
-      result = {radar("right_front", "can0", {3.86, -0.7, -0.436}, Ars408Options{}),
-                radar("left_front", "can1", {3.86, 0.7, 0.436}, Ars408Options{}),
-                radar("right_side", "can2", {3.66, -0.87, -1.484}, Ars408Options{}),
-                radar("left_side", "can3", {3.66, 0.87, 1.484}, Ars408Options{})};
-    }
-    if (layout_ == 2) {
-      result = {radar("front", "can0", {3.6, 0.0, 0.0}, BoschGprOptions{}),
-                radar("rear", "can1", {-0.9, 0.0, std::numbers::pi}, BoschGprOptions{})};
-    }
-    for (RadarConfiguration& each : result) {
-      if (const auto* ars408 = each.decoder.as<Ars408Options>(); ars408 && !are_flags_used_) {
-        Ars408Options unflagged = *ars408;
-        unflagged.keep_dyn_props = 0xFF;
-        each.decoder = unflagged;
-      }
-    }
-    return result;
   }
 
   [[nodiscard]] std::vector<Departure> departures() {
@@ -156,7 +165,7 @@ class ParkedDrive {
   }
 
   /// A Bosch GPR sends few targets, the nearest.
-  [[nodiscard]] double spacing_m() const { return layout_ == 2 ? 4.0 : 1.5; }
+  [[nodiscard]] double spacing_m() const { return layout_.kind == 2 ? 4.0 : 1.5; }
 
   /// Three lanes of vehicles, all but our own place; each starts `delay_s` after the one before it.
   [[nodiscard]] std::vector<Departure> vehicles(double length_m, double width_m, double period_m,
@@ -187,8 +196,7 @@ class ParkedDrive {
   double acceleration_mps2_;
   double share_;  // Of the targets, that departs.
   std::size_t side_;
-  std::size_t layout_;
-  bool are_flags_used_;  // Of the ARS408s.
+  RadarLayout layout_;
   SimulationOptions options_;
 };
 

@@ -18,7 +18,7 @@ enum class OdometryStatus : std::uint8_t {
                        ///< settled_scans scans used.
   predicted = 3,       ///< No measurement used for > predicted_s.
   ambiguous = 4,       ///< No scan with mostly static targets for > ambiguous_s; at the start,
-                       ///< a radar contradicts; at the start or predicted, two worlds.
+                       ///< a radar contradicts; at the start, parked or predicted, two worlds.
   lost = 5,            ///< No measurement used for > lost_s; the next restarts the velocity.
 };
 

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Whether a vehicle that stood for a while starts, or what it sees: a train, a convoy, a jam.
+///
+/// If a share q of the targets rests and the others depart with V, the fitted velocity is
+/// (1 - q) V and the residuals have the variance q (1 - q) V^2 besides the noise. Their ratio tells
+/// the share long before both worlds can be told apart target by target:
+///
+///     (residuals^2 - noise^2) / fitted^2 = q / (1 - q)
+///
+/// The noise is that of the targets while all rest. Radars that see different worlds, and a motion
+/// sideways, are no start either.
+class ParkedVehicle {
+ public:
+  enum class Verdict : std::uint8_t {
+    rests,       ///< Nothing departs, or what most targets of this scan show rests.
+    undecided,   ///< Something departs, too slowly to tell.
+    two_worlds,  ///< Something departs and something rests.
+    started,     ///< All departs as one world.
+  };
+
+  /// Uses the mounts of `state`, which must outlive this object.
+  explicit ParkedVehicle(const OdometryState& state) : state_(state), looks_(state.radars()) {}
+
+  void clear() { is_parked_ = is_standing_ = false; }
+  /// The newest output, before widen().
+  void add_output(const Odometry& odometry);
+  /// A parked vehicle may move as estimated or not at all: adds the way since then, and the
+  /// velocity, to the standard deviations.
+  void widen(Odometry& odometry) const;
+  /// The way (x, y, yaw) that it seems to have gone since nothing departed.
+  [[nodiscard]] Eigen::Vector3d way() const { return relative_pose(rest_odom_pose_, odom_pose_); }
+  /// It stood for kParkedUs, and has not started since.
+  [[nodiscard]] bool is_parked() const { return is_parked_; }
+  /// The last verdict.
+  [[nodiscard]] Verdict verdict() const { return is_parked_ ? verdict_ : Verdict::started; }
+  /// Something departs, and it is not known whether the vehicle does.
+  [[nodiscard]] bool is_in_doubt() const { return is_parked_ && verdict_ != Verdict::rests; }
+  /// Judges by a scan, and by the last ones of the other radars. Not parked if started.
+  Verdict judge(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
+                std::int64_t stamp_us);
+
+ private:
+  static constexpr std::int64_t kParkedUs = 1'000'000;
+
+  /// q / (1 - q).
+  struct Share {
+    double rest = 0.0;
+    double departing = 0.0;
+    double noise = 0.0;     // That was subtracted from `rest`,
+    double variance = 0.0;  // and the variance of its sum.
+
+    void add(const Share& other);
+    [[nodiscard]] double value() const { return rest / departing; }
+    [[nodiscard]] double error() const;
+  };
+  /// Sums over the last scans of a radar, with weights that decay.
+  struct Look {
+    std::int64_t stamp_us = 0;
+    double scans = 0.0;
+    Eigen::Vector2d sum_mps = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sum_variance = Eigen::Vector2d::Zero();
+    double targets = 0.0;
+    double missed = 0.0;    ///< Squares of residuals,
+    double expected = 0.0;  ///< and of the Doppler by the fitted velocity.
+    double noise = 0.0;     ///< Variance of a target's Doppler, learned at rest.
+    bool counts = false;    ///< It is recent, and the others do not outvote it.
+
+    [[nodiscard]] Eigen::Vector2d mean_mps() const { return sum_mps / scans; }
+    [[nodiscard]] Eigen::Array2d std_mps() const { return sum_variance.array().sqrt() / scans; }
+    void add(const TargetSet& seen, const DopplerVelocity& velocity, std::int64_t now_us);
+    void learn_noise(const TargetSet& seen);
+    [[nodiscard]] bool departs() const;
+    [[nodiscard]] bool rests_beside(const Eigen::Vector2d& departing_mps, double sigmas) const;
+    [[nodiscard]] Share share() const;
+  };
+
+  void leave_out_odd(std::int64_t stamp_us);
+  [[nodiscard]] Eigen::Vector2d fastest_mps() const;
+  [[nodiscard]] Verdict judge_all() const;
+  [[nodiscard]] bool is_sideways(std::size_t radar) const;
+
+  const OdometryState& state_;
+  std::vector<Look> looks_;
+  Verdict verdict_ = Verdict::rests;
+  bool is_parked_ = false;
+  bool is_standing_ = false;
+  std::int64_t standing_us_ = 0;  // Since when.
+  // Poses of the last output, and of the last one at rest: since the anchor and since the start.
+  std::int64_t anchor_us_ = 0;
+  Eigen::Vector3d parked_pose_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rest_odom_pose_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace cremed

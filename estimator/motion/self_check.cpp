@@ -14,8 +14,8 @@ namespace {
 
 /// A time-averaged NIS above this shows too small a covariance: errors are 1.4 times as large as
 /// stated. Of a true covariance it is 1 +- 0.28 (100 innovations, each error shared by four in a
-/// row, 0.3 s); no healthy drive reaches it (six recorded, ten simulated). Noise set three times too
-/// small gives 2.1 to 2.7, and a tenth of the motions beyond 5 sigma.
+/// row, 0.3 s); no healthy drive reaches it (six recorded, ten simulated). Noise set three times
+/// too small gives 2.1 to 2.7, and a tenth of the motions beyond 5 sigma.
 constexpr double kMaxMeanInnovation = 2.0;
 /// A covariance is too large if both means are below these. Healthy drives have at least 0.4 and
 /// 0.2: the priors of shared errors bound the first from below, and the second is small if a

@@ -60,7 +60,7 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"learned mounts wrong", "I", "", "a side radar is left out instead of learned anew"},
     {"learned scales wrong", "B", "", kFalseAlarm},
     {"train", "", "I", kMajority},
-    {"convoy", "", "I", kMajority},
+    {"convoy", "", "BI", kMajority},
     {"jam-starts", "", "I", kMajority},
 });
 

@@ -32,7 +32,7 @@ std::string problem_of_writing(const std::string& path, const std::string& text)
 }  // namespace
 
 struct LearnedWriter::Shared {
-  explicit Shared(std::string path_) : path(std::move(path_)) {}
+  explicit Shared(std::string file) : path(std::move(file)) {}
 
   const std::string path;
   std::mutex mutex;
@@ -80,7 +80,7 @@ std::string LearnedWriter::finish(std::optional<std::string> text) {
   shared_->changed.notify_all();
   const bool has_ended =
       shared_->changed.wait_for(lock, kLongestWait, [&] { return shared_->has_ended; });
-  const std::string problem =
+  std::string problem =
       has_ended ? shared_->problem : concat({"the disk of ", shared_->path, " does not answer"});
   lock.unlock();
   has_ended ? thread_.join() : thread_.detach();

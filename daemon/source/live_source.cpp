@@ -111,7 +111,7 @@ SourceEvent LiveSource::judge(std::size_t interface, const ReceivedFrame& receiv
                               CanFrame& frame) {
   BusStatus& status = interfaces_[interface]->status();
   frame.interface = static_cast<std::uint8_t>(interface);
-  frame.stamp_us = received.received_us - kIdleMs * 1000;
+  frame.stamp_us = received.received_us - std::int64_t{kIdleMs} * 1000;
   if (received.frame.error) {
     return note_error_frame(received.frame, status) ? SourceEvent::dropped : SourceEvent::idle;
   }

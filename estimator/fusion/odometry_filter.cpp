@@ -83,7 +83,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
   Odometry odometry = output_.next();
-  const Odometry result = with_condition(odometry);
+  Odometry result = with_condition(odometry);
   odometry.status = result.status;
   parked_.add_output(odometry);
   return result;

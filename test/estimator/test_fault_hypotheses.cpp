@@ -42,6 +42,10 @@ class Comparison {
       }
     }
   }
+  void set_clock(double by_s) {
+    time_s_ += by_s;
+    faults_.clear();
+  }
   [[nodiscard]] const FaultHypotheses& faults() const { return faults_; }
 
  private:
@@ -179,6 +183,22 @@ TEST_CASE("a radar at fault returns after some seconds of agreement, each time l
     last_s = left_out_s;
   }
   CHECK(last_s < 30.0);
+}
+
+TEST_CASE("a clock that is set holds no radar longer, and judging goes on") {
+  const double by_s = GENERATE(-500.0, -1.0, 500.0);
+  CAPTURE(by_s);
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  comparison.drive(3.0, scaled(0, 0.8));
+  REQUIRE(comparison.faults().at_fault() == 1U);
+  comparison.set_clock(by_s);
+  comparison.drive(1.0);
+  CHECK(comparison.faults().at_fault() == 1U);
+  comparison.drive(10.0);
+  CHECK(comparison.faults().at_fault() == 0U);
+  comparison.drive(3.0, scaled(1, 0.8));
+  CHECK(comparison.faults().at_fault() == 2U);
 }
 
 TEST_CASE("after the filter was lost only positions verify") {

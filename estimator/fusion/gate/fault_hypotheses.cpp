@@ -89,6 +89,10 @@ FaultHypotheses::FaultHypotheses(const OdometryState& state)
 
 void FaultHypotheses::clear() {
   std::fill(tracks_.begin(), tracks_.end(), Track());
+  for (Verdict& verdict : verdicts_) {
+    verdict.until_us.reset();
+  }
+  newest_us_ = std::numeric_limits<std::int64_t>::min();
   count_ = 0;
   unknown_epochs_ = 0;
 }
@@ -396,12 +400,14 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   supported_epochs_ = is_known && is_supported(best.set, time_us) ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Verdict& verdict = verdicts_[i];
+    verdict.until_us = verdict.until_us.value_or(time_us + verdict.hold_us);
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;
     if (is_judged && is_known && !is_in) {
       accuse(i, time_us);
-    } else if (verdicts_[i].is_at_fault && time_us > verdicts_[i].until_us) {
-      verdicts_[i].is_at_fault = false;
+    } else if (time_us > *verdict.until_us) {
+      verdict.is_at_fault = false;
     }
   }
 }

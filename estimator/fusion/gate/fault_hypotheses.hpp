@@ -115,7 +115,7 @@ class FaultHypotheses {
   using Epoch = std::vector<Sums>;  // By radar.
   struct Verdict {
     bool is_at_fault = false;
-    std::int64_t until_us = 0;
+    std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
     std::int64_t hold_us = 0;
   };
   struct Hypothesis {

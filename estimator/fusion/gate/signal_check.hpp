@@ -32,7 +32,10 @@ class SignalCheck {
   /// A reading, in the order of the stamps; otherwise the earlier ones are discarded.
   void add(std::int64_t stamp_us, double value);
   /// Discards the readings, not the findings.
-  void clear() { count_ = 0; }
+  void clear() {
+    count_ = 0;
+    compared_us_ = 0;
+  }
   /// Mean rate of a radar's motion from `start_us` to `end_us`, with its variance.
   void compare(std::int64_t start_us, std::int64_t end_us, double rate, double variance);
 

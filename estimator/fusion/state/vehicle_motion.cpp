@@ -12,6 +12,10 @@ namespace {
 
 using namespace state_layout;
 
+/// Random walk of the position (m^2/s). To first order the way across is slip times mean speed:
+/// without this walk the covariance of a vehicle of unknown speed, with mean 0, is singular.
+constexpr double kPositionWalkM2PerS = 1e-6;
+
 /// Decay of an Ornstein-Uhlenbeck process from 1 after dt, and its integral over dt.
 struct Decay {
   double left;
@@ -52,6 +56,7 @@ void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, con
   const Eigen::Vector2d by_yaw = dt_s * v * across;
   step.state.head<2>() += dt_s * v * along;
   step.state(kYaw) += dt_s * w;
+  step.noise(kX, kX) = step.noise(kY, kY) = kPositionWalkM2PerS * std::abs(dt_s);
   auto xy = step.jacobian.topRows<2>();
   const Eigen::Vector2d by_slip = dt_s * v * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw));
   xy.col(kYaw) += by_yaw;

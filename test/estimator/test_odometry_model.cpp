@@ -344,6 +344,20 @@ TEST_CASE("process noise does not depend on the step length") {
   }
 }
 
+TEST_CASE("the covariance of a pose stays definite if the speed is unknown and its mean 0") {
+  const OdometryOptions options;
+  VehicleEstimate vehicle{MotionStep::Vector::Zero(), MotionStep::Matrix::Zero()};
+  vehicle.mean(kSlip) = 0.003;
+  vehicle.covariance(kSpeed, kSpeed) = 900.0;
+  vehicle.covariance(kYawRate, kYawRate) = 0.09;
+  vehicle.covariance(kSlip, kSlip) = 1e-4;
+  const double dt_s = GENERATE(1e-5, 0.01, 0.1);
+  CAPTURE(dt_s);
+  const Eigen::Matrix2d position =
+      vehicle.predicted(dt_s, options).covariance.topLeftCorner<2, 2>();
+  CHECK(position.determinant() > 0.5e-6 * dt_s * position(0, 0));
+}
+
 TEST_CASE("the Jacobian of a relative pose is its derivative") {
   using Poses = Eigen::Matrix<double, 6, 1>;
   const Poses at = (Poses() << 1.0, -2.0, 0.8, 4.0, 1.0, 1.1).finished();

@@ -13,10 +13,10 @@ namespace cremed {
 namespace {
 
 /// A time-averaged NIS above these shows too small a covariance. Positions against Doppler: errors
-/// are 1.7 times as large as stated; healthy drives reach 2.3 for seconds (0655 and 1094 of nuScenes).
-/// Motion against motion: 1 is a vehicle that accelerates by its prior all the time; healthy drives
-/// stay below 0.5 (seven recorded, twelve simulated); noise set three times too small gives up to
-/// 1.2 and 1.6.
+/// are 1.7 times as large as stated; healthy drives reach 2.3 for seconds (0655 and 1094 of
+/// nuScenes). Motion against motion: 1 is a vehicle that accelerates by its prior all the time;
+/// healthy drives stay below 0.5 (seven recorded, twelve simulated); noise set three times too
+/// small gives up to 1.2 and 1.6.
 constexpr double kMaxMeanByDoppler = 3.0;
 constexpr double kMaxMeanByNext = 1.0;
 /// A covariance is too large if both means are below these. Healthy drives have at least 0.4 and

@@ -39,7 +39,7 @@ TEST_CASE("Each systematic fault of a short drive leaves odometry") {
   }
 }
 
-TEST_CASE("An own start beside resting and moving traffic is usable at once, and right") {
+TEST_CASE("An own start beside resting and moving traffic is usable at once, and right", "[long]") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const FaultDrive drive = StartDrive(seed).drive();
     const FaultCase none{"none", "", {drive.start_us() + 1'000'000, kNever}};

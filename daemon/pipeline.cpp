@@ -217,7 +217,7 @@ void Pipeline::publish(RadarChannel& radar, const RadarScan& scan, std::int64_t 
 /// That the positions of a radar contradict its Doppler is decisive only if the comparison with the
 /// others is not: a mount may be off that the odometry learns.
 bool Pipeline::is_trusted(const RadarChannel& radar) const {
-  return !radar.self_check.speed().is_contradicted() &&
+  return (radar.self_check.doubts() & positions_contradict_speed) == 0 &&
          (radar.self_check.is_trusted() || !filter_->is_fault_unknown());
 }
 

@@ -54,6 +54,9 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.belief.doppler_innovation = self_check.doppler().mean();
   status_.belief.next_innovation = self_check.next().mean();
   status_.belief.is_speed_checked = self_check.speed().is_checked();
+  const DopplerScale& scale = self_check.scale();
+  status_.belief.doppler_correction =
+      scale.is_wrong() ? std::optional(scale.correction()) : std::nullopt;
   status_.belief.doubts =
       self_check.doubts() | (is_ahead ? std::uint32_t{stamps_run_ahead} : 0U) |
       (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);

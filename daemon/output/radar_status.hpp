@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/radar_health.hpp"
@@ -30,6 +31,8 @@ struct BeliefStatus {
   std::uint32_t doubts = 0;         ///< Doubt bits; 0: no doubt.
   /// Positions gave a speed in the last seconds, which the Doppler check needs.
   bool is_speed_checked = false;
+  /// By which the Doppler would have to be multiplied, if its scale is wrong (DopplerScale).
+  std::optional<double> doppler_correction = std::nullopt;
 };
 
 /// All counters of one radar's pipeline.

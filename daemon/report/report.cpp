@@ -286,7 +286,15 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
 }
 
 void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
-  if ((belief.doubts & positions_contradict_speed) != 0) {
+  if (belief.doppler_correction) {
+    const double percent = 100.0 * (1.0 / *belief.doppler_correction - 1.0);
+    findings.push_back(
+        {Severity::warning,
+         concat({"its Doppler is ", decimal(std::abs(percent)), " % too ",
+                 percent > 0.0 ? "large" : "small", " by the positions of its targets"}),
+         "the sensor or the scale of its signal is wrong; if it is so on every drive, "
+         "`cremed-eval calibrate` finds calibration.doppler_scale"});
+  } else if ((belief.doubts & positions_contradict_speed) != 0) {
     findings.push_back(
         {Severity::warning, "the positions of its targets give another speed than their Doppler",
          "Doppler has the wrong sign, is stuck or over ground (it must be relative to the sensor), "

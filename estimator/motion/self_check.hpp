@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "cremed/estimator/motion/doppler_scale.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "cremed/estimator/motion/innovation_mean.hpp"
 #include "cremed/estimator/motion/speed_check.hpp"
@@ -27,7 +28,8 @@ class SelfCheck {
  public:
   explicit SelfCheck(const EgoMotionOptions& options)
       : options_(options.registration),
-        looks_across_(cremed::looks_across(options.vehicle_from_radar)) {}
+        looks_across_(cremed::looks_across(options.vehicle_from_radar)),
+        scale_(options.vehicle_from_radar) {}
 
   /// A motion, and the targets of the scan at its end.
   void add(const EgoMotion& motion, const TargetSet& targets);
@@ -42,6 +44,8 @@ class SelfCheck {
 
   /// Check of the Doppler speed by positions.
   [[nodiscard]] const SpeedCheck& speed() const { return speed_; }
+  /// Check of the scale of Doppler by positions.
+  [[nodiscard]] const DopplerScale& scale() const { return scale_; }
 
   /// Factor on the covariance of a radar that looks sideways, by these innovations. It registers
   /// the reflections of passed objects, which move along: ANEES of such radars is 2 to 30 on
@@ -61,6 +65,8 @@ class SelfCheck {
   InnovationMean doppler_;
   InnovationMean next_;
   SpeedCheck speed_;
+  DopplerScale scale_;
+  double yaw_rate_radps_ = 0.0;
   EgoMotion last_;
 };
 

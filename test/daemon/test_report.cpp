@@ -229,6 +229,20 @@ TEST_CASE("A speed by positions that is not Doppler's is named with its causes")
              Catch::Contains("over ground") && Catch::Contains("faster or slower"));
 }
 
+TEST_CASE("A wrong scale of Doppler is named with its size") {
+  RadarStatus status = healthy();
+  status.belief.doubts = positions_contradict_speed;
+  status.belief.doppler_correction = 1.25;
+  auto findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 20.0 % too small"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains("calibration.doppler_scale"));
+  status.belief.doppler_correction = 0.9;
+  findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 11.1 % too large"));
+}
+
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {
   RadarConfiguration radar = front();
   radar.decoder.as<Ars408Options>()->keep_dyn_props = 0xFF;

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Checks the scale of a radar's Doppler by the positions of its targets. Two scans are compared
+/// between which the vehicle drove some metres by Doppler. If the Doppler is right but for its
+/// scale, the targets of the first are found in the second at (1 + r) times that way, with one r
+/// for all static targets. Each pair of targets that fits across the way votes for its r, without
+/// association or start value; the votes of moving targets and of chance pairs are spread evenly.
+///
+/// On healthy drives the r with most votes is within 0.02 (front radars of nuScenes 0061, 0103,
+/// 1094, RadarScenes 105, each alone); with a Doppler scale of 0.9, 0.95 and 1.05 it is 0.10 to
+/// 0.13, 0.04 to 0.06 and -0.06 to -0.04.
+class DopplerScale {
+ public:
+  explicit DopplerScale(const Pose2& vehicle_from_radar) : mount_(vehicle_from_radar) {}
+
+  /// Adds the targets of the next scan. `yaw_rate_radps`: since the previous one.
+  void add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us);
+  /// To be called when the clock of the stamps was set.
+  void forget();
+
+  /// The Doppler has another scale than the positions: begins and ends with clear votes.
+  [[nodiscard]] bool is_wrong() const { return is_wrong_; }
+  /// (1 + r), by which the Doppler would have to be multiplied; of the latest clear votes.
+  [[nodiscard]] double correction() const { return correction_; }
+
+ private:
+  static constexpr std::size_t kScans = 16;
+  static constexpr std::size_t kMaxTargets = 128;
+  static constexpr int kMaxShareSteps = 30;  // Largest r that is searched for, in steps of 0.01.
+  static constexpr int kMiddle = 45;
+  static constexpr std::size_t kSteps = 2 * kMiddle + 1;
+
+  struct Point {
+    Eigen::Vector2d m;  // From the sensor, in the axes of the vehicle.
+    double side_variance_m2 = 0.0;
+  };
+  struct Scan {
+    std::int64_t stamp_us = 0;
+    Eigen::Vector2d way_m = Eigen::Vector2d::Zero();  // Of the sensor, by Doppler.
+    double yaw_rad = 0.0;
+    std::size_t size = 0;
+    std::array<Point, kMaxTargets> points;
+  };
+
+  [[nodiscard]] Scan& scan(std::size_t age) { return scans_[(newest_ + kScans - age) % kScans]; }
+  void advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_radps, std::int64_t stamp_us);
+  void take(const TargetSet& targets, Scan& to) const;
+  void vote(const Scan& from, const Scan& to, const Eigen::Vector2d& way_m);
+  void judge(double way_m);
+
+  Pose2 mount_;
+  DopplerVelocityEstimator doppler_;
+  Eigen::Vector2d velocity_mps_ = Eigen::Vector2d::Zero();
+  std::array<Scan, kScans> scans_;
+  std::array<double, kSteps> votes_{};
+  std::size_t newest_ = 0;
+  std::size_t count_ = 0;
+  double correction_ = 1.0;
+  bool is_wrong_ = false;
+};
+
+}  // namespace cremed

@@ -27,6 +27,9 @@ constexpr double kMinConfirmedShare = 0.4;
 constexpr double kMaxConfirmedM = 0.3;
 /// Gate between a speed and the expected one. False-alarm rate: 1 in 370.
 constexpr double kMaxSpeedSigmas = 3.0;
+/// After so many scans the state does not follow the first radar any more, which may be wrong: 0.4
+/// s of three radars tell that.
+constexpr int kMinScansOfState = 30;
 
 std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
   std::vector<Pose2> result;
@@ -145,6 +148,7 @@ void OdometryFilter::restart(std::int64_t stamp_us) {
   consensus_.clear();
   state_.restart(stamp_us);
   condition_.start();
+  stepped_us_.reset();
   parked_.clear();
   output_.start();
   has_started_ = true;
@@ -192,7 +196,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
   }
   if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
-      !condition_.has_used_scans()) {
+      condition_.used_scans() == 0) {
     // The speed, and so the distance, was unknown since the start: restart here.
     output_.bridge(0.0);
     state_.restart(state_.time_us());
@@ -257,14 +261,18 @@ bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets
   const Eigen::Vector2d& sensor_mps = scan.velocity.velocity_mps;
   const Eigen::Vector3d velocity(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m, w);
   const double std_mps = std::sqrt(scan.velocity.covariance(0, 0));
-  const double since_s = seconds_between(std::min(condition_.used_us(), stamp_us), stamp_us);
-  const double max_difference_mps =
-      kMaxSpeedSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
+  const double max_difference_mps = possible_speed_change_mps(stamp_us);
   const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
   return two_worlds_[radar].check(
       targets, velocity, kMaxSpeedSigmas * std_mps, is_start, [&](double speed_mps) {
         return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= max_difference_mps;
       });
+}
+
+/// Largest change of the speed that a vehicle can make since the last scan that was used.
+double OdometryFilter::possible_speed_change_mps(std::int64_t stamp_us) const {
+  const double since_s = seconds_between(std::min(condition_.used_us(), stamp_us), stamp_us);
+  return kMaxSpeedSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
 }
 
 bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
@@ -332,9 +340,16 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   const Eigen::Vector2d wrong(state_.gaussian.mean(kSpeed), state_.gaussian.mean(kYawRate));
   const Eigen::Vector2d error = majority->value() - wrong;
   const double since_s = consensus_.longest_contradiction_s();
+  // A step of all radars that no vehicle can make is not followed: the odometry is lost, and
+  // positions have to confirm the next start.
+  if (condition_.used_scans() >= kMinScansOfState && consensus_.is_step(stamp_us) &&
+      std::abs(error.x()) > possible_speed_change_mps(stamp_us)) {
+    stepped_us_ = condition_.used_us();
+  }
+  const bool is_impossible = stepped_us_ == condition_.used_us();
   // The positions can tell which of the speeds is wrong once they would be that far apart.
-  if (std::abs(error.x()) * since_s > 2.0 * kMaxConfirmedM &&
-      consensus_.contradicts_positions(stamp_us)) {
+  if (is_impossible || (std::abs(error.x()) * since_s > 2.0 * kMaxConfirmedM &&
+                        consensus_.contradicts_positions(stamp_us))) {
     condition_.doubt();
     return;
   }

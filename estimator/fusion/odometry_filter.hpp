@@ -109,6 +109,7 @@ class OdometryFilter {
   [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                        std::int64_t stamp_us);
+  [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                     std::int64_t stamp_us);
   [[nodiscard]] bool positions_confirm_state(std::size_t radar, const TargetSet& targets,
@@ -134,6 +135,7 @@ class OdometryFilter {
   VehicleSignals vehicle_;
   bool has_forward_radar_ = false;  // One that does not look sideways.
   bool has_started_ = false;
+  std::optional<std::int64_t> stepped_us_;  // Last scan used before all radars stepped.
 };
 
 }  // namespace cremed

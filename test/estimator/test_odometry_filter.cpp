@@ -18,7 +18,6 @@ using simulation::OdometryDrive;
 const Pose2 kFront{3.4, 0.0, 0.0};
 const Pose2 kRearLeft{-0.6, 0.6, 3.05};
 const Pose2 kRearRight{-0.6, -0.6, -3.05};
-const Pose2 kLeft{2.4, 0.8, 1.55};
 
 bool is_good(const Odometry& odometry) {
   return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
@@ -187,6 +186,18 @@ TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   CHECK(drive.next().status == OdometryStatus::predicted);
   drive.radar(0).world_mps = 0.0;
   CHECK(is_good(drive.drive(1.0)));
+}
+
+TEST_CASE("a step of all radars that no vehicle can make is not followed") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 8);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  for (std::size_t i = 0; i < 3; ++i) {
+    drive.radar(i).world_mps = 4.0;
+  }
+  for (int i = 0; i < 36; ++i) {
+    CHECK(twist_error(drive.next(), drive) < 5.0);
+  }
+  CHECK_FALSE(is_good(drive.next()));
 }
 
 TEST_CASE("a short gap in time is bridged, a long one restarts the filter") {

@@ -26,7 +26,7 @@ class FilterCondition {
   /// Records a scan that showed two worlds (TwoWorlds).
   void doubt() { doubt_us_ = state_.time_us(); }
 
-  [[nodiscard]] bool has_used_scans() const { return used_scans_ > 0; }
+  [[nodiscard]] int used_scans() const { return used_scans_; }
   [[nodiscard]] std::int64_t used_us() const { return used_us_; }
   /// The start is over: the state no longer depends on the prior.
   [[nodiscard]] bool is_settled() const { return is_settled_; }

@@ -3,6 +3,7 @@
 #include "cremed/estimator/fusion/gate/radar_consensus.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -41,6 +42,19 @@ std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t
     return std::nullopt;
   }
   return joint;
+}
+
+bool RadarConsensus::is_step(std::int64_t time_us) const {
+  std::int64_t last_agreed_us = std::numeric_limits<std::int64_t>::min();
+  std::int64_t first_us = std::numeric_limits<std::int64_t>::max();
+  for (const RadarTrust& trust : trusts_) {
+    if (trust.votes(time_us) && trust.agrees) {
+      last_agreed_us = std::max(last_agreed_us, trust.verdict_us);
+    } else if (trust.votes(time_us)) {
+      first_us = std::min(first_us, trust.verdict_us);
+    }
+  }
+  return last_agreed_us < first_us;
 }
 
 bool RadarConsensus::contradicts_positions(std::int64_t time_us) const {

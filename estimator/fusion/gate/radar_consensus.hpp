@@ -32,6 +32,8 @@ class RadarConsensus {
   /// Joint velocity of the contradicting radars, if they are two or more, the majority, and agree
   /// with each other.
   [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
+  /// Every radar that contradicts did so after the last that agreed: all changed at once.
+  [[nodiscard]] bool is_step(std::int64_t time_us) const;
   /// Whether half or more of the contradicting radars contradict their own positions.
   [[nodiscard]] bool contradicts_positions(std::int64_t time_us) const;
   /// Longest time for which a radar has contradicted.

@@ -355,7 +355,7 @@ TEST_CASE("the covariance of a pose stays definite if the speed is unknown and i
   CAPTURE(dt_s);
   const Eigen::Matrix2d position =
       vehicle.predicted(dt_s, options).covariance.topLeftCorner<2, 2>();
-  CHECK(position.determinant() > 0.5e-6 * dt_s * position(0, 0));
+  CHECK(position.determinant() > 0.5e-8 * dt_s * position(0, 0));
 }
 
 TEST_CASE("the Jacobian of a relative pose is its derivative") {

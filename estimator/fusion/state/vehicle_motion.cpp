@@ -14,7 +14,7 @@ using namespace state_layout;
 
 /// Random walk of the position (m^2/s). To first order the way across is slip times mean speed:
 /// without this walk the covariance of a vehicle of unknown speed, with mean 0, is singular.
-constexpr double kPositionWalkM2PerS = 1e-6;
+constexpr double kPositionWalkM2PerS = 1e-8;
 
 /// Decay of an Ornstein-Uhlenbeck process from 1 after dt, and its integral over dt.
 struct Decay {

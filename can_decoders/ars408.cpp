@@ -61,6 +61,13 @@ void set_noise(Detection& detection, const Ars408General& target, const Cartesia
   detection.doppler_std_mps = std::hypot(cosine * std.vx_mps, sine * std.vy_mps);
 }
 
+/// The target as seen by a sensor that is mounted upright.
+Ars408General upright(Ars408General target) {
+  target.y_m = -target.y_m;
+  target.vy_mps = -target.vy_mps;
+  return target;
+}
+
 /// Sets every field but the sensor's own judgement; validity is usable, no_position or no_noise.
 Detection polar(const Ars408General& target, const Ars408RmsCodes& rms) {
   Detection detection{.rcs_dbm2 = target.rcs_dbm2,
@@ -216,7 +223,7 @@ Detection Ars408Decoder::detection(const TargetPayload& target) const {
 Detection Ars408Decoder::cluster(const TargetPayload& target) const {
   const auto general = decode_ars408_cluster_general(target[0]);
   const auto quality = decode_ars408_cluster_quality(target[1]);
-  Detection detection = polar(*general, quality->rms);
+  Detection detection = polar(options_.invert_azimuth ? upright(*general) : *general, quality->rms);
   if (detection.validity != Validity::usable) {
     return detection;
   }
@@ -231,7 +238,7 @@ Detection Ars408Decoder::cluster(const TargetPayload& target) const {
 Detection Ars408Decoder::object(const TargetPayload& target) const {
   const auto general = decode_ars408_object_general(target[0]);
   const auto quality = decode_ars408_object_quality(target[1]);
-  Detection detection = polar(*general, quality->rms);
+  Detection detection = polar(options_.invert_azimuth ? upright(*general) : *general, quality->rms);
   if (detection.validity != Validity::usable) {
     return detection;
   }

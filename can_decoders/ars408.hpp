@@ -39,6 +39,7 @@ struct Ars408Options {
   std::uint8_t keep_dyn_props = (1U << 1U) | (1U << 3U) | (1U << 5U);
   /// Objects with a smaller ProbOfExist code (table P, 0..7) are rejected. Default: 5, >= 90 %.
   std::uint8_t min_existence_code = 5;
+  bool invert_azimuth = false;   ///< Mounted upside down: y and azimuth are positive to the right.
   bool motion_feedback = false;  ///< The daemon sends the estimate to the sensor (0x300, 0x301).
   Ars408Model model = Ars408Model::ars408_21;
 };

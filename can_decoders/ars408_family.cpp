@@ -38,6 +38,7 @@ RadarSettings read(OptionReader& reader) {
   reader.bits("keep_dyn_props", keep_dyn_props, 7);
   options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
   reader.integer("min_existence_code", options.min_existence_code, 0, 7);
+  reader.boolean("invert_azimuth", options.invert_azimuth);
   reader.boolean("motion_feedback", options.motion_feedback);
   return options;
 }

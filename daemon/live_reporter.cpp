@@ -223,7 +223,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
   log_.update(configuration.name, kind, [&] {
-    const auto findings = radar_findings(configuration, status);
+    const auto findings = radar_findings(configuration, status, configuration_.radars);
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});
   });
@@ -261,9 +261,12 @@ std::string LiveReporter::report_vehicle(VehicleSignal signal) {
 }
 
 void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
-  log_.update(concat({configuration_.radars[radar].name, " in the odometry"}),
-              status.odometry.is_left_out ? 1 : 0,
-              [] { return "excluded: it contradicts the other radars or its own past"; });
+  const RadarConfiguration& configuration = configuration_.radars[radar];
+  const RadarReport& report = status.odometry;
+  log_.update(concat({configuration.name, " in the odometry"}),
+              report.is_left_out ? 1 + static_cast<int>(report.cause.kind) : 0, [&] {
+                return to_text(left_out_finding(configuration, status, configuration_.radars));
+              });
 }
 
 std::string LiveReporter::report_feedback(std::size_t radar) {

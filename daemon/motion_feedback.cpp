@@ -20,7 +20,7 @@ MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& b
     Sensor sensor;
     if (const auto* options = radar.decoder.as<Ars408Options>()) {
       sensor = {options->motion_feedback, interface_index(configuration, sensors_.size()),
-                options->sensor_id};
+                options->sensor_id, options->invert_azimuth};
     }
     sensors_.push_back(sensor);
   }
@@ -58,8 +58,11 @@ void MotionFeedback::on_motion(std::size_t radar, const EgoMotion& motion,
     return;
   }
   const double duration_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+  const double yaw_rate_radps = motion.motion.z() / duration_s;
   send(sensor.interface, encode_ars408_speed(sensor.sensor_id, motion.motion.x() / duration_s));
-  send(sensor.interface, encode_ars408_yaw_rate(sensor.sensor_id, motion.motion.z() / duration_s));
+  send(sensor.interface,
+       encode_ars408_yaw_rate(sensor.sensor_id,
+                              sensor.is_upside_down ? -yaw_rate_radps : yaw_rate_radps));
 }
 
 void MotionFeedback::send(std::uint8_t interface, const CanFrame& frame) {

@@ -42,6 +42,7 @@ class MotionFeedback final : public OdometrySink {
     bool wants_feedback = false;
     std::uint8_t interface = 0;
     std::uint8_t sensor_id = 0;
+    bool is_upside_down = false;
     bool has_rival = false;
     std::int64_t silence_us = 0;  // Of others, as heard.
     std::int64_t heard_us = 0;    // Stamp of the last frame on the bus.

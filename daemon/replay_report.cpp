@@ -101,8 +101,9 @@ bool report_radar(const Replayed& replayed, std::size_t number) {
   const RadarStatus status = channel.status(0, replayed.replay);
   spdlog::info("{}: {}", radar.name, summary(status));
   // Without a frame there is nothing to find in them.
-  for (const Finding& finding :
-       status.decoder.frames != 0 ? radar_findings(radar, status) : std::vector<Finding>()) {
+  for (const Finding& finding : status.decoder.frames != 0
+                                    ? radar_findings(radar, status, replayed.configuration.radars)
+                                    : std::vector<Finding>()) {
     log_finding(radar.name, finding);
   }
   if (const std::string text = irregularities(status); !text.empty()) {

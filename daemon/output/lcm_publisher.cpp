@@ -101,6 +101,9 @@ void fill_odometry(const RadarReport& report, status_t& m) {
   m.odometry_doppler_scale_error = static_cast<float>(report.doppler_scale);
   m.odometry_doppler_scale_error_std = static_cast<float>(report.doppler_scale_std);
   m.odometry_leaves_out = report.is_left_out ? 1 : 0;
+  m.odometry_fault = static_cast<std::int8_t>(report.cause.kind);
+  m.odometry_fault_value = static_cast<float>(report.cause.value);
+  m.odometry_fault_radar = static_cast<std::int8_t>(report.cause.other);
 }
 
 void copy(const Eigen::Matrix3d& matrix, double (&row_major)[9]) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 
 #include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -313,19 +315,72 @@ void add_ahead(const BeliefStatus& belief, Findings& findings) {
   }
 }
 
-void add_left_out(const RadarStatus& status, Findings& findings) {
+struct CauseText {
+  std::string what;
+  std::string remedy;
+};
+
+CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
+                     std::span<const RadarConfiguration> all) {
+  const EgoMotionOptions& ego_motion = radar.ego_motion;
+  const bool is_positive = cause.value > 0.0;
+  switch (cause.kind) {
+    case FaultKind::scale: {
+      const double percent = 100.0 * (1.0 / cause.value - 1.0);
+      return {concat({"its Doppler is ", decimal(std::abs(percent)), " % too ",
+                      percent > 0.0 ? "large" : "small"}),
+              concat({"if it is so on every drive, calibration.doppler_scale = ",
+                      digits(std::round(1e3 * cause.value * ego_motion.correction.doppler_scale) /
+                             1e3)})};
+    }
+    case FaultKind::sign:
+      return {"its Doppler has the wrong sign, or it looks the other way",
+              "invert_doppler, or turn mount.yaw_rad by pi"};
+    case FaultKind::upside_down:
+      return {"its left is its right", "if it is mounted upside down, change invert_azimuth"};
+    case FaultKind::mount_yaw:
+      return {
+          concat({"it looks ", decimal(std::abs(cause.value) * kDegPerRad), " degrees further ",
+                  is_positive ? "left" : "right", " than its mount says"}),
+          concat({"if nothing is loose, mount.yaw_rad = ",
+                  digits(std::round(1e3 * (ego_motion.vehicle_from_radar.yaw_rad + cause.value)) /
+                         1e3)})};
+    case FaultKind::late:
+      return {concat({"its scans are ", decimal(cause.value), " s late"}),
+              concat({"find what delays its bus or its stamps; if it is so on every drive, "
+                      "calibration.stamp_offset_s = ",
+                      digits(std::round(1e2 * (radar.stamp_offset_s - cause.value)) / 1e2)})};
+    case FaultKind::exchanged:
+      return {concat({"it sees what a radar at the mount of ",
+                      cause.other < all.size() ? all[cause.other].name : "another", " sees"}),
+              "exchange their interfaces or sensor ids"};
+    case FaultKind::unknown:
+      break;
+  }
+  return {"it contradicts the other radars or its own positions",
+          "its mount, the scale or sign of its Doppler, or its bus is wrong: `cremed-doctor`, "
+          "`cremed-eval calibrate`"};
+}
+
+void add_left_out(const RadarConfiguration& radar, const RadarStatus& status,
+                  std::span<const RadarConfiguration> all, Findings& findings) {
   if ((status.belief.doubts & other_radars_contradict) != 0) {
-    findings.push_back(
-        {Severity::warning,
-         concat({"it contradicts the other radars or its own positions and is excluded from the "
-                 "odometry (normalised innovation squared of its Doppler ",
-                 decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
-         "its mount, the scale or sign of its Doppler, or its bus is wrong: `cremed-doctor`, "
-         "`cremed-eval calibrate`"});
+    findings.push_back(left_out_finding(radar, status, all));
   }
 }
 
 }  // namespace
+
+Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
+                         std::span<const RadarConfiguration> all) {
+  const CauseText text = cause_text(radar, status.odometry.cause, all);
+  return {Severity::warning,
+          concat({text.what,
+                  "; excluded from the odometry (normalised innovation squared of its "
+                  "Doppler ",
+                  decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
+          text.remedy};
+}
 
 std::uint64_t estimates(const RadarStatus& status) {
   return count_of(status, MotionStatus::ok) + count_of(status, MotionStatus::standing_still);
@@ -364,7 +419,8 @@ std::vector<Finding> health_findings(const RadarConfiguration& radar, const Rada
   return findings;
 }
 
-std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status) {
+std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status,
+                                    std::span<const RadarConfiguration> all) {
   Findings findings;
   add_silence(radar, status, findings);
   if (const Ars408Options* options = ars408_options(radar)) {
@@ -378,7 +434,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_doubts(status.belief, findings);
   add_wrong_speed(status.belief, findings);
   add_ahead(status.belief, findings);
-  add_left_out(status, findings);
+  add_left_out(radar, status, all, findings);
   return findings;
 }
 

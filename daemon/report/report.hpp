@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,14 @@ std::string summary(const RadarStatus& status);
 /// One line: every non-zero counter of bad frames and incomplete scans; empty if all are zero.
 std::string irregularities(const RadarStatus& status);
 
-/// Causes of missing or bad odometry that the pipeline can detect, most likely first.
-std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status);
+/// Causes of missing or bad odometry that the pipeline can detect, most likely first. `all`: the
+/// configuration's radars, for their names.
+std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status,
+                                    std::span<const RadarConfiguration> all = {});
+
+/// Why the odometry leaves a radar out, and what corrects it, as far as known.
+Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
+                         std::span<const RadarConfiguration> all);
 
 /// Faults and settings that the sensor reports.
 std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status);

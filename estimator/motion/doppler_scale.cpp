@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/motion/side_gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -32,11 +33,6 @@ constexpr double kMinWidth = 0.02;
 constexpr double kSpacingM = 0.5;
 /// Four standard deviations of an ARS408's Doppler.
 constexpr double kMaxResidualMps = 0.5;
-/// Bounds the gate across the way to 1.2 m, less than half a lane: targets in the next lane do not
-/// vote.
-constexpr double kMaxSideStdM = 0.6;
-/// The gate rejects 5 % of true pairs.
-constexpr double kGateSigmas = 2.0;
 /// Smaller r are a healthy radar's, as in the class.
 constexpr double kMaxShare = 0.03;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
@@ -112,13 +108,19 @@ void DopplerScale::take(const TargetSet& targets, Scan& to) const {
   for (const Target& target : targets) {
     const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps_.x() +
                                 target.sin_bearing * velocity_mps_.y();
+    if (std::abs(residual_mps) > kMaxResidualMps) {
+      continue;
+    }
     const Eigen::Vector2d m(target.x_m - mount_.x_m, target.y_m - mount_.y_m);
     const Point* points = to.points.data();
     const bool is_near = std::any_of(points, points + to.size, [&](const Point& other) {
       return (other.m - m).cwiseAbs().maxCoeff() < kSpacingM;
     });
-    if (std::abs(residual_mps) <= kMaxResidualMps && !is_near && to.size < kMaxTargets) {
+    if (!is_near) {
       to.points[to.size++] = {m, target.covariance_m2.yy};
+    }
+    if (to.size == kMaxTargets) {
+      return;
     }
   }
 }
@@ -137,8 +139,7 @@ void DopplerScale::vote(const Scan& from, const Scan& to, const Eigen::Vector2d&
       const Eigen::Vector2d moved = before - to.points[j].m;
       const double step = (along.dot(moved) / length_m - 1.0) / kStep + kMiddle;
       if (step >= 0.0 && step < static_cast<double>(kSteps - 1) &&
-          variance <= squared(kMaxSideStdM) &&
-          squared(across.dot(moved)) <= squared(kGateSigmas) * variance) {
+          is_within_side_gate(across.dot(moved), variance)) {
         const auto lower = static_cast<std::size_t>(step);
         const double upper_part = step - static_cast<double>(lower);
         votes_[lower] += 1.0 - upper_part;

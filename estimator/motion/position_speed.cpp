@@ -6,20 +6,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/motion/side_gate.hpp"
 
 namespace cremed {
 namespace {
 
 /// Bounds the work. An ARS408 sends its nearest targets first, which are the most precise.
 constexpr std::size_t kMaxTargets = 96;
-/// Bounds the lateral gate to kGateSigmas times this, 1.2 m: less than half a lane, so that targets
-/// in the next lane do not vote.
-constexpr double kMaxSideStdM = 0.6;
 /// Half of this step moves a target at 40 m by 0.6 m in 0.3 s.
 constexpr double kYawRateStepRadps = 0.1;
-/// The gate rejects 5 % of true pairs.
-constexpr double kGateSigmas = 2.0;
 /// In standard deviations of the expected number of chance votes plus one. False-alarm rate: 1 % of
 /// pairs of unrelated scans (Poisson, 0.3 to 0.5 votes expected in each of 448 cells).
 constexpr double kChanceSigmas = 4.0;
@@ -49,8 +44,8 @@ void PositionSpeed::count(const TargetSet& previous, const TargetSet& current, d
     for (std::size_t j = 0; j < n; ++j) {
       const double variance = target.covariance_m2.yy + previous[j].covariance_m2.yy;
       const double step = (previous[j].x_m - x_m) * steps_per_m - kMinSpeedMps / kStepMps + 0.5;
-      if (variance <= squared(kMaxSideStdM) && step >= 0.0 && step < static_cast<double>(kSteps) &&
-          squared(previous[j].y_m - y_m) <= squared(kGateSigmas) * variance) {
+      if (step >= 0.0 && step < static_cast<double>(kSteps) &&
+          is_within_side_gate(previous[j].y_m - y_m, variance)) {
         ++votes[static_cast<std::size_t>(step)];
       }
     }

@@ -87,6 +87,20 @@ TEST_CASE("Azimuth is positive to the left, Doppler negative when closing") {
   CHECK(std::abs(detect({}, {.x = 2400, .y = 512}).azimuth_rad) > 1.5707);  // Behind.
 }
 
+TEST_CASE("Mounted upside down, the sensor's left is the right") {
+  for (const Ars408Output output : {Ars408Output::clusters, Ars408Output::objects}) {
+    const Detection seen = detect({.output = output}, {});
+    const Detection upright = detect({.output = output, .invert_azimuth = true}, {});
+    CHECK(seen.azimuth_rad != 0.0);
+    CHECK(upright.azimuth_rad == -seen.azimuth_rad);
+    CHECK(upright.across_mps == -seen.across_mps);
+    CHECK(upright.range_m == seen.range_m);
+    CHECK(upright.doppler_mps == seen.doppler_mps);
+    CHECK(upright.azimuth_std_rad == seen.azimuth_std_rad);
+    CHECK(upright.doppler_std_mps == seen.doppler_std_mps);
+  }
+}
+
 TEST_CASE("Standard deviations follow from finite differences of the polar form") {
   for (const Raw& raw : {Raw{}, Raw{.x = 2550, .y = 612, .vx = 700, .vy = 100},
                          Raw{.x = 2400, .y = 300, .vy_rms = 5}, Raw{.x = 2510, .y = 512}}) {

@@ -27,10 +27,11 @@ const std::string kFolder = CREMED_SOURCE_DIR "/config/";
 
 // With structured bindings, a new field does not compile until it is added here.
 void write(std::ostream& out, const Ars408Options& options) {
-  const auto& [sensor_id, output, states, dyn_props, existence, feedback, model] = options;
+  const auto& [sensor_id, output, states, dyn_props, existence, inverted, feedback, model] =
+      options;
   out << "ars408 " << static_cast<int>(model) << ' ' << int{sensor_id} << ' '
       << static_cast<int>(output) << ' ' << states << ' ' << int{dyn_props} << ' ' << int{existence}
-      << ' ' << feedback << '\n';
+      << ' ' << inverted << feedback << '\n';
 }
 
 void write(std::ostream& out, const BoschGprOptions& options) {

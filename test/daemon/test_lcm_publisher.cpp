@@ -126,16 +126,30 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
   CHECK(m.speed_checked == 1);
 }
 
+TEST_CASE("status_t numbers the faults as the odometry does") {
+  CHECK(status_t::FAULT_OF_UNKNOWN == static_cast<int>(FaultKind::unknown));
+  CHECK(status_t::FAULT_OF_SCALE == static_cast<int>(FaultKind::scale));
+  CHECK(status_t::FAULT_OF_SIGN == static_cast<int>(FaultKind::sign));
+  CHECK(status_t::FAULT_OF_UPSIDE_DOWN == static_cast<int>(FaultKind::upside_down));
+  CHECK(status_t::FAULT_OF_MOUNT_YAW == static_cast<int>(FaultKind::mount_yaw));
+  CHECK(status_t::FAULT_OF_LATE == static_cast<int>(FaultKind::late));
+  CHECK(status_t::FAULT_OF_EXCHANGED == static_cast<int>(FaultKind::exchanged));
+}
+
 TEST_CASE("status_t says what the odometry filter knows of the radar") {
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;
-  status.odometry = {true, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125, -0.5, 0.0625};
+  status.odometry = {
+      true, {FaultKind::exchanged, 0.125, 1}, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125, -0.5, 0.0625};
   status.scans_in_odometry = 77;
   const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
   REQUIRE(received.size() == 1);
   const auto m = decode<status_t>(received[0]);
   CHECK(m.odometry_leaves_out == 1);
+  CHECK(m.odometry_fault == status_t::FAULT_OF_EXCHANGED);
+  CHECK(m.odometry_fault_value == 0.125F);
+  CHECK(m.odometry_fault_radar == 1);
   CHECK(m.odometry_innovation_doppler == 1.5F);
   CHECK(m.odometry_innovation_lateral == 2.5F);
   CHECK(m.odometry_innovation_yaw == 3.5F);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <csignal>
+#include <optional>
 
 #include <catch2/catch.hpp>
 #include <linux/can.h>
@@ -9,6 +11,7 @@
 #include <unistd.h>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
+#include "cremed/can_decoders/vehicle_reading.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/motion_feedback.hpp"
 #include "test/daemon/moved_clock.hpp"
@@ -20,12 +23,12 @@ namespace {
 constexpr std::int64_t kScanUs = 72'000;
 constexpr std::uint8_t kSensor = 3;
 
-Configuration configuration_of(bool wants_feedback) {
+Configuration configuration_of(const Ars408Options& options) {
   Configuration configuration;
   RadarConfiguration radar;
   radar.name = "front";
   radar.interface = "absent";
-  radar.decoder = Ars408Options{.sensor_id = kSensor, .motion_feedback = wants_feedback};
+  radar.decoder = options;
   configuration.radars.push_back(radar);
   return configuration;
 }
@@ -33,7 +36,9 @@ Configuration configuration_of(bool wants_feedback) {
 /// A bus with a radar, and perhaps with another node that knows the motion.
 class Bench {
  public:
-  Bench() {
+  explicit Bench(bool is_upside_down = false)
+      : configuration_(configuration_of(
+            {.sensor_id = kSensor, .invert_azimuth = is_upside_down, .motion_feedback = true})) {
     std::array<int, 2> ends{};
     REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0);
     bus_ = ends[0];
@@ -58,6 +63,11 @@ class Bench {
 
   void pass(double seconds) { stamp_us_ += static_cast<std::int64_t>(1e6 * seconds); }
   [[nodiscard]] bool has_rival() const { return feedback_.has_rival(0); }
+  /// Of the latest frame sent.
+  [[nodiscard]] std::optional<double> yaw_rate_radps() const {
+    const auto reading = decode_vehicle_reading(VehicleSignal::yaw_rate, last_);
+    return reading ? std::optional(reading->value) : std::nullopt;
+  }
 
  private:
   void hear(CanFrame frame) {
@@ -70,19 +80,23 @@ class Bench {
     motion.status = MotionStatus::ok;
     motion.utime_start_us = stamp_us_ - kScanUs;
     motion.utime_us = stamp_us_;
+    motion.motion.z() = 0.1 * 1e-6 * kScanUs;
     feedback_.on_motion(0, motion, 0);
     int sent = 0;
     for (can_frame raw{}; ::recv(bus_, &raw, sizeof(raw), MSG_DONTWAIT) == sizeof(raw); ++sent) {
+      std::copy_n(raw.data, raw.len, last_.data.begin());
+      last_.length = raw.len;
     }
     CHECK((sent == 0 || sent == 2));
     return sent;
   }
 
   volatile std::sig_atomic_t stop_ = 0;
-  Configuration configuration_ = configuration_of(true);
+  Configuration configuration_;
   LiveSource source_{configuration_, &stop_};
   MotionFeedback feedback_{configuration_, source_};
   int bus_ = -1;
+  CanFrame last_;
   std::int64_t stamp_us_ = 1'700'000'000'000'000;
 };
 
@@ -95,6 +109,15 @@ TEST_CASE("Before its first frame it listens for a second") {
   CHECK(bench.first_sent_s(5.0) == Approx(1.0).margin(0.15));
   CHECK(bench.first_sent_s(5.0) == 0.0);
   CHECK_FALSE(bench.has_rival());
+}
+
+TEST_CASE("A sensor mounted upside down is told the turn as it sees it") {
+  for (const bool is_upside_down : {false, true}) {
+    Bench bench(is_upside_down);
+    REQUIRE(bench.first_sent_s(5.0) > 0.0);
+    REQUIRE(bench.yaw_rate_radps());
+    CHECK(*bench.yaw_rate_radps() == Approx(is_upside_down ? -0.1 : 0.1).margin(1e-3));
+  }
 }
 
 TEST_CASE("While another node sends one of the two it sends none, and for 10 s after") {
@@ -133,7 +156,8 @@ TEST_CASE("Time in which the bus was not read is no silence") {
 
 TEST_CASE("What the sensor is told is received if cremed is to tell it, and not otherwise") {
   for (const bool wants_feedback : {false, true}) {
-    const auto ids = ids_on(0, configuration_of(wants_feedback));
+    const auto ids =
+        ids_on(0, configuration_of({.sensor_id = kSensor, .motion_feedback = wants_feedback}));
     for (const std::uint32_t id : {speed().id, speed().id + 1}) {
       CHECK((std::count(ids.begin(), ids.end(), id) == 1) == wants_feedback);
     }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -215,6 +216,35 @@ TEST_CASE("Each doubt in the covariance is named with its figure and what to do"
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].severity == Severity::warning);
   CHECK_THAT(findings[0].what, Catch::Contains(row.what) && Catch::Contains(row.figure + ", 1"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
+}
+
+TEST_CASE("What is wrong with an excluded radar is named with the key that corrects it") {
+  struct Case {
+    FaultCause cause;
+    std::string what;
+    std::string remedy;
+  };
+  const auto row = GENERATE(
+      Case{{FaultKind::scale, 1.0 / 0.9}, "10.0 % too small", "doppler_scale = 1.111"},
+      Case{{FaultKind::scale, 1.0 / 1.1}, "10.0 % too large", "doppler_scale = 0.909"},
+      Case{{FaultKind::sign, -1.0}, "wrong sign", "invert_doppler"},
+      Case{{FaultKind::upside_down}, "its left is its right", "invert_azimuth"},
+      Case{{FaultKind::mount_yaw, 0.1}, "5.7 degrees further left", "mount.yaw_rad = 0.35"},
+      Case{{FaultKind::mount_yaw, -0.1}, "5.7 degrees further right", "mount.yaw_rad = 0.15"},
+      Case{{FaultKind::late, 0.3}, "0.3 s late", "stamp_offset_s = -0.25"},
+      Case{{FaultKind::exchanged, 0.0, 1}, "at the mount of rear", "interfaces"});
+  RadarConfiguration radar = front();
+  radar.ego_motion.vehicle_from_radar.yaw_rad = 0.25;
+  radar.stamp_offset_s = 0.05;
+  RadarConfiguration rear = front();
+  rear.name = "rear";
+  RadarStatus status = healthy();
+  status.belief.doubts = other_radars_contradict;
+  status.odometry = {.is_left_out = true, .cause = row.cause};
+  const auto findings = radar_findings(radar, status, std::array{radar, rear});
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what, Catch::Contains(row.what) && Catch::Contains("excluded"));
   CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
 }
 

@@ -39,6 +39,24 @@ TEST_CASE("Each systematic fault of a short drive leaves odometry") {
   }
 }
 
+TEST_CASE("A radar mounted upside down drives as well as upright, with its key") {
+  std::vector<RadarConfiguration> radars = default_radars();
+  const FaultDrive upright = simulated_fault_drive("bends", 5.0, radars);
+  radars.front().decoder = Ars408Options{.invert_azimuth = true};
+  const FaultDrive inverted = simulated_fault_drive("bends", 5.0, radars);
+  const auto path = [](const FaultDrive& drive) {
+    return record(drive, FaultCase{"none", "", {drive.start_us(), kNever}}).sink.odometries;
+  };
+  const auto expected = path(upright);
+  const auto is = path(inverted);
+  REQUIRE(is.size() == expected.size());
+  REQUIRE(is.size() > 50);
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    CHECK(is[i].status == expected[i].status);
+    CHECK((is[i].pose - expected[i].pose).norm() < 1e-6);
+  }
+}
+
 TEST_CASE("An own start beside resting and moving traffic is usable at once, and right", "[long]") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const FaultDrive drive = StartDrive(seed).drive();

@@ -17,7 +17,7 @@ namespace cremed::test {
 inline constexpr double kPeriodS = 0.075;
 inline constexpr double kWorldM = 400.0;
 
-/// A front radar of a car that drives on a circle among static objects.
+/// A radar of a car that drives on a circle among static objects.
 struct CircleDrive {
   double speed_mps = 10.0;
   double yaw_rate_radps = 0.0;
@@ -66,16 +66,16 @@ class CircleView {
     const Pose2& mount = drive.mount;
     const Eigen::Rotation2Dd to_vehicle(-yaw_);
     const Eigen::Rotation2Dd to_radar(-mount.yaw_rad);
+    const Eigen::Vector2d sensor_m(mount.x_m, mount.y_m);
+    const double w = drive.yaw_rate_radps;
+    const Eigen::Vector2d velocity =
+        to_radar * Eigen::Vector2d(drive.speed_mps - w * mount.y_m, w * mount.x_m);
     TargetSet targets;
     for (const Eigen::Vector2d& thing : world) {
-      const Eigen::Vector2d sensor_m(mount.x_m, mount.y_m);
       const Eigen::Vector2d p = to_radar * (to_vehicle * wrapped(thing - place_) - sensor_m);
       Detection detection;
       detection.range_m = p.norm() + normal(0.15);
       detection.azimuth_rad = std::atan2(p.y(), p.x()) + normal(0.008);
-      const double w = drive.yaw_rate_radps;
-      const Eigen::Vector2d velocity =
-          to_radar * Eigen::Vector2d(drive.speed_mps - w * mount.y_m, w * mount.x_m);
       detection.doppler_mps = -drive.doppler_factor * velocity.dot(p.normalized()) + normal(0.1);
       detection.range_std_m = 0.15;
       detection.azimuth_std_rad = 0.008;

@@ -105,6 +105,17 @@ class BusListener:
         return [(identifier, data) for _, identifier, data in self.heard_at()]
 
 
+# Messages that tell an ARS408 the vehicle's motion.
+SPEED, YAW_RATE = 0x300, 0x301
+SPEED_STEP_MPS = 0.02
+
+
+def speeds_of(frames):
+    """[(stamp in microseconds, m/s)] of the speeds among BusListener.heard_at's frames."""
+    return [(stamp_us, ((data[0] & 0x1F) << 8 | data[1]) * SPEED_STEP_MPS)
+            for stamp_us, name, data in frames if name == SPEED]
+
+
 # A longer pause of a radar separates two scans.
 SCAN_PAUSE_S = 0.004
 # A scan that would begin later than this is omitted, so that stamps stay near the drive's.

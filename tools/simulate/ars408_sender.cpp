@@ -219,9 +219,17 @@ Ars408General Ars408Sender::general(const Measurement& measurement, double doppl
   return target;
 }
 
+/// As the sensor is mounted.
+Ars408General Ars408Sender::mounted(Ars408General target) const {
+  const double sign = options_.invert_azimuth ? -1.0 : 1.0;
+  target.y_m *= sign;
+  target.vy_mps *= sign;
+  return target;
+}
+
 Ars408General Ars408Sender::cluster(const Measurement& measurement) {
-  return general(measurement, measurement.doppler_mps,
-                 static_across(measurement.range_m, measurement.azimuth_rad));
+  return mounted(general(measurement, measurement.doppler_mps,
+                         static_across(measurement.range_m, measurement.azimuth_rad)));
 }
 
 /// An object's velocity is a vector; each component has its own code and error.
@@ -232,7 +240,7 @@ Ars408General Ars408Sender::object(const Measurement& measurement, const Ars408R
   Ars408General target = general(measurement, with_shared_errors(view.doppler_mps), across_mps);
   target.vx_mps += speed_noise_std(rms.vx) * random().normal();
   target.vy_mps += speed_noise_std(rms.vy) * random().normal();
-  return target;
+  return mounted(target);
 }
 
 /// Ghosts have the same quality as other clusters.

@@ -47,6 +47,7 @@ class Ars408Sender : public RadarSender {
                        std::vector<CanFrame>& list);
   void encode_objects(const std::vector<Measurement>& targets, std::uint16_t counter,
                       std::vector<CanFrame>& list);
+  [[nodiscard]] Ars408General mounted(Ars408General target) const;
   Ars408General cluster(const Measurement& measurement);
   Ars408General object(const Measurement& measurement, const Ars408RmsCodes& rms);
   Ars408ClusterQuality cluster_quality(const Ars408RmsCodes& rms);

@@ -72,7 +72,8 @@ Json status_json(const status_t& m) {
           {"latency_max_us", m.latency_max_us},
           {"scans", m.scans},
           {"scans_incomplete", m.scans_incomplete},
-          {"left_out", m.odometry_leaves_out != 0}};
+          {"left_out", m.odometry_leaves_out != 0},
+          {"fault", m.odometry_fault}};
 }
 
 long hundredths(float value) { return std::isfinite(value) ? std::lround(100.0F * value) : 0; }

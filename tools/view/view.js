@@ -58,6 +58,10 @@ function showRates(id, ylabel, color, name, xlabel) {
   rates[id].updateOptions({file: joined(series)});
 }
 
+// status_t.FAULT_OF_*
+const FAULTS = ["yes", "yes: scale of Doppler", "yes: sign of Doppler", "yes: upside down",
+                "yes: yaw of the mount", "yes: late", "yes: exchanged with another"];
+
 function named(doubts) {
   return DOUBTS.filter((_, bit) => doubts & (1 << bit)).join(", ") || "none";
 }
@@ -77,7 +81,7 @@ const ROWS = [
   ["usable targets", ({targets}) => targets],
   ["scans (incomplete)", ({status}) => `${status.scans} (${status.scans_incomplete})`],
   ["doubts", ({status}) => named(status.doubts)],
-  ["left out of the odometry", ({status}) => (status.left_out ? "yes" : "no")],
+  ["left out of the odometry", ({status}) => (status.left_out ? FAULTS[status.fault] ?? "yes" : "no")],
   ["NIS: Doppler against the state", nis("odometry_innovation_doppler")],
   ["NIS: sideways motion against the state", nis("odometry_innovation_lateral")],
   ["NIS: turn against the state", nis("odometry_innovation_yaw")],

@@ -75,20 +75,31 @@ void FaultHypotheses::Sums::add(const Sums& other) {
   squares += other.squares;
 }
 
+Eigen::Vector3d FaultHypotheses::Sums::solution() const {
+  return information.ldlt().solve(weighted);
+}
+
 double FaultHypotheses::Sums::chi_square() const {
-  return std::max(0.0, squares - weighted.dot(information.ldlt().solve(weighted)));
+  return std::max(0.0, squares - weighted.dot(solution()));
 }
 
 FaultHypotheses::FaultHypotheses(const OdometryState& state)
-    : state_(state), tracks_(state.radars()), verdicts_(state.radars()) {
+    : state_(state),
+      tracks_(state.radars()),
+      verdicts_(state.radars()),
+      velocities_(state.radars()) {
   epochs_.fill(Epoch(state.radars()));
   for (std::size_t i = 0; i < state.radars(); ++i) {
     judged_ |= looks_across(state.mount(i)) ? 0U : 1U << i;
+    causes_.emplace_back(state.mounts(), i);
   }
 }
 
 void FaultHypotheses::clear() {
   std::fill(tracks_.begin(), tracks_.end(), Track());
+  for (FaultCauseSearch& cause : causes_) {
+    cause.forget();
+  }
   for (Verdict& verdict : verdicts_) {
     verdict.until_us.reset();
   }
@@ -221,18 +232,23 @@ void FaultHypotheses::observe(std::int64_t time_us) {
   epoch_us_ = time_us;
   Epoch& epoch = epochs_[count_++ % kEpochs];
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const auto velocity = velocity_at(i, time_us);
-    epoch[i] = velocity ? measurements(i, time_us, *velocity) : Sums();
+    velocities_[i] = velocity_at(i, time_us);
+    epoch[i] = velocities_[i] ? measurements(i, time_us, *velocities_[i]) : Sums();
   }
 }
 
-/// Mean over the epochs of chi-square of the radars in the set and of the witnesses.
-double FaultHypotheses::chi_square(Set set) const {
+FaultHypotheses::Sums FaultHypotheses::prior() const {
   const OdometryOptions& options = state_.options();
   Sums prior;
   prior.add(Eigen::Vector3d::UnitX(), 0.0, squared(options.start_speed_std_mps));
   prior.add(Eigen::Vector3d::UnitY(), 0.0, squared(options.start_yaw_rate_std_radps));
   prior.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
+  return prior;
+}
+
+/// Mean over the epochs of chi-square of the radars in the set and of the witnesses.
+double FaultHypotheses::chi_square(Set set) const {
+  const Sums prior = this->prior();
   const std::size_t epochs = std::min(count_, kEpochs);
   double sum = 0.0;
   for (std::size_t k = 0; k < epochs; ++k) {
@@ -408,6 +424,32 @@ void FaultHypotheses::judge(std::int64_t time_us) {
       accuse(i, time_us);
     } else if (time_us > *verdict.until_us) {
       verdict.is_at_fault = false;
+    }
+  }
+  if (is_known) {
+    search_causes(best.set & ~at_fault(), time_us);
+  }
+}
+
+/// Compares the radars at fault with the motion by those that are believed.
+void FaultHypotheses::search_causes(Set believed, std::int64_t time_us) {
+  if ((believed & present()) == 0) {
+    return;
+  }
+  const Epoch& epoch = epochs_[(count_ - 1) % kEpochs];
+  Sums joint = prior();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if ((believed >> i & 1U) != 0) {
+      joint.add(epoch[i]);
+    }
+  }
+  const Eigen::Vector3d motion = joint.solution();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    causes_[i].add_motion(time_us, motion);
+    if (!verdicts_[i].is_at_fault) {
+      causes_[i].clear();
+    } else if (velocities_[i]) {
+      causes_[i].add_velocity(velocities_[i]->mps);
     }
   }
 }

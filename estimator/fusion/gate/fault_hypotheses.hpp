@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/gate/fault_cause.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
@@ -56,6 +57,8 @@ class FaultHypotheses {
   [[nodiscard]] bool is_at_fault(std::size_t radar) const { return verdicts_[radar].is_at_fault; }
   // Radars as bit sets.
   [[nodiscard]] std::uint32_t at_fault() const;
+  /// Of a radar at fault.
+  [[nodiscard]] FaultCause cause(std::size_t radar) const { return causes_[radar].cause(); }
   [[nodiscard]] std::uint32_t judged() const { return judged_; }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
@@ -110,9 +113,11 @@ class FaultHypotheses {
 
     void add(const Eigen::Vector3d& derivative, double value, double variance);
     void add(const Sums& other);
+    [[nodiscard]] Eigen::Vector3d solution() const;
     [[nodiscard]] double chi_square() const;
   };
   using Epoch = std::vector<Sums>;  // By radar.
+  using Velocities = std::vector<std::optional<Velocity>>;
   struct Verdict {
     bool is_at_fault = false;
     std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
@@ -138,12 +143,16 @@ class FaultHypotheses {
   [[nodiscard]] bool is_supported(Set set, std::int64_t time_us) const;
   [[nodiscard]] bool is_consistent(Set set, double chi_square) const;
   [[nodiscard]] double chi_square(Set set) const;
+  [[nodiscard]] Sums prior() const;
+  void search_causes(Set believed, std::int64_t time_us);
 
   const OdometryState& state_;
   Set judged_ = 0;  // The radars that do not look sideways.
   std::vector<Track> tracks_;
   std::vector<Verdict> verdicts_;
+  std::vector<FaultCauseSearch> causes_;
   std::array<Epoch, kEpochs> epochs_;
+  Velocities velocities_;  // Of the newest epoch.
   std::size_t count_ = 0;  // Of epochs.
   std::int64_t newest_us_ = 0;
   std::int64_t epoch_us_ = 0;

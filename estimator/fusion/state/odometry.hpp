@@ -59,9 +59,29 @@ struct Odometry {
   std::uint32_t left_out = 0;  ///< Bit i: radar i contradicts the filter.
 };
 
+/// A systematic error that explains the velocities of a radar that is at fault.
+enum class FaultKind : std::uint8_t {
+  unknown,      ///< None of these, or several.
+  scale,        ///< Doppler too large or small.
+  sign,         ///< Doppler of the wrong sign, or a mount turned back to front.
+  upside_down,  ///< Left and right exchanged.
+  mount_yaw,    ///< It looks in another direction.
+  late,         ///< Its scans have later stamps than they were measured at.
+  exchanged,    ///< Its data are those of a radar at another radar's mount.
+};
+
+struct FaultCause {
+  FaultKind kind = FaultKind::unknown;
+  /// What corrects it: factor on Doppler (scale), to be added to the mount's yaw in rad
+  /// (mount_yaw), delay in s (late).
+  double value = 0.0;
+  std::size_t other = 0;  ///< The other radar, if exchanged.
+};
+
 /// Diagnostics of one radar.
 struct RadarReport {
   bool is_left_out = false;  ///< It contradicts the filter.
+  FaultCause cause;          ///< If it is left out.
   /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
   /// without measurements.
   double doppler_innovation = 0.0;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -76,6 +77,7 @@ class OdometryState {
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
   [[nodiscard]] const OdometryOptions& options() const { return options_; }
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
+  [[nodiscard]] std::span<const Pose2> mounts() const { return mounts_; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
   /// Index in `gaussian` of one of a radar's errors.
   [[nodiscard]] int error(std::size_t radar, int which) const;

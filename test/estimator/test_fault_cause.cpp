@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "cremed/estimator/fusion/gate/fault_cause.hpp"
+
+namespace cremed {
+namespace {
+
+const std::vector<Pose2> kMounts{
+    {3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}, {3.2, 0.8, 0.6}};
+
+struct Motion {
+  double v_mps;
+  double w_radps;
+};
+using Drive = std::function<Motion(double time_s)>;
+
+/// Brakes, accelerates and turns.
+Motion town(double time_s) {
+  return {8.0 + 4.0 * std::sin(0.6 * time_s), 0.3 * std::sin(0.5 * time_s)};
+}
+Motion straight(double /*time_s*/) { return {8.0, 0.0}; }
+
+Eigen::Vector2d velocity_at(const Motion& motion, const Pose2& mount) {
+  return {motion.v_mps - motion.w_radps * mount.y_m, motion.w_radps * mount.x_m};
+}
+
+/// What a radar with a fault measures, in the axes of the vehicle by its configured mount.
+using Fault = std::function<Eigen::Vector2d(const Drive&, double time_s, const Pose2& mount)>;
+
+FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const Fault& fault) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  FaultCauseSearch search(kMounts, radar);
+  for (double time_s = 1000.0; time_s < 1000.0 + duration_s; time_s += 0.15) {
+    const Motion motion = drive(time_s);
+    search.add_motion(std::llround(time_s * 1e6), {motion.v_mps + 0.03 * normal(random),
+                                                   motion.w_radps + 0.005 * normal(random), 0.0});
+    search.add_velocity(fault(drive, time_s, kMounts[radar]) +
+                        Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)));
+  }
+  return search.cause();
+}
+
+Fault scaled(double factor) {
+  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+    return factor * velocity_at(drive(time_s), mount);
+  };
+}
+
+Fault late(double delay_s) {
+  return [=](const Drive& drive, double time_s, const Pose2& mount) {
+    return velocity_at(drive(time_s - delay_s), mount);
+  };
+}
+
+/// The mount's yaw is this much more than the configured one.
+Fault turned(double by_rad) {
+  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+    return Eigen::Rotation2Dd(-by_rad) * velocity_at(drive(time_s), mount);
+  };
+}
+
+Eigen::Vector2d upside_down(const Drive& drive, double time_s, const Pose2& mount) {
+  const Eigen::Rotation2Dd vehicle_from_radar(mount.yaw_rad);
+  Eigen::Vector2d seen = vehicle_from_radar.inverse() * velocity_at(drive(time_s), mount);
+  seen.y() *= -1.0;
+  return vehicle_from_radar * seen;
+}
+
+Fault of_mount(std::size_t other) {
+  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+    return Eigen::Rotation2Dd(mount.yaw_rad - kMounts[other].yaw_rad) *
+           velocity_at(drive(time_s), kMounts[other]);
+  };
+}
+
+TEST_CASE("what is wrong with a radar is found, with what corrects it") {
+  const auto radar = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{3});
+  CAPTURE(radar);
+  for (const double factor : {0.8, 0.9, 1.1, 1.25}) {
+    const FaultCause cause = found(radar, town, 10.0, scaled(factor));
+    CHECK(cause.kind == FaultKind::scale);
+    CHECK(cause.value == Approx(1.0 / factor).margin(0.01));
+  }
+  for (const double by_rad : {-0.3, -0.1, 0.1, 0.3}) {
+    const FaultCause cause = found(radar, town, 10.0, turned(by_rad));
+    CHECK(cause.kind == FaultKind::mount_yaw);
+    CHECK(cause.value == Approx(by_rad).margin(0.01));
+  }
+  for (const double delay_s : {0.3, 0.5}) {
+    const FaultCause cause = found(radar, town, 10.0, late(delay_s));
+    CHECK(cause.kind == FaultKind::late);
+    CHECK(cause.value == Approx(delay_s).margin(0.06));
+  }
+  CHECK(found(radar, town, 10.0, scaled(-1.0)).kind == FaultKind::sign);
+  CHECK(found(radar, town, 10.0, upside_down).kind == FaultKind::upside_down);
+}
+
+TEST_CASE("data of a radar at another mount are found with its number") {
+  for (const auto& [radar, other] : {std::pair<std::size_t, std::size_t>{1, 2}, {3, 0}, {0, 3}}) {
+    const FaultCause cause = found(radar, town, 15.0, of_mount(other));
+    CAPTURE(radar, other);
+    CHECK(cause.kind == FaultKind::exchanged);
+    CHECK(cause.other == other);
+  }
+}
+
+TEST_CASE("what a straight drive cannot tell apart is unknown") {
+  CHECK(found(0, straight, 10.0, upside_down).kind == FaultKind::unknown);
+  CHECK(found(0, straight, 10.0, late(0.3)).kind == FaultKind::unknown);
+}
+
+TEST_CASE("no fault, and one of another kind, is unknown") {
+  CHECK(found(0, town, 10.0, scaled(1.0)).kind == FaultKind::unknown);
+  CHECK(found(0, town, 10.0, [](const Drive&, double time_s, const Pose2&) {
+          return Eigen::Vector2d(5.0 * std::sin(3.0 * time_s), 3.0);
+        }).kind == FaultKind::unknown);
+  CHECK(found(0, town, 0.5, scaled(0.8)).kind == FaultKind::unknown);
+}
+
+TEST_CASE("after the end of a fault the next one is found anew") {
+  FaultCauseSearch search(kMounts, 0);
+  const auto drive = [&](double from_s, const Fault& fault) {
+    for (double time_s = from_s; time_s < from_s + 5.0; time_s += 0.15) {
+      const Motion motion = town(time_s);
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0});
+      search.add_velocity(fault(town, time_s, kMounts[0]));
+    }
+    return search.cause().kind;
+  };
+  CHECK(drive(10.0, scaled(0.8)) == FaultKind::scale);
+  search.clear();
+  CHECK(search.cause().kind == FaultKind::unknown);
+  CHECK(drive(20.0, turned(0.2)) == FaultKind::mount_yaw);
+}
+
+}  // namespace
+}  // namespace cremed

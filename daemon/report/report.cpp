@@ -345,6 +345,12 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
           concat({"if nothing is loose, mount.yaw_rad = ",
                   digits(std::round(1e3 * (ego_motion.vehicle_from_radar.yaw_rad + cause.value)) /
                          1e3)})};
+    case FaultKind::mount_x:
+      return {concat({"it is ", decimal(std::abs(cause.value)), " m further ",
+                      is_positive ? "ahead" : "back", " than its mount says"}),
+              concat({"measure it: mount.x_m = ",
+                      digits(std::round(1e1 * (ego_motion.vehicle_from_radar.x_m + cause.value)) /
+                             1e1)})};
     case FaultKind::late:
       return {concat({"its scans are ", decimal(cause.value), " s late"}),
               concat({"find what delays its bus or its stamps; if it is so on every drive, "

@@ -132,6 +132,7 @@ TEST_CASE("status_t numbers the faults as the odometry does") {
   CHECK(status_t::FAULT_OF_SIGN == static_cast<int>(FaultKind::sign));
   CHECK(status_t::FAULT_OF_UPSIDE_DOWN == static_cast<int>(FaultKind::upside_down));
   CHECK(status_t::FAULT_OF_MOUNT_YAW == static_cast<int>(FaultKind::mount_yaw));
+  CHECK(status_t::FAULT_OF_MOUNT_X == static_cast<int>(FaultKind::mount_x));
   CHECK(status_t::FAULT_OF_LATE == static_cast<int>(FaultKind::late));
   CHECK(status_t::FAULT_OF_EXCHANGED == static_cast<int>(FaultKind::exchanged));
 }

@@ -232,10 +232,12 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
       Case{{FaultKind::upside_down}, "its left is its right", "invert_azimuth"},
       Case{{FaultKind::mount_yaw, 0.1}, "5.7 degrees further left", "mount.yaw_rad = 0.35"},
       Case{{FaultKind::mount_yaw, -0.1}, "5.7 degrees further right", "mount.yaw_rad = 0.15"},
+      Case{{FaultKind::mount_x, -2.0}, "2.0 m further back", "mount.x_m = 1.6"},
       Case{{FaultKind::late, 0.3}, "0.3 s late", "stamp_offset_s = -0.25"},
       Case{{FaultKind::exchanged, 0.0, 1}, "at the mount of rear", "interfaces"});
   RadarConfiguration radar = front();
   radar.ego_motion.vehicle_from_radar.yaw_rad = 0.25;
+  radar.ego_motion.vehicle_from_radar.x_m = 3.6;
   radar.stamp_offset_s = 0.05;
   RadarConfiguration rear = front();
   rear.name = "rear";

@@ -37,7 +37,8 @@ Eigen::Vector2d velocity_at(const Motion& motion, const Pose2& mount) {
 /// What a radar with a fault measures, in the axes of the vehicle by its configured mount.
 using Fault = std::function<Eigen::Vector2d(const Drive&, double time_s, const Pose2& mount)>;
 
-FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const Fault& fault) {
+FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const Fault& fault,
+                 std::uint32_t at_fault = 0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   FaultCauseSearch search(kMounts, radar);
@@ -48,7 +49,7 @@ FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const
     search.add_velocity(fault(drive, time_s, kMounts[radar]) +
                         Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)));
   }
-  return search.cause();
+  return search.cause(at_fault | 1U << radar);
 }
 
 Fault scaled(double factor) {
@@ -103,12 +104,30 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
     CHECK(cause.value == Approx(delay_s).margin(0.06));
   }
   CHECK(found(radar, town, 10.0, scaled(-1.0)).kind == FaultKind::sign);
-  CHECK(found(radar, town, 10.0, upside_down).kind == FaultKind::upside_down);
+}
+
+TEST_CASE("a mount that is further ahead than configured is found in turns") {
+  for (const double by_m : {-2.0, 2.0}) {
+    const FaultCause cause =
+        found(0, town, 10.0, [=](const Drive& drive, double time_s, const Pose2& mount) {
+          return velocity_at(drive(time_s), {mount.x_m + by_m, mount.y_m, mount.yaw_rad});
+        });
+    CHECK(cause.kind == FaultKind::mount_x);
+    CHECK(cause.value == Approx(by_m).margin(0.2));
+  }
+}
+
+TEST_CASE("upside down is found at a mount that turns tell from another yaw") {
+  for (const std::size_t radar : {0, 3}) {
+    CHECK(found(radar, town, 10.0, upside_down).kind == FaultKind::upside_down);
+  }
+  // At the rear axle it moves across too little.
+  CHECK(found(1, town, 10.0, upside_down).kind == FaultKind::unknown);
 }
 
 TEST_CASE("data of a radar at another mount are found with its number") {
   for (const auto& [radar, other] : {std::pair<std::size_t, std::size_t>{1, 2}, {3, 0}, {0, 3}}) {
-    const FaultCause cause = found(radar, town, 15.0, of_mount(other));
+    const FaultCause cause = found(radar, town, 10.0, of_mount(other), 1U << other);
     CAPTURE(radar, other);
     CHECK(cause.kind == FaultKind::exchanged);
     CHECK(cause.other == other);
@@ -136,11 +155,11 @@ TEST_CASE("after the end of a fault the next one is found anew") {
       search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0});
       search.add_velocity(fault(town, time_s, kMounts[0]));
     }
-    return search.cause().kind;
+    return search.cause(1U).kind;
   };
   CHECK(drive(10.0, scaled(0.8)) == FaultKind::scale);
   search.clear();
-  CHECK(search.cause().kind == FaultKind::unknown);
+  CHECK(search.cause(1U).kind == FaultKind::unknown);
   CHECK(drive(20.0, turned(0.2)) == FaultKind::mount_yaw);
 }
 

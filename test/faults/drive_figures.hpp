@@ -31,6 +31,8 @@ struct RadarFigures {
   std::uint32_t doubts = 0;             ///< All doubts it had.
   double availability = 0.0;            ///< Share of its scans with an estimate.
   std::optional<double> named_after_s;  ///< First time named since the fault began.
+  std::array<int, 8> causes{};          ///< Statuses that name a cause, by FaultKind.
+  FaultCause cause;                     ///< Last named.
 };
 
 /// Result of a drive with a systematic fault. Shares of time and of rows count from the beginning
@@ -217,6 +219,10 @@ class DriveJudge {
     for (std::size_t i = 0; i < statuses.size(); ++i) {
       if (statuses[i].utime_us >= fault_.time.from_us) {
         figures.doubts |= statuses[i].belief.doubts;
+      }
+      if (const FaultCause& cause = statuses[i].odometry.cause; cause.kind != FaultKind::unknown) {
+        ++figures.causes.at(static_cast<std::size_t>(cause.kind));
+        figures.cause = cause;
       }
       if (statuses[i].belief.doubts != 0) {
         name(statuses[i].utime_us, i + 1 < statuses.size() ? statuses[i + 1].utime_us : end_us(),

@@ -36,6 +36,8 @@ struct FaultCase {
   std::vector<std::optional<LearnedErrors>> learned{};
   /// Bit i: radar i is at fault, by itself or because its configuration is wrong.
   std::uint32_t guilty = 0;
+  /// What is wrong with them, if it is one of these.
+  FaultKind cause = FaultKind::unknown;
   /// So small that it may be learned: the guilty radar need not be named.
   bool may_be_learned = false;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <string>
 
 #include "test/faults/drive_figures.hpp"
@@ -19,15 +20,17 @@ struct FaultVerdict {
   bool is_right = true;         ///< Few usable rows are beyond 5 sigma.
   bool is_guilty_named = true;  ///< Each guilty radar, unless its error is learned or all err.
   bool is_no_innocent_named = true;
-  bool is_recovered = true;  ///< Soon after the fault's end.
+  bool is_recovered = true;    ///< Soon after the fault's end.
+  bool is_cause_right = true;  ///< If a cause is named for a guilty radar, it is its cause.
 
   [[nodiscard]] bool is_all() const {
-    return is_right && is_guilty_named && is_no_innocent_named && is_recovered;
+    return is_right && is_guilty_named && is_no_innocent_named && is_recovered && is_cause_right;
   }
   /// A letter for each demand that does not hold.
   [[nodiscard]] std::string failures() const {
     return std::string(is_right ? "" : "B") + (is_guilty_named ? "" : "U") +
-           (is_no_innocent_named ? "" : "I") + (is_recovered ? "" : "R");
+           (is_no_innocent_named ? "" : "I") + (is_recovered ? "" : "R") +
+           (is_cause_right ? "" : "C");
   }
 };
 
@@ -42,6 +45,10 @@ inline FaultVerdict verdict_of(const FaultCase& fault, const DriveFigures& figur
     if (is_guilty) {
       verdict.is_guilty_named = verdict.is_guilty_named && named_after_s &&
                                 *named_after_s <= FaultVerdict::kMaxNamedAfterS;
+      const auto& causes = figures.radars[i].causes;
+      const int named = std::accumulate(causes.begin(), causes.end(), 0);
+      verdict.is_cause_right =
+          verdict.is_cause_right && named == causes.at(static_cast<std::size_t>(fault.cause));
     } else {
       verdict.is_no_innocent_named = verdict.is_no_innocent_named && !named_after_s;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -12,7 +13,7 @@ namespace cremed::test {
 
 inline constexpr const char* kColumns =
     R"(Columns, counted from the beginning of the fault: what does not hold (B rows beyond, U a guilty radar
-unnamed, I an innocent one named, R no recovery); shares of the time in % with the odometry ok (or
+unnamed, I an innocent one named, R no recovery, C a wrong cause named); shares of the time in % with the odometry ok (or
 standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
 5 sigma in %, the largest error in sigma; largest error of the pose after 10 s in m and degrees;
 radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
@@ -38,6 +39,11 @@ inline void append_radar(std::string& line, const std::string& name, bool is_gui
   append(line, " %s%s %.0f/%.0f", name.c_str(), is_guilty ? "*" : "", 100.0 * radar.left_out,
          100.0 * radar.doubted);
   if (radar.named_after_s) append(line, " at %.1f (%x)", *radar.named_after_s, radar.doubts);
+  constexpr std::array kCauses{"", "scale", "sign", "upside down", "yaw", "x", "late", "exchanged"};
+  for (std::size_t i = 0; i < radar.causes.size(); ++i) {
+    if (radar.causes[i] != 0) append(line, " %d %s", radar.causes[i], kCauses[i]);
+  }
+  if (radar.cause.value != 0.0) append(line, " %.3f", radar.cause.value);
 }
 
 inline std::string figures_line(const FaultDrive& drive, const FaultCase& fault,

@@ -72,15 +72,16 @@ class SystematicFaults {
     return result;
   }
 
-  FaultCase& add(std::string kind, std::size_t radar, FaultTime time) {
+  FaultCase& add(std::string kind, std::size_t radar, FaultTime time, FaultKind cause) {
     cases_.push_back({std::move(kind), name(radar), time});
     cases_.back().guilty = bit(radar);
+    cases_.back().cause = cause;
     return cases_.back();
   }
 
-  FaultCase& configure(const std::string& kind, std::size_t radar,
+  FaultCase& configure(const std::string& kind, std::size_t radar, FaultKind cause,
                        const std::function<void(RadarConfiguration&)>& change) {
-    FaultCase& added = add(kind, radar, always());
+    FaultCase& added = add(kind, radar, always(), cause);
     added.configure = [radar, change](Radars& radars) { change(radars[radar]); };
     return added;
   }
@@ -93,14 +94,14 @@ class SystematicFaults {
   void add_scales() {
     for (const std::size_t radar : of_each_place()) {
       for (const double factor : {0.9, 0.95, 1.05, 1.1}) {
-        configure(text("scale %.2f", factor), radar, [factor](RadarConfiguration& each) {
-          scale(each, factor);
-        }).may_be_learned = std::abs(factor - 1.0) < 0.06;
+        configure(text("scale %.2f", factor), radar, FaultKind::scale,
+                  [factor](RadarConfiguration& each) { scale(each, factor); })
+            .may_be_learned = std::abs(factor - 1.0) < 0.06;
       }
     }
     for (const double factor : {1.0, 0.9, 1.1}) {
       const std::size_t radar = front();
-      FaultCase& alone = add(text("alone, scale %.2f", factor), radar, always());
+      FaultCase& alone = add(text("alone, scale %.2f", factor), radar, always(), FaultKind::scale);
       if (factor == 1.0) alone.guilty = 0;
       alone.configure = [radar, factor](Radars& radars) {
         radars = {radars[radar]};
@@ -111,26 +112,30 @@ class SystematicFaults {
 
   void add_signs_and_mounts() {
     for (const std::size_t radar : of_each_place()) {
-      configure("sign flipped", radar, [](RadarConfiguration& each) { scale(each, -1.0); });
+      configure("sign flipped", radar, FaultKind::sign,
+                [](RadarConfiguration& each) { scale(each, -1.0); });
     }
     for (const std::size_t radar : {front(), second()}) {
-      add("upside down", radar, always()).put_in = [radar](const FaultDrive& d, FaultTime t) {
-        return with_upside_down(d.frames, t, radar);
-      };
+      add("upside down", radar, always(), FaultKind::upside_down).put_in =
+          [radar](const FaultDrive& d, FaultTime t) {
+            return with_upside_down(d.frames, t, radar);
+          };
     }
     for (const std::size_t radar : {front(), second()}) {
       for (const double yaw_deg : {3.0, 5.0, 10.0}) {
-        configure(text("mount %g deg off", yaw_deg), radar, [yaw_deg](RadarConfiguration& each) {
-          each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
-        }).may_be_learned = yaw_deg <= 5.0;
+        configure(text("mount %g deg off", yaw_deg), radar, FaultKind::mount_yaw,
+                  [yaw_deg](RadarConfiguration& each) {
+                    each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
+                  })
+            .may_be_learned = yaw_deg <= 5.0;
       }
     }
-    configure("mount 2 m ahead", front(),
+    configure("mount 2 m ahead", front(), FaultKind::mount_x,
               [](RadarConfiguration& each) { each.ego_motion.vehicle_from_radar.x_m += 2.0; });
-    add("knocked at 8 s", front(), onwards()).put_in = [radar = front()](const FaultDrive& d,
-                                                                         FaultTime t) {
-      return with_knocked_mount(d.frames, t, radar, 0.1);
-    };
+    add("knocked at 8 s", front(), onwards(), FaultKind::mount_yaw).put_in =
+        [radar = front()](const FaultDrive& d, FaultTime t) {
+          return with_knocked_mount(d.frames, t, radar, 0.1);
+        };
   }
 
   void swap(const std::string& kind, std::size_t a, std::size_t b) {
@@ -151,6 +156,7 @@ class SystematicFaults {
                         return with_buses(d.frames, t, buses);
                       }});
     cases_.back().guilty = guilty;
+    cases_.back().cause = FaultKind::exchanged;
   }
 
   void add_wiring() {
@@ -189,15 +195,17 @@ class SystematicFaults {
   void add_clocks() {
     for (const std::size_t radar : {front(), second()}) {
       for (const std::int64_t late_ms : {300, 500}) {
-        FaultCase& late = add("late " + std::to_string(late_ms) + " ms", radar, always());
+        FaultCase& late =
+            add("late " + std::to_string(late_ms) + " ms", radar, always(), FaultKind::late);
         late.may_be_learned = late_ms <= 300;
         late.put_in = [radar, late_ms](const FaultDrive& d, FaultTime t) {
           return with_late_stamps(d.frames, t, radar, 1000 * late_ms);
         };
       }
-      add("stamps 1 s ahead", radar, always()).put_in = [radar](const FaultDrive& d, FaultTime t) {
-        return with_clock_offset(d.frames, t, radar, 1'000'000);
-      };
+      add("stamps 1 s ahead", radar, always(), FaultKind::late).put_in =
+          [radar](const FaultDrive& d, FaultTime t) {
+            return with_clock_offset(d.frames, t, radar, 1'000'000);
+          };
     }
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);

@@ -26,6 +26,7 @@ constexpr double kMaxExplained = 4.0;
 constexpr double kMinDifference = 4.0;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.
 constexpr double kMaxMountYawRad = 0.6;
+constexpr double kMaxMountM = 3.0;
 constexpr double kMinScale = 0.3;
 constexpr double kMaxScale = 3.0;
 
@@ -65,6 +66,8 @@ void FaultCauseSearch::clear() {
   count_ = 0.0;
   measured_ = 0.0;
   mirrored_ = 0.0;
+  across_ = 0.0;
+  turn_ = 0.0;
   std::fill(at_mount_.begin(), at_mount_.end(), Products());
   lags_.fill(Lag());
 }
@@ -97,6 +100,9 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps) {
   count_ = kFade * count_ + 1.0;
   measured_ = kFade * measured_ + weight * std::norm(m);
   mirrored_ = kFade * mirrored_ + weight * now.velocity_mps * m;
+  const Complex missing = (now.velocity_mps - m) * std::polar(1.0, mounts_[radar_].yaw_rad);
+  across_ = kFade * across_ + weight * motion_.y() * missing.imag();
+  turn_ = kFade * turn_ + weight * squared(motion_.y());
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     at_mount_[i].fade();
     at_mount_[i].add(expected(motion_, mounts_[i]), m, weight);
@@ -136,9 +142,26 @@ void FaultCauseSearch::try_late(Best& best) const {
   best.add({FaultKind::late, delay_s + shift * step_s}, costs[least]);
 }
 
-FaultCause FaultCauseSearch::cause() const {
+std::optional<FaultCause> FaultCauseSearch::exchanged(std::uint32_t at_fault) const {
+  std::size_t best = radar_;
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    if ((at_fault >> i & 1U) != 0 && cost(at_mount_[i]) < cost(at_mount_[best])) {
+      best = i;
+    }
+  }
+  const double fit = cost(at_mount_[best]);
+  if (fit >= kMaxExplained || cost(at_mount_[radar_]) <= fit + kMinDifference) {
+    return std::nullopt;
+  }
+  return FaultCause{FaultKind::exchanged, 0.0, best};
+}
+
+FaultCause FaultCauseSearch::cause(std::uint32_t at_fault) const {
   if (count_ < kMinCount) {
     return {};
+  }
+  if (const auto cause = exchanged(at_fault)) {
+    return *cause;
   }
   const Products& own = at_mount_[radar_];
   const double squares = own.expected + measured_;
@@ -154,10 +177,9 @@ FaultCause FaultCauseSearch::cause() const {
   if (std::abs(turn_rad) < kMaxMountYawRad) {
     best.add({FaultKind::mount_yaw, turn_rad}, (squares - 2.0 * std::abs(own.product)) / count_);
   }
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    if (i != radar_) {
-      best.add({FaultKind::exchanged, 0.0, i}, cost(at_mount_[i]));
-    }
+  const double ahead_m = turn_ > 0.0 ? across_ / turn_ : 0.0;
+  if (std::abs(ahead_m) < kMaxMountM) {
+    best.add({FaultKind::mount_x, -ahead_m}, cost(own) - across_ * ahead_m / count_);
   }
   try_late(best);
   const bool is_clear = best.cost < kMaxExplained && best.next_cost > best.cost + kMinDifference;

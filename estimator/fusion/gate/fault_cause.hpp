@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,10 @@ namespace cremed {
 ///
 /// With the velocity m of the sensor by its Doppler and e by the other radars, both in the sensor's
 /// frame and as complex numbers, the sums of |e - f(m)|^2 are compared: f(m) = k m (scale), -m
-/// (sign), m exp(i a) (mount yaw), conj(m) (upside down); e at an earlier time (late), or at the
-/// mount of another radar (exchanged). A cause is named if it alone explains them.
+/// (sign), m exp(i a) (mount yaw), conj(m) (upside down), m + w d
+/// across the vehicle (mount x); e at an earlier time (late), or at the
+/// mount of another radar (exchanged). A cause is named if it alone explains them. Data that fit
+/// the mount of another radar at fault are taken for exchanged, whatever else would explain them.
 class FaultCauseSearch {
  public:
   /// `mounts` of all radars, which must outlive this object.
@@ -36,7 +39,8 @@ class FaultCauseSearch {
   /// To be called when the clock of the stamps was set.
   void forget();
 
-  [[nodiscard]] FaultCause cause() const;
+  /// `at_fault`: all radars that are, a bit each. One that was exchanged with this is among them.
+  [[nodiscard]] FaultCause cause(std::uint32_t at_fault) const;
 
  private:
   using Complex = std::complex<double>;
@@ -63,6 +67,7 @@ class FaultCauseSearch {
 
   [[nodiscard]] Complex expected(const Eigen::Vector3d& motion, const Pose2& mount) const;
   [[nodiscard]] double cost(const Products& products) const;
+  [[nodiscard]] std::optional<FaultCause> exchanged(std::uint32_t at_fault) const;
   void try_late(Best& best) const;
 
   std::span<const Pose2> mounts_;
@@ -70,8 +75,11 @@ class FaultCauseSearch {
   std::array<Past, kLags + 1> past_;
   std::size_t motions_ = 0;
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
-  double count_ = 0.0;              // Of velocities, faded.
-  double measured_ = 0.0;           // |m|^2
+  double count_ = 0.0;     // Of velocities, faded.
+  double measured_ = 0.0;  // |m|^2
+  // Of e - m across the vehicle with the yaw rate, and of that.
+  double across_ = 0.0;
+  double turn_ = 0.0;
   Complex mirrored_ = 0.0;          // e m
   std::vector<Products> at_mount_;  // By radar whose mount it is.
   std::array<Lag, kLags> lags_;

@@ -58,7 +58,9 @@ class FaultHypotheses {
   // Radars as bit sets.
   [[nodiscard]] std::uint32_t at_fault() const;
   /// Of a radar at fault.
-  [[nodiscard]] FaultCause cause(std::size_t radar) const { return causes_[radar].cause(); }
+  [[nodiscard]] FaultCause cause(std::size_t radar) const {
+    return causes_[radar].cause(at_fault());
+  }
   [[nodiscard]] std::uint32_t judged() const { return judged_; }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }

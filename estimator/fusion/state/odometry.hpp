@@ -66,6 +66,7 @@ enum class FaultKind : std::uint8_t {
   sign,         ///< Doppler of the wrong sign, or a mount turned back to front.
   upside_down,  ///< Left and right exchanged.
   mount_yaw,    ///< It looks in another direction.
+  mount_x,      ///< It is further ahead or back.
   late,         ///< Its scans have later stamps than they were measured at.
   exchanged,    ///< Its data are those of a radar at another radar's mount.
 };
@@ -73,7 +74,7 @@ enum class FaultKind : std::uint8_t {
 struct FaultCause {
   FaultKind kind = FaultKind::unknown;
   /// What corrects it: factor on Doppler (scale), to be added to the mount's yaw in rad
-  /// (mount_yaw), delay in s (late).
+  /// (mount_yaw) or x in m (mount_x); delay in s (late).
   double value = 0.0;
   std::size_t other = 0;  ///< The other radar, if exchanged.
 };

@@ -42,6 +42,7 @@ class Comparison {
       }
     }
   }
+  void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
   void set_clock(double by_s) {
     time_s_ += by_s;
     faults_.clear();
@@ -183,6 +184,26 @@ TEST_CASE("a radar at fault returns after some seconds of agreement, each time l
     last_s = left_out_s;
   }
   CHECK(last_s < 30.0);
+}
+
+TEST_CASE("a radar that its own check accuses returns soon after that ends, each time later") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  double last_s = 0.0;
+  for (int time = 0; time < 4; ++time) {
+    for (int i = 0; i < 20; ++i) {
+      comparison.accuse(0);
+      comparison.drive(0.15);
+      CHECK(comparison.faults().at_fault() == 1U);
+    }
+    double left_out_s = 0.0;
+    for (; comparison.faults().is_at_fault(0) && left_out_s < 10.0; left_out_s += 0.15) {
+      comparison.drive(0.15);
+    }
+    CHECK(left_out_s > last_s);
+    last_s = left_out_s;
+  }
+  CHECK(last_s == Approx(4.0).margin(0.5));
 }
 
 TEST_CASE("a clock that is set holds no radar longer, and judging goes on") {

@@ -41,7 +41,7 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"mount 10 deg off", "BIU", "", kOrder},
     {"mount 2 m ahead", "IU", "I", kNoWitness},
     {"buses swapped", "BIU", "B", kOrder},
-    {"all flipped for 5 s", "R", "R", kAllDoubted},
+    {"all flipped for 5 s", "R", "", kAllDoubted},
     {"all zero from 8 s", "B", "", kAllDoubted},
     {"all zero for 5 s", "BR", "R", kAllDoubted},
     {"all repeat from 8 s", "B", "", kAllDoubted},

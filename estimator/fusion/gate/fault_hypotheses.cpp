@@ -60,6 +60,8 @@ constexpr double kClearlyBetter = 4.0;
 /// or a late bus shows in turns or when braking only.
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
+/// First of a radar that its own check found wrong, which says itself when that is over.
+constexpr std::int64_t kFirstOwnHoldUs = 500'000;
 
 }  // namespace
 
@@ -397,12 +399,18 @@ bool FaultHypotheses::is_supported(Set set, std::int64_t time_us) const {
 }
 
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
+  hold(radar, time_us, verdicts_[radar].own_hold_us, kFirstOwnHoldUs);
+}
+
+/// At fault for so long after this evidence, each time twice as long.
+void FaultHypotheses::hold(std::size_t radar, std::int64_t time_us, std::int64_t& hold_us,
+                           std::int64_t first_us) {
   Verdict& verdict = verdicts_[radar];
-  if (!verdict.is_at_fault) {
-    verdict.hold_us = std::clamp(2 * verdict.hold_us, kFirstHoldUs, kLongestHoldUs);
+  if (!verdict.is_at_fault || hold_us == 0) {
+    hold_us = std::clamp(2 * hold_us, first_us, kLongestHoldUs);
   }
   verdict.is_at_fault = true;
-  verdict.until_us = time_us + verdict.hold_us;
+  verdict.until_us = std::max(verdict.until_us.value_or(time_us), time_us + hold_us);
 }
 
 void FaultHypotheses::judge(std::int64_t time_us) {
@@ -421,7 +429,7 @@ void FaultHypotheses::judge(std::int64_t time_us) {
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;
     if (is_judged && is_known && !is_in) {
-      accuse(i, time_us);
+      hold(i, time_us, verdict.hold_us, kFirstHoldUs);
     } else if (time_us > *verdict.until_us) {
       verdict.is_at_fault = false;
     }

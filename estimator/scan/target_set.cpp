@@ -62,7 +62,9 @@ bool is_finite_target(const Target& t) {
 }  // namespace
 
 double azimuth_rad(const Target& target, const Pose2& vehicle_from_radar) {
-  return std::remainder(target.bearing_rad - vehicle_from_radar.yaw_rad, 2.0 * std::numbers::pi);
+  const double rad = target.bearing_rad - vehicle_from_radar.yaw_rad;
+  // The library's remainder takes 7 % of a calibration's time.
+  return std::abs(rad) <= std::numbers::pi ? rad : std::remainder(rad, 2.0 * std::numbers::pi);
 }
 
 Detection corrected(const Detection& detection, const DetectionCorrection& correction) {

@@ -14,6 +14,7 @@ constexpr std::int64_t kBlockUs = 2'000'000;
 constexpr std::size_t kMinErrors = 200;
 constexpr std::size_t kMinBlockErrors = 20;
 constexpr int kSteps = 50;
+constexpr double kMinChange = 1e-6;
 constexpr double kLeastVariance = 1e-4;
 constexpr double kLeastFactor = 0.1;
 
@@ -34,8 +35,12 @@ double most_likely_factor(const std::vector<ScaledError>& errors) {
       weights += member / (all * all);
       excess += member * (e.error * e.error - all) / (all * all);
     }
+    const double before = variance;
     variance = std::max(variance + excess / weights, kLeastVariance);
     share = std::min(members / static_cast<double>(errors.size()), 0.999);
+    if (std::abs(variance - before) < kMinChange * variance) {
+      break;
+    }
   }
   return std::sqrt(variance);
 }

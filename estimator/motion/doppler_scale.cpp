@@ -33,12 +33,11 @@ constexpr double kMinWidth = 0.02;
 constexpr double kSpacingM = 0.5;
 /// Four standard deviations of an ARS408's Doppler.
 constexpr double kMaxResidualMps = 0.5;
-/// Smaller r are a healthy radar's, as in the class.
+/// Smaller r are a healthy radar's.
 constexpr double kMaxShare = 0.03;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
 constexpr double kClearSigmas = 4.0;
-/// Of the votes for r above those for 0. Healthy drives have 0.7 at most for an r above kMaxShare,
-/// a scale of 0.95 has 2 to 5, one of 0.9 4 to 12.
+/// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
 constexpr double kContradictingSigmas = 1.5;
 
 }  // namespace

@@ -123,8 +123,8 @@ class FaultHypotheses {
   struct Verdict {
     bool is_at_fault = false;
     std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
-    std::int64_t hold_us = 0;      // After the others told it,
-    std::int64_t own_hold_us = 0;  // and after its own check did.
+    std::int64_t hold_us = 0;              // After the others told it,
+    std::int64_t own_hold_us = 0;          // and after its own check did.
   };
   struct Hypothesis {
     Set set = 0;

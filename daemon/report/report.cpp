@@ -287,8 +287,9 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
   }
 }
 
-void add_wrong_speed(const BeliefStatus& belief, Findings& findings) {
-  if (belief.doppler_correction) {
+void add_wrong_speed(const BeliefStatus& belief, const FaultCause& cause, Findings& findings) {
+  const bool may_be_scale = cause.kind == FaultKind::unknown || cause.kind == FaultKind::scale;
+  if (belief.doppler_correction && may_be_scale) {
     const double percent = 100.0 * (1.0 / *belief.doppler_correction - 1.0);
     findings.push_back(
         {Severity::warning,
@@ -438,7 +439,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
-  add_wrong_speed(status.belief, findings);
+  add_wrong_speed(status.belief, status.odometry.cause, findings);
   add_ahead(status.belief, findings);
   add_left_out(radar, status, all, findings);
   return findings;

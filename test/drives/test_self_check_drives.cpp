@@ -103,20 +103,22 @@ void scale_noise(RadarConfiguration& radar, double factor) {
 
 std::vector<Fault> faults() {
   constexpr std::uint32_t kWrong = registration_contradicts_doppler | other_radars_contradict;
-  const std::vector<std::string> by_both = {"positions of its targets contradict their Doppler",
-                                            "contradicts the other radars"};
+  const auto by_both = [](const std::string& cause) {
+    return std::vector<std::string>{"positions of its targets contradict their Doppler", cause};
+  };
   return {
       {"sign of Doppler", kRear,
        [](RadarConfiguration& radar) {
          radar.decoder.as<BoschGprOptions>()->invert_doppler = true;
        },
-       kWrong | positions_contradict_speed, by_both},
+       kWrong | positions_contradict_speed, by_both("wrong sign")},
       // The odometry has learned the mount by then and agrees with the radar.
-      {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong, by_both},
-      {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong, by_both,
-       1.6, 50.0},
+      {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong,
+       by_both("degrees further right")},
+      {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong,
+       by_both("degrees further left"), 1.6, 50.0},
       {"front reversed", kFront, [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); },
-       kWrong, by_both},
+       kWrong, by_both("looks the other way")},
       {"front noise / 3",
        kFront,
        [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },

@@ -186,15 +186,18 @@ TEST_CASE("a radar at fault returns after some seconds of agreement, each time l
   CHECK(last_s < 30.0);
 }
 
-TEST_CASE("a radar that its own check accuses returns soon after that ends, each time later") {
+TEST_CASE(
+    "radars that accuse themselves return soon after that if they are most, each time later") {
   Comparison comparison(kFive);
   comparison.drive(5.0);
   double last_s = 0.0;
   for (int time = 0; time < 4; ++time) {
     for (int i = 0; i < 20; ++i) {
-      comparison.accuse(0);
+      for (const std::size_t radar : {0, 1, 2}) {
+        comparison.accuse(radar);
+      }
       comparison.drive(0.15);
-      CHECK(comparison.faults().at_fault() == 1U);
+      CHECK(comparison.faults().at_fault() == 7U);
     }
     double left_out_s = 0.0;
     for (; comparison.faults().is_at_fault(0) && left_out_s < 10.0; left_out_s += 0.15) {
@@ -204,6 +207,13 @@ TEST_CASE("a radar that its own check accuses returns soon after that ends, each
     last_s = left_out_s;
   }
   CHECK(last_s == Approx(4.0).margin(0.5));
+  Comparison single(kFive);
+  single.drive(5.0);
+  single.accuse(0);
+  single.drive(4.5);
+  CHECK(single.faults().at_fault() == 1U);
+  single.drive(1.0);
+  CHECK(single.faults().at_fault() == 0U);
 }
 
 TEST_CASE("a clock that is set holds no radar longer, and judging goes on") {

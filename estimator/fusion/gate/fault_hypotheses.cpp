@@ -60,8 +60,8 @@ constexpr double kClearlyBetter = 4.0;
 /// or a late bus shows in turns or when braking only.
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
-/// First of a radar that its own check found wrong, which says itself when that is over.
-constexpr std::int64_t kFirstOwnHoldUs = 500'000;
+/// The first of radars that found themselves wrong, if they are most.
+constexpr std::int64_t kFirstSharedHoldUs = 500'000;
 
 }  // namespace
 
@@ -398,19 +398,25 @@ bool FaultHypotheses::is_supported(Set set, std::int64_t time_us) const {
   return !has_targets;
 }
 
+/// A radar's own check says itself when a fault is over. One radar may be left out for longer; if
+/// most are, there is no odometry.
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
-  hold(radar, time_us, verdicts_[radar].own_hold_us, kFirstOwnHoldUs);
+  convict(radar, time_us);
+  if (2 * std::popcount(at_fault() & judged_) > std::popcount(judged_)) {
+    verdicts_[radar].until_us = time_us + verdicts_[radar].shared_hold_us;
+  }
 }
 
-/// At fault for so long after this evidence, each time twice as long.
-void FaultHypotheses::hold(std::size_t radar, std::int64_t time_us, std::int64_t& hold_us,
-                           std::int64_t first_us) {
+/// At fault for some time after this evidence, each time twice as long.
+void FaultHypotheses::convict(std::size_t radar, std::int64_t time_us) {
   Verdict& verdict = verdicts_[radar];
-  if (!verdict.is_at_fault || hold_us == 0) {
-    hold_us = std::clamp(2 * hold_us, first_us, kLongestHoldUs);
+  if (!verdict.is_at_fault) {
+    verdict.hold_us = std::clamp(2 * verdict.hold_us, kFirstHoldUs, kLongestHoldUs);
+    verdict.shared_hold_us =
+        std::clamp(2 * verdict.shared_hold_us, kFirstSharedHoldUs, kLongestHoldUs);
   }
   verdict.is_at_fault = true;
-  verdict.until_us = std::max(verdict.until_us.value_or(time_us), time_us + hold_us);
+  verdict.until_us = time_us + verdict.hold_us;
 }
 
 void FaultHypotheses::judge(std::int64_t time_us) {
@@ -429,7 +435,7 @@ void FaultHypotheses::judge(std::int64_t time_us) {
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;
     if (is_judged && is_known && !is_in) {
-      hold(i, time_us, verdict.hold_us, kFirstHoldUs);
+      convict(i, time_us);
     } else if (time_us > *verdict.until_us) {
       verdict.is_at_fault = false;
     }

@@ -123,8 +123,8 @@ class FaultHypotheses {
   struct Verdict {
     bool is_at_fault = false;
     std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
-    std::int64_t hold_us = 0;              // After the others told it,
-    std::int64_t own_hold_us = 0;          // and after its own check did.
+    std::int64_t hold_us = 0;
+    std::int64_t shared_hold_us = 0;  // If most radars are at fault by their own checks.
   };
   struct Hypothesis {
     Set set = 0;
@@ -137,7 +137,7 @@ class FaultHypotheses {
                                   const Velocity& velocity) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);
-  void hold(std::size_t radar, std::int64_t time_us, std::int64_t& hold_us, std::int64_t first_us);
+  void convict(std::size_t radar, std::int64_t time_us);
   void judge(std::int64_t time_us);
   [[nodiscard]] Set present() const;
   [[nodiscard]] bool contradict_positions() const;

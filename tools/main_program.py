@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import sys
+import tempfile
 
 FAILURE, BAD_USAGE = 1, 2
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -33,6 +34,30 @@ def raise_when_stopped():
     for number in SIGNALS:
         if signal.getsignal(number) is not signal.SIG_IGN:  # nohup
             signal.signal(number, _stop)
+
+
+def hold_back_signals():
+    """Until release_signals(), so that what takes back is set up as soon as there is something to."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+
+
+def release_signals():
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+
+
+@contextlib.contextmanager
+def temporary_folder(prefix):
+    """Removed at the end, by a signal too."""
+    hold_back_signals()
+    try:
+        with tempfile.TemporaryDirectory(prefix=prefix, dir=os.environ.get("TMPDIR", "/tmp")) as name:
+            try:
+                release_signals()
+                yield name
+            finally:
+                hold_back_signals()
+    finally:
+        release_signals()
 
 
 def _open_closed_streams():

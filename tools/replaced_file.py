@@ -7,6 +7,8 @@ import os
 import stat
 import tempfile
 
+from main_program import hold_back_signals, release_signals
+
 STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 USUAL_PERMISSIONS = 0o644
 
@@ -53,10 +55,13 @@ def _written_to(path):
 
 @contextlib.contextmanager
 def _replaced(target):
-    with _nameless():
-        permissions = _permissions(target)
-        descriptor, part = tempfile.mkstemp(prefix=f"{os.path.basename(target)}.", dir=os.path.dirname(target))
+    part = None
+    hold_back_signals()
     try:
+        with _nameless():
+            permissions = _permissions(target)
+            descriptor, part = tempfile.mkstemp(prefix=f"{os.path.basename(target)}.", dir=os.path.dirname(target))
+        release_signals()
         with open(descriptor, "wb") as file:
             yield file
             with _nameless():
@@ -64,9 +69,12 @@ def _replaced(target):
                 permissions(descriptor)
                 os.replace(part, target)
     except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(part)
+        if part:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(part)
         raise
+    finally:
+        release_signals()
 
 
 def _permissions(target):

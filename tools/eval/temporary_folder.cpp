@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/temporary_folder.hpp"
 
+#include <array>
 #include <atomic>
 #include <climits>
 #include <csignal>
@@ -14,6 +15,8 @@
 
 namespace cremed {
 namespace {
+
+constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
 
 /// For the signal handler.
 char process_folder_path[PATH_MAX];
@@ -39,13 +42,18 @@ class ProcessFolder {
       throw std::runtime_error("cannot make the folder " + name);
     }
     name.copy(process_folder_path, name.size());
-    if (::mkdtemp(process_folder_path) == nullptr) {
-      throw std::runtime_error("cannot make the folder " + name);
+    // A signal waits until its handler can remove the folder.
+    sigset_t signals;
+    sigset_t before;
+    ::sigemptyset(&signals);
+    for (const int number : kSignals) {
+      ::sigaddset(&signals, number);
     }
-    for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
-      if (::signal(number, remove_and_die) == SIG_IGN) {
-        ::signal(number, SIG_IGN);  // nohup
-      }
+    ::pthread_sigmask(SIG_BLOCK, &signals, &before);
+    const bool is_made = make();
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (!is_made) {
+      throw std::runtime_error("cannot make the folder " + name);
     }
   }
   ~ProcessFolder() {
@@ -60,6 +68,18 @@ class ProcessFolder {
   }
 
  private:
+  static bool make() {
+    if (::mkdtemp(process_folder_path) == nullptr) {
+      return false;
+    }
+    for (const int number : kSignals) {
+      if (::signal(number, remove_and_die) == SIG_IGN) {
+        ::signal(number, SIG_IGN);  // nohup
+      }
+    }
+    return true;
+  }
+
   std::atomic<int> count_{0};
 };
 

@@ -8,7 +8,6 @@ import os
 import pathlib
 import signal
 import sys
-import tempfile
 from dataclasses import dataclass, field
 
 import main_program
@@ -48,7 +47,7 @@ def drives_of(arguments):
 
 def measure(drive, programs, told):
     """What the page shows. `told` is called with the part that is done."""
-    with tempfile.TemporaryDirectory(prefix="cremed-report-", dir=os.environ.get("TMPDIR", "/tmp")) as name:
+    with main_program.temporary_folder("cremed-report-") as name:
         folder, lcm_log, warnings, begun = pathlib.Path(name), drive.logs[0], [], 0.0
         if not is_lcm(drive.logs):
             begun = REPLAY_PART

@@ -12,7 +12,7 @@ namespace {
 
 using namespace ars408_layout::motion;
 
-constexpr std::uint8_t kLength = 2;
+constexpr std::uint8_t kMinLength = 2;
 
 std::optional<double> speed_of(const PayloadBits& bits) {
   const std::uint32_t raw = bits.get(kSpeed);
@@ -31,10 +31,10 @@ std::optional<double> speed_of(const PayloadBits& bits) {
 }  // namespace
 
 std::optional<VehicleReading> decode_vehicle_reading(VehicleSignal signal, const CanFrame& frame) {
-  if (!frame.is_classic_data() || frame.length < kLength) {
+  if (!frame.is_classic_data() || frame.length < kMinLength) {
     return std::nullopt;
   }
-  const PayloadBits bits = PayloadBits::big_endian(std::span(frame.data).first(kLength));
+  const PayloadBits bits = PayloadBits::big_endian(std::span(frame.data).first(kMinLength));
   const std::optional<double> value = signal == VehicleSignal::speed
                                           ? speed_of(bits)
                                           : std::optional(kYawRateScale(bits.get(kYawRate)));

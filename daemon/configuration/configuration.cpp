@@ -114,7 +114,7 @@ void check_live(TomlReader& reader, const Configuration& configuration) {
     if (max_latency_s + radar.stamp_offset_s < kLeastLatencyS) {
       reader.report("max_latency_s",
                     concat({"is ", digits(max_latency_s), " while stamp_offset_s of ",
-                            quoted(radar.name), " is ", digits(radar.stamp_offset_s),
+                            in_quotes(radar.name), " is ", digits(radar.stamp_offset_s),
                             ": every scan would be stale; must be at least ",
                             digits(kLeastLatencyS - radar.stamp_offset_s)}));
     }
@@ -224,7 +224,7 @@ std::set<std::string> known_configuration_keys() {
   ReadContext context{Diagnostics(""), &keys};
   std::string radars;
   for (const RadarFamily* family : radar_families()) {
-    radars += concat({"[[radar]]\nname = \"front\"\ntype = ", quoted(family->type), "\n"});
+    radars += concat({"[[radar]]\nname = \"front\"\ntype = ", in_quotes(family->type), "\n"});
   }
   if (const auto table = parse_toml(radars, context.diagnostics)) {
     read_configuration(*table, context,

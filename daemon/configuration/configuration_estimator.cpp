@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-constexpr double kFullCircleRad = 6.2832;
+constexpr double kWidestViewRad = 6.2832;
 
 /// In the order of Likelihood. The former key is "covariance", with other names.
 constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "max_sum_mixture"};
@@ -23,7 +23,7 @@ void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
   reader.number("min_range_m", ray.min_range_m, {0.01, 1000.0});
   reader.number("max_range_m", ray.max_range_m, {0.01, 1000.0});
   reader.refuse(std::array<std::string_view, 2>{"ratio", "growth"}, kIsConstant);
-  reader.number("field_of_view_rad", ray.field_of_view_rad, {0.01, kFullCircleRad});
+  reader.number("field_of_view_rad", ray.field_of_view_rad, {0.01, kWidestViewRad});
   reader.require_less("min_range_m", ray.min_range_m, "max_range_m", ray.max_range_m);
   reader.finish();
 }

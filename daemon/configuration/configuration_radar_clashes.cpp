@@ -43,8 +43,8 @@ void check_search(const PlacedRadar& earlier, const PlacedRadar& later, Diagnost
   if (earlier.radar.decoder.is_same_radar(later.radar.decoder)) {
     diagnostics.add(
         is_auto(later.radar) ? later.interface_line : earlier.interface_line, "radar.interface",
-        concat({"is \"auto\", but radars ", quoted(earlier.radar.name), " and ",
-                quoted(later.radar.name), alike_text(earlier.radar.decoder, later.radar.decoder),
+        concat({"is \"auto\", but radars ", in_quotes(earlier.radar.name), " and ",
+                in_quotes(later.radar.name), alike_text(earlier.radar.decoder, later.radar.decoder),
                 "; must be the name of an interface for both"}));
   }
 }

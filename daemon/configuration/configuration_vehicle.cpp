@@ -53,7 +53,7 @@ void check_id(TomlReader& reader, std::string_view key, std::optional<std::uint3
               const Configuration& configuration) {
   for (const RadarConfiguration& radar : configuration.radars) {
     if (id && radar.interface == configuration.vehicle.interface && radar.decoder.sent_ids()[*id]) {
-      reader.report(key, concat({"is ", hexadecimal(*id), ", which radar ", quoted(radar.name),
+      reader.report(key, concat({"is ", hexadecimal(*id), ", which radar ", in_quotes(radar.name),
                                  " sends on that interface; must be another identifier"}));
     }
   }
@@ -108,7 +108,7 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
     reader.report(
         "interface",
         concat({"is to be heard, but cremed itself sends speed and yaw rate to radar ",
-                quoted(told->name),
+                in_quotes(told->name),
                 " (motion_feedback), and would believe its own estimate; must be \"off\", "
                 "or motion_feedback = false"}));
   }

@@ -59,10 +59,10 @@ std::uint8_t vehicle_interface_index(const Configuration& configuration) {
 void require_interface_names(const Configuration& configuration) {
   for (const RadarConfiguration& radar : configuration.radars) {
     if (is_auto(radar)) {
-      throw ConfigurationError(
-          concat({"radar ", quoted(radar.name), ": interface = \"auto\" is for live buses; must ",
-                  "be the name in the log (`cremed-doctor --suggest-config LOG` tells which ",
-                  "radar is where)"}));
+      throw ConfigurationError(concat(
+          {"radar ", in_quotes(radar.name), ": interface = \"auto\" is for live buses; must ",
+           "be the name in the log (`cremed-doctor --suggest-config LOG` tells which ",
+           "radar is where)"}));
     }
   }
 }

@@ -123,7 +123,7 @@ void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
   } else if (is_here) {
     auto& errors = content.radars[static_cast<std::size_t>(found - radars_.begin())];
     if (errors) {
-      reader.report("name", concat({"is ", quoted(entry.name), " twice; must be there once"}));
+      reader.report("name", concat({"is ", in_quotes(entry.name), " twice; must be there once"}));
     }
     errors = entry.errors;
   }
@@ -177,7 +177,7 @@ std::optional<std::string> LearnedFile::text(
     }
     const LearnedError yaw = clipped(learned[i]->mount_yaw_rad, radar.unlearned.mount_yaw_rad);
     const LearnedError scale = clipped(learned[i]->doppler_scale, radar.unlearned.doppler_scale);
-    text += concat({"\n[[radar]]\nname = ", quoted(radar.name), "\n"});
+    text += concat({"\n[[radar]]\nname = ", in_quotes(radar.name), "\n"});
     text += line("mount_x_m", radar.mount.x_m) + line("mount_y_m", radar.mount.y_m) +
             line("mount_yaw_rad", radar.mount.yaw_rad) + line("mount_yaw_error_rad", yaw.value) +
             line("mount_yaw_error_std_rad", yaw.std) + line("doppler_scale_error", scale.value) +

@@ -48,7 +48,7 @@ RadarPlace checked(std::size_t radar, const Configuration& configuration,
     if (i != radar && other.interface == interface && shared.any()) {
       return {PlaceStatus::clash, "",
               concat({wanted.decoder.describe(), " is on ", interface, ", where radar ",
-                      quoted(other.name), " uses CAN identifier ",
+                      in_quotes(other.name), " uses CAN identifier ",
                       hexadecimal(shared._Find_first()), " as well"}),
               "give one of them another bus, or other identifiers"};
     }
@@ -72,7 +72,7 @@ RadarPlace place_of(std::size_t radar, const Configuration& configuration,
   }
   if (names != name) {
     return {PlaceStatus::ambiguous, "", concat({wanted.decoder.describe(), " is on ", names}),
-            concat({"set interface to one of them for radar ", quoted(wanted.name)})};
+            concat({"set interface to one of them for radar ", in_quotes(wanted.name)})};
   }
   return checked(radar, configuration, name);
 }

@@ -24,7 +24,7 @@ std::string float_text(double value) {
 std::string describe(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::string:
-      return quoted(node.as_string()->get());
+      return in_quotes(node.as_string()->get());
     case toml::node_type::integer:
       return digits(node.as_integer()->get());
     case toml::node_type::floating_point:
@@ -241,7 +241,7 @@ void TomlReader::finish() {
       const std::string_view nearest = nearest_word(key.str(), known_);
       report(key.str(), nearest.empty()
                             ? concat({"unknown key; must be one of ", list_text(known_)})
-                            : concat({"unknown key; did you mean ", quoted(nearest), "?"}));
+                            : concat({"unknown key; did you mean ", in_quotes(nearest), "?"}));
     }
   }
 }
@@ -269,7 +269,7 @@ std::optional<std::size_t> TomlReader::deprecated_choice(
   const auto index = static_cast<std::size_t>(name - old_names.begin());
   context_->warnings.add(
       line_of(old_key), path_of(old_key),
-      concat({"is deprecated; write ", new_key, " = ", quoted(new_names[index])}));
+      concat({"is deprecated; write ", new_key, " = ", in_quotes(new_names[index])}));
   return index;
 }
 

@@ -116,9 +116,9 @@ void refuse_aliases(const std::vector<NamedFile>& inputs, const std::vector<Name
 }
 
 std::string lcm_file(std::string_view url) {
-  constexpr std::string_view kScheme = "file://";
-  return url.starts_with(kScheme)
-             ? std::string(url.substr(kScheme.size(), url.find('?') - kScheme.size()))
+  constexpr std::string_view kFileScheme = "file://";
+  return url.starts_with(kFileScheme)
+             ? std::string(url.substr(kFileScheme.size(), url.find('?') - kFileScheme.size()))
              : std::string();
 }
 

@@ -58,7 +58,7 @@ std::string counted(std::uint64_t count, std::string_view noun) {
   return concat({std::to_string(count), " ", noun, count == 1 ? "" : "s"});
 }
 
-std::string quoted(std::string_view text) { return concat({"\"", printable(text), "\""}); }
+std::string in_quotes(std::string_view text) { return concat({"\"", printable(text), "\""}); }
 
 std::string in_shell(std::string_view path) {
   const std::string text = printable(path);
@@ -74,7 +74,7 @@ std::string list_text(std::span<const std::string_view> names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     text += i == 0 ? "" : i + 1 == names.size() ? " or " : ", ";
-    text += quoted(names[i]);
+    text += in_quotes(names[i]);
   }
   return text;
 }

@@ -29,7 +29,7 @@ std::string tenths(double value);
 std::string counted(std::uint64_t count, std::string_view noun);
 
 /// Printable, in double quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// A path as an argument of a shell's command.
 std::string in_shell(std::string_view path);

@@ -19,8 +19,6 @@
 namespace cremed {
 namespace {
 
-constexpr int kLongestWaitMs = 100;
-
 int opened(const std::string& path) {
   return path == "-"
              ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
@@ -35,7 +33,7 @@ bool is_regular_file(int descriptor) {
 /// False, with errno, if a stop was requested first.
 bool wait_for_room(int descriptor) {
   pollfd output{descriptor, POLLOUT, 0};
-  while (::poll(&output, 1, kLongestWaitMs) <= 0) {
+  while (::poll(&output, 1, kStopPollMs) <= 0) {
     if (stop_requested()) {
       errno = EINTR;
       return false;

@@ -13,6 +13,8 @@ const volatile std::sig_atomic_t* handle_stop_signals();
 void stop_at_hangup();
 /// Whether a stop was requested.
 bool stop_requested();
+/// A signal just before a system call does not interrupt it: wait at most so long, then ask.
+inline constexpr int kStopPollMs = 100;
 
 /// SIGHUP requests a reload of the configuration.
 void handle_reload_signal();

@@ -19,8 +19,6 @@
 namespace cremed {
 namespace {
 
-constexpr int kLongestWaitMs = 100;
-
 struct LevelText {
   std::string_view name;
   std::string_view colour;
@@ -121,7 +119,7 @@ bool LogSink::has_room() const {
   if (drops_) {
     return ::poll(&output, 1, 0) == 1;
   }
-  while (::poll(&output, 1, kLongestWaitMs) <= 0) {
+  while (::poll(&output, 1, kStopPollMs) <= 0) {
     if (stop_requested()) {
       return false;
     }

@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kMaxSecondsDigits = 12;  // The largest value in microseconds fits an int64.
 constexpr std::size_t kClassicCapacity = 8;
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
-constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
-constexpr std::uint32_t kErrorFlag = 0x20000000;
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kDropPrefix = "DROPCOUNT: dropped ";
@@ -134,7 +132,7 @@ Error parse_standard_id(std::uint32_t id, CanFrame& frame) {
 /// Error frames are written as extended frames with a flag beyond the identifier's bits.
 Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
   frame.id = id & kMaxExtendedId;
-  frame.error = (id & ~kMaxExtendedId) == kErrorFlag;
+  frame.error = (id & ~kMaxExtendedId) == kCandumpErrorFlag;
   frame.extended = !frame.error;
   return frame.error || id <= kMaxExtendedId ? Error{} : kExtendedRange;
 }

@@ -11,6 +11,10 @@
 
 namespace cremed {
 
+inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
+/// Marks the identifier of an error frame.
+inline constexpr std::uint32_t kCandumpErrorFlag = 0x20000000;
+
 /// Kind of a line of a candump log.
 enum class CandumpStatus : std::uint8_t {
   frame,      ///< `frame` and `interface_name` are set.

@@ -9,7 +9,6 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kMaxStampUs = 999'999'999'999'999'999;  // 12 digits of seconds.
-constexpr std::uint32_t kErrorFlag = 0x20000000;
 
 /// Appends to the buffer; all parts together are shorter than kMaxCandumpLine.
 class LineWriter {
@@ -52,7 +51,7 @@ void write_stamp(LineWriter& out, std::int64_t stamp_us) {
 
 void write_id(LineWriter& out, const CanFrame& frame) {
   if (frame.error || frame.extended) {
-    out.number((frame.id & 0x1FFFFFFFU) | (frame.error ? kErrorFlag : 0U), 16, 8);
+    out.number((frame.id & kMaxExtendedId) | (frame.error ? kCandumpErrorFlag : 0U), 16, 8);
   } else {
     out.number(frame.id & 0x7FFU, 16, 3);
   }

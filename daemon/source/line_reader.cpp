@@ -11,10 +11,11 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "daemon/process/signals.hpp"
+
 namespace cremed {
 namespace {
 
-constexpr int kLongestWaitMs = 100;
 constexpr std::size_t kBeginBytes = 256;
 
 /// A byte order mark is how editors say UTF-8.
@@ -83,9 +84,8 @@ LineReader::Status LineReader::fill() {
     end_ = 0;
     return Status::interrupted;  // The line may never end.
   }
-  // A signal just before read(2) would not interrupt it: return now and then.
   pollfd input{descriptor_, POLLIN, 0};
-  if (::poll(&input, 1, kLongestWaitMs) <= 0) {
+  if (::poll(&input, 1, kStopPollMs) <= 0) {
     return Status::interrupted;
   }
   const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);

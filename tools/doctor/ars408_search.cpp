@@ -67,7 +67,7 @@ std::string absence(std::uint8_t wanted, const Configuration& configuration,
                    "; check its power and cable, and run cremed-doctor without other options"});
   }
   return concat({"no ARS408 with sensor id ", text(wanted), " on ", radar.interface, ", but with ",
-                 ids, "; if that is ", quoted(radar.name), ", say so: --sensor-id ",
+                 ids, "; if that is ", in_quotes(radar.name), ", say so: --sensor-id ",
                  ids.substr(0, 1),
                  ids.size() > 1 ? " (unplug the others if you do not know which)" : ""});
 }
@@ -84,7 +84,7 @@ std::string problem(std::uint8_t id, const Configuration& configuration,
   const std::uint8_t configured = configured_id(radar);
   if (const auto* other = other_radar(id, configuration, radar)) {
     return concat({"sensor id ", text(id), " on ", radar.interface, " is radar ",
-                   quoted(other->name), "; name that, or take another --sensor-id"});
+                   in_quotes(other->name), "; name that, or take another --sensor-id"});
   }
   if (!states[id].state) {
     return absence(id, configuration, radar, states);

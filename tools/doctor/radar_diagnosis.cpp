@@ -46,7 +46,7 @@ bool contains(const std::vector<RadarSettings>& radars, const RadarSettings& wan
                      [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
 }
 
-std::string quoted_name(const RadarConfiguration& radar) { return quoted(radar.name); }
+std::string quoted_name(const RadarConfiguration& radar) { return in_quotes(radar.name); }
 
 /// A radar of the same family is the likelier one.
 std::optional<RadarSettings> most_likely(const std::vector<RadarSettings>& radars,
@@ -77,7 +77,7 @@ Finding other_radar(const RadarConfiguration& radar, const RadarSettings& seen) 
                                                 sensor_id_command(radar, *ars408)})})};
   }
   return {Severity::error, what,
-          concat({"set type = ", quoted(seen.family().type), " and ", seen.key(), " for radar ",
+          concat({"set type = ", in_quotes(seen.family().type), " and ", seen.key(), " for radar ",
                   quoted_name(radar)})};
 }
 
@@ -310,7 +310,7 @@ Findings find_elsewhere(const Configuration& configuration, const Observation& o
       return {{Severity::error,
                concat({wanted.decoder.describe(), " is on ", bus.interface, ", not on ",
                        wanted.interface}),
-               concat({"set interface = ", quoted(bus.interface), " for radar ",
+               concat({"set interface = ", in_quotes(bus.interface), " for radar ",
                        quoted_name(wanted)})}};
     }
   }

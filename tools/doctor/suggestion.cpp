@@ -64,7 +64,7 @@ std::string others_like(const RadarFamily& family, RadarFamilies families) {
   std::string types;
   for (const RadarFamily* other : families) {
     if (other != &family && is_alike(*other, family)) {
-      types += concat({types.empty() ? "  # or " : ", ", quoted(other->type)});
+      types += concat({types.empty() ? "  # or " : ", ", in_quotes(other->type)});
     }
   }
   return types.empty() ? "" : types + " (see the label of the sensor): the frames are the same";

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLowestHz = 0.3;
 constexpr double kHighestHz = 2.0;
-constexpr double kDrivingMps = 1.0;
+constexpr double kFullErrorMps = 1.0;
 
 }  // namespace
 
@@ -31,6 +31,8 @@ double SlowError::at(double time_s) const {
   return sum;
 }
 
-double driving_share(double speed_mps) { return std::min(std::abs(speed_mps) / kDrivingMps, 1.0); }
+double driving_share(double speed_mps) {
+  return std::min(std::abs(speed_mps) / kFullErrorMps, 1.0);
+}
 
 }  // namespace cremed

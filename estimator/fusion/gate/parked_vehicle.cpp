@@ -34,7 +34,7 @@ constexpr double kNoiseError = 0.3;
 /// at rest; the share of a scan in it; and three steps of that grid, beyond which a target moves.
 constexpr double kMinDopplerStdMps = kArs408DopplerStdMps;
 constexpr double kLearningShare = 0.03;
-constexpr double kMaxNoiseMps = 0.75;
+constexpr double kMovingDopplerMps = 0.75;
 /// Of the own lane: a car in it that starts as we do rests beside us, and does not count.
 constexpr double kHalfLaneM = 1.75;
 /// Turning circle of a small car, 8 m.
@@ -83,7 +83,7 @@ void ParkedVehicle::Look::learn_noise(const TargetSet& seen) {
   double sum = 0.0;
   int count = 0;
   for (const Target& target : seen) {
-    if (std::abs(target.doppler_mps) <= kMaxNoiseMps) {
+    if (std::abs(target.doppler_mps) <= kMovingDopplerMps) {
       sum += squared(target.doppler_mps);
       ++count;
     }

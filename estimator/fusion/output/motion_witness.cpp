@@ -11,8 +11,8 @@
 namespace cremed {
 namespace {
 
-constexpr double kMaxSigmas = 5.0;  // False-alarm rate: 1 in two million.
-constexpr double kMaxAgeS = 0.3;    // Braking changes the speed by up to 3 m/s.
+constexpr double kWitnessSigmas = 5.0;  // False-alarm rate: 1 in two million.
+constexpr double kMaxAgeS = 0.3;        // Braking changes the speed by up to 3 m/s.
 
 /// Mean time between a point in time and an interval of length `span_s` whose middle is
 /// `distance_s` away.
@@ -35,7 +35,7 @@ bool contradicts(const Odometry& known, const EgoMotion& motion) {
     const double variance =
         motion.covariance(axis, axis) / (span_s * span_s) + known.twist_covariance(axis, axis);
     return std::abs(motion.motion(axis) / span_s - known.twist(axis)) >
-           possible_change * time_s + kMaxSigmas * std::sqrt(variance);
+           possible_change * time_s + kWitnessSigmas * std::sqrt(variance);
   };
   return differs(0, kMaxAccelerationMps2) || differs(2, kMaxYawAccelerationRadps2);
 }

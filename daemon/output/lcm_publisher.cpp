@@ -104,6 +104,9 @@ void fill_odometry(const RadarReport& report, status_t& m) {
   m.odometry_fault = static_cast<std::int8_t>(report.cause.kind);
   m.odometry_fault_value = static_cast<float>(report.cause.value);
   m.odometry_fault_radar = static_cast<std::int8_t>(report.cause.other);
+  m.odometry_targets_at_rest = count(report.targets.at_rest);
+  m.odometry_targets_found = count(report.targets.found);
+  m.odometry_targets_moving = count(report.targets.moving);
 }
 
 void copy(const Eigen::Matrix3d& matrix, double (&row_major)[9]) {

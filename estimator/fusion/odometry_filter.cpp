@@ -376,6 +376,7 @@ void OdometryFilter::use_positions(std::size_t radar, const TargetSet& targets,
   }
   const double age_s = seconds_between(stamp_us, state_.time_us());
   select_static(state_, radar, age_s, targets, static_targets_);
+  tracks_[radar]->counters.moving += targets.size() - static_targets_.size();
   if (static_targets_.size() >= static_cast<std::size_t>(state_.options().min_targets)) {
     match(radar, age_s);
     extend_map(radar, stamp_us, age_s);
@@ -390,6 +391,9 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   map.place(from_map.now_from_node());
   const auto match = registration_.solve(static_targets_, map, state_.mount(radar));
   const auto possible = static_cast<double>(static_targets_.size());
+  MapCounters& counters = tracks_[radar]->counters;
+  counters.at_rest += static_targets_.size();
+  counters.found += match ? static_cast<std::uint64_t>(std::lround(match->matched)) : 0;
   if (!match || match->matched < state_.options().min_matched_share * possible) {
     return;
   }
@@ -467,7 +471,8 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
           state.mean(mount_yaw),
           state.std(mount_yaw),
           state.mean(doppler_scale),
-          state.std(doppler_scale)};
+          state.std(doppler_scale),
+          tracks_[radar]->counters};
 }
 
 }  // namespace cremed

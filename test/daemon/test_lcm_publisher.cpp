@@ -127,28 +127,28 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
 }
 
 TEST_CASE("status_t numbers the faults as the odometry does") {
-  CHECK(status_t::FAULT_OF_UNKNOWN == static_cast<int>(FaultKind::unknown));
-  CHECK(status_t::FAULT_OF_SCALE == static_cast<int>(FaultKind::scale));
-  CHECK(status_t::FAULT_OF_SIGN == static_cast<int>(FaultKind::sign));
-  CHECK(status_t::FAULT_OF_UPSIDE_DOWN == static_cast<int>(FaultKind::upside_down));
-  CHECK(status_t::FAULT_OF_MOUNT_YAW == static_cast<int>(FaultKind::mount_yaw));
-  CHECK(status_t::FAULT_OF_MOUNT_X == static_cast<int>(FaultKind::mount_x));
-  CHECK(status_t::FAULT_OF_LATE == static_cast<int>(FaultKind::late));
-  CHECK(status_t::FAULT_OF_EXCHANGED == static_cast<int>(FaultKind::exchanged));
+  CHECK(status_t::CAUSE_UNKNOWN == static_cast<int>(FaultKind::unknown));
+  CHECK(status_t::CAUSE_SCALE == static_cast<int>(FaultKind::scale));
+  CHECK(status_t::CAUSE_SIGN == static_cast<int>(FaultKind::sign));
+  CHECK(status_t::CAUSE_UPSIDE_DOWN == static_cast<int>(FaultKind::upside_down));
+  CHECK(status_t::CAUSE_MOUNT_YAW == static_cast<int>(FaultKind::mount_yaw));
+  CHECK(status_t::CAUSE_MOUNT_X == static_cast<int>(FaultKind::mount_x));
+  CHECK(status_t::CAUSE_LATE == static_cast<int>(FaultKind::late));
+  CHECK(status_t::CAUSE_EXCHANGED == static_cast<int>(FaultKind::exchanged));
 }
 
 TEST_CASE("status_t says what the odometry filter knows of the radar") {
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;
-  status.odometry = {
-      true, {FaultKind::exchanged, 0.125, 1}, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125, -0.5, 0.0625};
+  status.odometry = {true, {FaultKind::exchanged, 0.125, 1}, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125,
+                     -0.5, 0.0625, {7, 5, 3}};
   status.scans_in_odometry = 77;
   const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
   REQUIRE(received.size() == 1);
   const auto m = decode<status_t>(received[0]);
   CHECK(m.odometry_leaves_out == 1);
-  CHECK(m.odometry_fault == status_t::FAULT_OF_EXCHANGED);
+  CHECK(m.odometry_fault == status_t::CAUSE_EXCHANGED);
   CHECK(m.odometry_fault_value == 0.125F);
   CHECK(m.odometry_fault_radar == 1);
   CHECK(m.odometry_innovation_doppler == 1.5F);
@@ -161,6 +161,9 @@ TEST_CASE("status_t says what the odometry filter knows of the radar") {
   CHECK(m.odometry_doppler_scale_error == -0.5F);
   CHECK(m.odometry_doppler_scale_error_std == 0.0625F);
   CHECK(m.scans_in_odometry == 77);
+  CHECK(m.odometry_targets_at_rest == 7);
+  CHECK(m.odometry_targets_found == 5);
+  CHECK(m.odometry_targets_moving == 3);
 }
 
 TEST_CASE("odometry_t carries every field, in one datagram") {

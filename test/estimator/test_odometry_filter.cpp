@@ -284,6 +284,30 @@ TEST_CASE("late scans are used") {
   CHECK(filter.report(1).doppler_innovation > 0.05);
 }
 
+TEST_CASE("targets that move are left out of the map and counted, the others are found in it") {
+  OdometryDrive drive({kFront}, 13);
+  std::size_t moving = 0;
+  std::size_t all = 0;
+  for (int i = 0; i < 60; ++i) {
+    drive.pass(OdometryDrive::kPeriodUs);
+    TargetSet targets;
+    for (Target target : drive.see(0)) {
+      if (targets.size() % 5 == 0) {
+        target.doppler_mps -= 4.0;
+        ++moving;
+      }
+      targets.add(target);
+    }
+    all += targets.size();
+    drive.filter().update(0, targets, drive.stamp_us());
+  }
+  const MapCounters counters = drive.filter().report(0).targets;
+  CHECK(counters.at_rest + counters.moving == all);
+  CHECK(static_cast<double>(counters.moving) == Approx(static_cast<double>(moving)).epsilon(0.05));
+  CHECK(counters.found > counters.at_rest / 2);
+  CHECK(counters.found < counters.at_rest);
+}
+
 TEST_CASE("the yaw error of a mount is learned") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
   drive.radar(0).mount.yaw_rad += 0.015;

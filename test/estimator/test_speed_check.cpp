@@ -54,6 +54,18 @@ TEST_CASE("Speed check: stuck Doppler and its end are detected within 1.5 s of d
   CHECK_FALSE(drive.check.is_contradicted());
 }
 
+TEST_CASE("Speed check: a doubt lasts where nothing can be compared, and ends soon after") {
+  CheckedDrive drive;
+  drive.go_on({}, 3.0);
+  drive.go_on({.doppler_factor = 0.0}, 1.5);
+  REQUIRE(drive.check.is_contradicted());
+  drive.go_on({.things = 0}, 60.0);
+  CHECK(drive.check.is_contradicted());
+  CHECK_FALSE(drive.check.is_checked());
+  drive.go_on({}, 3.0);
+  CHECK_FALSE(drive.check.is_contradicted());
+}
+
 TEST_CASE("Speed check: stamps at half or twice the rate of time are detected within 2 s") {
   const double pace = GENERATE(0.5, 2.0);
   const double speed_mps = GENERATE(5.0, 12.0);

@@ -14,12 +14,13 @@ MOTION_STATUSES = names_of(cremed.ego_motion_t, "STATUS_")
 ODOMETRY_STATUSES = names_of(cremed.odometry_t, "STATUS_")
 DOUBTS = names_of(cremed.status_t, "DOUBT_")
 FAULTS = names_of(cremed.status_t, "FAULT_")
+CAUSES = names_of(cremed.status_t, "CAUSE_")
 # Of status_t, by time. 0: nothing to compare yet.
 INNOVATIONS = ("innovation_doppler", "innovation_next", "odometry_innovation_doppler",
                "odometry_innovation_lateral", "odometry_innovation_yaw")
 COUNTERS = tuple(name for name in cremed.status_t.__slots__ if name != "bus_state" and name.startswith((
     "frames_", "malformed_", "bus_", "clock_", "crc_", "counter_", "scans", "parts_", "stamps_",
-    "detections_", "motions_of_", "messages_")))
+    "detections_", "motions_of_", "messages_", "odometry_targets_")))
 
 
 def whole(value):
@@ -85,6 +86,8 @@ class DriveReport:
         return {"counters": {name: getattr(last, name) for name in COUNTERS},
                 "statuses_with_doubt": dict(doubts), "statuses": len(messages),
                 "faults": names_in(last.radar_faults, FAULTS),
+                "statuses_left_out": counted((m.odometry_fault for m in messages if m.odometry_leaves_out),
+                                             CAUSES),
                 "latency_max_us": max(message.latency_max_us for message in messages),
                 "mount_yaw_error_deg": rounded([last.odometry_mount_yaw_error_rad * DEG_PER_RAD])[0],
                 "mount_yaw_error_sigma_deg":

@@ -302,6 +302,11 @@ function showCounters() {
     ...told.map((name) => [name.replaceAll("_", " "), ...radars.map((radar) => value(radar, name))]),
     ...motions.map((status) => [`motions: ${status.replaceAll("_", " ")}`,
                                 ...radars.map((radar) => figures.sources[radar]?.statuses[status] ?? 0)]),
+    ["excluded from the odometry, by cause: statuses", ...radars.map((radar) => {
+      const {statuses_left_out: causes, statuses} = figures.radars[radar];
+      return Object.entries(causes).map(([cause, count]) => `${cause.replaceAll("_", " ")}: ${count} of ${statuses}`)
+        .join(", ") || "never";
+    })],
     ["faults that the radar reports", ...radars.map((radar) => figures.radars[radar].faults.join(", ") || "none")]]);
   byId("counters-note").textContent = `0 for all radars: ${
     names.filter((name) => !told.includes(name)).map((name) => name.replaceAll("_", " ")).join(", ")}.`;

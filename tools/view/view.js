@@ -58,7 +58,7 @@ function showRates(id, ylabel, color, name, xlabel) {
   rates[id].updateOptions({file: joined(series)});
 }
 
-// status_t.FAULT_OF_*
+// status_t.CAUSE_*
 const FAULTS = ["yes", "yes: scale of Doppler", "yes: sign of Doppler", "yes: upside down",
                 "yes: yaw of the mount", "yes: place of the mount", "yes: late", "yes: exchanged with another"];
 

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/map/target_map.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -41,6 +42,7 @@ class RadarTrack {
                                        const std::optional<Eigen::Vector2d>& expected);
 
   TargetMap map;
+  MapCounters counters;
 
  private:
   const OdometryOptions& options_;

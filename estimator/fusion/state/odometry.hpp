@@ -79,6 +79,13 @@ struct FaultCause {
   std::size_t other = 0;  ///< The other radar, if exchanged.
 };
 
+/// Targets of one radar since the start, in scans that were registered with its map.
+struct MapCounters {
+  std::uint64_t at_rest = 0;  ///< By their Doppler: compared with the map.
+  std::uint64_t found = 0;    ///< Of these, in the map: sum of probabilities, rounded.
+  std::uint64_t moving = 0;   ///< The others: left out.
+};
+
 /// Diagnostics of one radar.
 struct RadarReport {
   bool is_left_out = false;  ///< It contradicts the filter.
@@ -96,6 +103,7 @@ struct RadarReport {
   double mount_yaw_std_rad = 0.0;
   double doppler_scale = 0.0;
   double doppler_scale_std = 0.0;
+  MapCounters targets = {};
 };
 
 /// An error of a signal of the vehicle's bus that the radars show.

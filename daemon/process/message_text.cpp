@@ -54,8 +54,10 @@ std::string tenths(double value) {
   return {text.data(), result.ptr};
 }
 
+std::string number(std::uint64_t count) { return std::to_string(count); }
+
 std::string counted(std::uint64_t count, std::string_view noun) {
-  return concat({std::to_string(count), " ", noun, count == 1 ? "" : "s"});
+  return concat({number(count), " ", noun, count == 1 ? "" : "s"});
 }
 
 std::string in_quotes(std::string_view text) { return concat({"\"", printable(text), "\""}); }

@@ -22,6 +22,8 @@ std::string concat(std::initializer_list<std::string_view> parts);
 std::string digits(double value);
 std::string digits(std::int64_t value);
 
+std::string number(std::uint64_t count);
+
 /// One decimal: "13.6"
 std::string tenths(double value);
 

@@ -18,8 +18,6 @@ namespace {
 
 using Findings = std::vector<Finding>;
 
-std::string number(std::uint64_t value) { return std::to_string(value); }
-
 std::uint64_t count_of(const RadarStatus& status, MotionStatus motion) {
   return status.motions_by_status[static_cast<std::size_t>(motion)];
 }

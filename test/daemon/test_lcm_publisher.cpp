@@ -141,8 +141,12 @@ TEST_CASE("status_t says what the odometry filter knows of the radar") {
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;
-  status.odometry = {true, {FaultKind::exchanged, 0.125, 1}, 1.5, 2.5, 3.5, 4.5, 5.5, 0.25, 0.125,
-                     -0.5, 0.0625, {7, 5, 3}};
+  status.odometry = {true,   {FaultKind::exchanged, 0.125, 1},
+                     1.5,    2.5,
+                     3.5,    4.5,
+                     5.5,    0.25,
+                     0.125,  -0.5,
+                     0.0625, {7, 5, 3}};
   status.scans_in_odometry = 77;
   const auto received = receive(publisher, [&] { publisher.on_status(0, status); });
   REQUIRE(received.size() == 1);

@@ -201,7 +201,7 @@ TEST_CASE("A lost signal is named, and the radars go on; it returns", "[long]") 
   }
 }
 
-TEST_CASE("A signal that never comes is lost, and changes nothing") {
+TEST_CASE("A signal that never comes is lost, and changes nothing", "[long]") {
   const Drive simulated = town("can0", 30.0);
   const std::int64_t begin = begin_us(simulated);
   const auto frames = lost(lost(simulated.frames, kSpeedId, begin, begin + 100'000'000), kYawRateId,

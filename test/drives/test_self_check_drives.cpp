@@ -269,7 +269,7 @@ TEST_CASE("Self-check: a clock at another pace than time shows within 2 s of dri
   CHECK(std::max(front_s, rear_s) <= 5.0);
 }
 
-TEST_CASE("Self-check: a sensor that is knocked askew on the way shows within a minute") {
+TEST_CASE("Self-check: a sensor that is knocked askew on the way shows within a minute", "[long]") {
   const Drive before = simulated("bends", default_radars(), 4, 90.0);
   Radars knocked = default_radars();
   turn(knocked[kFront], 0.15);

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/measurement/radar_track.hpp"
-
 #include <random>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

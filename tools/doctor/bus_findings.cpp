@@ -13,8 +13,6 @@ namespace {
 
 constexpr int kWantedBufferBytes = 1 << 20;
 
-std::string number(std::uint64_t value) { return std::to_string(value); }
-
 /// A virtual interface has no wires and no bit rate.
 bool is_virtual(const BusObservation& bus) { return bus.interface.starts_with("vcan"); }
 

@@ -18,8 +18,6 @@ namespace {
 
 using Findings = std::vector<Finding>;
 
-std::string number(std::uint64_t value) { return std::to_string(value); }
-
 const BusObservation& bus_of(const RadarConfiguration& radar, const Observation& observation) {
   return *std::find_if(observation.buses.begin(), observation.buses.end(),
                        [&](const auto& bus) { return bus.interface == radar.interface; });

@@ -36,8 +36,7 @@ constexpr double kSignificant = 3.0;  // Standard deviations.
 constexpr int kRounds = 3;
 // Afterwards the mounts are accurate enough that registrations no longer change.
 constexpr int kRegisteredRounds = 2;
-constexpr double kSlowestMps = 0.5;  // At lower speeds Doppler gives no direction.
-constexpr double kSlackMps = 0.1;
+constexpr double kSlowestMps = 0.5;              // At lower speeds Doppler gives no direction.
 constexpr double kLeastYawRateStdRadps = 0.002;  // At standstill.
 
 CalibrationVector configured(const RadarConfiguration& radar) {
@@ -187,7 +186,7 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
       if (!state || state->head<2>().norm() < kSlowestMps) {
         continue;
       }
-      const RecordedScan fixed = static_part(scan, *state, {}, kSlackMps);
+      const RecordedScan fixed = static_part(scan, *state, {}, kGateSlackMps);
       result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
     }
   }

@@ -18,7 +18,7 @@ namespace cremed {
 namespace {
 
 constexpr std::int64_t kNodeUs = 100'000;  // kNodeS
-constexpr std::int64_t kBlockUs = 4'000'000;
+constexpr std::int64_t kGroupUs = 4'000'000;
 constexpr double kTruthSpeedStdMps = 0.03;
 constexpr double kTruthYawRateStdRadps = 0.005;
 /// Prior of the motion: practically none.
@@ -67,7 +67,7 @@ struct CalibrationProblem {
   [[nodiscard]] std::vector<double*> parameters();
   void set_std();
 
-  void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kBlockUs}); }
+  void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kGroupUs}); }
 };
 
 void CalibrationProblem::add_all() {

@@ -18,8 +18,7 @@ namespace {
 /// are those of one.
 constexpr std::size_t kLag = 5;
 constexpr double kLongestS = 0.5;  // Between two scans, for one step of the motion.
-constexpr double kSlackMps = 0.1;
-constexpr double kGate = 3.0;  // Standard deviations of an azimuth; beyond it, another target.
+constexpr double kGate = 3.0;      // Standard deviations of an azimuth; beyond it, another target.
 constexpr std::size_t kMinMatches = 3;
 
 std::vector<RecordedScan> static_parts(const std::vector<RecordedScan>& scans,
@@ -27,7 +26,7 @@ std::vector<RecordedScan> static_parts(const std::vector<RecordedScan>& scans,
   std::vector<RecordedScan> result;
   for (const RecordedScan& scan : scans) {
     const auto expected = fit.expected(radar, scan.stamp_us);
-    result.push_back(expected ? static_part(scan, *expected, {}, kSlackMps)
+    result.push_back(expected ? static_part(scan, *expected, {}, kGateSlackMps)
                               : RecordedScan{scan.stamp_us, {}, 0.0});
   }
   return result;

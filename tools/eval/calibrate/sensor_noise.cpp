@@ -17,8 +17,7 @@
 namespace cremed {
 namespace {
 
-constexpr double kSlackMps = 0.1;
-constexpr std::size_t kMinTargets = 12;  // In a scan whose Doppler is compared.
+constexpr std::size_t kMinTargetsOfNoise = 12;  // In a scan whose Doppler is compared.
 
 constexpr double kLeastFactorStd = 0.03;  // Targets differ; one drive does not contain all kinds.
 
@@ -53,8 +52,8 @@ DopplerState nearest_state(const DopplerEquations& equations, const DopplerState
 void add_doppler_errors(const RecordedScan& scan, const DopplerState& expected,
                         const DopplerNoise& noise, std::vector<ScaledError>& errors) {
   const double gate = noise.doppler_std_factor * kErrorGate / kGateSigma;
-  const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kSlackMps);
-  if (fixed.targets.size() < kMinTargets) {
+  const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kGateSlackMps);
+  if (fixed.targets.size() < kMinTargetsOfNoise) {
     return;
   }
   const DopplerState state = nearest_state(doppler_equations(fixed, expected, noise), expected);

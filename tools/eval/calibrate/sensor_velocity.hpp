@@ -44,6 +44,7 @@ double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& stat
 std::optional<DopplerState> agreed_velocity(std::span<const Target> targets);
 
 inline constexpr double kGateSigma = 3.0;
+inline constexpr double kGateSlackMps = 0.1;
 
 /// The scan with the targets whose Doppler is within kGateSigma standard deviations and `slack_mps`
 /// of the expected one.

@@ -262,10 +262,15 @@ std::string LiveReporter::report_vehicle(VehicleSignal signal) {
 
 void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
   const RadarConfiguration& configuration = configuration_.radars[radar];
-  const RadarReport& report = status.odometry;
+  FaultCause& cause = progress_[radar].cause;
+  if (!status.odometry.is_left_out || status.odometry.cause.kind != FaultKind::unknown) {
+    cause = status.odometry.cause;
+  }
   log_.update(concat({configuration.name, " in the odometry"}),
-              report.is_left_out ? 1 + static_cast<int>(report.cause.kind) : 0, [&] {
-                return to_text(left_out_finding(configuration, status, configuration_.radars));
+              status.odometry.is_left_out ? 1 + static_cast<int>(cause.kind) : 0, [&] {
+                RadarStatus named = status;
+                named.odometry.cause = cause;
+                return to_text(left_out_finding(configuration, named, configuration_.radars));
               });
 }
 

@@ -42,6 +42,7 @@ class LiveReporter {
     std::uint64_t estimates = 0;
     int seconds_without_scan = 0;
     int seconds_without_estimate = 0;
+    FaultCause cause;  // The last that was named since the radar was left out.
   };
   void report_bus(const BusConnection& interface, const BusStatus& now, BusStatus& before);
   void report_losses(const std::string& name, const BusStatus& now, const BusStatus& before);

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/estimator/motion/self_check.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/message_text.hpp"
@@ -319,6 +321,15 @@ struct CauseText {
   std::string remedy;
 };
 
+/// "; if it is so on every drive, KEY = VALUE", if the key can have this value.
+std::string lasting(std::string_view key, double value, double least, double most) {
+  return least <= value && value <= most
+             ? concat({"; if it is so on every drive, calibration.", key, " = ", digits(value)})
+             : "";
+}
+
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
 CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
                      std::span<const RadarConfiguration> all) {
   const EgoMotionOptions& ego_motion = radar.ego_motion;
@@ -328,13 +339,16 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
       const double percent = 100.0 * (1.0 / cause.value - 1.0);
       return {concat({"its Doppler is ", decimal(std::abs(percent)), " % too ",
                       percent > 0.0 ? "large" : "small"}),
-              concat({"if it is so on every drive, calibration.doppler_scale = ",
-                      digits(std::round(1e3 * cause.value * ego_motion.correction.doppler_scale) /
-                             1e3)})};
+              concat({"the sensor or the scale of its signal is wrong",
+                      lasting("doppler_scale",
+                              rounded(cause.value * ego_motion.correction.doppler_scale, 1e3), 0.5,
+                              2.0)})};
     }
     case FaultKind::sign:
       return {"its Doppler has the wrong sign, or it looks the other way",
-              "invert_doppler, or turn mount.yaw_rad by pi"};
+              concat({radar.decoder.as<BoschGprOptions>() != nullptr ? "change invert_doppler, or "
+                                                                     : "",
+                      "turn mount.yaw_rad by pi"})};
     case FaultKind::upside_down:
       return {"its left is its right", "if it is mounted upside down, change invert_azimuth"};
     case FaultKind::mount_yaw:
@@ -342,19 +356,19 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
           concat({"it looks ", decimal(std::abs(cause.value) * kDegPerRad), " degrees further ",
                   is_positive ? "left" : "right", " than its mount says"}),
           concat({"if nothing is loose, mount.yaw_rad = ",
-                  digits(std::round(1e3 * (ego_motion.vehicle_from_radar.yaw_rad + cause.value)) /
-                         1e3)})};
+                  digits(rounded(std::remainder(ego_motion.vehicle_from_radar.yaw_rad + cause.value,
+                                                2.0 * std::numbers::pi),
+                                 1e3))})};
     case FaultKind::mount_x:
       return {concat({"it is ", decimal(std::abs(cause.value)), " m further ",
                       is_positive ? "ahead" : "back", " than its mount says"}),
               concat({"measure it: mount.x_m = ",
-                      digits(std::round(1e1 * (ego_motion.vehicle_from_radar.x_m + cause.value)) /
-                             1e1)})};
+                      digits(rounded(ego_motion.vehicle_from_radar.x_m + cause.value, 1e1))})};
     case FaultKind::late:
       return {concat({"its scans are ", decimal(cause.value), " s late"}),
-              concat({"find what delays its bus or its stamps; if it is so on every drive, "
-                      "calibration.stamp_offset_s = ",
-                      digits(std::round(1e2 * (radar.stamp_offset_s - cause.value)) / 1e2)})};
+              concat({"find what delays its bus or its stamps",
+                      lasting("stamp_offset_s", rounded(radar.stamp_offset_s - cause.value, 1e2),
+                              -0.5, 0.5)})};
     case FaultKind::exchanged:
       return {concat({"it sees what a radar at the mount of ",
                       cause.other < all.size() ? all[cause.other].name : "another", " sees"}),

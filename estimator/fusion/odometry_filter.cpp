@@ -392,7 +392,7 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   const auto match = registration_.solve(static_targets_, map, state_.mount(radar));
   const auto possible = static_cast<double>(static_targets_.size());
   MapCounters& counters = tracks_[radar]->counters;
-  counters.at_rest += static_targets_.size();
+  counters.at_rest += map.scans() > 0 ? static_targets_.size() : 0;
   counters.found += match ? static_cast<std::uint64_t>(std::lround(match->matched)) : 0;
   if (!match || match->matched < state_.options().min_matched_share * possible) {
     return;
@@ -405,11 +405,11 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   LinearMeasurement measurement = from_map.linearise(*match, has_x);
   measurement.noise *= trust.position_noise.value();
   const double nis = state_.gaussian.innovate(measurement);
-  trust.lateral.add(state_.time_us(), state_.gaussian.innovations().x());
-  trust.yaw.add(state_.time_us(), state_.gaussian.innovations().y());
+  trust.lateral.add(state_.time_us(), state_.gaussian.innovations().y());
+  trust.yaw.add(state_.time_us(), state_.gaussian.innovations().z());
   trust.position_noise.add(0.5 * nis);
   if (nis <= state_.options().max_position_nis) {
-    state_.update(has_x);
+    state_.update(true);
   }
 }
 
@@ -462,7 +462,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const int doppler_scale = state_.error(radar, kDopplerScale);
   const bool is_left_out = (left_out() >> radar & 1U) != 0;
   return {is_left_out,
-          is_left_out ? faults_.cause(radar) : FaultCause(),
+          faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause(),
           trust.doppler.mean(),
           trust.lateral.mean(),
           trust.yaw.mean(),

@@ -228,11 +228,12 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
   const auto row = GENERATE(
       Case{{FaultKind::scale, 1.0 / 0.9}, "10.0 % too small", "doppler_scale = 1.111"},
       Case{{FaultKind::scale, 1.0 / 1.1}, "10.0 % too large", "doppler_scale = 0.909"},
-      Case{{FaultKind::sign, -1.0}, "wrong sign", "invert_doppler"},
+      Case{{FaultKind::sign, -1.0}, "wrong sign", "mount.yaw_rad by pi"},
       Case{{FaultKind::upside_down}, "its left is its right", "invert_azimuth"},
       Case{{FaultKind::mount_yaw, 0.1}, "5.7 degrees further left", "mount.yaw_rad = 0.35"},
       Case{{FaultKind::mount_yaw, -0.1}, "5.7 degrees further right", "mount.yaw_rad = 0.15"},
       Case{{FaultKind::mount_x, -2.0}, "2.0 m further back", "mount.x_m = 1.6"},
+      Case{{FaultKind::mount_yaw, 3.0}, "171.8 degrees further left", "mount.yaw_rad = -3.033"},
       Case{{FaultKind::late, 0.3}, "0.3 s late", "stamp_offset_s = -0.25"},
       Case{{FaultKind::exchanged, 0.0, 1}, "at the mount of rear", "interfaces"});
   RadarConfiguration radar = front();
@@ -248,6 +249,21 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains(row.what) && Catch::Contains("excluded"));
   CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
+}
+
+TEST_CASE("No key is advised that the radar does not have, and no value that it cannot have") {
+  RadarConfiguration gpr = front();
+  RadarStatus status = healthy();
+  const auto remedy_of = [&](const RadarConfiguration& radar, FaultCause cause) {
+    status.odometry.cause = cause;
+    return left_out_finding(radar, status, std::array{radar}).remedy;
+  };
+  CHECK(remedy_of(front(), {FaultKind::sign, -1.0}) == "turn mount.yaw_rad by pi");
+  gpr.decoder = BoschGprOptions();
+  CHECK_THAT(remedy_of(gpr, {FaultKind::sign, -1.0}), Catch::Contains("change invert_doppler"));
+  CHECK(remedy_of(front(), {FaultKind::scale, 2.5}) ==
+        "the sensor or the scale of its signal is wrong");
+  CHECK(remedy_of(front(), {FaultKind::late, 0.6}) == "find what delays its bus or its stamps");
 }
 
 TEST_CASE("A speed by positions that is not Doppler's is named with its causes") {

@@ -147,6 +147,23 @@ TEST_CASE("no fault, and one of another kind, is unknown") {
   CHECK(found(0, town, 0.5, scaled(0.8)).kind == FaultKind::unknown);
 }
 
+TEST_CASE("nothing is named before lateness can be told, and after a pause from then on") {
+  const auto braking = [](double time_s) { return Motion{40.0 - 4.0 * (time_s - 1000.0), 0.0}; };
+  CHECK(found(0, braking, 1.5, late(0.3)).kind == FaultKind::unknown);
+  FaultCauseSearch search(kMounts, 0);
+  const auto drive = [&](double from_s, double until_s, double factor) {
+    for (double time_s = from_s; time_s < until_s; time_s += 0.15) {
+      search.add_motion(std::llround(time_s * 1e6),
+                        {town(time_s).v_mps, town(time_s).w_radps, 0.0});
+      search.add_velocity(factor * velocity_at(town(time_s), kMounts[0]));
+    }
+    return search.cause(1U);
+  };
+  CHECK(drive(10.0, 15.0, 0.8).kind == FaultKind::scale);
+  CHECK(drive(15.6, 16.0, 0.9).kind == FaultKind::unknown);
+  CHECK(drive(16.0, 20.0, 0.9).value == Approx(1.0 / 0.9).margin(0.01));
+}
+
 TEST_CASE("after the end of a fault the next one is found anew") {
   FaultCauseSearch search(kMounts, 0);
   const auto drive = [&](double from_s, const Fault& fault) {

@@ -216,6 +216,27 @@ TEST_CASE(
   CHECK(single.faults().at_fault() == 0U);
 }
 
+TEST_CASE("radars that found themselves wrong alike do not convict one that is right again") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  const auto accuse = [&](double duration_s, std::size_t from_radar) {
+    for (double time_s = 0.0; time_s < duration_s; time_s += 0.15) {
+      for (std::size_t radar = from_radar; radar < 3; ++radar) {
+        comparison.accuse(radar);
+      }
+      comparison.drive(0.15, [=](std::size_t radar, Comparison::Measured& measured) {
+        const double factor = from_radar <= radar && radar < 3 ? 0.7 : 1.0;
+        measured.velocity_mps *= factor;
+        measured.speed_by_positions_mps *= factor;
+      });
+    }
+  };
+  accuse(3.0, 0);
+  REQUIRE(comparison.faults().at_fault() == 0b111U);
+  accuse(1.5, 1);
+  CHECK(comparison.faults().at_fault() == 0b110U);
+}
+
 TEST_CASE("a clock that is set holds no radar longer, and judging goes on") {
   const double by_s = GENERATE(-500.0, -1.0, 500.0);
   CAPTURE(by_s);

@@ -136,9 +136,7 @@ class ModelDrive {
       place(estimate_, radar, *map_);
       const MapMeasurement of_truth{truth_, *map_of_truth_, radar, 0.0};
       const LinearMeasurement errors = of_truth.linearise(match, true);
-      const Eigen::Vector3d numbers = draw<3>(errors.noise) - errors.residual;
-      match.correction =
-          true_correction(match) + Eigen::Vector3d(numbers.z(), numbers.x(), numbers.y());
+      match.correction = true_correction(match) + draw<3>(errors.noise) - errors.residual;
       use(MapMeasurement{estimate_, *map_, radar, 0.0}.linearise(match, true), true);
     }
     if (number % kNodePeriod == 0) {
@@ -199,10 +197,10 @@ class ModelDrive {
     return sum;
   }
 
-  void use(const LinearMeasurement& measurement, bool has_way) {
+  void use(const LinearMeasurement& measurement, bool is_of_positions) {
     nis_ += estimate_.gaussian.innovate(measurement);
-    numbers_ += has_way ? 3 : 2;
-    estimate_.update(has_way);
+    numbers_ += is_of_positions ? 3 : 2;
+    estimate_.update(is_of_positions);
   }
 
   static OdometryOptions options() {

@@ -148,7 +148,7 @@ class MapScene {
     return measurement().linearise(match, false);
   }
   [[nodiscard]] TargetMap::NodePoses nodes() const { return measurement().now_from_node(); }
-  /// Derivative of the measurement (y, yaw, x) by a state.
+  /// Derivative of the measurement (x, y, yaw) by a state.
   Eigen::Vector3d derivative(const LinearMeasurement& linear, int state) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int k = 0; k < linear.states; ++k) {
@@ -208,12 +208,11 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
     state.gaussian.set_mean(which, value - step);
     const Eigen::Vector3d below = scene.match().correction;
     state.gaussian.set_mean(which, value);
-    const Eigen::Vector3d by = (below - above) / (2.0 * step);
-    return {by.y(), by.z(), by.x()};
+    return (below - above) / (2.0 * step);
   };
   const auto derivative = [&](int which) { return scene.derivative(linear, which); };
   // By design y and yaw do not depend on a shift along the path, nor x on anything else.
-  const auto y_and_yaw = [](const Eigen::Vector3d& by) -> Eigen::Vector2d { return by.head<2>(); };
+  const auto y_and_yaw = [](const Eigen::Vector3d& by) -> Eigen::Vector2d { return by.tail<2>(); };
   SECTION("the yaw and the yaw rate of the vehicle") {
     check_close(y_and_yaw(change(kYaw, 1e-4)), y_and_yaw(derivative(kYaw)));
     check_close(y_and_yaw(change(kYawRate, 3e-3)), y_and_yaw(derivative(kYawRate)));
@@ -228,9 +227,9 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
     };
     const auto by_steps = [&](int which) { return change(which, 1e-3); };
     check_close(y_and_yaw(across(by_steps)), y_and_yaw(across(derivative)));
-    CHECK(along(derivative).z() == Approx(along(by_steps).z()).epsilon(2.0 * kLinear));
+    CHECK(along(derivative).x() == Approx(along(by_steps).x()).epsilon(2.0 * kLinear));
     CHECK(y_and_yaw(along(derivative)).norm() < 1e-12);
-    CHECK(std::abs(across(derivative).z()) < 1e-12);
+    CHECK(std::abs(across(derivative).x()) < 1e-12);
   }
   SECTION("a shift of a node across the path, and its turn about the present pose") {
     const auto k = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
@@ -248,16 +247,16 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
     const auto actual = of_node([&](int which, double step) { return change(which, step); });
     check_close(y_and_yaw(actual[0]), y_and_yaw(expected[0]));
     check_close(y_and_yaw(actual[1]), y_and_yaw(expected[1]));
-    CHECK(expected[2].z() == Approx(actual[2].z()).epsilon(2.0 * kLinear));
+    CHECK(expected[2].x() == Approx(actual[2].x()).epsilon(2.0 * kLinear));
     CHECK(y_and_yaw(expected[2]).norm() < 1e-12);
   }
   SECTION("without x nothing depends on it") {
     const LinearMeasurement without = scene.linearise_without_x(scene.match());
-    CHECK(without.residual.z() == 0.0);
-    CHECK(without.noise.col(2) == Eigen::Vector3d::UnitZ());
-    CHECK(without.noise.row(2).transpose() == Eigen::Vector3d::UnitZ());
+    CHECK(without.residual.x() == 0.0);
+    CHECK(without.noise.col(0) == Eigen::Vector3d::UnitX());
+    CHECK(without.noise.row(0).transpose() == Eigen::Vector3d::UnitX());
     for (int k = 0; k < without.states; ++k) {
-      CHECK(without.jacobian[static_cast<std::size_t>(k)].z() == 0.0);
+      CHECK(without.jacobian[static_cast<std::size_t>(k)].x() == 0.0);
     }
   }
 }
@@ -273,10 +272,10 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
   const LinearMeasurement linear = scene.linearise(scene.match());
   const auto check_error = [&](int which, double error) {
     const MapMatch match = scene.match();
-    check_close(match.correction.tail<2>(), error * scene.derivative(linear, which).head<2>());
+    check_close(match.correction.tail<2>(), error * scene.derivative(linear, which).tail<2>());
     // A known error leaves no residual.
     state.gaussian.set_mean(which, error);
-    CHECK(scene.linearise(match).residual.head<2>().norm() <
+    CHECK(scene.linearise(match).residual.tail<2>().norm() <
           kLinear * match.correction.tail<2>().norm());
   };
   SECTION("mount yaw: true minus configured") {

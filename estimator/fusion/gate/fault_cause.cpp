@@ -24,6 +24,8 @@ constexpr double kMinCount = 7.0;
 /// any other cause and with none.
 constexpr double kMaxExplained = 4.0;
 constexpr double kMinDifference = 4.0;
+/// One motion may be missing. After a longer time lags are not those of the others.
+constexpr double kMaxStepS = 0.5;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.
 constexpr double kMaxMountYawRad = 0.6;
 constexpr double kMaxMountM = 3.0;
@@ -86,6 +88,12 @@ FaultCauseSearch::Complex FaultCauseSearch::expected(const Eigen::Vector3d& moti
 }
 
 void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& motion) {
+  if (motions_ > 0) {
+    const double step_s = seconds_between(past_[(motions_ - 1) % past_.size()].time_us, time_us);
+    if (step_s <= 0.0 || step_s > kMaxStepS) {
+      forget();
+    }
+  }
   motion_ = motion;
   past_[motions_++ % past_.size()] = {time_us, expected(motion, mounts_[radar_])};
 }
@@ -123,8 +131,7 @@ double FaultCauseSearch::cost(const Products& products) const {
 void FaultCauseSearch::try_late(Best& best) const {
   std::array<double, kLags + 1> costs{cost(at_mount_[radar_])};
   for (std::size_t i = 0; i < kLags; ++i) {
-    costs[i + 1] = lags_[i].count >= kMinCount ? lags_[i].squares / lags_[i].count
-                                               : std::numeric_limits<double>::infinity();
+    costs[i + 1] = lags_[i].squares / lags_[i].count;
   }
   const auto least =
       static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
@@ -133,7 +140,7 @@ void FaultCauseSearch::try_late(Best& best) const {
   }
   const double delay_s = lags_[least - 1].delay_s / lags_[least - 1].count;
   double shift = 0.0;
-  if (least < kLags && std::isfinite(costs[least + 1])) {
+  if (least < kLags) {
     const double slope = 0.5 * (costs[least + 1] - costs[least - 1]);
     const double bend = costs[least + 1] - 2.0 * costs[least] + costs[least - 1];
     shift = std::clamp(-slope / bend, -0.5, 0.5);
@@ -157,7 +164,8 @@ std::optional<FaultCause> FaultCauseSearch::exchanged(std::uint32_t at_fault) co
 }
 
 FaultCause FaultCauseSearch::cause(std::uint32_t at_fault) const {
-  if (count_ < kMinCount) {
+  // Without all lags a late radar of an accelerating vehicle seems to have another scale.
+  if (lags_.back().count < kMinCount) {
     return {};
   }
   if (const auto cause = exchanged(at_fault)) {

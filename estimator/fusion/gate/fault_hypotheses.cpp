@@ -429,12 +429,14 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
   supported_epochs_ = is_known && is_supported(best.set, time_us) ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
+  // Radars that all found themselves wrong may agree: with the same fault.
+  const bool is_believed = is_known && (best.set & ~at_fault()) != 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Verdict& verdict = verdicts_[i];
     verdict.until_us = verdict.until_us.value_or(time_us + verdict.hold_us);
     const bool is_judged = (judged_ >> i & 1U) != 0;
     const bool is_in = (best.set >> i & 1U) != 0;
-    if (is_judged && is_known && !is_in) {
+    if (is_judged && is_believed && !is_in) {
       convict(i, time_us);
     } else if (time_us > *verdict.until_us) {
       verdict.is_at_fault = false;

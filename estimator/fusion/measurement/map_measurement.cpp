@@ -22,14 +22,11 @@ Eigen::Matrix3d share_of(const MapMatch& match, std::size_t node) {
   return share;
 }
 
-/// The order of the measurement's numbers: y, yaw, x.
-Eigen::Vector3d numbers(const Eigen::Vector3d& pose) { return {pose.y(), pose.z(), pose.x()}; }
-
 void remove_x(LinearMeasurement& measurement) {
-  measurement.residual.z() = 0.0;
-  measurement.noise(2, 2) = 1.0;
+  measurement.residual.x() = 0.0;
+  measurement.noise(0, 0) = 1.0;
   for (LinearMeasurement::Column& column : measurement.jacobian) {
-    column.z() = 0.0;
+    column.x() = 0.0;
   }
 }
 
@@ -53,17 +50,17 @@ LinearMeasurement MapMeasurement::linearise(const MapMatch& match, bool has_x) c
   now_from_anchor.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-now.z()).toRotationMatrix();
   by_motion = (now_from_anchor * by_motion).eval();
   LinearMeasurement result;
-  result.residual = numbers(match.correction);
-  result.noise.topLeftCorner<2, 2>() =
+  result.residual = match.correction;
+  result.residual.x() /= match.x_share;
+  result.noise.bottomRightCorner<2, 2>() =
       options.position_noise_factor * match.covariance.bottomRightCorner<2, 2>();
-  result.residual.z() /= match.x_share;
-  result.noise(2, 2) =
+  result.noise(0, 0) =
       options.position_noise_factor * match.covariance(0, 0) / squared(match.x_share) +
       squared(options.position_lateral_floor_m);
-  result.noise(0, 0) += squared(options.position_lateral_floor_m);
-  result.noise(1, 1) += squared(options.position_yaw_floor_rad);
+  result.noise(1, 1) += squared(options.position_lateral_floor_m);
+  result.noise(2, 2) += squared(options.position_yaw_floor_rad);
   for (int i = 0; i < kMotionStates; ++i) {
-    result.depend_on(i, numbers(by_motion.col(i)));
+    result.depend_on(i, by_motion.col(i));
   }
   add_nodes(match, now_from_anchor, result);
   if (!has_x) {
@@ -91,7 +88,7 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
     by_node.topRightCorner<2, 1>() << node.y(), -node.x();
     by_node = (share * by_node).eval();
     for (int k = 0; k < kPose; ++k) {
-      measurement.depend_on(state_layout::node(i) + k, -numbers(by_node.col(k)));
+      measurement.depend_on(state_layout::node(i) + k, -by_node.col(k));
     }
     const Eigen::Vector2d radar_way_m = map.radar_m(i) - radar_m;
     by_mount_yaw += share * Eigen::Vector3d(-radar_way_m.y(), radar_way_m.x(), 0.0);
@@ -101,16 +98,16 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
     way_m += share(0, 0) * node.x();
   }
   const auto depend_on = [&](int error, const Eigen::Vector3d& by) {
-    measurement.depend_on(error, numbers(by));
-    measurement.residual -= state.gaussian.mean(error) * numbers(by);
+    measurement.depend_on(error, by);
+    measurement.residual -= state.gaussian.mean(error) * by;
   };
   depend_on(state.error(radar, kMountYaw), by_mount_yaw);
   depend_on(state.error(radar, kLateralPerMetre), by_lateral);
   depend_on(state.error(radar, kYawPerMetre), by_yaw);
   depend_on(state.error(radar, kAzimuthScale), match.by_azimuth_scale);
   depend_on(kCommonAzimuthScale, match.by_azimuth_scale);
-  measurement.noise(1, 1) += squared(state.options().position_yaw_per_turn * turned_rad);
-  measurement.noise(2, 2) += squared(state.options().position_x_per_metre * way_m);
+  measurement.noise(0, 0) += squared(state.options().position_x_per_metre * way_m);
+  measurement.noise(2, 2) += squared(state.options().position_yaw_per_turn * turned_rad);
 }
 
 }  // namespace cremed

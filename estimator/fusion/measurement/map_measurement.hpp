@@ -13,7 +13,7 @@
 
 namespace cremed {
 
-/// y, yaw and x (in this order) of a scan registered against the radar's map, with G_k the share of
+/// x, y and yaw of a scan registered against the radar's map, with G_k the share of
 /// node k in the information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the
 /// scan's; (11) of the README:
 ///

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/fusion/state/gaussian_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -87,19 +88,21 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
   return whitened_residual_.squaredNorm();
 }
 
-void GaussianState::update(std::span<const int> considered) {
+void GaussianState::update(std::span<const Considered> considered) {
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
     for (int number = 0; number < kNumbers; ++number) {
       covariance_.col(j) -= gain_(j, number) * gain_.col(number);
     }
   }
-  for (const int i : considered) {
-    for (const int j : considered) {
-      covariance_(i, j) += gain_.row(i).dot(gain_.row(j));
+  for (const Considered& a : considered) {
+    for (const Considered& b : considered) {
+      for (int number = std::max(a.from, b.from); number < kNumbers; ++number) {
+        covariance_(a.state, b.state) += gain_(a.state, number) * gain_(b.state, number);
+      }
     }
   }
-  for (const int i : considered) {
-    gain_.row(i).setZero();
+  for (const Considered& a : considered) {
+    gain_.row(a.state).tail(kNumbers - a.from).setZero();
   }
   for (int number = 0; number < kNumbers; ++number) {
     mean_ += whitened_residual_(number) * gain_.col(number);

@@ -60,9 +60,14 @@ class GaussianState {
   double innovate(const LinearMeasurement& measurement);
   /// NIS of each of its numbers alone.
   [[nodiscard]] const Eigen::Vector3d& innovations() const { return innovations_; }
-  /// Kalman update with the measurement of the last call of innovate(). The states `considered`
-  /// are consider parameters (Schmidt-Kalman): their own means and covariances stay.
-  void update(std::span<const int> considered);
+  /// A consider parameter (Schmidt-Kalman): only the numbers of a measurement before `from` change
+  /// its mean; by the others its variance, and covariances with such states, stay.
+  struct Considered {
+    int state;
+    int from = 0;
+  };
+  /// Kalman update with the measurement of the last call of innovate().
+  void update(std::span<const Considered> considered);
 
  private:
   static constexpr int kNumbers = 3;  // Of a LinearMeasurement.

@@ -66,28 +66,32 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
-      considered_with_way_{kCommonAzimuthScale, kSlipPerAcceleration} {
+      considered_{{kCommonAzimuthScale}, {kSlipPerAcceleration}} {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
-      considered_with_way_.push_back(error(i, which));
+      considered_.push_back({error(i, which)});
     }
   }
-  considered_ = considered_with_way_;
-  considered_.push_back(kCommonScale);
+  considered_but_by_x_ = considered_;
+  const auto consider_but_by_x = [&](int scale) {
+    considered_.push_back({scale});
+    considered_but_by_x_.push_back({scale, 1});
+  };
+  consider_but_by_x(kCommonScale);
   if (mounts_.size() == 1) {
-    considered_.push_back(error(0, kDopplerScale));
+    consider_but_by_x(error(0, kDopplerScale));
   }
   considered_at_rest_ = considered_;
   // A single radar's are not separable from slip and speed, and not learned.
   for (std::size_t i = 0; mounts_.size() > 1 && i < mounts_.size(); ++i) {
-    considered_at_rest_.push_back(error(i, kMountYaw));
-    considered_at_rest_.push_back(error(i, kDopplerScale));
+    considered_at_rest_.push_back({error(i, kMountYaw)});
+    considered_at_rest_.push_back({error(i, kDopplerScale)});
   }
 }
 
-void OdometryState::update(bool has_way) {
+void OdometryState::update(bool is_of_positions) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
-  const std::vector<int>& driving = has_way ? considered_with_way_ : considered_;
+  const ConsideredStates& driving = is_of_positions ? considered_but_by_x_ : considered_;
   gaussian.update(is_at_rest ? considered_at_rest_ : driving);
 }
 

@@ -287,9 +287,19 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
   }
 }
 
-void add_wrong_speed(const BeliefStatus& belief, const FaultCause& cause, Findings& findings) {
+std::string remedy_of_sign(const RadarConfiguration& radar) {
+  return concat({radar.decoder.as<BoschGprOptions>() != nullptr ? "change invert_doppler, or " : "",
+                 "turn mount.yaw_rad by pi"});
+}
+
+void add_wrong_speed(const RadarConfiguration& radar, const BeliefStatus& belief,
+                     const FaultCause& cause, Findings& findings) {
   const bool may_be_scale = cause.kind == FaultKind::unknown || cause.kind == FaultKind::scale;
-  if (belief.doppler_correction && may_be_scale) {
+  if (belief.doppler_correction.value_or(1.0) < 0.0) {
+    findings.push_back({Severity::warning,
+                        "its Doppler has the wrong sign by the positions of its targets",
+                        remedy_of_sign(radar)});
+  } else if (belief.doppler_correction && may_be_scale) {
     const double percent = 100.0 * (1.0 / *belief.doppler_correction - 1.0);
     findings.push_back(
         {Severity::warning,
@@ -345,10 +355,7 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
                               2.0)})};
     }
     case FaultKind::sign:
-      return {"its Doppler has the wrong sign, or it looks the other way",
-              concat({radar.decoder.as<BoschGprOptions>() != nullptr ? "change invert_doppler, or "
-                                                                     : "",
-                      "turn mount.yaw_rad by pi"})};
+      return {"its Doppler has the wrong sign, or it looks the other way", remedy_of_sign(radar)};
     case FaultKind::upside_down:
       return {"its left is its right", "if it is mounted upside down, change invert_azimuth"};
     case FaultKind::mount_yaw:
@@ -451,7 +458,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   findings.insert(findings.end(), health.begin(), health.end());
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
-  add_wrong_speed(status.belief, status.odometry.cause, findings);
+  add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
   add_ahead(status.belief, findings);
   add_left_out(radar, status, all, findings);
   return findings;

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "cremed/estimator/motion/side_gate.hpp"
+#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -23,6 +24,8 @@ constexpr double kMinWayM = 1.5;
 constexpr double kMaxIntervalS = 1.0;
 /// A longer pause breaks the way by Doppler.
 constexpr double kMaxScanPeriodS = 0.3;
+/// Of the noise of two velocities.
+constexpr double kMaxStepMps = 1.5;
 /// Votes fade with this time.
 constexpr double kMemoryS = 3.0;
 /// Difference of a target's range between two scans.
@@ -37,6 +40,9 @@ constexpr double kMaxResidualMps = 0.5;
 constexpr double kMaxShare = 0.03;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
 constexpr double kClearSigmas = 4.0;
+/// Of the votes for the way back, more than for r = 0. Healthy radars of 0061, 0103, 1094 and
+/// RadarScenes 105 have 0.7 at most, with the sign of Doppler flipped 3 to 14 after a second.
+constexpr double kReversedSigmas = 3.0;
 /// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
 constexpr double kContradictingSigmas = 1.5;
 
@@ -45,6 +51,7 @@ constexpr double kContradictingSigmas = 1.5;
 void DopplerScale::forget() {
   count_ = 0;
   votes_.fill(0.0);
+  reversed_.fill(0.0);
 }
 
 void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us) {
@@ -82,6 +89,9 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
                            std::int64_t stamp_us) {
   const Scan& last = scan(0);
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
+  if ((velocity_mps - velocity_mps_).norm() > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
+    forget();  // Votes of before tell nothing of this Doppler.
+  }
   const Eigen::Vector2d mean_mps = 0.5 * (velocity_mps_ + velocity_mps);
   velocity_mps_ = velocity_mps;
   newest_ = (newest_ + 1) % kScans;
@@ -98,7 +108,9 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   now.way_m = last.way_m + dt_s * (Eigen::Rotation2Dd(last.yaw_rad + 0.5 * turn_rad) * mean_mps);
   now.yaw_rad = last.yaw_rad + turn_rad;
   const double kept = std::exp(-dt_s / kMemoryS);
-  std::for_each(votes_.begin(), votes_.end(), [&](double& votes) { votes *= kept; });
+  for (Votes* votes : {&votes_, &reversed_}) {
+    std::for_each(votes->begin(), votes->end(), [&](double& some) { some *= kept; });
+  }
 }
 
 /// The static targets, one a place.
@@ -136,13 +148,15 @@ void DopplerScale::vote(const Scan& from, const Scan& to, const Eigen::Vector2d&
     for (std::size_t j = 0; j < to.size; ++j) {
       const double variance = from.points[i].side_variance_m2 + to.points[j].side_variance_m2;
       const Eigen::Vector2d moved = before - to.points[j].m;
-      const double step = (along.dot(moved) / length_m - 1.0) / kStep + kMiddle;
+      const double share = along.dot(moved) / length_m;
+      const double step = (std::abs(share) - 1.0) / kStep + kMiddle;
       if (step >= 0.0 && step < static_cast<double>(kSteps - 1) &&
           is_within_side_gate(across.dot(moved), variance)) {
+        Votes& votes = share > 0.0 ? votes_ : reversed_;
         const auto lower = static_cast<std::size_t>(step);
         const double upper_part = step - static_cast<double>(lower);
-        votes_[lower] += 1.0 - upper_part;
-        votes_[lower + 1] += upper_part;
+        votes[lower] += 1.0 - upper_part;
+        votes[lower + 1] += upper_part;
       }
     }
   }
@@ -154,18 +168,25 @@ void DopplerScale::judge(double way_m) {
   for (std::size_t k = 0; k < kSteps; ++k) {
     weights[k] = std::exp(-0.5 * squared(static_cast<double>(k) / width_steps));
   }
-  const auto near = [&](int step) {
+  const auto near = [&](const Votes& votes, int step) {
     double sum = 0.0;
     for (int k = 0; k < static_cast<int>(kSteps); ++k) {
-      sum += votes_[static_cast<std::size_t>(k)] *
+      sum += votes[static_cast<std::size_t>(k)] *
              weights[static_cast<std::size_t>(std::abs(k - step))];
     }
     return sum;
   };
+  const double given = near(votes_, kMiddle);
+  if (const double reversed = near(reversed_, kMiddle);
+      reversed - given > kReversedSigmas * std::sqrt(reversed + given)) {
+    correction_ = -1.0;
+    is_wrong_ = true;
+    return;
+  }
   int best = kMiddle;
   double most = 0.0;
   for (int step = kMiddle - kMaxShareSteps; step <= kMiddle + kMaxShareSteps; ++step) {
-    const double votes = near(step);
+    const double votes = near(votes_, step);
     best = votes > most ? step : best;
     most = std::max(votes, most);
   }
@@ -179,8 +200,7 @@ void DopplerScale::judge(double way_m) {
   correction_ = 1.0 + share;
   if (std::abs(share) < kMaxShare) {
     is_wrong_ = false;
-  } else if (const double given = near(kMiddle);
-             most - given > kContradictingSigmas * std::sqrt(most + given)) {
+  } else if (most - given > kContradictingSigmas * std::sqrt(most + given)) {
     is_wrong_ = true;
   }
 }

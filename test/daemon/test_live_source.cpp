@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // UDP replaces CAN, as in test_can_socket; interfaces are tested in test/vm.
-#include <unistd.h>
-
 #include <csignal>
 #include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "daemon/source/live_source.hpp"
 #include "test/daemon/datagram_pair.hpp"

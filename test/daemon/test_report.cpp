@@ -289,6 +289,10 @@ TEST_CASE("A wrong scale of Doppler is named with its size") {
   findings = radar_findings(front(), status);
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 11.1 % too large"));
+  status.belief.doppler_correction = -1.0;
+  findings = radar_findings(front(), status);
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what, Catch::Contains("wrong sign"));
 }
 
 TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its motion") {

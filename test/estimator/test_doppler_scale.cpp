@@ -68,6 +68,23 @@ TEST_CASE("Doppler scale: one that is 5 % or more off is found in 2 s, and its e
   CHECK_FALSE(drive.check.is_wrong());
 }
 
+TEST_CASE("Doppler scale: a wrong sign is found in 2 s, and its end too") {
+  const double speed_mps = GENERATE(-5.0, 5.0, 12.0, 25.0);
+  const double yaw_rate_radps = GENERATE(-0.2, 0.0);
+  const Pose2 mount = GENERATE(kFront, kRearLeft);
+  CAPTURE(speed_mps, yaw_rate_radps, mount.x_m);
+  const CircleDrive healthy{.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps};
+  CircleDrive faulty = healthy;
+  faulty.doppler_factor = -1.0;
+  CheckedDrive drive(mount);
+  drive.go_on(healthy, 5.0);
+  drive.go_on(faulty, 2.0);
+  CHECK(drive.check.is_wrong());
+  CHECK(drive.check.correction() == -1.0);
+  drive.go_on(healthy, 2.0);
+  CHECK_FALSE(drive.check.is_wrong());
+}
+
 TEST_CASE("Doppler scale: without matches nothing is known, and nothing doubted") {
   const auto drive = GENERATE(CircleDrive{.doppler_factor = 0.9, .things = 0},
                               CircleDrive{.doppler_factor = 0.9, .kept = 0.02});

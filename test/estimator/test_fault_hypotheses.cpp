@@ -43,6 +43,7 @@ class Comparison {
     }
   }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
+  void lose() { faults_.require_positions(); }
   void set_clock(double by_s) {
     time_s_ += by_s;
     faults_.clear();
@@ -257,11 +258,25 @@ TEST_CASE("after the filter was lost only positions verify") {
   Comparison comparison(kFive);
   comparison.drive(5.0);
   REQUIRE(comparison.faults().is_verified());
-  Comparison stale(kFive);
-  stale.drive(5.0);
-  FaultHypotheses lost = stale.faults();
-  lost.require_positions();
-  CHECK_FALSE(lost.is_verified());
+  comparison.lose();
+  CHECK_FALSE(comparison.faults().is_verified());
+  comparison.drive(1.0);
+  CHECK(comparison.faults().is_verified());
+}
+
+TEST_CASE("positions do not verify what agrees with a radar that is wrong by itself") {
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(5.0);
+  comparison.lose();
+  // Of both the sign is wrong. In the positions of one chance agrees.
+  comparison.drive(3.0, [](std::size_t radar, Comparison::Measured& measured) {
+    measured.velocity_mps *= -1.0;
+    measured.speed_by_positions_mps *= radar == 1 ? -1.0 : 1.0;
+    measured.yaw_rate_radps *= radar == 1 ? -1.0 : 1.0;
+  });
+  CHECK_FALSE(comparison.faults().is_verified());
+  comparison.drive(8.0);
+  CHECK(comparison.faults().is_verified());
 }
 
 }  // namespace

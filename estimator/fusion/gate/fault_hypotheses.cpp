@@ -185,13 +185,12 @@ std::optional<FaultHypotheses::Velocity> FaultHypotheses::velocity_at(std::size_
                   a.covariance + std::clamp(part, 0.0, 1.0) * (b.covariance - a.covariance)};
 }
 
-FaultHypotheses::Sums FaultHypotheses::measurements(std::size_t radar, std::int64_t time_us,
-                                                    const Velocity& velocity) const {
+FaultHypotheses::Sums FaultHypotheses::by_doppler(std::size_t radar,
+                                                  const Velocity& velocity) const {
   const OdometryOptions& options = state_.options();
   const Pose2& mount = state_.mount(radar);
   const bool is_witness = looks_across(mount);
   const double speed_mps = velocity.mps.norm();
-  const Eigen::Vector3d along(1.0, -mount.y_m, 0.0);
   const double mount_std = options.mount_yaw_std_rad + kMoreMountYawStdRad +
                            (is_witness ? options.mount_yaw_across_std_rad : 0.0);
   Eigen::Matrix2d noise = velocity.covariance;
@@ -209,10 +208,17 @@ FaultHypotheses::Sums FaultHypotheses::measurements(std::size_t radar, std::int6
   sums.information = by.transpose() * weight * by;
   sums.weighted = by.transpose() * weight * velocity.mps;
   sums.squares = velocity.mps.dot(weight * velocity.mps);
-  if (is_witness) {
+  return sums;
+}
+
+FaultHypotheses::Sums FaultHypotheses::measurements(std::size_t radar, std::int64_t time_us,
+                                                    const Velocity& velocity) const {
+  Sums sums = by_doppler(radar, velocity);
+  if ((judged_ >> radar & 1U) == 0) {
     return sums;
   }
   const Track& track = tracks_[radar];
+  const Eigen::Vector3d along(1.0, -state_.mount(radar).y_m, 0.0);
   if (track.speed &&
       std::abs(seconds_between(track.speed->stamp_us, time_us)) <= kMaxPositionsAgeS) {
     sums.add(along, track.speed->mps, track.speed->variance);
@@ -248,18 +254,23 @@ FaultHypotheses::Sums FaultHypotheses::prior() const {
   return prior;
 }
 
+/// Of the radars in the set, with the prior.
+FaultHypotheses::Sums FaultHypotheses::sum(Set set, const Epoch& epoch) const {
+  Sums sum = prior();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if ((set >> i & 1U) != 0) {
+      sum.add(epoch[i]);
+    }
+  }
+  return sum;
+}
+
 /// Mean over the epochs of chi-square of the radars in the set and of the witnesses.
 double FaultHypotheses::chi_square(Set set) const {
-  const Sums prior = this->prior();
   const std::size_t epochs = std::min(count_, kEpochs);
   double sum = 0.0;
   for (std::size_t k = 0; k < epochs; ++k) {
-    Sums joint = prior;
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      if ((set >> i & 1U) != 0) {
-        joint.add(epochs_[k][i]);
-      }
-    }
+    const Sums joint = this->sum(set, epochs_[k]);
     double total = joint.chi_square();
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if ((judged_ >> i & 1U) == 0) {
@@ -311,7 +322,7 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
 FaultHypotheses::Set FaultHypotheses::present() const {
   Set present = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    present |= epochs_[(count_ - 1) % kEpochs][i].squares > 0.0 ? judged_ & 1U << i : 0U;
+    present |= newest_epoch()[i].squares > 0.0 ? judged_ & 1U << i : 0U;
   }
   return present;
 }
@@ -398,9 +409,35 @@ bool FaultHypotheses::is_supported(Set set, std::int64_t time_us) const {
   return !has_targets;
 }
 
+/// A radar that is wrong by itself has the Doppler of the set: the same is wrong with all.
+bool FaultHypotheses::is_refuted(Set set, std::int64_t time_us) const {
+  const Sums joint = sum(set, newest_epoch());
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Set one = 1U << i;
+    if ((present() & one) == 0 || !is_wrong_by_itself(i, time_us)) {
+      continue;
+    }
+    Sums with = joint;
+    with.add((set & one) != 0 ? Sums() : by_doppler(i, *velocities_[i]));
+    if (with.chi_square() - joint.chi_square() <= kMaxDecrease) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// By its own check, or because its positions contradict its Doppler.
+bool FaultHypotheses::is_wrong_by_itself(std::size_t radar, std::int64_t time_us) const {
+  const auto accused_us = tracks_[radar].accused_us;
+  const bool is_accused =
+      accused_us && std::abs(seconds_between(*accused_us, time_us)) <= kMaxScanPeriodS;
+  return is_accused || !is_consistent(1U << radar, chi_square(1U << radar));
+}
+
 /// A radar's own check says itself when a fault is over. One radar may be left out for longer; if
 /// most are, there is no odometry.
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
+  tracks_[radar].accused_us = time_us;
   convict(radar, time_us);
   if (2 * std::popcount(at_fault() & judged_) > std::popcount(judged_)) {
     verdicts_[radar].until_us = time_us + verdicts_[radar].shared_hold_us;
@@ -427,7 +464,9 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   const bool is_known =
       judged_ == 0 || (best.set != 0 && best.rivals == 0 && !contradict_positions());
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
-  supported_epochs_ = is_known && is_supported(best.set, time_us) ? supported_epochs_ + 1 : 0;
+  const bool is_supported = is_known && this->is_supported(best.set, time_us) &&
+                            !(needs_positions_ && is_refuted(best.set, time_us));
+  supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
   // Radars that all found themselves wrong may agree: with the same fault.
   const bool is_believed = is_known && (best.set & ~at_fault()) != 0;
@@ -452,14 +491,7 @@ void FaultHypotheses::search_causes(Set believed, std::int64_t time_us) {
   if ((believed & present()) == 0) {
     return;
   }
-  const Epoch& epoch = epochs_[(count_ - 1) % kEpochs];
-  Sums joint = prior();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if ((believed >> i & 1U) != 0) {
-      joint.add(epoch[i]);
-    }
-  }
-  const Eigen::Vector3d motion = joint.solution();
+  const Eigen::Vector3d motion = sum(believed, newest_epoch()).solution();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     causes_[i].add_motion(time_us, motion);
     if (!verdicts_[i].is_at_fault) {

@@ -105,6 +105,7 @@ class FaultHypotheses {
     std::array<YawRate, 2> yaw_rates;
     std::optional<Speed> speed;
     std::optional<std::int64_t> too_few_targets_us;
+    std::optional<std::int64_t> accused_us;
     int count = 0;  // Of velocities.
   };
   /// Sums of least squares: information H, H x, and x' H x of the measurements.
@@ -133,6 +134,7 @@ class FaultHypotheses {
   };
 
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
+  [[nodiscard]] Sums by_doppler(std::size_t radar, const Velocity& velocity) const;
   [[nodiscard]] Sums measurements(std::size_t radar, std::int64_t time_us,
                                   const Velocity& velocity) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
@@ -145,9 +147,13 @@ class FaultHypotheses {
   [[nodiscard]] Hypothesis search(Set present) const;
   void try_set(Set set, Hypothesis& best) const;
   [[nodiscard]] bool is_supported(Set set, std::int64_t time_us) const;
+  [[nodiscard]] bool is_refuted(Set set, std::int64_t time_us) const;
+  [[nodiscard]] bool is_wrong_by_itself(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] bool is_consistent(Set set, double chi_square) const;
   [[nodiscard]] double chi_square(Set set) const;
   [[nodiscard]] Sums prior() const;
+  [[nodiscard]] Sums sum(Set set, const Epoch& epoch) const;
+  [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
   void search_causes(Set believed, std::int64_t time_us);
 
   const OdometryState& state_;

@@ -102,13 +102,14 @@ def _flushed(name, status):
 def run(name, main):
     """Calls main(arguments) and ends the process."""
     _open_closed_streams()
-    raise_when_stopped()
     try:
-        status = _flushed(name, _status_of(name, main))
+        raise_when_stopped()
+        # At once: what is left in a stream that failed is not to fail again.
+        os._exit(_flushed(name, _status_of(name, main)))
     except Stopped as stopped:
         signal.signal(stopped.number, signal.SIG_DFL)
+        release_signals()  # hold_back_signals() may raise it, too, when it has.
         os.kill(os.getpid(), stopped.number)
-    os._exit(status)  # What is left in a stream that failed is not to fail again.
 
 
 def _identity(path):

@@ -24,7 +24,7 @@ std::string irregularities(const RadarStatus& status);
 /// Causes of missing or bad odometry that the pipeline can detect, most likely first. `all`: the
 /// configuration's radars, for their names.
 std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status,
-                                    std::span<const RadarConfiguration> all = {});
+                                    std::span<const RadarConfiguration> all);
 
 /// Why the odometry leaves a radar out, and what corrects it, as far as known.
 Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,

@@ -52,7 +52,7 @@ void no_estimate_but(RadarStatus& status, MotionStatus motion) {
 
 TEST_CASE("All well: nothing is reported but the summary") {
   const RadarStatus status = healthy();
-  CHECK(radar_findings(front(), status).empty());
+  CHECK(radar_findings(front(), status, {}).empty());
   CHECK(irregularities(status).empty());
   CHECK(summary(status) == "100 scans, 99 estimates, no_reference 1");
 }
@@ -132,7 +132,7 @@ TEST_CASE("Each trouble is the first finding") {
   CAPTURE(row.name);
   RadarStatus status = healthy();
   row.spoil(status);
-  const auto findings = radar_findings(front(), status);
+  const auto findings = radar_findings(front(), status, {});
   REQUIRE_FALSE(findings.empty());
   CHECK(findings.front().severity == row.severity);
   CHECK_THAT(findings.front().what, Catch::Contains(row.what));
@@ -154,17 +154,17 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
                             Case{MotionStatus::ambiguous, "few fixed targets"});
   RadarStatus status = healthy();
   no_estimate_but(status, row.status);
-  auto findings = radar_findings(front(), status);
+  auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings.front().severity == Severity::error);
   CHECK_THAT(findings.front().what, Catch::Contains(std::string(to_string(row.status)) + " 100"));
   CHECK_THAT(findings.front().remedy, Catch::Contains(row.remedy));
   count(status, MotionStatus::ok) = 49;
-  findings = radar_findings(front(), status);
+  findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings.front().severity == Severity::warning);
   count(status, MotionStatus::ok) = 50;
-  CHECK(radar_findings(front(), status).empty());
+  CHECK(radar_findings(front(), status, {}).empty());
 }
 
 TEST_CASE("Each fault that a radar reports is named") {
@@ -187,7 +187,7 @@ TEST_CASE("Each fault that a radar reports is named") {
   RadarStatus status = healthy();
   status.health.faults = row.fault;
   for (const RadarConfiguration& radar : {front(), gpr}) {
-    const auto findings = radar_findings(radar, status);
+    const auto findings = radar_findings(radar, status, {});
     REQUIRE(findings.size() == 1);
     CHECK(findings.front().severity == Severity::warning);
     CHECK(findings.front().what == "the sensor reports a fault: " + row.name);
@@ -210,9 +210,9 @@ TEST_CASE("Each doubt in the covariance is named with its figure and what to do"
   RadarStatus status = healthy();
   status.belief = {.doppler_innovation = 4.25, .next_innovation = 5.35};
   status.odometry.doppler_innovation = 6.45;
-  CHECK(radar_findings(front(), status).empty());
+  CHECK(radar_findings(front(), status, {}).empty());
   status.belief.doubts = row.doubt;
-  const auto findings = radar_findings(front(), status);
+  const auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].severity == Severity::warning);
   CHECK_THAT(findings[0].what, Catch::Contains(row.what) && Catch::Contains(row.figure + ", 1"));
@@ -269,7 +269,7 @@ TEST_CASE("No key is advised that the radar does not have, and no value that it 
 TEST_CASE("A speed by positions that is not Doppler's is named with its causes") {
   RadarStatus status = healthy();
   status.belief.doubts = positions_contradict_speed;
-  const auto findings = radar_findings(front(), status);
+  const auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].severity == Severity::warning);
   CHECK_THAT(findings[0].what, Catch::Contains("another speed than their Doppler"));
@@ -281,12 +281,12 @@ TEST_CASE("A wrong scale of Doppler is named with its size") {
   RadarStatus status = healthy();
   status.belief.doubts = positions_contradict_speed;
   status.belief.doppler_correction = 1.25;
-  auto findings = radar_findings(front(), status);
+  auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 20.0 % too small"));
   CHECK_THAT(findings[0].remedy, Catch::Contains("calibration.doppler_scale"));
   status.belief.doppler_correction = 0.9;
-  findings = radar_findings(front(), status);
+  findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 11.1 % too large"));
   status.belief.doppler_correction = -1.0;
@@ -300,7 +300,7 @@ TEST_CASE("Whoever keeps every DynProp does not need the sensor to know its moti
   radar.decoder.as<Ars408Options>()->keep_dyn_props = 0xFF;
   RadarStatus status = healthy();
   status.health.faults = RadarHealth::speed_missing | RadarHealth::yaw_rate_missing;
-  CHECK(radar_findings(radar, status).empty());
+  CHECK(radar_findings(radar, status, {}).empty());
 }
 
 TEST_CASE("A finding is one line") {

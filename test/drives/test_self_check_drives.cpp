@@ -153,7 +153,7 @@ void check_fused(const RecordingSink& sink, const Fault& fault, const Drive& dri
 
 std::string report(const RadarConfiguration& radar, const RadarStatus& status) {
   std::string text;
-  for (const Finding& finding : radar_findings(radar, status)) {
+  for (const Finding& finding : radar_findings(radar, status, {})) {
     text += to_text(finding) + "\n";
   }
   return text;

@@ -363,6 +363,16 @@ TEST_CASE("What is wrong with a radar is found") {
   }
 }
 
+TEST_CASE("A radar at the mount of another is told which") {
+  const Configuration configuration = demo_configuration();
+  Observation observation = observe(configuration, recording_of(configuration.radars));
+  RadarStatus& front = observation.radars[0].status;
+  front.belief.doubts = other_radars_contradict;
+  front.odometry = {.is_left_out = true, .cause = {FaultKind::exchanged, 0.0, 1}};
+  CHECK_THAT(all_text(diagnose(configuration, observation)),
+             Catch::Contains("front: it sees what a radar at the mount of rear sees"));
+}
+
 TEST_CASE("A clock that is set back is not blamed on lost frames") {
   const Configuration configuration = demo_configuration();
   Recording traffic = recording_of(configuration.radars);

@@ -337,7 +337,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
   if (Findings twin = find_twin(wanted, observed, bus, observation.seconds); !twin.empty()) {
     return twin;
   }
-  Findings findings = radar_findings(wanted, observed.status);
+  Findings findings = radar_findings(wanted, observed.status, configuration.radars);
   add_pause(observed, observation.seconds, findings);
   if (!has_error(findings)) {
     add_incomplete(wanted, observed, findings);

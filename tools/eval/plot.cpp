@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/plot.hpp"
 
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <istream>
@@ -28,8 +29,24 @@ std::filesystem::path script_path(const std::string& script) {
                                             : std::filesystem::path(CREMED_PLOT_SCRIPTS) / script;
 }
 
-/// Runs a command; throws if it fails.
-void run_command(std::vector<std::string> command, const std::string& picture) {
+/// Holds SIGINT back, of which Python would tell with a traceback while it starts; plotting.py
+/// releases it.
+int start_script(const std::vector<char*>& arguments, pid_t& child) {
+  sigset_t held_back;
+  ::sigemptyset(&held_back);
+  ::sigaddset(&held_back, SIGINT);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigmask(&attributes, &held_back);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  const int error =
+      ::posix_spawn(&child, arguments[0], nullptr, &attributes, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+/// Runs a plot script; throws if it fails.
+void run_script(std::vector<std::string> command, const std::string& picture) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& argument : command) {
@@ -37,9 +54,7 @@ void run_command(std::vector<std::string> command, const std::string& picture) {
   }
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const int error =
-      ::posix_spawn(&child, command[0].c_str(), nullptr, nullptr, arguments.data(), environ);
-  if (error != 0) {
+  if (const int error = start_script(arguments, child); error != 0) {
     throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(error));
   }
   int status = 0;
@@ -71,7 +86,7 @@ void draw_plot(const std::string& script, const std::vector<std::string>& inputs
   std::vector<std::string> command{script_path(script)};
   command.insert(command.end(), inputs.begin(), inputs.end());
   command.push_back(drawn);
-  run_command(std::move(command), picture);
+  run_script(std::move(command), picture);
   replace_file(picture, with_input(drawn, content));
 }
 

@@ -148,7 +148,7 @@ void OdometryFilter::restart(std::int64_t stamp_us) {
   consensus_.clear();
   state_.restart(stamp_us);
   condition_.start();
-  stepped_us_.reset();
+  step_.reset();
   parked_.clear();
   output_.start();
   has_started_ = true;
@@ -298,6 +298,10 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     return false;
   }
   trust.contradicts_positions = false;
+  if (has_stepped() && is_after_step(radar, scan)) {
+    condition_.doubt();
+    return false;
+  }
   if (is_used) {
     state_.update();
     output_.add_radar(radar);
@@ -306,6 +310,17 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     }
   }
   return is_used;
+}
+
+/// Since all radars stepped no scan was used.
+bool OdometryFilter::has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
+
+/// Nearer to where they stepped to than to the state, whose sigma grows: without this a step from
+/// 5 m/s to 0 was followed half a second later.
+bool OdometryFilter::is_after_step(std::size_t radar, const ScanVelocity& scan) const {
+  const auto expected = expected_velocity(radar);
+  return expected &&
+         std::abs(scan.velocity.velocity_mps.x() - expected->x()) > 0.5 * std::abs(step_->mps);
 }
 
 /// Whether all targets of a scan, whatever their Doppler, are where the state expects the map: it
@@ -344,11 +359,10 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   // positions have to confirm the next start.
   if (condition_.used_scans() >= kMinScansOfState && consensus_.is_step(stamp_us) &&
       std::abs(error.x()) > possible_speed_change_mps(stamp_us)) {
-    stepped_us_ = condition_.used_us();
+    step_ = Step{condition_.used_us(), error.x()};
   }
-  const bool is_impossible = stepped_us_ == condition_.used_us();
   // The positions can tell which of the speeds is wrong once they would be that far apart.
-  if (is_impossible || (std::abs(error.x()) * since_s > 2.0 * kMaxConfirmedM &&
+  if (has_stepped() || (std::abs(error.x()) * since_s > 2.0 * kMaxConfirmedM &&
                         consensus_.contradicts_positions(stamp_us))) {
     condition_.doubt();
     return;

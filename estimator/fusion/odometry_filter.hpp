@@ -94,6 +94,12 @@ class OdometryFilter {
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
+  /// A step of the speed by all radars that no vehicle can make.
+  struct Step {
+    std::int64_t used_us = 0;  // Of the last scan used before.
+    double mps = 0.0;
+  };
+
   void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
   void restart(std::int64_t stamp_us);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
@@ -112,6 +118,8 @@ class OdometryFilter {
   [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                     std::int64_t stamp_us);
+  [[nodiscard]] bool has_stepped() const;
+  [[nodiscard]] bool is_after_step(std::size_t radar, const ScanVelocity& scan) const;
   [[nodiscard]] bool positions_confirm_state(std::size_t radar, const TargetSet& targets,
                                              double age_s);
   [[nodiscard]] bool is_witness(std::size_t radar) const;
@@ -135,7 +143,7 @@ class OdometryFilter {
   VehicleSignals vehicle_;
   bool has_forward_radar_ = false;  // One that does not look sideways.
   bool has_started_ = false;
-  std::optional<std::int64_t> stepped_us_;  // Last scan used before all radars stepped.
+  std::optional<Step> step_;
 };
 
 }  // namespace cremed

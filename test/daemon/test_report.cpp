@@ -290,7 +290,7 @@ TEST_CASE("A wrong scale of Doppler is named with its size") {
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains("Doppler is 11.1 % too large"));
   status.belief.doppler_correction = -1.0;
-  findings = radar_findings(front(), status);
+  findings = radar_findings(front(), status, std::array{front()});
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what, Catch::Contains("wrong sign"));
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/cost/sum_of_logs.hpp"
+
 namespace cremed {
 namespace {
 
@@ -13,21 +15,6 @@ constexpr double kMaxRatio = 1e12;
 
 /// The root of f^2 + f s = 1 in [0, 1]; see (5) of the README.
 double factor_of(double sum) { return 2.0 / (sum + std::sqrt(sum * sum + 4.0)); }
-
-/// Sum of the logarithms of the first `count` factors, each between 1e-6 (kMaxRatio) and 1. Takes
-/// one logarithm of a product of many factors.
-double sum_of_logs(const std::array<double, kMaxDetections>& factors, std::size_t count) {
-  double sum = 0.0;
-  double product = 1.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    product *= factors[i];
-    if (product < 1e-200) {
-      sum += std::log(product);
-      product = 1.0;
-    }
-  }
-  return sum + std::log(product);
-}
 
 }  // namespace
 
@@ -117,7 +104,10 @@ int Association::solve(int max_rounds) {
 }
 
 double Association::cost() const {
-  return sum_of_logs(row_factor_, rows_) + sum_of_logs(column_factor_, columns_);
+  SumOfLogs sum;  // Factors are between 1e-6 (kMaxRatio) and 1.
+  std::for_each_n(row_factor_.begin(), rows_, [&](double factor) { sum.add(factor); });
+  std::for_each_n(column_factor_.begin(), columns_, [&](double factor) { sum.add(factor); });
+  return sum.value();
 }
 
 /// Updates a of all rows from b of the columns; see (7) of the README.

@@ -66,25 +66,40 @@ DopplerResidual doppler_residual(const Target& target, double predicted_m, doubl
   return {error_m, best.variance_m2, best.weight, is_static};
 }
 
-DopplerSums sum_doppler(const TargetSet& targets, const Eigen::Vector3d& change,
-                        const Eigen::Vector3d& systematic, double dt_s,
-                        const DopplerOptions& options, double scale) {
-  DopplerSums sums;
+// Flattened: of the call for each target only the result's numbers are left.
+[[gnu::flatten]] DopplerSums sum_doppler(const TargetSet& targets, const Eigen::Vector3d& change,
+                                         const Eigen::Vector3d& systematic, double dt_s,
+                                         const DopplerOptions& options, double scale) {
+  // Of the terms in z z' and z e.
+  double n = 0.0, c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0, e = 0.0, ce = 0.0, se = 0.0;
   const Eigen::Vector3d predicted = change + systematic;
   const Eigen::Vector3d by_bearing = doppler_by_bearing(change);
   double squared_sigmas = 0.0;
   SumOfLogs scales;
   for (const Target& target : targets) {
-    const Eigen::Vector3d z(1.0, target.cos_bearing, target.sin_bearing);
+    const double cosine = target.cos_bearing;
+    const double sine = target.sin_bearing;
     const DopplerResidual residual =
-        doppler_residual(target, predicted.dot(z), by_bearing.dot(z), dt_s, options, scale);
-    const double per_m2 = 1.0 / residual.variance_m2;
-    const Eigen::Vector3d weighted = per_m2 * z;
-    sums.products.noalias() += weighted * z.transpose();
-    sums.errors += residual.error_m * weighted;
-    squared_sigmas += residual.error_m * residual.error_m * per_m2;
+        doppler_residual(target, predicted.x() + predicted.y() * cosine + predicted.z() * sine,
+                         by_bearing.y() * cosine + by_bearing.z() * sine, dt_s, options, scale);
+    const double weight = 1.0 / residual.variance_m2;
+    const double weighted_cosine = weight * cosine;
+    const double weighted_sine = weight * sine;
+    n += weight;
+    c += weighted_cosine;
+    s += weighted_sine;
+    cc += weighted_cosine * cosine;
+    cs += weighted_cosine * sine;
+    ss += weighted_sine * sine;
+    e += weight * residual.error_m;
+    ce += weighted_cosine * residual.error_m;
+    se += weighted_sine * residual.error_m;
+    squared_sigmas += weight * residual.error_m * residual.error_m;
     scales.add(residual.variance_m2 / (residual.weight * residual.weight));
   }
+  DopplerSums sums;
+  sums.products << n, c, s, c, cc, cs, s, cs, ss;
+  sums.errors << e, ce, se;
   sums.cost = 0.5 * (squared_sigmas + scales.value());
   return sums;
 }

@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t kMaxSecondsDigits = 12;  // The largest value in microseconds fits an int64.
 constexpr std::size_t kClassicCapacity = 8;
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
-constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kDropPrefix = "DROPCOUNT: dropped ";
 
@@ -43,6 +42,11 @@ constexpr Error kNoStamp =
     "console output without time: must be recorded by `candump -l`, or at least `candump -ta`";
 constexpr Error kNoFrame = "a frame's line must begin with (seconds.fraction)";
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+constexpr bool is_no_blank(char c) { return !is_blank(c); }
+constexpr bool is_no_quote(char c) { return c != '\''; }
+
 /// Consumes a line from left to right.
 class Cursor {
  public:
@@ -55,14 +59,16 @@ class Cursor {
     rest_.remove_prefix(1);
     return true;
   }
-  std::string_view take_all_of(std::string_view set) {
-    return take_size(std::min(rest_.find_first_not_of(set), rest_.size()));
+  // A string_view's own search calls the library for every character.
+  template <typename Condition>
+  std::string_view take_while(Condition condition) {
+    const auto* const end = std::find_if_not(rest_.begin(), rest_.end(), condition);
+    return take_size(static_cast<std::size_t>(end - rest_.begin()));
   }
-  std::string_view take_until(std::string_view set) {
-    return take_size(std::min(rest_.find_first_of(set), rest_.size()));
-  }
+  std::string_view take_digits() { return take_while(is_digit); }
+  std::string_view take_word() { return take_while(is_no_blank); }
   std::string_view take_rest() { return take_size(rest_.size()); }
-  bool take_blanks() { return !take_all_of(kBlanks).empty(); }
+  bool take_blanks() { return !take_while(is_blank).empty(); }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
  private:
@@ -96,9 +102,9 @@ constexpr bool is_fd_length(std::size_t length) {
 
 Error parse_stamp(Cursor& cursor, CandumpLine& line) {
   cursor.take('(');
-  const std::string_view seconds = cursor.take_all_of(kDigits);
+  const std::string_view seconds = cursor.take_digits();
   const bool has_point = cursor.take('.');
-  const std::string_view decimals = cursor.take_all_of(kDigits);
+  const std::string_view decimals = cursor.take_digits();
   if (seconds.empty() || !has_point || !cursor.take(')') || !cursor.take_blanks()) {
     return kStampShape;
   }
@@ -117,7 +123,7 @@ Error parse_stamp(Cursor& cursor, CandumpLine& line) {
 }
 
 Error parse_interface(Cursor& cursor, CandumpLine& line) {
-  line.interface_name = cursor.take_until(kBlanks);
+  line.interface_name = cursor.take_word();
   if (line.interface_name.empty() || line.interface_name.size() > kMaxInterfaceName) {
     return kInterfaceLength;
   }
@@ -207,7 +213,7 @@ Error parse_classic(std::string_view text, CanFrame& frame) {
 Error parse_console_bytes(Cursor& cursor, std::uint64_t length, CanFrame& frame) {
   const std::size_t capacity = frame.fd ? frame.data.size() : kClassicCapacity;
   for (std::uint64_t i = 0; i < length; ++i) {
-    const std::string_view byte = cursor.take_blanks() ? cursor.take_until(kBlanks) : "";
+    const std::string_view byte = cursor.take_blanks() ? cursor.take_word() : "";
     if (byte.size() != 2 || !parse_bytes(byte, capacity, frame).empty()) {
       return kConsoleShape;
     }
@@ -221,11 +227,11 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   if (word == "RX" || word == "TX") {
     for (int i = 0; i < 3; ++i) {
       cursor.take_blanks();
-      word = cursor.take_until(kBlanks);
+      word = cursor.take_word();
     }
   }
   const bool has_bracket = cursor.take_blanks() && cursor.take('[');
-  const std::string_view length = cursor.take_all_of(kDigits);
+  const std::string_view length = cursor.take_digits();
   std::uint64_t bytes = 0;
   if (!has_bracket || !cursor.take(']') || !parse_number(length, 10, bytes)) {
     return kFrameShape;
@@ -235,8 +241,7 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   }
   line.frame.fd = length.size() == 2;
   Cursor text = cursor;
-  const bool is_remote =
-      !line.frame.fd && text.take_blanks() && text.take_until(kBlanks) == "remote";
+  const bool is_remote = !line.frame.fd && text.take_blanks() && text.take_word() == "remote";
   const Error error =
       is_remote ? parse_remote(length, line.frame) : parse_console_bytes(cursor, bytes, line.frame);
   cursor.take_rest();
@@ -248,13 +253,14 @@ Error check_kind(const CanFrame& frame) {
 }
 
 Error parse_content(Cursor& cursor, CandumpLine& line) {
-  const std::string_view digits = cursor.take_until("# \t");
+  const std::string_view digits =
+      cursor.take_while([](char c) { return c != '#' && is_no_blank(c); });
   if (!cursor.take('#')) {
     const Error error = parse_console(cursor, digits, line);
     return error.empty() ? check_kind(line.frame) : error;
   }
   const bool fd = cursor.take('#');
-  const std::string_view content = cursor.take_until(kBlanks);
+  const std::string_view content = cursor.take_word();
   if (content.size() > 2 && content[2] == ':') {  // XL: id#flags:type:field#data
     return kXlFrame;
   }
@@ -292,10 +298,10 @@ CandumpLine parse_frame(std::string_view text) {
 CandumpLine parse_drop_count(std::string_view text) {
   Cursor cursor(text.substr(kDropPrefix.size()));
   CandumpLine line;
-  const bool counted = parse_number(cursor.take_all_of(kDigits), 10, line.dropped_frames);
-  cursor.take_until("'");
+  const bool counted = parse_number(cursor.take_digits(), 10, line.dropped_frames);
+  cursor.take_while(is_no_quote);
   const bool opened = cursor.take('\'');
-  line.interface_name = cursor.take_until("'");
+  line.interface_name = cursor.take_while(is_no_quote);
   if (counted && opened && cursor.take('\'') && !line.interface_name.empty()) {
     line.status = CandumpStatus::dropped;
     return line;

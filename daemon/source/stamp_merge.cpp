@@ -14,7 +14,8 @@ StampMerge::StampMerge(std::size_t lanes, std::size_t capacity)
 }
 
 std::size_t StampMerge::place(std::size_t lane, std::size_t offset) const {
-  return lane * capacity_ + (lanes_[lane].begin + offset) % capacity_;
+  const std::size_t at = lanes_[lane].begin + offset;
+  return lane * capacity_ + (at < capacity_ ? at : at - capacity_);
 }
 
 void StampMerge::push(std::size_t lane, const ReceivedFrame& frame) {
@@ -28,9 +29,11 @@ void StampMerge::set_read_until(std::size_t lane, std::int64_t stamp_us) {
 
 std::optional<std::size_t> StampMerge::oldest() const {
   std::optional<std::size_t> best;
+  std::int64_t best_us = 0;
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    if (has_frames(i) && (!best || stamp_us(i) < stamp_us(*best))) {
+    if (has_frames(i) && (!best || stamp_us(i) < best_us)) {
       best = i;
+      best_us = stamp_us(i);
     }
   }
   return best;
@@ -58,7 +61,7 @@ std::int64_t StampMerge::stamp_us(std::size_t lane) const {
 ReceivedFrame& StampMerge::front(std::size_t lane) { return frames_[place(lane, 0)]; }
 
 void StampMerge::pop(std::size_t lane) {
-  lanes_[lane].begin = (lanes_[lane].begin + 1) % capacity_;
+  lanes_[lane].begin = place(lane, 1) - lane * capacity_;
   --lanes_[lane].count;
   --size_;
 }

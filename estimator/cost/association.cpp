@@ -5,29 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/cost/sum_of_logs.hpp"
+
 namespace cremed {
 namespace {
 
-/// A pair with this ratio is certain: 1 - p = 1e-12, which a double resolves to four digits.
-constexpr double kMaxRatio = 1e12;
-
 /// The root of f^2 + f s = 1 in [0, 1]; see (5) of the README.
 double factor_of(double sum) { return 2.0 / (sum + std::sqrt(sum * sum + 4.0)); }
-
-/// Sum of the logarithms of the first `count` factors, each between 1e-6 (kMaxRatio) and 1. Takes
-/// one logarithm of a product of many factors.
-double sum_of_logs(const std::array<double, kMaxDetections>& factors, std::size_t count) {
-  double sum = 0.0;
-  double product = 1.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    product *= factors[i];
-    if (product < 1e-200) {
-      sum += std::log(product);
-      product = 1.0;
-    }
-  }
-  return sum + std::log(product);
-}
 
 }  // namespace
 
@@ -41,18 +25,6 @@ void Association::clear(std::size_t columns) {
 void Association::begin_row() {
   ++rows_;
   row_begin_[rows_] = static_cast<std::uint16_t>(size_);
-}
-
-bool Association::add(std::size_t column, double ratio, const Eigen::Vector3d& gradient) {
-  if (size_ == kMaxPairs) {
-    return false;
-  }
-  column_of_[size_] = static_cast<std::uint16_t>(column);
-  ratio_[size_] = std::min(ratio, kMaxRatio);
-  gradient_[size_] = gradient;
-  ++size_;
-  row_begin_[rows_] = static_cast<std::uint16_t>(size_);
-  return true;
 }
 
 /// Exact for pairs without competitors and for square blocks of equal ratios.
@@ -72,23 +44,18 @@ double Association::scale(bool over_relaxed) {
     const double exact = factor_of(sum);
     return over_relaxed ? std::min(exact * std::sqrt(exact / factor), 1.0) : exact;
   };
-  // In separate loops over all rows, which the compiler can vectorise.
-  for (std::size_t i = 0; i < rows_; ++i) {
-    double sum = 0.0;
-    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
-      sum += ratio_[k] * column_factor_[column_of_[k]];
-    }
-    row_sum_[i] = sum;
+  // In separate loops over all pairs, which have no short inner loops with unpredictable ends, and
+  // over all rows, which the compiler can vectorise.
+  std::fill_n(row_sum_.begin(), rows_, 0.0);
+  for (std::size_t k = 0; k < size_; ++k) {
+    row_sum_[row_of_[k]] += ratio_[k] * column_factor_[column_of_[k]];
   }
   for (std::size_t i = 0; i < rows_; ++i) {
     row_factor_[i] = next_factor(row_factor_[i], row_sum_[i]);
   }
   std::fill_n(sum_.begin(), columns_, 0.0);
-  for (std::size_t i = 0; i < rows_; ++i) {
-    const double factor = row_factor_[i];
-    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
-      sum_[column_of_[k]] += ratio_[k] * factor;
-    }
+  for (std::size_t k = 0; k < size_; ++k) {
+    sum_[column_of_[k]] += ratio_[k] * row_factor_[row_of_[k]];
   }
   for (std::size_t j = 0; j < columns_; ++j) {
     const double next = next_factor(column_factor_[j], sum_[j]);
@@ -108,16 +75,17 @@ int Association::solve(int max_rounds) {
   if (rounds > kPlainRounds) {
     scale(false);  // after a plain round no column has more than one partner
   }
-  for (std::size_t i = 0; i < rows_; ++i) {
-    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
-      probability_[k] = ratio_[k] * row_factor_[i] * column_factor_[column_of_[k]];
-    }
+  for (std::size_t k = 0; k < size_; ++k) {
+    probability_[k] = ratio_[k] * row_factor_[row_of_[k]] * column_factor_[column_of_[k]];
   }
   return rounds;
 }
 
 double Association::cost() const {
-  return sum_of_logs(row_factor_, rows_) + sum_of_logs(column_factor_, columns_);
+  SumOfLogs sum;  // Factors are between 1e-6 (kMaxRatio) and 1.
+  std::for_each_n(row_factor_.begin(), rows_, [&](double factor) { sum.add(factor); });
+  std::for_each_n(column_factor_.begin(), columns_, [&](double factor) { sum.add(factor); });
+  return sum.value();
 }
 
 /// Updates a of all rows from b of the columns; see (7) of the README.
@@ -139,11 +107,9 @@ double Association::scale_column_gradients(const Eigen::Vector3d& unit) {
   for (std::size_t j = 0; j < columns_; ++j) {
     sum_[j] = 2.0 * column_factor_[j] * column_factor_[j];
   }
-  for (std::size_t i = 0; i < rows_; ++i) {
-    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
-      column_sum_[column_of_[k]] += probability_[k] * (gradient_[k] - row_gradient_[i]);
-      sum_[column_of_[k]] += probability_[k];
-    }
+  for (std::size_t k = 0; k < size_; ++k) {
+    column_sum_[column_of_[k]] += probability_[k] * (gradient_[k] - row_gradient_[row_of_[k]]);
+    sum_[column_of_[k]] += probability_[k];
   }
   double change = 0.0;
   for (std::size_t j = 0; j < columns_; ++j) {
@@ -167,12 +133,10 @@ Eigen::Matrix3d Association::missing_information(const Eigen::Vector3d& unit) {
     }
   }
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < rows_; ++i) {
-    for (std::size_t k = row_begin_[i]; k < row_begin_[i + 1]; ++k) {
-      const Eigen::Vector3d rest =
-          gradient_[k] - row_gradient_[i] - column_gradient_[column_of_[k]];
-      sum.noalias() += probability_[k] * gradient_[k] * rest.transpose();
-    }
+  for (std::size_t k = 0; k < size_; ++k) {
+    const Eigen::Vector3d rest =
+        gradient_[k] - row_gradient_[row_of_[k]] - column_gradient_[column_of_[k]];
+    sum.noalias() += probability_[k] * gradient_[k] * rest.transpose();
   }
   return 0.5 * (sum + sum.transpose());
 }

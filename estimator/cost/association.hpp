@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,8 @@ class Association {
  public:
   /// 16 partners for each of 256 targets.
   static constexpr std::size_t kMaxPairs = 4096;
+  /// A pair with this ratio is certain: 1 - p = 1e-12, which a double resolves to four digits.
+  static constexpr double kMaxRatio = 1e12;
   /// Bounds the work on clusters. Their probabilities may then still be off by about kTolerance.
   static constexpr int kMaxRounds = 32;
   /// Rounds before over-relaxation (factor 1.5 in the logarithm). They suffice unless a part of a
@@ -90,6 +93,7 @@ class Association {
   // Not initialised: most elements are never used.
   std::array<double, kMaxPairs> ratio_;
   std::array<double, kMaxPairs> probability_;
+  std::array<std::uint16_t, kMaxPairs> row_of_;
   std::array<std::uint16_t, kMaxPairs> column_of_;
   std::array<Eigen::Vector3d, kMaxPairs> gradient_;
   std::array<std::uint16_t, kMaxDetections + 1> row_begin_;
@@ -106,5 +110,22 @@ class Association {
   Gradients column_gradient_;  // b
   Gradients column_sum_;
 };
+
+// Inline: it is called for every pair in every step.
+inline bool Association::add(std::size_t column, double ratio, const Eigen::Vector3d& gradient) {
+  if (size_ == kMaxPairs) {
+    return false;
+  }
+  row_of_[size_] = static_cast<std::uint16_t>(rows_ - 1);
+  column_of_[size_] = static_cast<std::uint16_t>(column);
+  ratio_[size_] = std::min(ratio, kMaxRatio);
+  // One by one: see Symmetric2::quadratic.
+  gradient_[size_].x() = gradient.x();
+  gradient_[size_].y() = gradient.y();
+  gradient_[size_].z() = gradient.z();
+  ++size_;
+  row_begin_[rows_] = static_cast<std::uint16_t>(size_);
+  return true;
+}
 
 }  // namespace cremed

@@ -4,21 +4,18 @@
 
 #include <cmath>
 
-namespace cremed {
+#include "cremed/estimator/cost/sum_of_logs.hpp"
 
+namespace cremed {
 namespace {
 
 /// One Gaussian of the max mixture. Its cost is -log(weight N) up to a constant.
 struct Component {
   double variance_m2;
   double weight;
-
-  [[nodiscard]] double cost(double squared_error_m2) const {
-    return 0.5 * (squared_error_m2 / variance_m2 + std::log(variance_m2 / (weight * weight)));
-  }
 };
 
-/// Whether the first component is clearly the better one. Sufficient test without a logarithm.
+/// Sufficient test without a logarithm that the first component is the better one.
 bool is_clear(const Component& first, const Component& second, double squared_error_m2) {
   constexpr double kSquaredError = 8.0;
   constexpr double kRatio = 2981.0;  // exp(8)
@@ -27,46 +24,84 @@ bool is_clear(const Component& first, const Component& second, double squared_er
              kRatio * second.weight * second.weight * first.variance_m2;
 }
 
-}  // namespace
-
-DopplerGeometry::DopplerGeometry(const Target& target, const Eigen::Vector3d& motion,
-                                 const Pose2& vehicle_from_radar) {
-  const double c = target.cos_bearing;
-  const double s = target.sin_bearing;
-  const double sensor_x_m = motion.x() - motion.z() * vehicle_from_radar.y_m;
-  const double sensor_y_m = motion.y() + motion.z() * vehicle_from_radar.x_m;
-  range_change_m = -sensor_x_m * c - sensor_y_m * s;
-  per_bearing_m = sensor_x_m * s - sensor_y_m * c;
-  jacobian << -c, -s, vehicle_from_radar.y_m * c - vehicle_from_radar.x_m * s;
+/// Whether the cost of the second component is lower.
+bool is_second_better(const Component& first, const Component& second, double squared_error_m2) {
+  if (is_clear(first, second, squared_error_m2)) {
+    return false;
+  }
+  const double first_scale = first.variance_m2 / (first.weight * first.weight);
+  const double second_scale = second.variance_m2 / (second.weight * second.weight);
+  return squared_error_m2 / first.variance_m2 - squared_error_m2 / second.variance_m2 >
+         std::log(second_scale / first_scale);
 }
 
-DopplerResidual doppler_residual(const Target& target, const DopplerGeometry& geometry, double dt_s,
-                                 const DopplerOptions& options, double scale, double shared_m) {
-  DopplerResidual result;
-  result.error_m = geometry.range_change_m - target.doppler_mps * dt_s + shared_m;
-  const double squared_error_m2 = result.error_m * result.error_m;
+}  // namespace
 
+double DopplerResidual::cost() const {
+  return 0.5 * (error_m * error_m / variance_m2 + std::log(variance_m2 / (weight * weight)));
+}
+
+Eigen::Matrix3d doppler_by_motion(const Pose2& vehicle_from_radar) {
+  Eigen::Matrix3d result;
+  result << 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0, vehicle_from_radar.y_m, -vehicle_from_radar.x_m;
+  return result;
+}
+
+DopplerResidual doppler_residual(const Target& target, double predicted_m, double per_bearing_m,
+                                 double dt_s, const DopplerOptions& options, double scale) {
+  const double error_m = predicted_m - target.doppler_mps * dt_s;
+  const double squared_error_m2 = error_m * error_m;
   const double stamp_m = target.doppler_mps * options.stamp_std_s;
-  const double bearing_m = geometry.per_bearing_m * target.bearing_std_rad;
+  const double bearing_m = per_bearing_m * target.bearing_std_rad;
   const double common_m2 = stamp_m * stamp_m + bearing_m * bearing_m;
   const auto component = [&](double weight, double doppler_std_mps) {
     const double doppler_m = dt_s * doppler_std_mps;
     return Component{doppler_m * doppler_m + common_m2, weight};
   };
-
-  Component best = component(1.0 - options.moving_weight, target.doppler_std_mps * scale);
-  result.cost = best.cost(squared_error_m2);
+  const Component at_rest = component(1.0 - options.moving_weight, target.doppler_std_mps * scale);
   const Component moving = component(options.moving_weight, options.moving_std_mps);
-  if (options.moving_weight > 0.0 && !is_clear(best, moving, squared_error_m2)) {
-    const double moving_cost = moving.cost(squared_error_m2);
-    if (moving_cost < result.cost) {
-      result.cost = moving_cost;
-      result.is_static = false;
-      best = moving;
-    }
+  const bool is_static =
+      options.moving_weight <= 0.0 || !is_second_better(at_rest, moving, squared_error_m2);
+  const Component& best = is_static ? at_rest : moving;
+  return {error_m, best.variance_m2, best.weight, is_static};
+}
+
+// Flattened: of the call for each target only the result's numbers are left.
+[[gnu::flatten]] DopplerSums sum_doppler(const TargetSet& targets, const Eigen::Vector3d& change,
+                                         const Eigen::Vector3d& systematic, double dt_s,
+                                         const DopplerOptions& options, double scale) {
+  // Of the terms in z z' and z e.
+  double n = 0.0, c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0, e = 0.0, ce = 0.0, se = 0.0;
+  const Eigen::Vector3d predicted = change + systematic;
+  const Eigen::Vector3d by_bearing = doppler_by_bearing(change);
+  double squared_sigmas = 0.0;
+  SumOfLogs scales;
+  for (const Target& target : targets) {
+    const double cosine = target.cos_bearing;
+    const double sine = target.sin_bearing;
+    const DopplerResidual residual =
+        doppler_residual(target, predicted.x() + predicted.y() * cosine + predicted.z() * sine,
+                         by_bearing.y() * cosine + by_bearing.z() * sine, dt_s, options, scale);
+    const double weight = 1.0 / residual.variance_m2;
+    const double weighted_cosine = weight * cosine;
+    const double weighted_sine = weight * sine;
+    n += weight;
+    c += weighted_cosine;
+    s += weighted_sine;
+    cc += weighted_cosine * cosine;
+    cs += weighted_cosine * sine;
+    ss += weighted_sine * sine;
+    e += weight * residual.error_m;
+    ce += weighted_cosine * residual.error_m;
+    se += weighted_sine * residual.error_m;
+    squared_sigmas += weight * residual.error_m * residual.error_m;
+    scales.add(residual.variance_m2 / (residual.weight * residual.weight));
   }
-  result.per_m = 1.0 / std::sqrt(best.variance_m2);
-  return result;
+  DopplerSums sums;
+  sums.products << n, c, s, c, cc, cs, s, cs, ss;
+  sums.errors << e, ce, se;
+  sums.cost = 0.5 * (squared_sigmas + scales.value());
+  return sums;
 }
 
 }  // namespace cremed

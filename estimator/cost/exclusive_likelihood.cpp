@@ -93,18 +93,21 @@ bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, con
     const double ey = y_m - y_m_[j];
     excess_m2_[j] = ex * ex + ey * ey - max_squared_distance * (variance_m2_[j] + variance_m2);
   }
-  std::size_t count = candidate_begin_[i];
+  // Without branches, because they would be unpredictable.
+  std::size_t near = 0;
   for (std::size_t j = 0; j < size; ++j) {
-    if (excess_m2_[j] > 0.0) {
-      continue;
-    }
+    near_[near] = static_cast<std::uint16_t>(j);
+    near += excess_m2_[j] <= 0.0 ? 1U : 0U;
+  }
+  std::size_t count = candidate_begin_[i];
+  for (std::size_t k = 0; k < near; ++k) {
+    const std::uint16_t j = near_[k];
     const Symmetric2 covariance = previous[j].covariance_m2 + moved.covariance_m2;
-    const Eigen::Vector2d e(x_m - x_m_[j], y_m - y_m_[j]);
-    if (e.dot(covariance.inverse() * e) <= max_squared_distance) {
+    if (covariance.inverse().quadratic(x_m - x_m_[j], y_m - y_m_[j]) <= max_squared_distance) {
       if (count == candidates_.size()) {
         return false;
       }
-      candidates_[count++] = static_cast<std::uint16_t>(j);
+      candidates_[count++] = j;
     }
   }
   candidate_begin_[i + 1] = count;
@@ -129,15 +132,16 @@ bool ExclusiveLikelihood::list_pairs(const TargetSet& previous, const TargetSet&
 
 void ExclusiveLikelihood::add_pair(std::size_t i, std::size_t j, const Target& previous,
                                    const Target& moved, const Eigen::Vector2d& lever_m) {
-  const Eigen::Vector2d e(moved.x_m - previous.x_m, moved.y_m - previous.y_m);
+  const double ex = moved.x_m - previous.x_m;
+  const double ey = moved.y_m - previous.y_m;
   const Symmetric2 information = (previous.covariance_m2 + moved.covariance_m2).inverse();
-  const Eigen::Vector2d pull = information * e;
-  const double squared_distance = e.dot(pull);
+  const double squared_distance = information.quadratic(ex, ey);
   if (squared_distance > max_squared_distance_[i]) {
     return;
   }
+  const Eigen::Vector2d pull = information * Eigen::Vector2d(ex, ey);
   const double density = std::sqrt(information.determinant()) * std::exp(-0.5 * squared_distance);
-  terms_[association_.size()] = {information.xx, information.xy, information.yy, pull};
+  terms_[association_.size()] = {information, pull.x(), pull.y()};
   association_.add(j, ratio_scale_m2_[i] * density, along_states(pull, lever_m));
 }
 
@@ -175,8 +179,8 @@ NormalEquations ExclusiveLikelihood::sum_up() {
     for (std::size_t k = association_.row_begin(i); k < association_.row_begin(i + 1); ++k) {
       const double p = association_.probability(k);
       const Term& term = terms_[k];
-      information = information + p * Symmetric2{term.xx, term.xy, term.yy};
-      pull += p * term.pull_per_m;
+      information = information + p * term.information;
+      pull += p * Eigen::Vector2d(term.x_per_m, term.y_per_m);
       matched_ += p;
     }
     equations.add_point(information, pull, lever_m_[i]);

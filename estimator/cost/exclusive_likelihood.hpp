@@ -71,8 +71,8 @@ class ExclusiveLikelihood {
 
   /// A pair at the last linearisation.
   struct Term {
-    double xx, xy, yy;           // C_ij^-1
-    Eigen::Vector2d pull_per_m;  // C_ij^-1 e_ij
+    Symmetric2 information;   // C_ij^-1
+    double x_per_m, y_per_m;  // C_ij^-1 e_ij
   };
 
   bool list_row(std::size_t i, const TargetSet& previous, const Target& moved);
@@ -95,7 +95,8 @@ class ExclusiveLikelihood {
   alignas(64) Row x_m_;
   alignas(64) Row y_m_;
   alignas(64) Row variance_m2_;  // trace of the covariance
-  alignas(64) Row excess_m2_;    // scratch of list_row
+  alignas(64) Row excess_m2_;    // scratch of list_row, like the next
+  std::array<std::uint16_t, kMaxDetections> near_;
   double matched_ = 0.0;
   std::int64_t evaluations_ = 0;
 };

@@ -54,15 +54,12 @@ void MixtureCost::add_positions(const Eigen::Vector3d& motion, NormalEquations& 
 }
 
 void MixtureCost::add_doppler(const Eigen::Vector3d& motion, NormalEquations& equations) const {
-  for (const Target& target : *current_) {
-    const DopplerGeometry geometry(target, motion, vehicle_from_radar_);
-    const DopplerResidual doppler =
-        doppler_residual(target, geometry, dt_s_, doppler_, doppler_scale_);
-    const Eigen::RowVector3d jacobian = doppler.per_m * geometry.jacobian;
-    equations.information.noalias() += jacobian.transpose() * jacobian;
-    equations.gradient.noalias() += jacobian.transpose() * (doppler.per_m * doppler.error_m);
-    equations.cost += doppler.cost;
-  }
+  const Eigen::Matrix3d by_motion = doppler_by_motion(vehicle_from_radar_);
+  const DopplerSums sums = sum_doppler(*current_, by_motion.transpose() * motion,
+                                       Eigen::Vector3d::Zero(), dt_s_, doppler_, doppler_scale_);
+  equations.information.noalias() += by_motion * sums.products * by_motion.transpose();
+  equations.gradient.noalias() += by_motion * sums.errors;
+  equations.cost += sums.cost;
 }
 
 std::optional<Eigen::Matrix3d> MixtureCost::covariance(const Unknowns& /*at*/,

@@ -66,38 +66,34 @@ NormalEquations SharedDoppler::linearise(const TargetSet& previous, const Target
   if (options_.both_scans) {
     add_scan(previous, half_way, dt_s, -1.0, sums);
   }
-  const double noise_m = 1.0 / std::sqrt(sums.motion.information(0, 0));
+  const Eigen::Matrix3d information = sums.information.topLeftCorner<3, 3>();
+  const Eigen::Matrix<double, 3, kShared> cross = sums.information.topRightCorner<3, kShared>();
+  const double noise_m = 1.0 / std::sqrt(information(0, 0));
   const SharedErrors prior = prior_information(driving_share(at.motion, noise_m, dt_s));
   const SharedErrors pull = prior.cwiseProduct(at.shared);
-  sums.shared.diagonal() += prior;
-  sums.gradient += pull;
-  const Eigen::LLT<SharedMatrix> factor(sums.shared);
-  const Eigen::Matrix<double, kShared, 3> gain = factor.solve(sums.cross.transpose());
-  const SharedErrors step = factor.solve(sums.gradient);
-  return {by_motion.transpose() * (sums.motion.information - sums.cross * gain) * by_motion,
-          by_motion.transpose() * (sums.motion.gradient - sums.cross * step),
-          sums.motion.cost + 0.5 * at.shared.dot(pull) - 0.5 * sums.gradient.dot(step),
-          at.shared - step};
+  SharedMatrix shared = sums.information.bottomRightCorner<kShared, kShared>();
+  shared.diagonal() += prior;
+  const SharedErrors gradient = sums.gradient.tail<kShared>() + pull;
+  const Eigen::LLT<SharedMatrix> factor(shared);
+  const Eigen::Matrix<double, kShared, 3> gain = factor.solve(cross.transpose());
+  const SharedErrors step = factor.solve(gradient);
+  return {by_motion.transpose() * (information - cross * gain) * by_motion,
+          by_motion.transpose() * (sums.gradient.head<3>() - cross * step),
+          sums.cost + 0.5 * at.shared.dot(pull) - 0.5 * gradient.dot(step), at.shared - step};
 }
 
 void SharedDoppler::add_scan(const TargetSet& targets, const Unknowns& half_way, double dt_s,
                              double side, Sums& sums) const {
-  const double half_s2 = side * 0.5 * dt_s * dt_s;
-  for (const Target& target : targets) {
-    const DopplerGeometry geometry(target, half_way.motion, vehicle_from_radar_);
-    SharedErrors by_shared;
-    by_shared << dt_s, geometry.per_bearing_m, half_s2 * geometry.jacobian.transpose();
-    const DopplerResidual doppler =
-        doppler_residual(target, geometry, dt_s, options_, 1.0, by_shared.dot(half_way.shared));
-    const double weight = doppler.per_m * doppler.per_m;
-    const Eigen::RowVector3d jacobian = weight * geometry.jacobian;
-    sums.motion.information.noalias() += jacobian.transpose() * geometry.jacobian;
-    sums.motion.gradient.noalias() += doppler.error_m * jacobian.transpose();
-    sums.motion.cost += doppler.cost;
-    sums.cross.noalias() += jacobian.transpose() * by_shared.transpose();
-    sums.shared.noalias() += (weight * by_shared) * by_shared.transpose();
-    sums.gradient.noalias() += weight * doppler.error_m * by_shared;
-  }
+  const Eigen::Matrix3d by_motion = doppler_by_motion(vehicle_from_radar_);
+  const Eigen::Vector3d change = by_motion.transpose() * half_way.motion;
+  Eigen::Matrix<double, 3 + kShared, 3> by;  // Derivatives of the change, as factors of z.
+  by << by_motion, dt_s, 0.0, 0.0, doppler_by_bearing(change).transpose(),
+      side * 0.5 * dt_s * dt_s * by_motion;
+  const Eigen::Vector3d systematic = by.bottomRows<kShared>().transpose() * half_way.shared;
+  const DopplerSums scan = sum_doppler(targets, change, systematic, dt_s, options_, 1.0);
+  sums.information.noalias() += by * scan.products * by.transpose();
+  sums.gradient.noalias() += by * scan.errors;
+  sums.cost += scan.cost;
 }
 
 }  // namespace cremed

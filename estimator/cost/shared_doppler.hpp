@@ -50,10 +50,10 @@ class SharedDoppler {
 
   /// Joint normal equations of motion and shared errors.
   struct Sums {
-    NormalEquations motion;
-    Eigen::Matrix<double, 3, kShared> cross = Eigen::Matrix<double, 3, kShared>::Zero();
-    SharedMatrix shared = SharedMatrix::Zero();
-    SharedErrors gradient = SharedErrors::Zero();
+    Eigen::Matrix<double, 3 + kShared, 3 + kShared> information =
+        Eigen::Matrix<double, 3 + kShared, 3 + kShared>::Zero();
+    Eigen::Matrix<double, 3 + kShared, 1> gradient = Eigen::Matrix<double, 3 + kShared, 1>::Zero();
+    double cost = 0.0;
   };
   /// `side`: 1 for the current scan, -1 for the previous.
   void add_scan(const TargetSet& targets, const Unknowns& half_way, double dt_s, double side,

@@ -141,18 +141,18 @@ void DopplerScale::vote(const Scan& from, const Scan& to, const Eigen::Vector2d&
   const Eigen::Rotation2Dd to_from(from.yaw_rad - to.yaw_rad);
   const Eigen::Vector2d way = to_from * way_m;
   const double length_m = way.norm();
-  const Eigen::Vector2d along = way / length_m;
-  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector2d across = Eigen::Vector2d(-way.y(), way.x()) / length_m;
+  const Eigen::Vector2d steps = way / (length_m * length_m * kStep);
   for (std::size_t i = 0; i < from.size; ++i) {
     const Eigen::Vector2d before = to_from * from.points[i].m;
     for (std::size_t j = 0; j < to.size; ++j) {
       const double variance = from.points[i].side_variance_m2 + to.points[j].side_variance_m2;
       const Eigen::Vector2d moved = before - to.points[j].m;
-      const double share = along.dot(moved) / length_m;
-      const double step = (std::abs(share) - 1.0) / kStep + kMiddle;
+      const double share_steps = steps.dot(moved);
+      const double step = std::abs(share_steps) - 1.0 / kStep + kMiddle;
       if (step >= 0.0 && step < static_cast<double>(kSteps - 1) &&
           is_within_side_gate(across.dot(moved), variance)) {
-        Votes& votes = share > 0.0 ? votes_ : reversed_;
+        Votes& votes = share_steps > 0.0 ? votes_ : reversed_;
         const auto lower = static_cast<std::size_t>(step);
         const double upper_part = step - static_cast<double>(lower);
         votes[lower] += 1.0 - upper_part;

@@ -12,6 +12,11 @@ struct Symmetric2 {
   double xy = 0.0;
   double yy = 0.0;
 
+  /// v' M v of (x, y). Not of a Vector2d: made of two numbers in a hot loop it is stored one by one
+  /// and loaded as a whole, for which the processor waits.
+  [[nodiscard]] double quadratic(double x, double y) const {
+    return x * (xx * x + xy * y) + y * (xy * x + yy * y);
+  }
   [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
   [[nodiscard]] double trace() const { return xx + yy; }
   [[nodiscard]] Symmetric2 inverse() const {

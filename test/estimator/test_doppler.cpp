@@ -49,9 +49,14 @@ struct Whitened {
 
 Whitened residual_of(const Target& target, const Eigen::Vector3d& motion, const Pose2& mount,
                      double dt_s, const DopplerOptions& options, double scale) {
-  const DopplerGeometry geometry(target, motion, mount);
-  const DopplerResidual result = doppler_residual(target, geometry, dt_s, options, scale);
-  return {result.per_m * result.error_m, result.per_m * geometry.jacobian, result.cost,
+  const Eigen::Vector3d z(1.0, target.cos_bearing, target.sin_bearing);
+  const Eigen::Vector3d jacobian = doppler_by_motion(mount) * z;
+  const Eigen::Vector3d by_bearing =
+      doppler_by_bearing(doppler_by_motion(mount).transpose() * motion);
+  const DopplerResidual result =
+      doppler_residual(target, jacobian.dot(motion), by_bearing.dot(z), dt_s, options, scale);
+  const double sigma_m = std::sqrt(result.variance_m2);
+  return {result.error_m / sigma_m, jacobian.transpose() / sigma_m, result.cost(),
           result.is_static};
 }
 

@@ -106,8 +106,9 @@ TEST_CASE("Marginalising the shared errors gives the same as solving for all unk
         jacobian(k) =
             (error_m(target, side, start + step) - error_m(target, side, start - step)) / 2e-5;
       }
-      const DopplerGeometry geometry(target, motion, kMount);
-      const double bearing_m = geometry.per_bearing_m * target.bearing_std_rad;
+      const double per_bearing_m = (motion.x() - motion.z() * kMount.y_m) * target.sin_bearing -
+                                   motion.z() * kMount.x_m * target.cos_bearing;
+      const double bearing_m = per_bearing_m * target.bearing_std_rad;
       const double weight =
           1.0 / (std::pow(kDt * target.doppler_std_mps, 2) + bearing_m * bearing_m);
       information += weight * jacobian * jacobian.transpose();

@@ -62,14 +62,12 @@ NormalEquations linearise(const Problem& problem, const RegistrationPair& pair,
     add_match(problem.previous[j], problem.current[i], motion, equations);
   }
   if (doppler.enabled) {
-    for (const Target& target : problem.current) {
-      const DopplerGeometry geometry(target, motion, pair.vehicle_from_radar);
-      const DopplerResidual r = doppler_residual(target, geometry, pair.dt_s, doppler, 1.0);
-      const Eigen::RowVector3d jacobian = r.per_m * geometry.jacobian;
-      equations.information += jacobian.transpose() * jacobian;
-      equations.gradient += jacobian.transpose() * (r.per_m * r.error_m);
-      equations.cost += r.cost;
-    }
+    const Eigen::Matrix3d by_motion = doppler_by_motion(pair.vehicle_from_radar);
+    const DopplerSums sums = sum_doppler(problem.current, by_motion.transpose() * motion,
+                                         Eigen::Vector3d::Zero(), pair.dt_s, doppler, 1.0);
+    equations.information += by_motion * sums.products * by_motion.transpose();
+    equations.gradient += by_motion * sums.errors;
+    equations.cost += sums.cost;
   }
   return equations;
 }

@@ -22,6 +22,8 @@ constexpr std::size_t kMaxPairs = 32768;
 constexpr double kClutterPerM2 = 0.02;
 /// Of the predicted pose, which is better: 0.05 m, 0.1 degrees. It keeps the search in its basin.
 const Eigen::Vector3d kPriorStd(0.1, 0.3, 0.02);
+/// Most matches of RadarScenes use all. With steps 1.5 or 1.8 times as long, nearer to the optimum,
+/// its path errs by 0.78 and 0.81 % instead of 0.74, and those of nuScenes not otherwise.
 constexpr int kMaxIterations = 8;
 /// Squared step over the standard deviation: 1 % of it.
 constexpr double kConverged = 1e-4;

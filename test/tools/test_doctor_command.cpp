@@ -130,6 +130,20 @@ TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is 
   CHECK(nothing.output.empty());
 }
 
+TEST_CASE("cremed-doctor takes the log to suggest from with either option") {
+  const TemporaryFolder folder;
+  const std::string log = kData + "bends.log";
+  const ToolRun expected = doctor(folder, "--suggest-config " + log);
+  REQUIRE(expected.status == 0);
+  const auto arguments =
+      GENERATE_COPY("--replay " + log + " --suggest-config", "--suggest-config --replay " + log,
+                    "--suggest-config - <" + log, "--replay - --suggest-config <" + log);
+  const ToolRun suggested = doctor(folder, arguments);
+  CAPTURE(arguments, suggested.error);
+  CHECK(suggested.status == 0);
+  CHECK(suggested.output == expected.output);
+}
+
 TEST_CASE("cremed-doctor: nothing of a log or a name is a command to the terminal") {
   const TemporaryFolder folder;
   const std::string evil = "e\x1B]0;x\x07\x9B\xC2\x9B\x7F";
@@ -169,6 +183,8 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
       Refusal{config + "--suggest-config live", 2, "--suggest-config"},
       Refusal{"--suggest-config live --json", 2, "--json"},
       Refusal{"--suggest-config /no/such/log", 1, "/no/such/log"},
+      Refusal{"--suggest-config --replay /no/such/log", 1, "/no/such/log"},
+      Refusal{"--suggest-config a.log --replay b.log", 2, "name a log each: leave one out"},
       Refusal{config + "--store", 2, "--configure-ars408"},
       Refusal{config + "--max-distance 250", 2, "--configure-ars408"},
       Refusal{config + "--configure-ars408 front --max-distance 20", 2, "--max-distance"},

@@ -69,12 +69,11 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
   auto* json = app.add_flag("--json", arguments.is_json, "Print the diagnosis as JSON");
   app.add_option(
          "--suggest-config", arguments.suggested_from,
-         "Write a first configuration of the radars on the buses (live), or in this candump "
-         "log, to standard output; the mounts must be filled in")
+         "Write a first configuration of the radars on the buses (live), or in the log of "
+         "--replay, to standard output; the mounts must be filled in. The log may also follow here")
       ->expected(0, 1)
       ->default_str(kLive)
       ->excludes("--config")
-      ->excludes("--replay")
       ->excludes("--lcm-url")
       ->excludes(json);
 }
@@ -161,13 +160,24 @@ int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
   return all_well ? good : failure;
 }
 
+/// Of either option; empty: live.
+std::string suggested_log(const Arguments& arguments) {
+  if (arguments.suggested_from == kLive) {
+    return arguments.replay;
+  }
+  if (!arguments.replay.empty()) {
+    throw UsageError("--suggest-config and --replay name a log each: leave one out");
+  }
+  return arguments.suggested_from;
+}
+
 int run_suggestion(const Arguments& arguments) {
+  const std::string log = suggested_log(arguments);
   Configuration nothing;
   nothing.odometry.enabled = false;
   const Observation observation =
-      arguments.suggested_from == kLive
-          ? observe_live(nothing, arguments.seconds, handle_stop_signals())
-          : observe_log(nothing, arguments.suggested_from);
+      log.empty() ? observe_live(nothing, arguments.seconds, handle_stop_signals())
+                  : observe_log(nothing, log);
   const std::string suggestion = suggested_configuration(observation);
   if (suggestion.empty()) {
     std::cerr << "cremed-doctor: " << no_suggestion(observation) << '\n';

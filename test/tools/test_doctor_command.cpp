@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 #include "daemon/process/plain_text.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/doctor/can_interfaces.hpp"
@@ -128,6 +130,27 @@ TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is 
   const ToolRun nothing = doctor(folder, "--suggest-config /dev/null");
   CHECK(nothing.status == 1);
   CHECK(nothing.output.empty());
+}
+
+TEST_CASE("cremed-doctor examines a log without any configuration, and says how to write one") {
+  if (!is_unwritten()) {
+    WARN("skipped: this computer has a configuration of cremed");
+    return;
+  }
+  const TemporaryFolder folder;
+  const ToolRun well = doctor(folder, "--replay " + kData + "bends.log");
+  CHECK(well.status == 0);
+  CHECK_THAT(well.output, Catch::StartsWith("note: there is no configuration, ") &&
+                              Catch::Contains(std::string(kWriteFirst)) &&
+                              Catch::Contains("\ngood: radar1: 13.") &&
+                              Catch::Contains("\ngood: radar2: 10."));
+  const ToolRun lossy = doctor(folder, "--replay " + kData + "lossy.log");
+  CHECK(lossy.status == 1);
+  CHECK_THAT(lossy.output, Catch::StartsWith("warning: radar1: 8 of 41 scans are incomplete"));
+  std::ofstream(folder.file("other.log")) << "(1.000000) can0 7FF#00\n(2.000000) can0 7FF#00\n";
+  check(doctor(folder, "--replay " + folder.file("other.log")),
+        {"", 1, "can0: frames, but none of a radar (0x7FF)"});
+  check(doctor(folder, "--replay - <" + kData + "bends.log"), {"", 2, std::string(kWriteFirst)});
 }
 
 TEST_CASE("cremed-doctor takes the log to suggest from with either option") {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/version.hpp"
 
@@ -45,6 +46,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
       "Radar ego-motion with credible covariance\n"
       "Without --replay it runs on the CAN interfaces of the configuration.",
       "cremed"};
+  app.footer(kFirstSteps);
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
   app.add_option("--config", c.config, "Configuration (default: /etc/cremed/cremed.toml)");
   std::string checked;

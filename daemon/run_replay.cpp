@@ -19,6 +19,7 @@
 #include "daemon/pipeline.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
+#include "daemon/process/progress_bar.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
@@ -68,6 +69,10 @@ void refuse(const CommandLine& command_line, const std::string& configuration_pa
   refuse_overwriting(command_line, output, configuration_path);
 }
 
+std::string csv_path(const CommandLine& command_line, const Configuration& configuration) {
+  return command_line.output_csv.value_or(configuration.output.csv);
+}
+
 struct Sinks {
   std::vector<std::unique_ptr<OdometrySink>> owned;
   const TumWriter* tum = nullptr;
@@ -84,7 +89,7 @@ struct Sinks {
 Sinks open_sinks(const CommandLine& command_line, const Configuration& configuration) {
   const OutputConfiguration& output = configuration.output;
   const std::string url = lcm_url(command_line);
-  const std::string csv = command_line.output_csv.value_or(output.csv);
+  const std::string csv = csv_path(command_line, configuration);
   const std::string odometry = command_line.output_odometry.value_or(output.odometry);
   const std::string tum = command_line.output_tum.value_or(output.tum);
   Sinks sinks;
@@ -117,6 +122,20 @@ std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
     logs.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), stop));
   }
   return std::make_unique<Replay>(std::move(logs), command_line.speed, stop);
+}
+
+/// `prints`: rows go to standard output, which may be the terminal that would show the progress.
+void take_all(Replay& replay, Pipeline& pipeline, bool prints) {
+  constexpr std::uint64_t kFramesPerStep = 2000;
+  std::optional<ProgressBar> progress;
+  if (!prints) {
+    progress.emplace("replay");
+  }
+  while (pipeline.take_next(replay)) {
+    if (progress && replay.counters().frames % kFramesPerStep == 0) {
+      progress->show(replay.share_read(), fmt::format("{:.1f} s", replay.traffic_s()));
+    }
+  }
 }
 
 std::string quantiles(const LatencyHistogram& durations) {
@@ -170,8 +189,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
       learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
   const std::int64_t begin_us = monotonic_us();
-  while (pipeline.take_next(*replay)) {
-  }
+  take_all(*replay, pipeline, csv_path(command_line, configuration) == "-");
   pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
   if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {

@@ -11,6 +11,7 @@
 #include "daemon/configuration/configuration_odometry.hpp"
 #include "daemon/configuration/configuration_radar.hpp"
 #include "daemon/configuration/configuration_vehicle.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/configuration/toml_document.hpp"
 #include "daemon/configuration/toml_reader.hpp"
@@ -130,7 +131,7 @@ void read_logging(TomlReader reader, LoggingConfiguration& logging) {
 
 std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions& defaults,
                                      RadarFamilies families) {
-  std::vector<TomlReader> tables = reader.tables("radar");
+  std::vector<TomlReader> tables = reader.tables("radar", concat({": ", kWriteFirst}));
   if (tables.size() > kMaxRadars) {
     reader.report("radar", concat({"has ", std::to_string(tables.size()),
                                    " tables; must be at most ", std::to_string(kMaxRadars)}));
@@ -211,11 +212,13 @@ Configuration load_configuration(const std::string& path) {
   try {
     return parse_configuration(read_toml(path), path);
   } catch (const std::system_error& error) {
+    const bool is_absent = error.code() == std::errc::no_such_file_or_directory;
     const std::string why = error.code() == std::errc::not_supported
                                 ? "is a pipe, socket or device"
                                 : std::generic_category().message(error.code().value());
     throw ConfigurationError(
-        concat({path, ": cannot be read: ", why, "; must be a readable TOML file"}));
+        concat({path, ": cannot be read: ", why, "; must be a readable TOML file",
+                is_absent ? concat({": ", kWriteFirst}) : ""}));
   }
 }
 

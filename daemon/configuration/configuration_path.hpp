@@ -13,4 +13,7 @@ inline constexpr const char* kStandardConfiguration = "/etc/cremed/cremed.toml";
 std::string configuration_path(const std::string& named,
                                const std::string& standard = kStandardConfiguration);
 
+/// Whether the standard file is absent, or as the package installs it: comments only.
+bool is_unwritten(const std::string& standard = kStandardConfiguration);
+
 }  // namespace cremed

@@ -61,7 +61,7 @@ void require_interface_names(const Configuration& configuration) {
     if (is_auto(radar)) {
       throw ConfigurationError(concat(
           {"radar ", in_quotes(radar.name), ": interface = \"auto\" is for live buses; must ",
-           "be the name in the log (`cremed-doctor --suggest-config LOG` tells which ",
+           "be the name in the log (`cremed-doctor --replay LOG --suggest-config` tells which ",
            "radar is where)"}));
     }
   }

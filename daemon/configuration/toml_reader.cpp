@@ -192,9 +192,9 @@ TomlReader TomlReader::table(std::string_view key) {
   return {table, path_of(key), line, *context_};
 }
 
-std::vector<TomlReader> TomlReader::tables(std::string_view key) {
+std::vector<TomlReader> TomlReader::tables(std::string_view key, std::string_view if_missing) {
   const std::string wanted = concat({"one or more [[", key, "]] tables"});
-  const toml::node* node = take(key, Presence::required, wanted);
+  const toml::node* node = take(key, Presence::required, concat({wanted, if_missing}));
   std::vector<TomlReader> readers;
   if (node == nullptr) {
     return readers;

@@ -64,8 +64,8 @@ class TomlReader final : public OptionReader {
   void bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) override;
 
   TomlReader table(std::string_view key);
-  /// A required, non-empty list of tables.
-  std::vector<TomlReader> tables(std::string_view key);
+  /// A required, non-empty list of tables. `if_missing` ends the message then: what helps.
+  std::vector<TomlReader> tables(std::string_view key, std::string_view if_missing = {});
 
   /// Reports `high` unless it is greater than `low`; only if one of them is in this table.
   void require_less(std::string_view low_key, double low, std::string_view high_key, double high);

@@ -33,6 +33,7 @@ class CandumpLog final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
 
   [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] const LineReader& reader() const { return reader_; }
   [[nodiscard]] std::size_t interface_count() const { return interfaces_.size(); }
   /// Whether the interface with that index had a frame.
   [[nodiscard]] bool has_frames(std::size_t interface) const { return has_frames_[interface]; }

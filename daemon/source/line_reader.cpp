@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "daemon/process/signals.hpp"
@@ -32,6 +33,10 @@ LineReader::LineReader(const std::string& path)
                       : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
   if (descriptor_ < 0) {
     throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno));
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
+    file_bytes_ = static_cast<std::uint64_t>(status.st_size);
   }
 }
 
@@ -94,6 +99,7 @@ LineReader::Status LineReader::fill() {
   }
   at_end_ = count == 0;
   end_ += static_cast<std::size_t>(count);
+  read_bytes_ += static_cast<std::uint64_t>(count);
   return Status::line;
 }
 

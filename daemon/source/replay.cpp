@@ -146,6 +146,19 @@ SourceEvent Replay::take(std::size_t lane, CanFrame& frame) {
   return *stop_ == 0 ? SourceEvent::frame : SourceEvent::end;
 }
 
+std::optional<double> Replay::share_read() const {
+  std::uint64_t all = 0;
+  std::uint64_t read = 0;
+  for (const auto& log : logs_) {
+    if (log->reader().file_bytes() == 0) {
+      return std::nullopt;
+    }
+    all += log->reader().file_bytes();
+    read += log->reader().read_bytes();
+  }
+  return std::min(1.0, static_cast<double>(read) / static_cast<double>(all));
+}
+
 /// Counters of the logs besides frames.
 void Replay::count() {
   counters_.other_interface_frames = counters_.lost_frames = counters_.malformed_lines = 0;

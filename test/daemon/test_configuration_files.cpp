@@ -18,6 +18,7 @@
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 #include "test/daemon/configuration_texts.hpp"
 
 namespace cremed {
@@ -335,7 +336,8 @@ TEST_CASE("the nuScenes files have five radars where they are on the cars") {
 TEST_CASE("a file that cannot be read is a configuration error with its path") {
   const std::string missing = std::string(CREMED_BINARY_DIR) + "/no-such-file.toml";
   CHECK_THROWS_WITH(load_configuration(missing),
-                    Catch::StartsWith(missing + ": cannot be read: No such file or directory; "));
+                    Catch::StartsWith(missing + ": cannot be read: No such file or directory; ") &&
+                        Catch::EndsWith(std::string(kWriteFirst)));
   CHECK_THROWS_WITH(load_configuration(CREMED_BINARY_DIR),
                     Catch::Contains(": cannot be read: Is a directory; must be a readable"));
   CHECK_THROWS_WITH(load_configuration("/dev/zero"),

@@ -6,6 +6,7 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 
 namespace cremed {
 namespace {
@@ -31,8 +32,15 @@ TEST_CASE("without any file it is refused, with the file to write and what helps
   CHECK_THROWS_AS(configuration_path("", kAbsent), ConfigurationError);
   CHECK_THROWS_WITH(configuration_path("", kAbsent),
                     Catch::StartsWith(kAbsent + ": is absent; must ") &&
-                        Catch::Contains("`cremed-doctor --suggest-config`") &&
+                        Catch::Contains(std::string(kWriteFirst)) &&
                         Catch::Contains("--config FILE"));
+}
+
+TEST_CASE("a standard file is unwritten if it is absent or as the package installs it") {
+  CHECK(is_unwritten(kAbsent));
+  CHECK(is_unwritten(CREMED_SOURCE_DIR "/tools/package/cremed.toml"));
+  CHECK_FALSE(is_unwritten(kThere));
+  CHECK_FALSE(is_unwritten(std::string(5000, 'a')));  // Unknown: the one who reads it says why.
 }
 
 }  // namespace

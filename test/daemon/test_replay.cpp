@@ -51,6 +51,20 @@ TEST_CASE("Several logs are merged by time, the first interface first where stam
   CHECK(ids(swapped) == std::vector<std::uint32_t>{1, 2, 3, 0x103, 4, 9});
 }
 
+TEST_CASE("The share read is that of the bytes of all logs, and unknown of a pipe") {
+  const TemporaryFile a("(1.000000) can0 001#\n(3.000000) can0 003#\n(4.000000) can0 004#\n");
+  const TemporaryFile b("(9.000000) can1 009#\n");
+  Replay replay = replay_of({&a, &b});
+  CHECK(replay.share_read() == 0.0);
+  CanFrame frame;
+  CHECK(replay.logs()[0]->next(frame) == SourceEvent::frame);  // Its buffer holds all of the log.
+  CHECK(*replay.share_read() == Approx(0.75));
+  std::vector<std::unique_ptr<CandumpLog>> device;
+  device.push_back(
+      std::make_unique<CandumpLog>("/dev/null", std::vector<std::string>{"can0"}, &no_stop));
+  CHECK_FALSE(Replay(std::move(device), 0.0, &no_stop).share_read());
+}
+
 TEST_CASE("A report of lost frames comes before the frame behind it") {
   const TemporaryFile a(
       "(1.000000) can0 001#\nDROPCOUNT: dropped 4 CAN frames on 'can0' socket (total drops 4)\n"

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 #include "daemon/process/plain_text.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/doctor/can_interfaces.hpp"
@@ -130,6 +132,41 @@ TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is 
   CHECK(nothing.output.empty());
 }
 
+TEST_CASE("cremed-doctor examines a log without any configuration, and says how to write one") {
+  if (!is_unwritten()) {
+    WARN("skipped: this computer has a configuration of cremed");
+    return;
+  }
+  const TemporaryFolder folder;
+  const ToolRun well = doctor(folder, "--replay " + kData + "bends.log");
+  CHECK(well.status == 0);
+  CHECK_THAT(well.output, Catch::StartsWith("note: there is no configuration, ") &&
+                              Catch::Contains(std::string(kWriteFirst)) &&
+                              Catch::Contains("\ngood: radar1: 13.") &&
+                              Catch::Contains("\ngood: radar2: 10."));
+  const ToolRun lossy = doctor(folder, "--replay " + kData + "lossy.log");
+  CHECK(lossy.status == 1);
+  CHECK_THAT(lossy.output, Catch::StartsWith("warning: radar1: 8 of 41 scans are incomplete"));
+  std::ofstream(folder.file("other.log")) << "(1.000000) can0 7FF#00\n(2.000000) can0 7FF#00\n";
+  check(doctor(folder, "--replay " + folder.file("other.log")),
+        {"", 1, "can0: frames, but none of a radar (0x7FF)"});
+  check(doctor(folder, "--replay - <" + kData + "bends.log"), {"", 2, std::string(kWriteFirst)});
+}
+
+TEST_CASE("cremed-doctor takes the log to suggest from with either option") {
+  const TemporaryFolder folder;
+  const std::string log = kData + "bends.log";
+  const ToolRun expected = doctor(folder, "--suggest-config " + log);
+  REQUIRE(expected.status == 0);
+  const auto arguments =
+      GENERATE_COPY("--replay " + log + " --suggest-config", "--suggest-config --replay " + log,
+                    "--suggest-config - <" + log, "--replay - --suggest-config <" + log);
+  const ToolRun suggested = doctor(folder, arguments);
+  CAPTURE(arguments, suggested.error);
+  CHECK(suggested.status == 0);
+  CHECK(suggested.output == expected.output);
+}
+
 TEST_CASE("cremed-doctor: nothing of a log or a name is a command to the terminal") {
   const TemporaryFolder folder;
   const std::string evil = "e\x1B]0;x\x07\x9B\xC2\x9B\x7F";
@@ -169,6 +206,8 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
       Refusal{config + "--suggest-config live", 2, "--suggest-config"},
       Refusal{"--suggest-config live --json", 2, "--json"},
       Refusal{"--suggest-config /no/such/log", 1, "/no/such/log"},
+      Refusal{"--suggest-config --replay /no/such/log", 1, "/no/such/log"},
+      Refusal{"--suggest-config a.log --replay b.log", 2, "name a log each: leave one out"},
       Refusal{config + "--store", 2, "--configure-ars408"},
       Refusal{config + "--max-distance 250", 2, "--configure-ars408"},
       Refusal{config + "--configure-ars408 front --max-distance 20", 2, "--max-distance"},

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +17,7 @@
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/output/multicast_route.hpp"
@@ -69,12 +73,11 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
   auto* json = app.add_flag("--json", arguments.is_json, "Print the diagnosis as JSON");
   app.add_option(
          "--suggest-config", arguments.suggested_from,
-         "Write a first configuration of the radars on the buses (live), or in this candump "
-         "log, to standard output; the mounts must be filled in")
+         "Write a first configuration of the radars on the buses (live), or in the log of "
+         "--replay, to standard output; the mounts must be filled in. The log may also follow here")
       ->expected(0, 1)
       ->default_str(kLive)
       ->excludes("--config")
-      ->excludes("--replay")
       ->excludes("--lcm-url")
       ->excludes(json);
 }
@@ -124,11 +127,24 @@ void print(const Finding& finding) {
   std::cout << severity_name(finding.severity) << ": " << to_text(finding) << '\n';
 }
 
+/// Whether no one has said yet which radars there are. A pipe cannot be read twice.
+bool is_unconfigured(const Arguments& arguments) {
+  std::error_code error;
+  const std::string& log = arguments.replay;
+  const bool is_pipe = log == "-" || std::filesystem::is_fifo(log, error);
+  return arguments.config.empty() && !log.empty() && !is_pipe && is_unwritten();
+}
+
 Observation observe(const Arguments& arguments, const Configuration& configuration,
                     const volatile std::sig_atomic_t* stop) {
   Observation observation = arguments.replay.empty()
                                 ? observe_live(configuration, arguments.seconds, stop)
                                 : observe_log(configuration, arguments.replay);
+  if (is_unconfigured(arguments)) {
+    for (RadarObservation& radar : observation.radars) {
+      radar.status.belief = {};  // Needs the mount.
+    }
+  }
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
   if (asks_for_lcm) {
     observation.lcm_problem =
@@ -137,16 +153,43 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   return observation;
 }
 
-int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
+Configuration without_radars() {
+  Configuration nothing;
+  nothing.odometry.enabled = false;
+  return nothing;
+}
+
+/// Without a configuration: the radars that are in the log, which is read twice.
+LocatedRadars locate_unconfigured(const std::string& log) {
+  const Observation observation = observe_log(without_radars(), log);
+  const Configuration configuration = examined_configuration(observation);
+  if (configuration.radars.empty()) {
+    throw std::runtime_error(no_suggestion(observation));
+  }
+  return {configuration,
+          {{Severity::note, "there is no configuration, so each radar in the log is examined alone",
+            std::string(kWriteFirst)}}};
+}
+
+LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_t* stop) {
+  if (is_unconfigured(arguments)) {
+    return locate_unconfigured(arguments.replay);
+  }
+  const Configuration asked = load_configuration(configuration_path(arguments.config));
+  return stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
+}
+
+int run_diagnosis(const Arguments& arguments) {
   // Live, a signal ends the observation; with a log it ends the program.
   const auto* const stop = arguments.replay.empty() ? handle_stop_signals() : nullptr;
-  const LocatedRadars located =
-      stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
+  const LocatedRadars located = locate(arguments, stop);
   const Configuration& configuration = located.configuration;
   const Observation observation = observe(arguments, configuration, stop);
   std::vector<Finding> findings = located.findings;
   const std::vector<Finding> diagnosed = diagnose(configuration, observation);
   findings.insert(findings.end(), diagnosed.begin(), diagnosed.end());
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
   const bool all_well = is_well(findings);
   if (arguments.is_json) {
     std::cout << diagnosis_json(configuration, observation, findings) << '\n';
@@ -161,13 +204,22 @@ int run_diagnosis(const Arguments& arguments, const Configuration& asked) {
   return all_well ? good : failure;
 }
 
+/// Of either option; empty: live.
+std::string suggested_log(const Arguments& arguments) {
+  if (arguments.suggested_from == kLive) {
+    return arguments.replay;
+  }
+  if (!arguments.replay.empty()) {
+    throw UsageError("--suggest-config and --replay name a log each: leave one out");
+  }
+  return arguments.suggested_from;
+}
+
 int run_suggestion(const Arguments& arguments) {
-  Configuration nothing;
-  nothing.odometry.enabled = false;
+  const std::string log = suggested_log(arguments);
   const Observation observation =
-      arguments.suggested_from == kLive
-          ? observe_live(nothing, arguments.seconds, handle_stop_signals())
-          : observe_log(nothing, arguments.suggested_from);
+      log.empty() ? observe_live(without_radars(), arguments.seconds, handle_stop_signals())
+                  : observe_log(without_radars(), log);
   const std::string suggestion = suggested_configuration(observation);
   if (suggestion.empty()) {
     std::cerr << "cremed-doctor: " << no_suggestion(observation) << '\n';
@@ -237,7 +289,8 @@ LocatedRadars locate_asked(const std::string& name, const Configuration& configu
   return located;
 }
 
-int run_talk(const Arguments& arguments, const Configuration& asked) {
+int run_talk(const Arguments& arguments) {
+  const Configuration asked = load_configuration(configuration_path(arguments.config));
   const std::vector<Ars408FilterState> filters = filters_of(arguments);
   const std::string& name = arguments.ars408 + arguments.filtered;
   const LocatedRadars located = locate_asked(name, asked);
@@ -259,6 +312,7 @@ int run_talk(const Arguments& arguments, const Configuration& asked) {
 
 int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
+  app.footer(kFirstSteps);
   add_diagnosis_options(app, arguments);
   add_other_outputs(app, arguments);
   add_talk_options(app, arguments);
@@ -272,9 +326,7 @@ int run(CLI::App& app, int argc, char** argv) {
   if (!arguments.suggested_from.empty()) {
     return run_suggestion(arguments);
   }
-  const Configuration configuration = load_configuration(configuration_path(arguments.config));
-  return is_talk(arguments) ? run_talk(arguments, configuration)
-                            : run_diagnosis(arguments, configuration);
+  return is_talk(arguments) ? run_talk(arguments) : run_diagnosis(arguments);
 }
 
 }  // namespace

@@ -25,6 +25,12 @@ constexpr std::string_view kMount =
     "y_m = \"FILL IN\"      # m, to the left\n"
     "yaw_rad = \"FILL IN\"  # rad, direction of view: 0 ahead, 1.5708 to the left, 3.1416 back\n";
 
+constexpr std::string_view kNoMount = "mount = { x_m = 0, y_m = 0, yaw_rad = 0 }\n";
+
+/// A common odometry needs the mounts, a radar's own motion with 2 degrees of freedom too.
+constexpr std::string_view kExamined =
+    "odometry.enabled = false\nestimator.degrees_of_freedom = 3\n";
+
 /// A name that needs no escapes in a TOML string.
 bool is_suggestible(const std::string& interface) {
   return std::all_of(interface.begin(), interface.end(),
@@ -71,24 +77,36 @@ std::string others_like(const RadarFamily& family, RadarFamilies families) {
 }
 
 std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number,
-                  RadarFamilies families) {
+                  RadarFamilies families, std::string_view mount) {
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
                  radar.family().type, "\"", others_like(radar.family(), families),
                  "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n",
-                 output_line(bus, radar), kMount});
+                 output_line(bus, radar), mount});
+}
+
+std::string tables_of(const Observation& observation, RadarFamilies families,
+                      std::string_view mount) {
+  std::string tables;
+  std::size_t count = 0;
+  for (const BusObservation* bus : by_name(observation)) {
+    for (const RadarSettings& radar : seen_radars(bus->traffic, families)) {
+      tables += count < kMaxRadars ? table(*bus, radar, ++count, families, mount) : "";
+    }
+  }
+  return tables;
 }
 
 }  // namespace
 
 std::string suggested_configuration(const Observation& observation, RadarFamilies families) {
-  std::string tables;
-  std::size_t count = 0;
-  for (const BusObservation* bus : by_name(observation)) {
-    for (const RadarSettings& radar : seen_radars(bus->traffic, families)) {
-      tables += count < kMaxRadars ? table(*bus, radar, ++count, families) : "";
-    }
-  }
+  const std::string tables = tables_of(observation, families, kMount);
   return tables.empty() ? "" : concat({kHeading, tables});
+}
+
+Configuration examined_configuration(const Observation& observation) {
+  const std::string tables = tables_of(observation, radar_families(), kNoMount);
+  return tables.empty() ? Configuration()
+                        : parse_configuration(concat({kExamined, tables}), "suggestion");
 }
 
 std::string no_suggestion(const Observation& observation) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cremed/can_decoders/radar_family.hpp"
+#include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {
@@ -14,6 +15,10 @@ namespace cremed {
 /// recognised.
 std::string suggested_configuration(const Observation& observation,
                                     RadarFamilies families = radar_families());
+
+/// The same radars, to examine each without a mount: it is 0, and the motion free in all
+/// directions. Without radars if none was recognised.
+Configuration examined_configuration(const Observation& observation);
 
 /// The traffic and advice if nothing can be suggested.
 std::string no_suggestion(const Observation& observation);

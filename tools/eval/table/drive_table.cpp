@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "daemon/output/text_line.hpp"
+#include "daemon/process/progress_bar.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "tools/eval/parallel_for.hpp"
-#include "tools/eval/progress_bar.hpp"
 #include "tools/eval/table/drive_figures.hpp"
 
 namespace cremed {

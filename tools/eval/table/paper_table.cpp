@@ -5,13 +5,13 @@
 #include <array>
 #include <string>
 
+#include "daemon/process/progress_bar.hpp"
 #include "tools/eval/pairs/icp.hpp"
 #include "tools/eval/pairs/known_correspondences.hpp"
 #include "tools/eval/pairs/pairs_evaluation.hpp"
 #include "tools/eval/pairs/profile.hpp"
 #include "tools/eval/pairs/sum_approximation.hpp"
 #include "tools/eval/parallel_for.hpp"
-#include "tools/eval/progress_bar.hpp"
 
 namespace cremed {
 namespace {

@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
+#include "daemon/process/progress_bar.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/parallel_for.hpp"
-#include "tools/eval/progress_bar.hpp"
 #include "tools/eval/table/drive_pairs.hpp"
 #include "tools/eval/table/robot_drive.hpp"
 

@@ -4,14 +4,15 @@
 
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace cremed {
 
-/// A progress bar on standard error, if that is a terminal.
+/// A progress bar on standard error, if that is a terminal and the program no service.
 class ProgressBar {
  public:
-  ProgressBar(std::string label, std::size_t total);
+  explicit ProgressBar(std::string label, std::size_t total = 1);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   /// Clears the line.
@@ -19,6 +20,8 @@ class ProgressBar {
 
   /// Adds one; callable from any thread.
   void advance();
+  /// Shows this share, 0 to 1, and a text behind it; without a share the text only.
+  void show(std::optional<double> share, const std::string& text = {}) const;
 
  private:
   std::string label_;

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+namespace cremed {
+
+/// How one who has a log and no configuration gets a first one; for messages.
+inline constexpr std::string_view kWriteFirst =
+    "`cremed-doctor --replay LOG --suggest-config > my.toml` writes a first one";
+
+/// The same up to the odometry; last lines of --help, in columns for the manual page.
+inline constexpr const char* kFirstSteps =
+    "Example, from a log of `candump -l any` to its odometry:\n"
+    "  cremed-doctor --replay LOG --suggest-config > my.toml       # then fill in the mounts\n"
+    "  cremed --config my.toml --replay LOG --output-csv odo.csv   # the motion at each scan";
+
+}  // namespace cremed

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/process/progress_bar.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include <unistd.h>
+
+namespace cremed {
+namespace {
+
+constexpr std::size_t kWidth = 40;
+
+/// A service is told to notify systemd, whatever its standard error is.
+bool is_terminal() {
+  return ::isatty(STDERR_FILENO) == 1 && std::getenv("NOTIFY_SOCKET") == nullptr;
+}
+
+/// " [####    ]  50 %"
+std::string bar(double share) {
+  const std::string percent = std::to_string(static_cast<int>(100.0 * share));
+  const auto length = static_cast<std::size_t>(share * kWidth);
+  return std::string(" [")
+      .append(length, '#')
+      .append(kWidth - length, ' ')
+      .append("] ")
+      .append(3 - percent.size(), ' ')
+      .append(percent + " %");
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, std::size_t total)
+    : label_(std::move(label)), total_(total), is_shown_(is_terminal()) {}
+
+ProgressBar::~ProgressBar() {
+  if (is_shown_) {
+    ::dprintf(STDERR_FILENO, "\r\033[K");
+  }
+}
+
+void ProgressBar::advance() {
+  const std::size_t done = ++done_;
+  const std::size_t step = std::max<std::size_t>(total_ / 200, 1);
+  if (done % step == 0) {
+    show(static_cast<double>(done) / static_cast<double>(total_));
+  }
+}
+
+void ProgressBar::show(std::optional<double> share, const std::string& text) const {
+  if (is_shown_) {
+    ::dprintf(STDERR_FILENO, "\r%s%s %s\033[K", label_.c_str(), share ? bar(*share).c_str() : "",
+              text.c_str());
+  }
+}
+
+}  // namespace cremed

@@ -264,6 +264,22 @@ TEST_CASE("after the filter was lost only positions verify") {
   CHECK(comparison.faults().is_verified());
 }
 
+TEST_CASE("positions do not verify a rest that a radar's own check denies") {
+  const bool is_accused = GENERATE(false, true);
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(5.0);
+  comparison.lose();
+  for (int i = 0; i < 20; ++i) {
+    comparison.drive(0.15, [](std::size_t /*radar*/, Comparison::Measured& measured) {
+      measured = {Eigen::Vector2d::Zero(), 0.0, 0.0};
+    });
+    if (is_accused) {
+      comparison.accuse(0);
+    }
+  }
+  CHECK(comparison.faults().is_verified() == !is_accused);
+}
+
 TEST_CASE("positions do not verify what agrees with a radar that is wrong by itself") {
   Comparison comparison({kFront, kRearLeft});
   comparison.drive(5.0);

@@ -426,12 +426,14 @@ bool FaultHypotheses::is_refuted(Set set, std::int64_t time_us) const {
   return false;
 }
 
-/// By its own check, or because its positions contradict its Doppler.
+/// Its positions contradict its Doppler. At rest all scans have the same map, which tells little;
+/// then its own check counts, which while driving takes a second longer to end.
 bool FaultHypotheses::is_wrong_by_itself(std::size_t radar, std::int64_t time_us) const {
   const auto accused_us = tracks_[radar].accused_us;
-  const bool is_accused =
-      accused_us && std::abs(seconds_between(*accused_us, time_us)) <= kMaxScanPeriodS;
-  return is_accused || !is_consistent(1U << radar, chi_square(1U << radar));
+  const bool is_accused_at_rest =
+      accused_us && std::abs(seconds_between(*accused_us, time_us)) <= kMaxScanPeriodS &&
+      velocities_[radar]->mps.norm() < state_.options().standstill_mps;
+  return is_accused_at_rest || !is_consistent(1U << radar, chi_square(1U << radar));
 }
 
 /// A radar's own check says itself when a fault is over. One radar may be left out for longer; if

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/motion/self_check.hpp"
 #include "test/tools/doctor_bench.hpp"
 #include "tools/doctor/suggestion.hpp"
 
@@ -125,4 +126,23 @@ TEST_CASE("No more radars are suggested than a configuration may have") {
     }
   }
   CHECK(radars_in(suggested(traffic)).size() == kMaxRadars);
+}
+
+TEST_CASE(
+    "Without mounts the radars of a suggestion are examined, and only doubts of Doppler stay") {
+  Observation observation =
+      observed(recording_of({ars408("a", "can0", 0), ars408("b", "can1", 2)}));
+  const Configuration examined = examined_configuration(observation);
+  REQUIRE(examined.radars.size() == 2);
+  CHECK(examined.radars[1].name == "radar2");
+  CHECK(examined.radars[1].interface == "can1");
+  CHECK(examined.radars[1].ego_motion.registration.degrees_of_freedom == 3);
+  CHECK_FALSE(examined.odometry.enabled);
+  observation.radars.resize(1);
+  observation.radars[0].status.belief.doubts = registration_contradicts_doppler |
+                                               motions_contradict_each_other |
+                                               covariance_too_large | positions_contradict_speed;
+  drop_doubts_of_mounts(observation);
+  CHECK(observation.radars[0].status.belief.doubts == positions_contradict_speed);
+  CHECK(examined_configuration(observed({})).radars.empty());
 }

@@ -141,9 +141,7 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
                                 ? observe_live(configuration, arguments.seconds, stop)
                                 : observe_log(configuration, arguments.replay);
   if (is_unconfigured(arguments)) {
-    for (RadarObservation& radar : observation.radars) {
-      radar.status.belief = {};  // Needs the mount.
-    }
+    drop_doubts_of_mounts(observation);
   }
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
   if (asks_for_lcm) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -107,6 +108,12 @@ Configuration examined_configuration(const Observation& observation) {
   const std::string tables = tables_of(observation, radar_families(), kNoMount);
   return tables.empty() ? Configuration()
                         : parse_configuration(concat({kExamined, tables}), "suggestion");
+}
+
+void drop_doubts_of_mounts(Observation& observation) {
+  for (RadarObservation& radar : observation.radars) {
+    radar.status.belief.doubts &= positions_contradict_speed;
+  }
 }
 
 std::string no_suggestion(const Observation& observation) {

@@ -20,6 +20,10 @@ std::string suggested_configuration(const Observation& observation,
 /// directions. Without radars if none was recognised.
 Configuration examined_configuration(const Observation& observation);
 
+/// With that configuration: what may be wrong with the mount or the motion is no finding. A wrong
+/// Doppler is one for any mount.
+void drop_doubts_of_mounts(Observation& observation);
+
 /// The traffic and advice if nothing can be suggested.
 std::string no_suggestion(const Observation& observation);
 

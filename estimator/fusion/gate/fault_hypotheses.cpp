@@ -322,7 +322,7 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
 FaultHypotheses::Set FaultHypotheses::present() const {
   Set present = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    present |= newest_epoch()[i].squares > 0.0 ? judged_ & 1U << i : 0U;
+    present |= velocities_[i] ? judged_ & 1U << i : 0U;
   }
   return present;
 }

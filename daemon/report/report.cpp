@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/message_text.hpp"
 

@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/report/report.hpp"
 
 using namespace cremed;

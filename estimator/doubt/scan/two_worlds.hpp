@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/motion/rival_speed.hpp"
+#include "cremed/estimator/doubt/scan/rival_speed.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {

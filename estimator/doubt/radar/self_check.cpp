@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cremed/estimator/cost/normal_equations.hpp"
-#include "cremed/estimator/motion/acceleration.hpp"
+#include "cremed/estimator/doubt/radar/acceleration.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "cremed/estimator/doubt/radar/position_speed.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
-#include "cremed/estimator/motion/position_speed.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/rival_speed.hpp"
+#include "cremed/estimator/doubt/scan/rival_speed.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cremed/estimator/motion/median.hpp"
+#include "cremed/estimator/scan/median.hpp"
 
 namespace cremed {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
-#include "cremed/estimator/fusion/gate/radar_consensus.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 

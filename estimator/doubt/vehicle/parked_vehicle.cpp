@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
+#include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
 
 #include <algorithm>
 #include <cmath>

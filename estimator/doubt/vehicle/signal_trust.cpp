@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/gate/signal_trust.hpp"
+#include "cremed/estimator/doubt/vehicle/signal_trust.hpp"
 
 #include <algorithm>
 

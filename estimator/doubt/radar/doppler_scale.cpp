@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/doppler_scale.hpp"
+#include "cremed/estimator/doubt/radar/doppler_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cremed/estimator/motion/side_gate.hpp"
+#include "cremed/estimator/doubt/radar/side_gate.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/gate/fault_cause.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_cause.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"

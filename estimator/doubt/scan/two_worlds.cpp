@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/two_worlds.hpp"
+#include "cremed/estimator/doubt/scan/two_worlds.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
-#include "cremed/estimator/motion/innovation_mean.hpp"
 
 namespace cremed {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/position_speed.hpp"
+#include "cremed/estimator/doubt/radar/position_speed.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "cremed/estimator/motion/side_gate.hpp"
+#include "cremed/estimator/doubt/radar/side_gate.hpp"
 
 namespace cremed {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/motion/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "cremed/estimator/fusion/gate/joint_velocity.hpp"
-#include "cremed/estimator/fusion/gate/radar_trust.hpp"
+#include "cremed/estimator/doubt/vehicle/joint_velocity.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "cremed/estimator/motion/doppler_scale.hpp"
+#include "cremed/estimator/doubt/radar/doppler_scale.hpp"
+#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/speed_check.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
-#include "cremed/estimator/motion/innovation_mean.hpp"
-#include "cremed/estimator/motion/speed_check.hpp"
 
 namespace cremed {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/output/motion_witness.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 
 #include <algorithm>
 #include <cmath>

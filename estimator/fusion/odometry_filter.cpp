@@ -126,8 +126,9 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  const bool is_lost = condition_.is_lost() && is_trusted && !parked_.is_in_doubt() &&
-                       gap_s > -state_.options().max_lateness_s;
+  const bool is_lost = (condition_.is_lost() && is_trusted && !parked_.is_in_doubt() &&
+                        gap_s > -state_.options().max_lateness_s) ||
+                       faults_.take_reversal();
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
       faults_.require_positions();

@@ -33,6 +33,7 @@ double duration_s(const EgoMotion& motion) {
 }  // namespace
 
 void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
+  repeated_.add(targets);
   if (targets.is_finite() && !looks_across_) {
     speed_.add(targets, motion.utime_us);
     yaw_rate_radps_ =
@@ -52,6 +53,7 @@ void SelfCheck::forget() {
   last_ = EgoMotion();
   speed_.forget();
   scale_.forget();
+  repeated_.forget();
 }
 
 void SelfCheck::compare_with_last(const EgoMotion& motion) {
@@ -78,6 +80,9 @@ double SelfCheck::covariance_factor() const {
 
 std::uint32_t SelfCheck::doubts() const {
   std::uint32_t result = 0;
+  if (repeated_.is_repeated()) {
+    result |= positions_contradict_speed;
+  }
   if (looks_across_) {
     return result;
   }

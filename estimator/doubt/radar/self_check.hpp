@@ -6,6 +6,7 @@
 
 #include "cremed/estimator/doubt/radar/doppler_scale.hpp"
 #include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/repeated_targets.hpp"
 #include "cremed/estimator/doubt/radar/speed_check.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 
@@ -66,6 +67,7 @@ class SelfCheck {
   InnovationMean next_;
   SpeedCheck speed_;
   DopplerScale scale_;
+  RepeatedTargets repeated_;
   double yaw_rate_radps_ = 0.0;
   EgoMotion last_;
 };

@@ -265,23 +265,22 @@ FaultHypotheses::Sums FaultHypotheses::sum(Set set, const Epoch& epoch) const {
   return sum;
 }
 
-/// Mean over the epochs of chi-square of the radars in the set and of the witnesses.
-double FaultHypotheses::chi_square(Set set) const {
+/// Means over the epochs.
+FaultHypotheses::Fit FaultHypotheses::fit(Set set) const {
   const std::size_t epochs = std::min(count_, kEpochs);
-  double sum = 0.0;
+  Fit sum;
   for (std::size_t k = 0; k < epochs; ++k) {
     const Sums joint = this->sum(set, epochs_[k]);
-    double total = joint.chi_square();
+    sum.of_set += joint.chi_square();
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if ((judged_ >> i & 1U) == 0) {
         Sums with = joint;
         with.add(epochs_[k][i]);
-        total += std::min(kMaxWitness, with.chi_square() - joint.chi_square());
+        sum.of_witnesses += std::min(kMaxWitness, with.chi_square() - joint.chi_square());
       }
     }
-    sum += total;
   }
-  return sum / static_cast<double>(epochs);
+  return {sum.of_set / static_cast<double>(epochs), sum.of_witnesses / static_cast<double>(epochs)};
 }
 
 bool FaultHypotheses::is_consistent(Set set, double chi_square_of_set) const {
@@ -292,7 +291,7 @@ bool FaultHypotheses::is_consistent(Set set, double chi_square_of_set) const {
       continue;
     }
     const double limit = verdicts_[i].is_at_fault ? kMaxDecreaseToReturn : kMaxDecrease;
-    const double decrease = chi_square_of_set - (is_alone ? 0.0 : chi_square(without));
+    const double decrease = chi_square_of_set - (is_alone ? 0.0 : fit(without).chi_square());
     if (decrease > limit) {
       return false;
     }
@@ -301,7 +300,7 @@ bool FaultHypotheses::is_consistent(Set set, double chi_square_of_set) const {
 }
 
 void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
-  const double fit = chi_square(set);
+  const double fit = this->fit(set).chi_square();
   if (!is_consistent(set, fit)) {
     return;
   }
@@ -316,6 +315,19 @@ void FaultHypotheses::try_set(Set set, Hypothesis& best) const {
     best = {fit < best.chi_square ? set : best.set, std::min(fit, best.chi_square),
             best.rivals + 1};
   }
+}
+
+/// The witnesses contradict the best set by more than a radar may, and not this smaller one: two
+/// exchanged radars, one ahead and one behind, agree that the vehicle drives backwards.
+void FaultHypotheses::try_smaller(Set set, Hypothesis& best) const {
+  const Fit fit = this->fit(set);
+  const int fewer = std::popcount(best.set) - std::popcount(set);
+  const double gain = this->fit(best.set).of_witnesses - fit.of_witnesses - kMaxDecrease * fewer;
+  if (fewer <= 0 || gain <= 0.0 || !is_consistent(set, fit.chi_square())) {
+    return;
+  }
+  best = gain > kClearlyBetter ? Hypothesis{set, fit.chi_square(), 0}
+                               : Hypothesis{best.set, best.chi_square, best.rivals + 1};
 }
 
 /// The judged radars in the newest epoch.
@@ -355,7 +367,7 @@ FaultHypotheses::Hypothesis FaultHypotheses::best_hypothesis() const {
   if (best.set == 0 && (present & ~at_fault()) != 0) {
     try_set(present & ~at_fault(), best);
   }
-  if (best.set == 0) {
+  if (best.set == 0 || (best.set != present && fit(best.set).of_witnesses > kMaxDecrease)) {
     best = search(present);
   }
   best.set |= best.set != 0 ? judged_ & ~present & ~at_fault() : 0U;
@@ -378,13 +390,25 @@ FaultHypotheses::Hypothesis FaultHypotheses::search(Set present) const {
     }
   };
   each([&](Set one) { try_if_any(present & ~one); });
-  if (best.set == 0) {
+  const auto each_pair = [&](auto use) {
     each([&](Set one) {
-      each([&](Set other) { try_if_any(other > one ? present & ~one & ~other : 0U); });
+      each([&](Set other) { use(other > one ? present & ~one & ~other : 0U); });
     });
+  };
+  if (best.set == 0) {
+    each_pair(try_if_any);
   }
   if (best.set == 0) {
     each(try_if_any);
+  }
+  if (best.set != 0 && fit(best.set).of_witnesses > kMaxDecrease) {
+    const auto try_smaller = [&](Set set) {
+      if (set != 0) {
+        this->try_smaller(set, best);
+      }
+    };
+    each_pair(try_smaller);
+    each(try_smaller);
   }
   return best;
 }
@@ -433,7 +457,7 @@ bool FaultHypotheses::is_wrong_by_itself(std::size_t radar, std::int64_t time_us
   const bool is_accused_at_rest =
       accused_us && std::abs(seconds_between(*accused_us, time_us)) <= kMaxScanPeriodS &&
       velocities_[radar]->mps.norm() < state_.options().standstill_mps;
-  return is_accused_at_rest || !is_consistent(1U << radar, chi_square(1U << radar));
+  return is_accused_at_rest || !is_consistent(1U << radar, fit(1U << radar).chi_square());
 }
 
 /// A radar's own check says itself when a fault is over. One radar may be left out for longer; if
@@ -441,6 +465,7 @@ bool FaultHypotheses::is_wrong_by_itself(std::size_t radar, std::int64_t time_us
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   tracks_[radar].accused_us = time_us;
   convict(radar, time_us);
+  verdicts_[radar].is_accused = true;
   if (2 * std::popcount(at_fault() & judged_) > std::popcount(judged_)) {
     verdicts_[radar].until_us = time_us + verdicts_[radar].shared_hold_us;
   }
@@ -458,6 +483,25 @@ void FaultHypotheses::convict(std::size_t radar, std::int64_t time_us) {
   verdict.until_us = time_us + verdict.hold_us;
 }
 
+/// All of the set are at fault, and none found itself wrong.
+bool FaultHypotheses::is_misjudged(Set set) const {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const bool is_in = ((set & present()) >> i & 1U) != 0;
+    if (is_in && (!verdicts_[i].is_at_fault || verdicts_[i].is_accused)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The others convicted them, and are now found wrong themselves: so is what they told.
+void FaultHypotheses::acquit(Set set) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    verdicts_[i].is_at_fault = verdicts_[i].is_at_fault && (set >> i & 1U) == 0;
+  }
+  is_reversed_ = true;
+}
+
 void FaultHypotheses::judge(std::int64_t time_us) {
   if (count_ < kMinEpochs) {
     return;
@@ -470,6 +514,9 @@ void FaultHypotheses::judge(std::int64_t time_us) {
                             !(needs_positions_ && is_refuted(best.set, time_us));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
+  if (is_known && (present() & ~at_fault() & ~best.set) != 0 && is_misjudged(best.set)) {
+    acquit(best.set);
+  }
   // Radars that all found themselves wrong may agree: with the same fault.
   const bool is_believed = is_known && (best.set & ~at_fault()) != 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -480,7 +527,7 @@ void FaultHypotheses::judge(std::int64_t time_us) {
     if (is_judged && is_believed && !is_in) {
       convict(i, time_us);
     } else if (time_us > *verdict.until_us) {
-      verdict.is_at_fault = false;
+      verdict.is_at_fault = verdict.is_accused = false;
     }
   }
   if (is_known) {

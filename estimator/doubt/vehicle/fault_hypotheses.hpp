@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -68,6 +69,8 @@ class FaultHypotheses {
   [[nodiscard]] bool is_verified() const {
     return is_verified_ || (!needs_positions_ && !std::has_single_bit(judged_) && !is_unknown());
   }
+  /// The radars in use were found wrong by those that were not: the state is theirs. Once.
+  bool take_reversal() { return std::exchange(is_reversed_, false); }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
   /// positions must confirm them.
   void require_positions() {
@@ -123,9 +126,17 @@ class FaultHypotheses {
   using Velocities = std::vector<std::optional<Velocity>>;
   struct Verdict {
     bool is_at_fault = false;
+    bool is_accused = false;               // By its own check.
     std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
     std::int64_t hold_us = 0;
     std::int64_t shared_hold_us = 0;  // If most radars are at fault by their own checks.
+  };
+  /// Of the radars in a set with each other, and of the witnesses with them.
+  struct Fit {
+    double of_set = 0.0;
+    double of_witnesses = 0.0;
+
+    [[nodiscard]] double chi_square() const { return of_set + of_witnesses; }
   };
   struct Hypothesis {
     Set set = 0;
@@ -140,17 +151,20 @@ class FaultHypotheses {
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);
   void convict(std::size_t radar, std::int64_t time_us);
+  [[nodiscard]] bool is_misjudged(Set set) const;
+  void acquit(Set set);
   void judge(std::int64_t time_us);
   [[nodiscard]] Set present() const;
   [[nodiscard]] bool contradict_positions() const;
   [[nodiscard]] Hypothesis best_hypothesis() const;
   [[nodiscard]] Hypothesis search(Set present) const;
   void try_set(Set set, Hypothesis& best) const;
+  void try_smaller(Set set, Hypothesis& best) const;
   [[nodiscard]] bool is_supported(Set set, std::int64_t time_us) const;
   [[nodiscard]] bool is_refuted(Set set, std::int64_t time_us) const;
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] bool is_consistent(Set set, double chi_square) const;
-  [[nodiscard]] double chi_square(Set set) const;
+  [[nodiscard]] Fit fit(Set set) const;
   [[nodiscard]] Sums prior() const;
   [[nodiscard]] Sums sum(Set set, const Epoch& epoch) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
@@ -170,6 +184,7 @@ class FaultHypotheses {
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;
   bool is_verified_ = false;
+  bool is_reversed_ = false;
 };
 
 }  // namespace cremed

@@ -34,6 +34,10 @@ double duration_s(const EgoMotion& motion) {
 
 void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
   repeated_.add(targets);
+  if (repeated_.is_repeated()) {  // No measurement.
+    last_ = EgoMotion();
+    return;
+  }
   if (targets.is_finite() && !looks_across_) {
     speed_.add(targets, motion.utime_us);
     yaw_rate_radps_ =

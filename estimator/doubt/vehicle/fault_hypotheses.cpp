@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -478,6 +480,7 @@ void FaultHypotheses::convict(std::size_t radar, std::int64_t time_us) {
     verdict.hold_us = std::clamp(2 * verdict.hold_us, kFirstHoldUs, kLongestHoldUs);
     verdict.shared_hold_us =
         std::clamp(2 * verdict.shared_hold_us, kFirstSharedHoldUs, kLongestHoldUs);
+    is_newly_convicted_ = true;
   }
   verdict.is_at_fault = true;
   verdict.until_us = time_us + verdict.hold_us;
@@ -500,6 +503,14 @@ void FaultHypotheses::acquit(Set set) {
     verdicts_[i].is_at_fault = verdicts_[i].is_at_fault && (set >> i & 1U) == 0;
   }
   is_reversed_ = true;
+}
+
+std::optional<Eigen::Vector2d> FaultHypotheses::take_correction() {
+  const Set believed = present() & ~at_fault();
+  if (!std::exchange(is_newly_convicted_, false) || count_ == 0 || believed == 0) {
+    return std::nullopt;
+  }
+  return sum(believed, newest_epoch()).solution().head<2>();
 }
 
 void FaultHypotheses::judge(std::int64_t time_us) {

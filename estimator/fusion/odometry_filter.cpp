@@ -78,6 +78,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     add_error_of_pose(*believed);
   }
   begin_if_needed(stamp_us, is_trusted);
+  const bool was_settled = condition_.is_settled();
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
@@ -86,6 +87,10 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     if (use_doppler(radar, targets, stamp_us)) {
       use_positions(radar, targets, stamp_us);
     }
+  }
+  if (condition_.is_settled() && !was_settled) {
+    // The way until now may be that of a wrong radar.
+    output_.renew_anchor();
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
   Odometry odometry = output_.next();

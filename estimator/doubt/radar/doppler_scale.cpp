@@ -91,6 +91,7 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
   if ((velocity_mps - velocity_mps_).norm() > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
     forget();  // Votes of before tell nothing of this Doppler.
+    is_wrong_ = false;
   }
   const Eigen::Vector2d mean_mps = 0.5 * (velocity_mps_ + velocity_mps);
   velocity_mps_ = velocity_mps;

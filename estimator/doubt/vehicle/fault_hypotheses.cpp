@@ -63,7 +63,7 @@ constexpr double kClearlyBetter = 4.0;
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
 /// The first of radars that found themselves wrong, if they are most.
-constexpr std::int64_t kFirstSharedHoldUs = 500'000;
+constexpr std::int64_t kFirstSharedHoldUs = 350'000;
 
 }  // namespace
 
@@ -549,6 +549,8 @@ void FaultHypotheses::judge(std::int64_t time_us) {
 /// Compares the radars at fault with the motion by those that are believed.
 void FaultHypotheses::search_causes(Set believed, std::int64_t time_us) {
   if ((believed & present()) == 0) {
+    // All were wrong: what is measured afterwards is another fault, or none.
+    std::for_each(causes_.begin(), causes_.end(), [](auto& cause) { cause.clear(); });
     return;
   }
   const Eigen::Vector3d motion = sum(believed, newest_epoch()).solution();

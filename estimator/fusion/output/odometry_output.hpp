@@ -30,6 +30,8 @@ class OdometryOutput {
   void start();
   /// Sets the anchor and the last output to the time of the state, as a start does.
   void restart_anchor();
+  /// Makes the present pose the anchor.
+  void renew_anchor();
   /// Called before a start of the state. The pose since the start keeps its last published value;
   /// its covariance grows by the unknown motion in `gap_s`.
   void bridge(double gap_s);
@@ -62,7 +64,6 @@ class OdometryOutput {
                                          std::int64_t utime_us);
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
-  void renew_anchor();
 
   OdometryState& state_;
   Anchor anchor_;

@@ -75,7 +75,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
   if (const auto believed = faults_.take_correction()) {
-    add_error_of_pose(*believed);
+    add_error_by_radar(*believed);
   }
   begin_if_needed(stamp_us, is_trusted);
   const bool was_settled = condition_.is_settled();
@@ -179,15 +179,22 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// The pose since the anchor has the error of a radar that was found at fault: as far as known,
-/// that of the state's speed and yaw rate against those of the others.
-void OdometryFilter::add_error_of_pose(const Eigen::Vector2d& believed) {
+/// The state has the error of a radar that was found at fault, and so has the pose since the
+/// anchor: as far as known, the difference to `believed`, (v, w, slip) by the others.
+void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
+  GaussianState& state = state_.gaussian;
   const double since_s = output_.anchor_age_s();
-  const double way_m = (state_.gaussian.mean(kSpeed) - believed.x()) * since_s;
-  const double turn_rad = (state_.gaussian.mean(kYawRate) - believed.y()) * since_s;
-  state_.gaussian.add_variance(kX, squared(way_m));
-  state_.gaussian.add_variance(kY, squared(0.5 * turn_rad * believed.x() * since_s));
-  state_.gaussian.add_variance(kYaw, squared(turn_rad));
+  const double v = state.mean(kSpeed);
+  const double w = state.mean(kYawRate);
+  const double way_m = (v - believed.x()) * since_s;
+  const double turn_rad = (w - believed.y()) * since_s;
+  const double slip_rad =
+      state.mean(kSlip) - state.mean(kSlipPerAcceleration) * v * w - believed.z();
+  state.add_variance(kX, squared(way_m));
+  state.add_variance(
+      kY, squared(believed.x() * since_s) * (squared(slip_rad) + squared(0.5 * turn_rad)));
+  state.add_variance(kYaw, squared(turn_rad));
+  state.add_variance(kSlip, squared(slip_rad));
 }
 
 /// Left-out radars as a bit set: all that are judged if it is not known which is at fault.

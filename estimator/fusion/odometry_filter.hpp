@@ -105,7 +105,7 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
-  void add_error_of_pose(const Eigen::Vector2d& believed);
+  void add_error_by_radar(const Eigen::Vector3d& believed);
   [[nodiscard]] std::uint32_t left_out() const;
   ParkedVehicle::Verdict judge_parked(std::size_t radar, const TargetSet& targets,
                                       const ScanVelocity& scan, std::int64_t stamp_us);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -90,8 +91,9 @@ FaultCauseSearch::Complex FaultCauseSearch::expected(const Eigen::Vector3d& moti
 void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& motion) {
   if (motions_ > 0) {
     const double step_s = seconds_between(past_[(motions_ - 1) % past_.size()].time_us, time_us);
-    if (step_s <= 0.0 || step_s > kMaxStepS) {
-      forget();
+    const bool is_step = std::abs(motion.x() - motion_.x()) > kMaxAccelerationMps2 * step_s;
+    if (step_s <= 0.0 || step_s > kMaxStepS || is_step) {
+      forget();  // What the others told before is not the vehicle's motion.
     }
   }
   motion_ = motion;

@@ -505,12 +505,12 @@ void FaultHypotheses::acquit(Set set) {
   is_reversed_ = true;
 }
 
-std::optional<Eigen::Vector2d> FaultHypotheses::take_correction() {
+std::optional<Eigen::Vector3d> FaultHypotheses::take_correction() {
   const Set believed = present() & ~at_fault();
   if (!std::exchange(is_newly_convicted_, false) || count_ == 0 || believed == 0) {
     return std::nullopt;
   }
-  return sum(believed, newest_epoch()).solution().head<2>();
+  return sum(believed, newest_epoch()).solution();
 }
 
 void FaultHypotheses::judge(std::int64_t time_us) {
@@ -549,8 +549,6 @@ void FaultHypotheses::judge(std::int64_t time_us) {
 /// Compares the radars at fault with the motion by those that are believed.
 void FaultHypotheses::search_causes(Set believed, std::int64_t time_us) {
   if ((believed & present()) == 0) {
-    // All were wrong: what is measured afterwards is another fault, or none.
-    std::for_each(causes_.begin(), causes_.end(), [](auto& cause) { cause.clear(); });
     return;
   }
   const Eigen::Vector3d motion = sum(believed, newest_epoch()).solution();

@@ -71,9 +71,9 @@ class FaultHypotheses {
   }
   /// The radars in use were found wrong by those that were not: the state is theirs. Once.
   bool take_reversal() { return std::exchange(is_reversed_, false); }
-  /// Speed and yaw rate by those that are believed, if a radar was found at fault since the last
-  /// call: what was told with it may be wrong.
-  std::optional<Eigen::Vector2d> take_correction();
+  /// (v, w, slip) by those that are believed, if a radar was found at fault since the last call:
+  /// what was told with it may be wrong.
+  std::optional<Eigen::Vector3d> take_correction();
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
   /// positions must confirm them.
   void require_positions() {

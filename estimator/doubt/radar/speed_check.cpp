@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -22,6 +23,8 @@ constexpr double kMinSigmas = 2.25;
 /// differences of their positions. Without it 980 of 1778 comparisons on RadarScenes 105, with 200
 /// targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;
+/// Of the noise of two speeds.
+constexpr double kMaxStepMps = 1.5;
 
 void thin_out(const TargetSet& targets, TargetSet& result) {
   result.clear();
@@ -38,6 +41,13 @@ void thin_out(const TargetSet& targets, TargetSet& result) {
 
 }  // namespace
 
+void SpeedCheck::forget() {
+  has_reference_ = false;
+  positions_.clear();
+  contradictions_ = 0;
+  is_contradicted_ = false;
+}
+
 void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   const double dt_s = seconds_between(reference_us_, stamp_us);
   if (has_reference_ && dt_s >= 0.0 && dt_s < PositionSpeed::kMinIntervalS) {
@@ -46,6 +56,10 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = doppler_mps(targets);
   thin_out(targets, current_);
+  if (speed_mps && has_reference_ &&
+      std::abs(*speed_mps - reference_mps_) > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
+    forget();  // What was found of the Doppler before tells nothing of this one.
+  }
   if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
     const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);
     if (const auto support = positions_.compare(reference_, current_, dt_s, mean_mps)) {

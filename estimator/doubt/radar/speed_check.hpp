@@ -24,7 +24,7 @@ class SpeedCheck {
   /// Adds the targets of the next scan.
   void add(const TargetSet& targets, std::int64_t stamp_us);
   /// To be called when the clock of the stamps was set.
-  void forget() { has_reference_ = false; }
+  void forget();
 
   [[nodiscard]] bool is_contradicted() const { return is_contradicted_; }
   /// Whether a comparison was possible in the last kVerdictValidS.

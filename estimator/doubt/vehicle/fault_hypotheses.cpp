@@ -63,7 +63,7 @@ constexpr double kClearlyBetter = 4.0;
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
 /// The first of radars that found themselves wrong, if they are most.
-constexpr std::int64_t kFirstSharedHoldUs = 350'000;
+constexpr std::int64_t kFirstSharedHoldUs = 500'000;
 
 }  // namespace
 

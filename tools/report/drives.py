@@ -33,6 +33,7 @@ class Drive:
     truth: str = None
     truth_stds: list = field(default_factory=list)
     page: str = None  # Path; None: only the numbers are asked for.
+    has_index: bool = False  # The page stands in a folder with one.
     json: str = None
     figures: dict = field(default_factory=dict)
     troubles: list = field(default_factory=list)  # The page lacks what they say.
@@ -60,7 +61,9 @@ def drives_of(arguments):
     truths = arguments.truth + [None] * (len(groups) - len(arguments.truth))
     drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for (logs, _), truth in zip(groups, truths)]
     for drive, (_, name) in zip(drives if arguments.output else (), groups):
-        drive.page = arguments.output if is_one else os.path.join(arguments.output, f"{name}.html")
+        drive.page, drive.has_index = arguments.output, not is_one
+        if not is_one:
+            drive.page = os.path.join(arguments.output, f"{name}.html")
     return drives
 
 
@@ -215,12 +218,17 @@ def make_at_once(drives, jobs, *arguments):
             raise
 
 
+def index_folder(drives):
+    """Where several pages go; nothing for one page, or none."""
+    return os.path.dirname(drives[0].page) if drives[0].page and drives[0].has_index else None
+
+
 def make_pages(drives, programs, share, jobs, version, resume=False):
     """Returns the drives that could be made; what is wrong is printed."""
     global PROGRESS  # pylint: disable=global-statement
-    is_folder = len(drives) > 1 and drives[0].page
-    if is_folder:
-        os.makedirs(os.path.dirname(drives[0].page), exist_ok=True)
+    folder = index_folder(drives)
+    if folder:
+        os.makedirs(folder, exist_ok=True)
     old = [drive for drive in drives if resume and is_made(drive, version)]
     new = [drive for drive in drives if drive not in old]
     PROGRESS = Progress(len(new))
@@ -236,9 +244,9 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
             main_program.tell("cremed-report", trouble)
     if len(made) < len(new) and len(drives) > 1:
         main_program.tell("cremed-report", f"{len(new) - len(made)} of {len(drives)} drives have no report")
-    if is_folder:
+    if folder:
         rows = [Row.of(result) if isinstance(result, Drive) else Row(drive.logs[0], failure=result)
                 for drive, result in [*zip(new, results), *((drive, drive) for drive in old)]]
-        with replaced_file(os.path.join(os.path.dirname(drives[0].page), "index.html")) as file:
+        with replaced_file(os.path.join(folder, "index.html")) as file:
             file.write(index(rows, share).encode())
     return old + made

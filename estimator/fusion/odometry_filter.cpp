@@ -463,8 +463,7 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
 void OdometryFilter::compare_speed(std::size_t radar, const MapMatch& match) {
   double since_s = 0.0;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    since_s += match.by_node[i](0, 0) / match.x_share *
-               seconds_between(nodes_.stamp_us(i), state_.time_us());
+    since_s += match.by_node[i](0, 0) * seconds_between(nodes_.stamp_us(i), state_.time_us());
   }
   const auto expected = expected_velocity(radar);
   if (expected && since_s > 0.0) {

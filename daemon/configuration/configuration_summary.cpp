@@ -131,9 +131,6 @@ std::string configuration_summary(const Configuration& configuration) {
 
 std::vector<std::string> configuration_doubts(const Configuration& configuration) {
   std::vector<std::string> doubts;
-  if (!configuration.warnings.empty()) {
-    doubts.push_back(configuration.warnings);
-  }
   for (const RadarConfiguration& radar : configuration.radars) {
     // A larger angle is probably in degrees.
     const double yaw = radar.ego_motion.vehicle_from_radar.yaw_rad;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cremed/estimator/fusion/output/motion_witness.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {

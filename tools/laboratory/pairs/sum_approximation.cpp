@@ -19,7 +19,7 @@
 namespace cremed {
 namespace {
 
-constexpr int kMaxSteps = 200;
+constexpr int kMaxMinimiserSteps = 200;
 constexpr double kCostTolerance = 1e-10;  // relative; the Hessian wants to be at the minimum
 constexpr double kHessianStep = 1e-5;     // m and rad
 constexpr double kNegligible = 80.0;      // squared distance beyond the nearest that no sum notices
@@ -211,7 +211,7 @@ RegistrationResult solve(const TargetSet& previous, const TargetSet& current,
         cost(options.start_scale, options.start_scale * options.start_doppler_scale),
         Registration::kMaxStartIterations, states));
   }
-  const auto summary = minimise<kStates>(cost(1.0, 1.0), kMaxSteps, states);
+  const auto summary = minimise<kStates>(cost(1.0, 1.0), kMaxMinimiserSteps, states);
   result.iterations += iterations(summary);
   if (summary.termination_type == ceres::FAILURE || !states.allFinite()) {
     return result;  // non_finite

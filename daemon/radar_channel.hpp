@@ -43,16 +43,12 @@ struct RadarChannel {
 
   std::size_t index;
   std::uint8_t interface;
-  /// Bit i: its interface and interface i have agreeing clocks, as far as known.
-  std::uint32_t shares_clock = 0;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
   SelfCheck self_check;
   ScanClock scan_clock;
-  bool is_ahead = false;  ///< Its stamps are ahead of all other buses (BusClocks).
-  /// Stamp of its last scan while the odometry has not used it.
-  std::optional<std::int64_t> held_us;
+  bool is_ahead = false;         ///< Its stamps are ahead of all other buses (BusClocks).
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 

@@ -105,7 +105,6 @@ struct Configuration {
   OutputConfiguration output;
   LiveConfiguration live;
   LoggingConfiguration logging;
-  std::string warnings;  ///< "file:line: key: what to write instead", one per line; "": none.
 };
 
 /// what(): "file:line: key: what is wrong; what would be right", one line per error, in the order

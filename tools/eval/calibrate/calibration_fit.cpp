@@ -48,9 +48,10 @@ struct CalibrationProblem {
   ceres::Problem problem;
   std::vector<Group> groups;
 
-  explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_all(); }
+  explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_measurements(); }
 
-  void add_all();
+  void minimise();
+  void add_measurements();
   void add_velocity(const VelocityMeasurement& measurement);
   void add_yaw_rate(const YawRateMeasurement& measurement);
   void add_changes();
@@ -70,7 +71,7 @@ struct CalibrationProblem {
   void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kGroupUs}); }
 };
 
-void CalibrationProblem::add_all() {
+void CalibrationProblem::add_measurements() {
   for (const VelocityMeasurement& measurement : fit.velocities_) {
     add_velocity(measurement);
   }
@@ -81,7 +82,6 @@ void CalibrationProblem::add_all() {
   if (fit.truth_ != nullptr) {
     add_truth();
   }
-  add_priors();
 }
 
 void CalibrationProblem::add_velocity(const VelocityMeasurement& measurement) {
@@ -307,18 +307,69 @@ MotionNode CalibrationFit::slope(std::int64_t number) const {
   return {slope.x(), slope.y(), 0.0};
 }
 
-void CalibrationFit::solve() {
-  CalibrationProblem problem(*this);
+void CalibrationProblem::minimise() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = 50;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem.problem, &summary);
+  ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) {
     throw std::runtime_error("the calibration has no solution: " + summary.message);
   }
+}
+
+void CalibrationFit::solve() {
+  CalibrationProblem problem(*this);
+  problem.add_priors();
+  problem.minimise();
   problem.set_std();
+}
+
+void CalibrationFit::minimise() {
+  CalibrationProblem problem(*this);
+  problem.add_priors();
+  problem.minimise();
+}
+
+CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool is_inside) const {
+  CalibrationFit result = *this;
+  if (nodes_.empty()) {
+    return result;
+  }
+  const std::int64_t begin = nodes_.begin()->first;
+  const std::int64_t length = nodes_.rbegin()->first - begin + 1;
+  const auto is_outside = [&](std::int64_t node) {
+    const auto at = static_cast<std::size_t>(count * static_cast<std::size_t>(node - begin)) /
+                    static_cast<std::size_t>(length);
+    return (at == index) != is_inside;
+  };
+  std::erase_if(result.velocities_, [&](const VelocityMeasurement& measurement) {
+    return is_outside(measurement.stamp_us / kNodeUs);
+  });
+  std::erase_if(result.yaw_rates_, [&](const YawRateMeasurement& measurement) {
+    return is_outside(measurement.stamp_us / kNodeUs);
+  });
+  std::erase_if(result.nodes_, [&](const auto& node) { return is_outside(node.first); });
+  return result;
+}
+
+double CalibrationFit::misfit(const std::vector<CalibrationVector>& values) const {
+  CalibrationFit trial = *this;
+  for (std::size_t radar = 0; radar < values.size(); ++radar) {
+    trial.radars_[radar].value = values[radar];
+  }
+  CalibrationProblem problem(trial);
+  problem.add_prior(trial.vehicle_.prior, trial.vehicle_.prior_std, trial.vehicle_.value);
+  for (FittedRadar& radar : trial.radars_) {
+    if (problem.problem.HasParameterBlock(radar.value.data())) {
+      problem.problem.SetParameterBlockConstant(radar.value.data());
+    }
+  }
+  problem.minimise();
+  double cost = 0.0;
+  problem.problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  return cost;
 }
 
 std::optional<Eigen::Vector3d> CalibrationFit::motion(std::size_t radar, std::int64_t stamp_us,

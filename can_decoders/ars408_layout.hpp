@@ -57,23 +57,6 @@ inline constexpr BitField kMeasurementState{50, 3};
 inline constexpr BitField kExistence{53, 3};
 }  // namespace quality
 
-namespace extended {
-inline constexpr BitField kAx{21, 11};
-inline constexpr BitField kAy{28, 9};
-inline constexpr BitField kClass{24, 3};
-inline constexpr BitField kOrientation{46, 10};
-inline constexpr BitField kLength{48, 8};
-inline constexpr BitField kWidth{56, 8};
-inline constexpr LinearScale kAxScale{1000.0, 100.0};
-inline constexpr LinearScale kAyScale{250.0, 100.0};
-inline constexpr LinearScale kOrientationScale{450.0, 2.5 * kDegPerRad};
-inline constexpr LinearScale kSizeScale{0.0, 5.0};
-}  // namespace extended
-
-namespace warning {
-inline constexpr BitField kRegions{8, 8};
-}  // namespace warning
-
 namespace state {
 inline constexpr std::uint8_t kNvmWritten = 7;
 inline constexpr std::uint8_t kNvmRead = 6;
@@ -143,8 +126,6 @@ inline constexpr std::uint8_t kPowerRestricted = 24;
 }  // namespace version
 
 namespace filter {
-inline constexpr BitField kClusterFilters{3, 5};
-inline constexpr BitField kObjectFilters{11, 5};
 inline constexpr std::uint8_t kForObjects = 7;
 inline constexpr BitField kIndex{3, 4};
 inline constexpr std::uint8_t kActive = 2;
@@ -179,20 +160,5 @@ inline constexpr std::array<Limits, 16> kLimits{{
 inline constexpr std::uint8_t kMin = 16;
 inline constexpr std::uint8_t kMax = 32;
 }  // namespace filter
-
-namespace collision {
-inline constexpr std::uint8_t kActive = 1;
-inline constexpr BitField kRegions{4, 4};
-inline constexpr BitField kMinDetectionTime{8, 8};
-inline constexpr BitField kCounter{24, 16};
-inline constexpr LinearScale kTimeScale{0.0, 10.0};
-inline constexpr BitField kRegionId{5, 3};
-inline constexpr BitField kWarningLevel{3, 2};
-inline constexpr BitField kX1{19, 13};
-inline constexpr BitField kY1{24, 11};
-inline constexpr BitField kX2{43, 13};
-inline constexpr BitField kY2{48, 11};
-inline constexpr BitField kObjectCount{56, 8};
-}  // namespace collision
 
 }  // namespace cremed::ars408_layout

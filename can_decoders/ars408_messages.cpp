@@ -107,30 +107,6 @@ std::optional<Ars408ObjectQuality> decode_ars408_object_quality(Ars408Bytes byte
       .measurement_state = Ars408MeasurementState{bits->get8(layout::quality::kMeasurementState)}};
 }
 
-std::optional<Ars408ObjectExtended> decode_ars408_object_extended(Ars408Bytes bytes) {
-  using namespace layout::extended;
-  const auto bits = bits_of(Ars408Message::object_extended, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408ObjectExtended{.id = bits->get8(kId),
-                              .ax_mps2 = kAxScale(bits->get(kAx)),
-                              .ay_mps2 = kAyScale(bits->get(kAy)),
-                              .object_class = bits->get8(kClass),
-                              .orientation_rad = kOrientationScale(bits->get(kOrientation)),
-                              .length_m = kSizeScale(bits->get(kLength)),
-                              .width_m = kSizeScale(bits->get(kWidth))};
-}
-
-std::optional<Ars408ObjectWarning> decode_ars408_object_warning(Ars408Bytes bytes) {
-  const auto bits = bits_of(Ars408Message::object_warning, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408ObjectWarning{.id = bits->get8(kId),
-                             .regions = bits->get8(layout::warning::kRegions)};
-}
-
 std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes) {
   using namespace layout::state;
   const auto bits = bits_of(Ars408Message::radar_state, bytes);
@@ -169,15 +145,6 @@ std::optional<Ars408Version> decode_ars408_version(Ars408Bytes bytes) {
                        .power_restricted = bits->flag(layout::version::kPowerRestricted)};
 }
 
-std::optional<Ars408FilterHeader> decode_ars408_filter_header(Ars408Bytes bytes) {
-  const auto bits = bits_of(Ars408Message::filter_header, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408FilterHeader{.cluster_filters = bits->get8(layout::filter::kClusterFilters),
-                            .object_filters = bits->get8(layout::filter::kObjectFilters)};
-}
-
 std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes) {
   using namespace layout::filter;
   const auto bits = bits_of(Ars408Message::filter_state, bytes);
@@ -191,33 +158,6 @@ std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes) {
                            .criterion = Ars408Criterion{index},
                            .min = limits.scale(bits->get({kMin, limits.length})),
                            .max = limits.scale(bits->get({kMax, limits.length}))};
-}
-
-std::optional<Ars408CollisionState> decode_ars408_collision_state(Ars408Bytes bytes) {
-  using namespace layout::collision;
-  const auto bits = bits_of(Ars408Message::collision_state, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408CollisionState{.active = bits->flag(kActive),
-                              .regions = bits->get8(kRegions),
-                              .min_detection_time_s = kTimeScale(bits->get(kMinDetectionTime)),
-                              .counter = bits->get16(kCounter)};
-}
-
-std::optional<Ars408RegionState> decode_ars408_region_state(Ars408Bytes bytes) {
-  using namespace layout::collision;
-  const auto bits = bits_of(Ars408Message::region_state, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408RegionState{.region_id = bits->get8(kRegionId),
-                           .warning_level = bits->get8(kWarningLevel),
-                           .x1_m = layout::general::kXScale(bits->get(kX1)),
-                           .y1_m = layout::general::kObjectYScale(bits->get(kY1)),
-                           .x2_m = layout::general::kXScale(bits->get(kX2)),
-                           .y2_m = layout::general::kObjectYScale(bits->get(kY2)),
-                           .object_count = bits->get8(kObjectCount)};
 }
 
 }  // namespace cremed

@@ -118,24 +118,6 @@ struct Ars408ObjectQuality {
   Ars408MeasurementState measurement_state = Ars408MeasurementState::deleted;
 };
 
-/// 0x60D.
-struct Ars408ObjectExtended {
-  std::uint8_t id = 0;
-  double ax_mps2 = 0.0;
-  double ay_mps2 = 0.0;
-  std::uint8_t object_class = 0;  ///< 0 point, 1 car, 2 truck, 3 pedestrian, 4 motorcycle,
-                                  ///< 5 bicycle, 6 wide, 7 reserved.
-  double orientation_rad = 0.0;
-  double length_m = 0.0;
-  double width_m = 0.0;
-};
-
-/// 0x60E.
-struct Ars408ObjectWarning {
-  std::uint8_t id = 0;
-  std::uint8_t regions = 0;  ///< Bit n: the object is in collision region n.
-};
-
 /// 0x201, once a second: settings and faults of the sensor.
 struct Ars408RadarState {
   bool nvm_read = false;     ///< Configuration was read at start-up.
@@ -165,12 +147,6 @@ struct Ars408Version {
   std::uint8_t patch_level = 0;
   bool extended_range = false;
   bool power_restricted = false;  ///< The country code demands less power.
-};
-
-/// 0x203: the number of 0x204 that follow.
-struct Ars408FilterHeader {
-  std::uint8_t cluster_filters = 0;
-  std::uint8_t object_filters = 0;
 };
 
 /// The quantity that a filter limits, and its unit. The sources disagree on the crossing direction
@@ -203,25 +179,6 @@ struct Ars408FilterState {
   double max = 0.0;
 };
 
-/// 0x408.
-struct Ars408CollisionState {
-  bool active = false;
-  std::uint8_t regions = 0;
-  double min_detection_time_s = 0.0;
-  std::uint16_t counter = 0;
-};
-
-/// 0x402: one collision region, by two opposite corners.
-struct Ars408RegionState {
-  std::uint8_t region_id = 0;
-  std::uint8_t warning_level = 0;
-  double x1_m = 0.0;
-  double y1_m = 0.0;
-  double x2_m = 0.0;
-  double y2_m = 0.0;
-  std::uint8_t object_count = 0;
-};
-
 /// Each returns nothing if there are fewer bytes than kArs408Messages demands.
 using Ars408Bytes = std::span<const std::uint8_t>;
 std::optional<Ars408ClusterStatus> decode_ars408_cluster_status(Ars408Bytes bytes);
@@ -230,13 +187,8 @@ std::optional<Ars408ClusterQuality> decode_ars408_cluster_quality(Ars408Bytes by
 std::optional<Ars408ObjectStatus> decode_ars408_object_status(Ars408Bytes bytes);
 std::optional<Ars408General> decode_ars408_object_general(Ars408Bytes bytes);
 std::optional<Ars408ObjectQuality> decode_ars408_object_quality(Ars408Bytes bytes);
-std::optional<Ars408ObjectExtended> decode_ars408_object_extended(Ars408Bytes bytes);
-std::optional<Ars408ObjectWarning> decode_ars408_object_warning(Ars408Bytes bytes);
 std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes);
 std::optional<Ars408Version> decode_ars408_version(Ars408Bytes bytes);
-std::optional<Ars408FilterHeader> decode_ars408_filter_header(Ars408Bytes bytes);
 std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes);
-std::optional<Ars408CollisionState> decode_ars408_collision_state(Ars408Bytes bytes);
-std::optional<Ars408RegionState> decode_ars408_region_state(Ars408Bytes bytes);
 
 }  // namespace cremed

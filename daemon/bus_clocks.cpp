@@ -10,6 +10,16 @@
 
 namespace cremed {
 
+void BusClocks::note(const CanFrame& frame) {
+  if (last_ && last_->interface != frame.interface) {
+    const std::uint32_t before = bit_of(last_->interface);
+    const bool agree = last_->stamp_us - frame.stamp_us <= kMaxDifferenceUs;
+    std::uint32_t& followed = clocks_[frame.interface].followed;
+    followed = (followed & ~before) | (agree ? before : 0U);
+  }
+  last_ = frame;
+}
+
 bool BusClocks::is_set_back(const CanFrame& frame) {
   Clock& own = clocks_[frame.interface];
   for (Clock& other : clocks_) {

@@ -16,7 +16,19 @@ namespace cremed {
 /// The stamps of each bus compared with those of its frames before and of the other buses.
 class BusClocks {
  public:
-  /// Notes a frame, in the order of arrival. True if its stamp and those of the frames before it
+  /// Notes each frame, in the order of arrival.
+  void note(const CanFrame& frame);
+  /// Whether the clocks of two buses agree, as far as known: the frames of both were never stamped
+  /// before an earlier frame of the other by more than kMaxDifferenceUs.
+  [[nodiscard]] bool agree(std::uint8_t a, std::uint8_t b) const {
+    return follows(a, b) && follows(b, a);
+  }
+  /// The half of it that frames of `interface` have shown: a frame of `other` tells its time.
+  [[nodiscard]] bool follows(std::uint8_t interface, std::uint8_t other) const {
+    return interface == other || (clocks_[interface].followed & bit_of(other)) != 0;
+  }
+
+  /// Notes a frame of a radar. True if its stamp and those of the frames before it
   /// are kSetBackUs or more before the latest of its bus: the clock was set.
   bool is_set_back(const CanFrame& frame);
   /// Whether the stamps of a bus are kAheadUs or more ahead of those of all other buses that send:
@@ -26,6 +38,8 @@ class BusClocks {
   }
 
  private:
+  /// Between synchronised hardware stamps and the order of arrival; a fraction of any time-out.
+  static constexpr std::int64_t kMaxDifferenceUs = 5'000;
   /// Frames of one bus overtake each other by 5 ms at most (20 frames at 500 kbit/s).
   static constexpr std::int64_t kSetBackUs = 50'000;
   /// In a row: a single frame may have waited for the next list.
@@ -38,9 +52,15 @@ class BusClocks {
     std::optional<std::int64_t> latest_us;
     std::uint32_t frames_back = 0;    // Stamped that much before it.
     std::uint32_t frames_behind = 0;  // Of other buses, stamped that much earlier.
+    std::uint32_t followed = 0;       // Bit i: this bus and bus i agree, by frames of this one.
   };
+  /// One a radar, and the vehicle's.
+  static constexpr std::size_t kMaxBuses = kMaxRadars + 1;
+  static_assert(kMaxBuses <= 32);
+  static constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
-  std::array<Clock, kMaxRadars> clocks_{};
+  std::array<Clock, kMaxBuses> clocks_{};
+  std::optional<CanFrame> last_;
 };
 
 /// The stamps of one radar's scans compared with its cycle counter: shows that the clock was set

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cremed/version.hpp"
 #include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
-#include "daemon/version.hpp"
 
 namespace cremed {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "cremed/version.hpp"
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
@@ -15,7 +16,6 @@
 #include "daemon/report/log_sink.hpp"
 #include "daemon/run_live.hpp"
 #include "daemon/run_replay.hpp"
-#include "daemon/version.hpp"
 
 namespace {
 

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "cremed/can_decoders/can_frame.hpp"
-#include "cremed/estimator/fusion/odometry_filter.hpp"
 #include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/odometry_stage.hpp"
 #include "daemon/output/odometry_sink.hpp"
+#include "daemon/pipeline_clock.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/report/status_timer.hpp"
 #include "daemon/report/vehicle_findings.hpp"
@@ -21,28 +22,16 @@
 
 namespace cremed {
 
-/// Clock for durations.
-struct PipelineClock {
-  std::int64_t (*now_us)();
-  /// true: `now_us` is the clock of the stamps, and latency counts from the stamp of a scan's last
-  /// frame; false: from the call of on_frame().
-  bool is_stamp_clock = false;
-};
-
 /// The whole path from a frame to a message:
 ///
 ///     FrameSource -> RadarDecoder -> ScanAssembler -> EgoMotionEstimator -> OdometrySink
 ///                                                          |                    |
-///                                           of all radars  +-> OdometryFilter --+
+///                                           of all radars  +-> OdometryStage ---+
 ///
-/// The odometry takes scans in the order of their stamps: a complete scan waits for open scans that
-/// began earlier.
+/// (daemon/README.md: what orders what, and MotionFeedback, a sink that sends on the bus.)
 ///
-/// With [vehicle], the filter also gets the speed and yaw rate of the vehicle's bus, and uses at a
-/// scan what was measured before it.
-///
-/// With odometry.rate_hz, sinks receive the odometry of the last scan predicted to the times of
-/// that rate, each when a frame, a time-out or silence reaches it.
+/// With [vehicle], the odometry also gets the speed and yaw rate of the vehicle's bus, and uses at
+/// a scan what was measured before it.
 ///
 /// Time is that of the stamps; `clock` is for durations only (solve_us, latency). Frames in the
 /// order of their stamps therefore give the same results live and in a replay. After construction
@@ -54,6 +43,8 @@ class Pipeline {
   Pipeline(const Configuration& configuration, const FrameSource& source,
            std::vector<OdometrySink*> sinks, PipelineClock clock,
            const std::vector<std::optional<LearnedErrors>>& learned = {});
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
 
   /// Processes the source's next event; false at its end. The loop of the daemon.
   bool take_next(FrameSource& source);
@@ -85,43 +76,30 @@ class Pipeline {
   /// Of a signal of [vehicle].
   [[nodiscard]] VehicleStatus vehicle(VehicleSignal signal) const;
   /// The odometry of the last scan; nothing before the first.
-  [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
+  [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_.odometry(); }
 
  private:
   /// `clock`: the interface of the frame, or StatusTimer::kNoInterface.
   void on_time(std::size_t clock, std::int64_t now_us);
-  void note_clock(const CanFrame& frame);
-  void expire(std::int64_t now_us, std::optional<std::uint8_t> interface = std::nullopt);
+  /// Closes the overdue scans at the time of a frame of `interface`, or of silence on all buses.
+  void close_overdue(std::int64_t now_us, std::optional<std::uint8_t> interface = std::nullopt);
   template <typename Condition>
   RadarChannel* first_to_close(Condition condition);
-  void publish_motions(RadarChannel& radar, std::int64_t begin_us);
-  void publish(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
-  [[nodiscard]] bool is_trusted(const RadarChannel& radar) const;
+  void use_scans(RadarChannel& radar, std::int64_t begin_us);
+  void use(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
+  void check(RadarChannel& radar, EgoMotion& motion);
   void hold(RadarChannel& radar, const EgoMotion& motion);
-  [[nodiscard]] RadarChannel* first_held() const;
-  void publish_held();
-  [[nodiscard]] bool is_awaiting(const RadarChannel& radar) const;
   void forget_motions();
-  void forget_odometry();
-  void publish_odometry(RadarChannel& radar);
-  void reach(std::int64_t now_us);
-  void publish_predictions(std::int64_t now_us);
-  void publish_fused(std::size_t targets, std::int64_t solve_us);
   void publish_status();
 
   const FrameSource& source_;
   std::vector<OdometrySink*> sinks_;
   PipelineClock clock_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
-  std::optional<OdometryFilter> filter_;
   VehicleListener vehicle_;
   BusClocks clocks_;
-  bool is_predicted_;
-  double standstill_mps_;
-  std::optional<Odometry> odometry_;
-  std::optional<std::int64_t> time_us_;  // Of the last frame.
-  std::uint8_t last_interface_ = 0;      // Of the last frame.
-  std::int64_t event_us_ = 0;            // Time of the event in progress.
+  OdometryStage odometry_;
+  std::optional<std::int64_t> time_us_;  // Of the last event with a time.
   StatusTimer status_timer_;
 };
 

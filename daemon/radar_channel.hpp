@@ -9,9 +9,9 @@
 
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/radar_status.hpp"
@@ -43,16 +43,12 @@ struct RadarChannel {
 
   std::size_t index;
   std::uint8_t interface;
-  /// Bit i: its interface and interface i have agreeing clocks, as far as known.
-  std::uint32_t shares_clock = 0;
   std::unique_ptr<RadarDecoder> decoder;
   ScanAssembler assembler;
   EgoMotionEstimator estimator;
   SelfCheck self_check;
   ScanClock scan_clock;
-  bool is_ahead = false;  ///< Its stamps are ahead of all other buses (BusClocks).
-  /// Stamp of its last scan while the odometry has not used it.
-  std::optional<std::int64_t> held_us;
+  bool is_ahead = false;         ///< Its stamps are ahead of all other buses (BusClocks).
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 

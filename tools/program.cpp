@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cremed/version.hpp"
 #include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "daemon/version.hpp"
 
 namespace cremed {
 namespace {

@@ -159,8 +159,6 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   }
   TomlReader vehicle = reader.table("vehicle");
   read_vehicle(vehicle, configuration.vehicle, configuration.odometry.filter.vehicle);
-  reader.refuse(std::array<std::string_view, 1>{"fused"},
-                "was replaced by [odometry]; must be left out");
   TomlReader output = reader.table("output");
   read_output(output, configuration.output);
   TomlReader live = reader.table("live");
@@ -204,7 +202,6 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
   if (!context.diagnostics.empty()) {
     throw ConfigurationError(context.diagnostics.text());
   }
-  configuration.warnings = context.warnings.text();
   return configuration;
 }
 

@@ -12,17 +12,13 @@ namespace {
 
 constexpr double kWidestViewRad = 6.2832;
 
-/// In the order of Likelihood. The former key is "covariance", with other names.
+/// In the order of Likelihood.
 constexpr std::array<std::string_view, 2> kLikelihoods{"exclusive", "max_sum_mixture"};
-constexpr std::array<std::string_view, 2> kOldLikelihoods{"exclusive", "gauss_newton"};
-
-constexpr std::string_view kIsConstant = "is not an option any more; must be left out";
 
 void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
   reader.number("weight", ray.weight, {0.0, 0.99});
   reader.number("min_range_m", ray.min_range_m, {0.01, 1000.0});
   reader.number("max_range_m", ray.max_range_m, {0.01, 1000.0});
-  reader.refuse(std::array<std::string_view, 2>{"ratio", "growth"}, kIsConstant);
   reader.number("field_of_view_rad", ray.field_of_view_rad, {0.01, kWidestViewRad});
   reader.require_less("min_range_m", ray.min_range_m, "max_range_m", ray.max_range_m);
   reader.finish();
@@ -30,7 +26,6 @@ void read_outlier_ray(TomlReader reader, OutlierRayOptions& ray) {
 
 void read_doppler(TomlReader reader, DopplerOptions& doppler) {
   reader.boolean("enabled", doppler.enabled);
-  reader.refuse(std::array<std::string_view, 1>{"both_scans"}, kIsConstant);
   reader.number("stamp_std_s", doppler.stamp_std_s, {0.0, 1.0});
   reader.number("moving_weight", doppler.moving_weight, {0.0, 0.99});
   reader.number("moving_std_mps", doppler.moving_std_mps, {0.1, 1000.0});
@@ -47,27 +42,18 @@ void read_shared_errors(TomlReader reader, SharedErrorOptions& errors) {
   reader.finish();
 }
 
-void read_likelihood(TomlReader& reader, Likelihood& likelihood) {
-  const auto named = reader.choice("likelihood", kLikelihoods);
-  const auto by_old_key =
-      reader.deprecated_choice("covariance", kOldLikelihoods, "likelihood", kLikelihoods);
-  if (named || by_old_key) {
-    likelihood = static_cast<Likelihood>(named ? *named : *by_old_key);
-  }
-}
-
 }  // namespace
 
 void read_estimator(TomlReader reader, EgoMotionOptions& options) {
   RegistrationOptions& registration = options.registration;
   reader.integer("degrees_of_freedom", registration.degrees_of_freedom, 2, 3);
   reader.number("start_scale", registration.start_scale, {1.0, 100.0});
-  reader.refuse(std::array<std::string_view, 2>{"start_doppler_scale", "max_start_iterations"},
-                kIsConstant);
   reader.integer("max_iterations", registration.max_iterations, 1, 1000);
   reader.integer("max_component_evaluations", registration.max_component_evaluations, 1'000,
                  100'000'000);
-  read_likelihood(reader, registration.likelihood);
+  if (const auto likelihood = reader.choice("likelihood", kLikelihoods)) {
+    registration.likelihood = static_cast<Likelihood>(*likelihood);
+  }
   reader.integer("min_targets", options.min_targets, 2, kMaxDetections);
   reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
   reader.number("standstill_mps", options.standstill_mps, {0.0, 1.0});

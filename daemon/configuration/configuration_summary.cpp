@@ -15,7 +15,7 @@ namespace cremed {
 namespace {
 
 /// Slightly more than pi, for rounded values.
-constexpr double kHalfCircleRad = 3.15;
+constexpr double kLargestYawRad = 3.15;
 
 constexpr const char* kRow = "{:<15} {:<9} {:<15} {:>8} {:>8} {:>8}  {}\n";
 
@@ -131,13 +131,10 @@ std::string configuration_summary(const Configuration& configuration) {
 
 std::vector<std::string> configuration_doubts(const Configuration& configuration) {
   std::vector<std::string> doubts;
-  if (!configuration.warnings.empty()) {
-    doubts.push_back(configuration.warnings);
-  }
   for (const RadarConfiguration& radar : configuration.radars) {
     // A larger angle is probably in degrees.
     const double yaw = radar.ego_motion.vehicle_from_radar.yaw_rad;
-    if (std::abs(yaw) > kHalfCircleRad) {
+    if (std::abs(yaw) > kLargestYawRad) {
       doubts.push_back(fmt::format(
           "{}: yaw_rad = {:g} is {:.1f} degrees; write {:.4f} if that is meant, and {:.4f} if "
           "{:g} degrees are",

@@ -31,7 +31,7 @@ std::optional<std::uint32_t> id_of(std::string_view text) {
   return is_whole && id <= kMaxId ? std::optional(id) : std::nullopt;
 }
 
-constexpr TextRule kInterface = {
+constexpr TextRule kBusName = {
     [](std::string_view text) { return is_interface_name(text) && text != kAutoInterface; },
     "the name of a CAN interface, not \"auto\", or \"off\""};
 constexpr TextRule kIdentifier = {
@@ -66,7 +66,7 @@ void read_vehicle(TomlReader& reader, VehicleConfiguration& vehicle, VehicleOpti
   constexpr Range kScale{0.0, 0.5};
   constexpr Range kTimeS{0.01, 1000.0};
   std::string interface(kOff);
-  reader.text("interface", interface, kInterface);
+  reader.text("interface", interface, kBusName);
   vehicle.interface = interface == kOff ? "" : interface;
   read_id(reader, "speed", vehicle.id(VehicleSignal::speed));
   read_id(reader, "yaw_rate", vehicle.id(VehicleSignal::yaw_rate));

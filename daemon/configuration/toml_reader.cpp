@@ -246,33 +246,6 @@ void TomlReader::finish() {
   }
 }
 
-std::optional<std::size_t> TomlReader::deprecated_choice(
-    std::string_view old_key, std::span<const std::string_view> old_names, std::string_view new_key,
-    std::span<const std::string_view> new_names) {
-  if (!has(old_key)) {
-    return std::nullopt;
-  }
-  refused_.push_back(old_key);  // Accepted, but not offered in messages and documents.
-  if (has(new_key)) {
-    report(old_key,
-           concat({"is the old name of ", new_key, ", which is there too; must be left out"}));
-    return std::nullopt;
-  }
-  const toml::node& node = *table_->get(old_key);
-  const auto* read = node.as_string();
-  const auto name = read == nullptr ? old_names.end()
-                                    : std::find(old_names.begin(), old_names.end(), read->get());
-  if (name == old_names.end()) {
-    report_wrong(old_key, node, list_text(old_names));
-    return std::nullopt;
-  }
-  const auto index = static_cast<std::size_t>(name - old_names.begin());
-  context_->warnings.add(
-      line_of(old_key), path_of(old_key),
-      concat({"is deprecated; write ", new_key, " = ", in_quotes(new_names[index])}));
-  return index;
-}
-
 void TomlReader::report(std::string_view key, std::string_view problem) {
   clean_ = false;
   context_->diagnostics.add(line_of(key), path_of(key), problem);

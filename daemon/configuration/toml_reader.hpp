@@ -34,7 +34,6 @@ struct TextRule {
 struct ReadContext {
   Diagnostics diagnostics;                      ///< Errors: the file is refused.
   std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys read.
-  Diagnostics warnings = diagnostics;
 };
 
 /// Reads one table key by key: checks type and range, reports errors and notes the known keys. An
@@ -73,13 +72,6 @@ class TomlReader final : public OptionReader {
   void refuse(std::span<const std::string_view> keys, std::string_view problem);
   /// Reports every key that was not read.
   void finish();
-
-  /// Index of the name of a deprecated key that `new_key` has replaced, with a warning; an error if
-  /// both exist. `old_names` are in the order of the new ones.
-  std::optional<std::size_t> deprecated_choice(std::string_view old_key,
-                                               std::span<const std::string_view> old_names,
-                                               std::string_view new_key,
-                                               std::span<const std::string_view> new_names);
 
   void report(std::string_view key, std::string_view problem) override;
   [[nodiscard]] bool has(std::string_view key) const override;

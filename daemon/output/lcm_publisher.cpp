@@ -57,56 +57,130 @@ void append(const Detection& detection, radar_scan_t& scan) {
   scan.rcs_dbm2.push_back(static_cast<float>(detection.rcs_dbm2));
 }
 
-std::int64_t count(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+using S = status_t;
+
+void set(std::int32_t place, std::uint64_t value, status_t& m) {
+  m.counters[place] = static_cast<std::int64_t>(value);
+}
+
+void set(std::int32_t place, double value, status_t& m) {
+  m.figures[place] = static_cast<float>(value);
+}
+
+void fill_source(const SourceCounters& source, status_t& m) {
+  set(S::COUNTER_FRAMES_READ, source.frames, m);
+  set(S::COUNTER_FRAMES_OF_OTHER_INTERFACES, source.other_interface_frames, m);
+  set(S::COUNTER_FRAMES_LOST_UPSTREAM, source.lost_frames, m);
+  set(S::COUNTER_MALFORMED_LINES, source.malformed_lines, m);
+}
 
 void fill_bus(const BusStatus& bus, status_t& m) {
   m.link_state = static_cast<std::int8_t>(bus.link);
   m.bus_state = static_cast<std::int8_t>(bus.bus);
-  m.bus_frames = count(bus.frames);
-  m.bus_frames_lost = count(bus.frames_lost);
-  m.bus_frames_stale = count(bus.frames_stale);
-  m.bus_frames_discarded = count(bus.frames_discarded);
-  m.bus_error_frames = count(bus.error_frames);
-  m.bus_offs = count(bus.bus_offs);
-  m.bus_restarts = count(bus.restarts);
-  m.bus_interruptions = count(bus.interruptions);
-  m.bus_frames_sent = count(bus.frames_sent);
-  m.bus_send_failures = count(bus.send_failures);
-  m.clock_steps = count(bus.clock_steps);
+  set(S::COUNTER_BUS_FRAMES, bus.frames, m);
+  set(S::COUNTER_BUS_FRAMES_LOST, bus.frames_lost, m);
+  set(S::COUNTER_BUS_FRAMES_STALE, bus.frames_stale, m);
+  set(S::COUNTER_BUS_FRAMES_DISCARDED, bus.frames_discarded, m);
+  set(S::COUNTER_BUS_ERROR_FRAMES, bus.error_frames, m);
+  set(S::COUNTER_BUS_OFFS, bus.bus_offs, m);
+  set(S::COUNTER_BUS_RESTARTS, bus.restarts, m);
+  set(S::COUNTER_BUS_INTERRUPTIONS, bus.interruptions, m);
+  set(S::COUNTER_BUS_FRAMES_SENT, bus.frames_sent, m);
+  set(S::COUNTER_BUS_SEND_FAILURES, bus.send_failures, m);
+  set(S::COUNTER_CLOCK_STEPS, bus.clock_steps, m);
 }
 
 void fill_health(const RadarHealth& health, status_t& m) {
   m.radar_has_reported = health.is_known ? 1 : 0;
   m.radar_output = static_cast<std::int8_t>(health.output);
   m.radar_sends_quality = health.sends_quality ? 1 : 0;
-  m.radar_max_distance_m = static_cast<float>(health.max_distance_m);
   m.radar_faults = static_cast<std::int32_t>(health.faults);
+  set(S::FIGURE_RADAR_MAX_DISTANCE_M, health.max_distance_m, m);
 }
 
 void fill_belief(const BeliefStatus& belief, status_t& m) {
-  m.innovation_doppler = static_cast<float>(belief.doppler_innovation);
-  m.innovation_next = static_cast<float>(belief.next_innovation);
   m.doubts = static_cast<std::int32_t>(belief.doubts);
   m.speed_checked = belief.is_speed_checked ? 1 : 0;
+  set(S::FIGURE_NIS_DOPPLER, belief.doppler_innovation, m);
+  set(S::FIGURE_NIS_NEXT, belief.next_innovation, m);
 }
 
 void fill_odometry(const RadarReport& report, status_t& m) {
-  m.odometry_innovation_doppler = static_cast<float>(report.doppler_innovation);
-  m.odometry_innovation_lateral = static_cast<float>(report.lateral_innovation);
-  m.odometry_innovation_yaw = static_cast<float>(report.yaw_innovation);
-  m.odometry_doppler_noise_factor = static_cast<float>(report.doppler_noise_factor);
-  m.odometry_position_noise_factor = static_cast<float>(report.position_noise_factor);
-  m.odometry_mount_yaw_error_rad = static_cast<float>(report.mount_yaw_rad);
-  m.odometry_mount_yaw_error_std_rad = static_cast<float>(report.mount_yaw_std_rad);
-  m.odometry_doppler_scale_error = static_cast<float>(report.doppler_scale);
-  m.odometry_doppler_scale_error_std = static_cast<float>(report.doppler_scale_std);
   m.odometry_leaves_out = report.is_left_out ? 1 : 0;
   m.odometry_fault = static_cast<std::int8_t>(report.cause.kind);
   m.odometry_fault_value = static_cast<float>(report.cause.value);
   m.odometry_fault_radar = static_cast<std::int8_t>(report.cause.other);
-  m.odometry_targets_at_rest = count(report.targets.at_rest);
-  m.odometry_targets_found = count(report.targets.found);
-  m.odometry_targets_moving = count(report.targets.moving);
+  set(S::FIGURE_ODOMETRY_NIS_DOPPLER, report.doppler_innovation, m);
+  set(S::FIGURE_ODOMETRY_NIS_LATERAL, report.lateral_innovation, m);
+  set(S::FIGURE_ODOMETRY_NIS_YAW, report.yaw_innovation, m);
+  set(S::FIGURE_ODOMETRY_DOPPLER_NOISE_FACTOR, report.doppler_noise_factor, m);
+  set(S::FIGURE_ODOMETRY_POSITION_NOISE_FACTOR, report.position_noise_factor, m);
+  set(S::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_RAD, report.mount_yaw_rad, m);
+  set(S::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_STD_RAD, report.mount_yaw_std_rad, m);
+  set(S::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR, report.doppler_scale, m);
+  set(S::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR_STD, report.doppler_scale_std, m);
+  set(S::COUNTER_ODOMETRY_TARGETS_AT_REST, report.targets.at_rest, m);
+  set(S::COUNTER_ODOMETRY_TARGETS_FOUND, report.targets.found, m);
+  set(S::COUNTER_ODOMETRY_TARGETS_MOVING, report.targets.moving, m);
+}
+
+void fill_decoder(const DecoderCounters& decoder, status_t& m) {
+  set(S::COUNTER_FRAMES_OF_THIS_RADAR, decoder.frames, m);
+  set(S::COUNTER_FRAMES_STATE, decoder.state_frames, m);
+  set(S::COUNTER_FRAMES_WRONG_LENGTH, decoder.wrong_length, m);
+  set(S::COUNTER_FRAMES_WRONG_KIND, decoder.wrong_kind, m);
+  set(S::COUNTER_FRAMES_WRONG_MODE, decoder.wrong_mode, m);
+  set(S::COUNTER_FRAMES_WRONG_SLOT, decoder.wrong_slot, m);
+  set(S::COUNTER_CRC_ERRORS, decoder.crc_errors, m);
+  set(S::COUNTER_COUNTER_ERRORS, decoder.counter_errors, m);
+}
+
+void fill_assembler(const AssemblerCounters& assembler, status_t& m) {
+  set(S::COUNTER_SCANS, assembler.scans, m);
+  set(S::COUNTER_SCANS_INCOMPLETE, assembler.incomplete_scans, m);
+  set(S::COUNTER_SCANS_WITHOUT_HEADER, assembler.headerless_scans, m);
+  set(S::COUNTER_SCANS_EMPTY, assembler.empty_scans, m);
+  set(S::COUNTER_SCANS_TIMED_OUT, assembler.timeouts, m);
+  set(S::COUNTER_SCANS_REPEATED, assembler.repeated_scans, m);
+  set(S::COUNTER_SCANS_MISSED, assembler.missed_scans, m);
+  set(S::COUNTER_PARTS_MISSING, assembler.missing_parts, m);
+  set(S::COUNTER_PARTS_DUPLICATE, assembler.duplicate_parts, m);
+  set(S::COUNTER_PARTS_CONFLICTING, assembler.conflicting_parts, m);
+  set(S::COUNTER_PARTS_REORDERED, assembler.reordered_parts, m);
+  set(S::COUNTER_PARTS_EXCESS, assembler.excess_parts, m);
+  set(S::COUNTER_PARTS_ORPHAN, assembler.orphan_parts, m);
+  set(S::COUNTER_STAMPS_BACKWARDS, assembler.stamps_backwards, m);
+}
+
+void fill_selection(const SelectionCounters& selection, status_t& m) {
+  set(S::COUNTER_DETECTIONS_USED, selection.used, m);
+  set(S::COUNTER_DETECTIONS_NO_NOISE, selection.no_noise, m);
+  set(S::COUNTER_DETECTIONS_INVALID_STATE, selection.invalid_state, m);
+  set(S::COUNTER_DETECTIONS_MOVING, selection.moving, m);
+  set(S::COUNTER_DETECTIONS_LOW_EXISTENCE, selection.low_existence, m);
+  set(S::COUNTER_DETECTIONS_NO_POSITION, selection.no_position, m);
+  set(S::COUNTER_DETECTIONS_OUTSIDE_LIMITS, selection.outside_limits, m);
+}
+
+void fill(const RadarStatus& status, status_t& m) {
+  m.utime = status.utime_us;
+  m.last_motion_status = static_cast<std::int8_t>(status.last_motion_status);
+  m.utime_last_estimate = status.utime_last_estimate_us;
+  m.latency_p50_us = static_cast<std::int32_t>(status.latency.p50_us);
+  m.latency_p99_us = static_cast<std::int32_t>(status.latency.p99_us);
+  m.latency_max_us = static_cast<std::int32_t>(status.latency.max_us);
+  fill_source(status.source, m);
+  fill_bus(status.bus, m);
+  fill_health(status.health, m);
+  fill_decoder(status.decoder, m);
+  fill_assembler(status.assembler, m);
+  fill_selection(status.selection, m);
+  fill_belief(status.belief, m);
+  fill_odometry(status.odometry, m);
+  set(S::COUNTER_SCANS_IN_ODOMETRY, status.scans_in_odometry, m);
+  set(S::COUNTER_MOTIONS_OF_INCOMPLETE_SCANS, status.motions_of_incomplete_scans, m);
+  std::copy(status.motions_by_status.begin(), status.motions_by_status.end(),
+            std::begin(m.motions_by_status));
 }
 
 void copy(const Eigen::Matrix3d& matrix, double (&row_major)[9]) {
@@ -296,62 +370,9 @@ void LcmPublisher::on_scan(std::size_t radar, const RadarScan& scan) {
 
 void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   status_t& m = messages_[radar].status;
-  m.utime = status.utime_us;
-  m.last_motion_status = static_cast<std::int8_t>(status.last_motion_status);
-  m.utime_last_estimate = status.utime_last_estimate_us;
-
-  m.frames_read = count(status.source.frames);
-  m.frames_of_other_interfaces = count(status.source.other_interface_frames);
-  m.frames_lost_before_us = count(status.source.lost_frames);
-  m.malformed_lines = count(status.source.malformed_lines);
-
-  fill_bus(status.bus, m);
-  m.latency_p50_us = static_cast<std::int32_t>(status.latency.p50_us);
-  m.latency_p99_us = static_cast<std::int32_t>(status.latency.p99_us);
-  m.latency_max_us = static_cast<std::int32_t>(status.latency.max_us);
-  fill_belief(status.belief, m);
+  fill(status, m);
+  set(S::COUNTER_MESSAGES_NOT_PUBLISHED, failures_, m);
   messages_[radar].motion.doubts = m.doubts;
-  fill_odometry(status.odometry, m);
-  m.scans_in_odometry = count(status.scans_in_odometry);
-  fill_health(status.health, m);
-  m.messages_not_published = count(failures_);
-
-  m.frames_of_this_radar = count(status.decoder.frames);
-  m.frames_state = count(status.decoder.state_frames);
-  m.frames_wrong_length = count(status.decoder.wrong_length);
-  m.frames_wrong_kind = count(status.decoder.wrong_kind);
-  m.frames_wrong_mode = count(status.decoder.wrong_mode);
-  m.frames_wrong_slot = count(status.decoder.wrong_slot);
-  m.crc_errors = count(status.decoder.crc_errors);
-  m.counter_errors = count(status.decoder.counter_errors);
-
-  m.scans = count(status.assembler.scans);
-  m.scans_incomplete = count(status.assembler.incomplete_scans);
-  m.scans_without_header = count(status.assembler.headerless_scans);
-  m.scans_empty = count(status.assembler.empty_scans);
-  m.scans_timed_out = count(status.assembler.timeouts);
-  m.scans_repeated = count(status.assembler.repeated_scans);
-  m.scans_missed = count(status.assembler.missed_scans);
-  m.parts_missing = count(status.assembler.missing_parts);
-  m.parts_duplicate = count(status.assembler.duplicate_parts);
-  m.parts_conflicting = count(status.assembler.conflicting_parts);
-  m.parts_reordered = count(status.assembler.reordered_parts);
-  m.parts_excess = count(status.assembler.excess_parts);
-  m.parts_orphan = count(status.assembler.orphan_parts);
-  m.stamps_backwards = count(status.assembler.stamps_backwards);
-
-  m.detections_used = count(status.selection.used);
-  m.detections_no_noise = count(status.selection.no_noise);
-  m.detections_invalid_state = count(status.selection.invalid_state);
-  m.detections_moving = count(status.selection.moving);
-  m.detections_low_existence = count(status.selection.low_existence);
-  m.detections_no_position = count(status.selection.no_position);
-  m.detections_outside_limits = count(status.selection.outside_limits);
-
-  m.motions_of_incomplete_scans = count(status.motions_of_incomplete_scans);
-  for (std::size_t i = 0; i < kMotionStatusCount; ++i) {
-    m.motions_by_status[i] = count(status.motions_by_status[i]);
-  }
   publish({kStatusChannel, messages_[radar].status_channel.c_str()}, m);
   ++m.seq;
 }

@@ -18,6 +18,7 @@
 #include "cremed/can_decoders/ars408_commands.hpp"
 #include "cremed/can_decoders/ars408_messages.hpp"
 #include "cremed/can_decoders/bosch_gpr.hpp"
+#include "test/can_decoders/ars408_unread.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 
 namespace {

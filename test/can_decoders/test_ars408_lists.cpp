@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "test/can_decoders/ars408_rows.hpp"
+#include "test/can_decoders/ars408_unread.hpp"
 
 namespace cremed::test {
 namespace {

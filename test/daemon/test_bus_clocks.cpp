@@ -64,6 +64,23 @@ TEST_CASE("a bus that sends alone after the others stopped is not ahead") {
   CHECK_FALSE(clocks.is_ahead(1));
 }
 
+TEST_CASE("clocks agree until a frame is stamped before an earlier one of another bus") {
+  BusClocks clocks;
+  CHECK(clocks.agree(1, 1));
+  CHECK_FALSE(clocks.agree(0, 1));
+  clocks.note(frame_of(0, kStartUs));
+  clocks.note(frame_of(1, kStartUs + 1'000));
+  CHECK(clocks.follows(1, 0));
+  CHECK_FALSE(clocks.agree(0, 1));             // No frame of 0 has come after one of 1.
+  clocks.note(frame_of(0, kStartUs - 4'000));  // Five milliseconds are hardware stamps.
+  CHECK(clocks.agree(0, 1));
+  CHECK(clocks.agree(1, 0));
+  clocks.note(frame_of(1, kStartUs - 9'001));
+  CHECK_FALSE(clocks.agree(0, 1));
+  CHECK(clocks.follows(0, 1));
+  CHECK_FALSE(clocks.agree(0, 2));
+}
+
 /// Scans every 75 ms that count by two.
 class Scans {
  public:

@@ -150,8 +150,6 @@ TEST_CASE("values out of range are refused with the range") {
        "from 1 to 1000"},
       {kArs408 + "[odometry]\nenabled = 1\n", 7, "odometry.enabled", "is 1", "true or false"},
       {kArs408 + "[odometry]\nenable = true\n", 7, "odometry.enable", "unknown key", "enabled"},
-      {kArs408 + "[fused]\nenabled = true\n", 6, "fused", "was replaced by [odometry]",
-       "must be left out"},
   });
 }
 
@@ -192,29 +190,8 @@ TEST_CASE("strings that cannot work are refused") {
       {kArs408 + "[output]\ncsv = \"a\\nb\"\n", 7, "output.csv", "is \"a?b\"", "a path"},
       {kArs408 + "[estimator]\nlikelihood = \"exact\"\n", 7, "estimator.likelihood", "is \"exact\"",
        "\"exclusive\" or \"max_sum_mixture\""},
-      {kArs408 + "[estimator]\ncovariance = \"exact\"\n", 7, "estimator.covariance", "is \"exact\"",
-       "\"exclusive\" or \"gauss_newton\""},
-      {kArs408 + "[estimator]\ncovariance = 1\n", 7, "estimator.covariance", "is 1",
-       "\"exclusive\" or \"gauss_newton\""},
       {kGpr + "crc_policy = \"Count\"\n", 6, "radar.crc_policy", "is \"Count\"",
        "\"off\", \"count\" or \"enforce\""},
-  });
-}
-
-TEST_CASE("keys that have become constants are refused, and nothing is guessed") {
-  const std::string problem = "is not an option any more";
-  const std::string right = "must be left out";
-  check_refused({
-      {kArs408 + "[estimator]\nstart_doppler_scale = 2\n", 7, "estimator.start_doppler_scale",
-       problem, right},
-      {kArs408 + "[radar.estimator]\nmax_start_iterations = 5\n", 7,
-       "radar.estimator.max_start_iterations", problem, right},
-      {kArs408 + "[estimator.doppler]\nboth_scans = true\n", 7, "estimator.doppler.both_scans",
-       problem, right},
-      {kArs408 + "[estimator.outlier_ray]\nratio = 0.7\n", 7, "estimator.outlier_ray.ratio",
-       problem, right},
-      {kArs408 + "[estimator.outlier_ray]\ngrowth = 1.8\n", 7, "estimator.outlier_ray.growth",
-       problem, right},
   });
 }
 

@@ -122,7 +122,7 @@ std::string text_of(const VehicleConfiguration& vehicle) {
 }
 
 std::string text_of(const Configuration& configuration) {
-  const auto& [radars, odometry, vehicle, output, live, logging, warnings] = configuration;
+  const auto& [radars, odometry, vehicle, output, live, logging] = configuration;
   std::string text = text_of(odometry) + text_of(vehicle);
   for (const RadarConfiguration& radar : radars) {
     text += text_of(radar) + "\n";
@@ -134,7 +134,7 @@ std::string text_of(const Configuration& configuration) {
   text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
           std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
   return text + lcm_url + "|" + csv + "|" + odometry_csv + "|" + tum + "|" + tum_source + "|" +
-         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level + "|" + warnings;
+         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level;
 }
 
 std::vector<std::string> manual_lines() {

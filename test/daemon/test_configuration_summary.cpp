@@ -55,21 +55,6 @@ TEST_CASE(
         "if 5 degrees are");
 }
 
-TEST_CASE("a key that has a new name is understood, with a warning that says what to write") {
-  const auto* table = GENERATE("estimator", "radar.estimator");
-  const Configuration configuration = parse_configuration(
-      kArs408 + "[" + table + "]\ncovariance = \"gauss_newton\"\n", "test.toml");
-  CHECK(configuration.radars.at(0).ego_motion.registration.likelihood ==
-        Likelihood::max_sum_mixture);
-  const auto doubts = configuration_doubts(configuration);
-  REQUIRE(doubts.size() == 1);
-  CHECK(doubts[0] == std::string("test.toml:7: ") + table +
-                         ".covariance: is deprecated; write likelihood = \"max_sum_mixture\"");
-  const Configuration other =
-      parse_configuration(kArs408 + "[estimator]\nlikelihood = \"exclusive\"\n", "test.toml");
-  CHECK(other.warnings.empty());
-}
-
 TEST_CASE("a yaw of up to half a turn is not doubted, however it is rounded") {
   const auto* yaw = GENERATE("0.0", "-1.5708", "3.1416", "-3.14159265358979");
   CHECK(configuration_doubts(parse_configuration(with_yaw(yaw), "test.toml")).empty());

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "test/daemon/memory_lcm.hpp"
 
@@ -120,8 +122,8 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
   const auto received = receive(publisher, [&] { publisher.on_status(1, status); });
   REQUIRE(received.size() == 1);
   const auto m = decode<status_t>(received[0]);
-  CHECK(m.innovation_doppler == 1.5F);
-  CHECK(m.innovation_next == 2.5F);
+  CHECK(m.figures[status_t::FIGURE_NIS_DOPPLER] == 1.5F);
+  CHECK(m.figures[status_t::FIGURE_NIS_NEXT] == 2.5F);
   CHECK(m.doubts == 1 + 8);
   CHECK(m.speed_checked == 1);
 }
@@ -155,19 +157,19 @@ TEST_CASE("status_t says what the odometry filter knows of the radar") {
   CHECK(m.odometry_fault == status_t::CAUSE_EXCHANGED);
   CHECK(m.odometry_fault_value == 0.125F);
   CHECK(m.odometry_fault_radar == 1);
-  CHECK(m.odometry_innovation_doppler == 1.5F);
-  CHECK(m.odometry_innovation_lateral == 2.5F);
-  CHECK(m.odometry_innovation_yaw == 3.5F);
-  CHECK(m.odometry_doppler_noise_factor == 4.5F);
-  CHECK(m.odometry_position_noise_factor == 5.5F);
-  CHECK(m.odometry_mount_yaw_error_rad == 0.25F);
-  CHECK(m.odometry_mount_yaw_error_std_rad == 0.125F);
-  CHECK(m.odometry_doppler_scale_error == -0.5F);
-  CHECK(m.odometry_doppler_scale_error_std == 0.0625F);
-  CHECK(m.scans_in_odometry == 77);
-  CHECK(m.odometry_targets_at_rest == 7);
-  CHECK(m.odometry_targets_found == 5);
-  CHECK(m.odometry_targets_moving == 3);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_NIS_DOPPLER] == 1.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_NIS_LATERAL] == 2.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_NIS_YAW] == 3.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_DOPPLER_NOISE_FACTOR] == 4.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_POSITION_NOISE_FACTOR] == 5.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_RAD] == 0.25F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_STD_RAD] == 0.125F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR] == -0.5F);
+  CHECK(m.figures[status_t::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR_STD] == 0.0625F);
+  CHECK(m.counters[status_t::COUNTER_SCANS_IN_ODOMETRY] == 77);
+  CHECK(m.counters[status_t::COUNTER_ODOMETRY_TARGETS_AT_REST] == 7);
+  CHECK(m.counters[status_t::COUNTER_ODOMETRY_TARGETS_FOUND] == 5);
+  CHECK(m.counters[status_t::COUNTER_ODOMETRY_TARGETS_MOVING] == 3);
 }
 
 TEST_CASE("odometry_t carries every field, in one datagram") {
@@ -258,7 +260,7 @@ TEST_CASE("The statuses of the message are those of the estimator") {
   CHECK(odometry_t::STATUS_LOST == static_cast<int>(OdometryStatus::lost));
   CHECK(radar_scan_t::SCAN_DROPPED_FRAMES == static_cast<int>(ScanStatus::dropped_frames));
   CHECK(radar_scan_t::DETECTION_NO_POSITION == static_cast<int>(Validity::no_position));
-  CHECK(sizeof(status_t{}.motions_by_status) / sizeof(std::int64_t) == kMotionStatusCount);
+  CHECK(std::size(status_t{}.motions_by_status) >= kMotionStatusCount);
 }
 
 TEST_CASE("A full scan and then an empty one go out on the radar's own channel") {
@@ -348,51 +350,26 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
   CHECK(m.radar_has_reported == 1);
   CHECK(m.radar_output == status_t::OUTPUT_CLUSTERS);
   CHECK(m.radar_sends_quality == 1);
-  CHECK(m.radar_max_distance_m == 196.0F);
+  CHECK(m.figures[status_t::FIGURE_RADAR_MAX_DISTANCE_M] == 196.0F);
   CHECK(m.radar_faults == 1024 + 2048);
-  // Every counter was given another number: each of 1..59 must appear once.
-  std::vector<std::int64_t> values{m.frames_read,
-                                   m.frames_of_other_interfaces,
-                                   m.frames_lost_before_us,
-                                   m.malformed_lines,
-                                   m.frames_of_this_radar,
-                                   m.frames_state,
-                                   m.frames_wrong_length,
-                                   m.frames_wrong_kind,
-                                   m.frames_wrong_mode,
-                                   m.frames_wrong_slot,
-                                   m.crc_errors,
-                                   m.counter_errors,
-                                   m.scans,
-                                   m.scans_incomplete,
-                                   m.scans_empty,
-                                   m.scans_timed_out,
-                                   m.parts_missing,
-                                   m.parts_duplicate,
-                                   m.parts_conflicting,
-                                   m.parts_reordered,
-                                   m.parts_excess,
-                                   m.parts_orphan,
-                                   m.scans_repeated,
-                                   m.scans_missed,
-                                   m.stamps_backwards,
-                                   m.detections_used,
-                                   m.detections_no_noise,
-                                   m.detections_invalid_state,
-                                   m.detections_moving,
-                                   m.detections_low_existence,
-                                   m.detections_no_position,
-                                   m.detections_outside_limits};
-  values.insert(values.end(), m.motions_by_status, m.motions_by_status + kMotionStatusCount);
-  values.insert(values.end(),
-                {m.bus_frames, m.bus_frames_lost, m.bus_frames_stale, m.bus_frames_discarded,
-                 m.bus_error_frames, m.bus_offs, m.bus_restarts, m.bus_interruptions, m.clock_steps,
-                 m.bus_frames_sent, m.bus_send_failures, m.latency_p50_us, m.latency_p99_us,
-                 m.latency_max_us, m.scans_without_header, m.motions_of_incomplete_scans});
+  // Each counter and status was given another number: every one of 1 to 59 must appear once.
+  std::vector<std::int64_t> values{m.latency_p50_us, m.latency_p99_us, m.latency_max_us};
+  for (const auto* list : {&m.counters[0], &m.motions_by_status[0]}) {
+    const std::size_t size = list == &m.counters[0] ? std::size(m.counters) : kMotionStatusCount;
+    std::copy_if(list, list + size, std::back_inserter(values),
+                 [](auto value) { return value != 0; });
+  }
+  std::sort(values.begin(), values.end());
   REQUIRE(values.size() == 59);
   for (std::size_t i = 0; i < values.size(); ++i) {
     CHECK(values[i] == static_cast<std::int64_t>(i + 1));
   }
+  CHECK(m.counters[status_t::COUNTER_FRAMES_READ] == 1);
+  CHECK(m.counters[status_t::COUNTER_CRC_ERRORS] == 11);
+  CHECK(m.counters[status_t::COUNTER_SCANS_WITHOUT_HEADER] == 58);
+  CHECK(m.counters[status_t::COUNTER_DETECTIONS_OUTSIDE_LIMITS] == 32);
+  CHECK(m.counters[status_t::COUNTER_BUS_SEND_FAILURES] == 54);
+  CHECK(m.motions_by_status[0] == 33);
 }
 
 TEST_CASE("A URL that cannot work is refused with what would be right, time and again") {

@@ -13,7 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/data_tests/shared_data.hpp"
-#include "tools/eval/table/drive_table.hpp"
+#include "tools/laboratory/table/drive_table.hpp"
 
 using namespace cremed;
 

@@ -15,7 +15,7 @@
 
 #include "test/data_tests/shared_data.hpp"
 #include "tools/eval/csv_table.hpp"
-#include "tools/eval/table/drive_pairs.hpp"
+#include "tools/laboratory/table/drive_pairs.hpp"
 #include "tools/eval/temporary_folder.hpp"
 
 using namespace cremed;

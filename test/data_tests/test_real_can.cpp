@@ -14,6 +14,7 @@
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
 #include "daemon/source/candump.hpp"
+#include "test/can_decoders/ars408_unread.hpp"
 
 namespace cremed::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "test/data_tests/shared_data.hpp"
 #include "test/estimator/simulation.hpp"
 #include "tools/eval/csv_table.hpp"
-#include "tools/eval/pairs/pairs_evaluation.hpp"
-#include "tools/eval/pairs/profile.hpp"
+#include "tools/laboratory/pairs/pairs_evaluation.hpp"
+#include "tools/laboratory/pairs/profile.hpp"
 
 using namespace cremed;
 

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 
 namespace cremed {
 namespace {
@@ -49,6 +49,7 @@ class Comparison {
     faults_.clear();
   }
   [[nodiscard]] const FaultHypotheses& faults() const { return faults_; }
+  [[nodiscard]] FaultHypotheses& faults() { return faults_; }
 
  private:
   void scan(std::size_t radar, const Fault& fault, bool has_positions) {
@@ -141,6 +142,61 @@ TEST_CASE("two radars with each other's mounts are at fault, confirmed by those 
                                  std::cos(turn_rad) * measured.velocity_mps.y()};
   });
   CHECK(comparison.faults().at_fault() == 0b110U);
+}
+
+/// One ahead and one behind have each other's mount: to both the vehicle drives backwards. So it
+/// does to all of `guilty`.
+Comparison::Fault backwards(std::uint32_t guilty) {
+  return [=](std::size_t radar, Comparison::Measured& measured) {
+    const double sign = (guilty >> radar & 1U) != 0 ? -1.0 : 1.0;
+    measured.velocity_mps.x() *= sign;
+    measured.speed_by_positions_mps *= sign;
+  };
+}
+
+TEST_CASE("two radars against one are at fault if those that look aside say so") {
+  Comparison comparison(kFive);
+  comparison.drive(10.0, backwards(0b011U));
+  CHECK(comparison.faults().at_fault() == 0b011U);
+  CHECK_FALSE(comparison.faults().is_unknown());
+  CHECK_FALSE(comparison.faults().take_reversal());
+  // With one against one they stay two against one.
+  Comparison divided(kFive);
+  divided.drive(10.0, backwards(0b01011U));
+  CHECK(divided.faults().at_fault() != 0b011U);
+}
+
+TEST_CASE(
+    "a radar is acquitted if those that convicted it are found wrong, and that is said once") {
+  Comparison comparison(kFive);
+  comparison.drive(3.0, backwards(0b11011U));
+  REQUIRE(comparison.faults().at_fault() == 0b100U);
+  CHECK_FALSE(comparison.faults().take_reversal());
+  comparison.drive(2.0, backwards(0b00011U));
+  CHECK(comparison.faults().at_fault() == 0b011U);
+  CHECK(comparison.faults().take_reversal());
+  CHECK_FALSE(comparison.faults().take_reversal());
+}
+
+TEST_CASE("a radar that found itself wrong is not acquitted by the others") {
+  Comparison comparison(kFive);
+  comparison.drive(3.0, backwards(0b11011U));
+  comparison.accuse(2);
+  comparison.drive(2.0, backwards(0b00011U));
+  CHECK((comparison.faults().at_fault() & 0b100U) != 0);
+  CHECK_FALSE(comparison.faults().take_reversal());
+}
+
+TEST_CASE("with a radar found at fault the motion by the others is told, once") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0);
+  CHECK_FALSE(comparison.faults().take_correction());
+  comparison.drive(2.0, scaled(0, 0.8));
+  const auto believed = comparison.faults().take_correction();
+  REQUIRE(believed);
+  CHECK(believed->x() == Approx(8.8).margin(0.3));  // 8 m/s and a sine of 1 m/s.
+  CHECK(std::abs(believed->y()) < 0.25);
+  CHECK_FALSE(comparison.faults().take_correction());
 }
 
 TEST_CASE("of two radars only positions tell which is at fault; without them it is not known") {

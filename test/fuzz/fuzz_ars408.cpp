@@ -41,10 +41,6 @@ void check_targets(Ars408Bytes bytes) {
   if (const auto q = decode_ars408_object_quality(bytes)) {
     check(ars408_rms(q->ax_rms_code).has_value() == (q->ax_rms_code < 31));
   }
-  if (const auto e = decode_ars408_object_extended(bytes)) {
-    check_finite({e->ax_mps2, e->ay_mps2, e->orientation_rad, e->length_m, e->width_m});
-  }
-  check(decode_ars408_object_warning(bytes).has_value() == (bytes.size() >= 2));
   check(decode_ars408_cluster_status(bytes).has_value() == (bytes.size() >= 5));
   check(decode_ars408_object_status(bytes).has_value() == (bytes.size() >= 4));
 }
@@ -56,14 +52,7 @@ void check_reports(Ars408Bytes bytes) {
   if (const auto f = decode_ars408_filter_state(bytes)) {
     check_finite({f->min, f->max});
   }
-  if (const auto c = decode_ars408_collision_state(bytes)) {
-    check_finite({c->min_detection_time_s});
-  }
-  if (const auto r = decode_ars408_region_state(bytes)) {
-    check_finite({r->x1_m, r->y1_m, r->x2_m, r->y2_m});
-  }
   check(decode_ars408_version(bytes).has_value() == (bytes.size() >= 3));
-  check(decode_ars408_filter_header(bytes).has_value() == (bytes.size() >= 2));
 }
 
 }  // namespace

@@ -71,13 +71,13 @@ SIMULATE_OUT = Program("simulate to standard output",
                        "cremed-simulate --scenario bends --duration 4 --output -", prints=True)
 LCM_TO_CSV = Program("lcm-to-csv", "cremed-lcm-to-csv {in} --output {out} --odometry {out2}", "lcm",
                      again_lines=0)
-PAIRS_OF = Program("eval pairs", "cremed-eval pairs {in} --profile sim --output {out}", "pairs",
+PAIRS_OF = Program("eval pairs", "cremed-laboratory pairs {in} --profile sim --output {out}", "pairs",
                    prints=True, is_timed=True, at_once=True, again_lines=7)
 DRIVE = Program("eval drive", "cremed-eval drive {in} {truth} --truth-tum {out}", "odometry",
                 prints=True, at_once=True)
 CALIBRATE = Program("eval calibrate", "cremed-eval calibrate {in} --config {config}", "log",
                     prints=True)
-TABLE = Program("eval table", "cremed-eval table --runs 1 --sets 1 --threads 1", prints=True,
+TABLE = Program("eval table", "cremed-laboratory table --runs 1 --sets 1 --threads 1", prints=True,
                 is_timed=True)
 
 BENCH = Program("bench", "cremed-bench --benchmark_min_time=0.001 --benchmark_filter=components/16",

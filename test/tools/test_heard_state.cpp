@@ -156,7 +156,7 @@ TEST_CASE("Radars keep their last motion, status and scan") {
   status_t status{};
   status.source = "rear";
   status.doubts = 3;
-  status.odometry_mount_yaw_error_rad = 0.01F;
+  status.figures[status_t::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_RAD] = 0.01F;
   status.latency_p99_us = 812;
   state.take(status);
   state.take(scan_of_two("front"));

@@ -20,7 +20,6 @@ TEST_CASE("No program hands a name's commands on to the terminal") {
       Row{"cremed", "--config EVIL"}, Row{"cremed", "--check-config EVIL"},
       Row{"cremed", config + "--replay EVIL"}, Row{"cremed", "--EVIL"},
       Row{"cremed-doctor", config + "--replay EVIL"}, Row{"cremed-eval", "drive EVIL EVIL"},
-      Row{"cremed-eval", "pairs EVIL --profile sim"},
       Row{"cremed-eval", "calibrate EVIL " + config}, Row{"cremed-lcm-to-csv", "EVIL"},
       Row{"cremed-simulate", "--scenario EVIL --output -"},
       Row{"cremed-simulate", "--scenario bends --output /nowhere/EVIL"});

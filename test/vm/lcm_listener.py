@@ -6,6 +6,7 @@ import pathlib
 import sys
 import threading
 import time
+import types
 from dataclasses import dataclass
 
 
@@ -61,7 +62,10 @@ class LcmListener(threading.Thread):
         return [heard for heard in self.motions(source) if heard.message.utime > since_us]
 
     def statuses(self, source, since_s=0.0):
-        return [heard.message for heard in list(self.heard["CREMED_STATUS"])
+        """Their fields, as attributes."""
+        fields_of = cremed_module().fields_of
+        return [types.SimpleNamespace(**fields_of(heard.message))
+                for heard in list(self.heard["CREMED_STATUS"])
                 if heard.message.source == source and heard.monotonic_s > since_s]
 
     def status(self, source):

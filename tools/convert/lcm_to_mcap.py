@@ -13,21 +13,13 @@ TOPICS = {cremed.odometry_t: "CREMED_ODOMETRY", cremed.ego_motion_t: "CREMED_EGO
           cremed.status_t: "CREMED_STATUS", cremed.radar_scan_t: "CREMED_SCAN"}
 LATEST_US = (1 << 63) // 1000  # MCAP counts nanoseconds.
 JSON_TYPES = {bool: "boolean", int: "integer", float: "number", str: "string"}
-
-
-def names_of(kind):
-    """{0: "ok", ...}, of the constants STATUS_OK = 0, ..."""
-    return {getattr(kind, name): name.removeprefix("STATUS_").lower()
-            for name in dir(kind) if name.startswith("STATUS_")}
-
-
-STATUS_NAMES = {kind: names_of(kind) for kind in TOPICS}
+STATUS_NAMES = {kind: cremed.names_of(kind, "STATUS_") for kind in TOPICS}
 
 
 def schema_of(kind):
     """A number that is NaN, "none", is left out of a message: JSON has no NaN."""
     properties = {}
-    for name, value in ((name, getattr(kind(), name)) for name in kind.__slots__):
+    for name, value in cremed.fields_of(kind()).items():
         if isinstance(value, list):
             item = JSON_TYPES[type(value[0])] if value else "number"
             properties[name] = {"type": "array", "items": {"type": item}}
@@ -44,7 +36,7 @@ def is_number(value):
 
 
 def as_json(message):
-    values = {name: getattr(message, name) for name in message.__slots__}
+    values = cremed.fields_of(message)
     if STATUS_NAMES[type(message)]:
         values["status_name"] = STATUS_NAMES[type(message)].get(message.status, "unknown")
     return {name: list(value) if isinstance(value, tuple) else value

@@ -14,7 +14,7 @@ def is_list_of_targets(value):
 
 def columns_of(kind):
     """[(column, field, place in it)]: an array is a column a number. Those of targets come last."""
-    fields = [(name, getattr(kind(), name)) for name in kind.__slots__]
+    fields = cremed.fields_of(kind()).items()
     scalars = [(name, name, None) for name, value in fields if not isinstance(value, list)]
     arrays = [(f"{name}_{i}", name, i) for name, value in fields if isinstance(value, list)
               for i in range(len(value))]
@@ -31,13 +31,12 @@ class Table:
 
     def add(self, message):
         seconds = f"{message.utime // 1_000_000}.{message.utime % 1_000_000:06d}"
-        names = STATUS_NAMES[self.kind]
+        names, fields = STATUS_NAMES[self.kind], cremed.fields_of(message)
         cells = [seconds, *([names.get(message.status, "unknown")] if names else []),
-                 *(getattr(message, field) if place is None else getattr(message, field)[place]
-                   for _, field, place in self.columns)]
+                 *(fields[field] if place is None else fields[field][place] for _, field, place in self.columns)]
         if not self.targets:
             self.rows.writerow(cells)
-        for target in zip(*(getattr(message, name) for name in self.targets)):
+        for target in zip(*(fields[name] for name in self.targets)):
             self.rows.writerow([*cells, *target])
 
 

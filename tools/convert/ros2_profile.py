@@ -54,9 +54,7 @@ USABLE = (cremed.odometry_t.STATUS_OK, cremed.odometry_t.STATUS_STANDING_STILL,
 
 
 def names_of(kind, prefix):
-    """{number: "lower case"}, of the constants PREFIX_*"""
-    return {getattr(kind, name): name.removeprefix(prefix).lower().replace("_", " ")
-            for name in dir(kind) if name.startswith(prefix)}
+    return {number: name.replace("_", " ") for number, name in cremed.names_of(kind, prefix).items()}
 
 
 STATUS_NAMES = names_of(cremed.odometry_t, "STATUS_")
@@ -127,7 +125,7 @@ def radar_status(message):
         wrong.append(f"left out, cause {CAUSE_NAMES.get(message.odometry_fault, 'unknown')}")
     level = WARN if wrong or MOTION_NAMES.get(message.last_motion_status) not in ("ok", "standing still") else OK
     text = "; ".join(wrong) or MOTION_NAMES.get(message.last_motion_status, "unknown")
-    values = [{"key": name, "value": str(getattr(message, name))} for name in message.__slots__ if name != "source"]
+    values = [{"key": name, "value": str(value)} for name, value in cremed.fields_of(message).items() if name != "source"]
     return {"level": level, "name": f"cremed: {message.source}", "message": text, "hardware_id": message.source,
             "values": values}
 

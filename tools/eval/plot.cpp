@@ -21,7 +21,7 @@
 namespace cremed {
 namespace {
 
-/// Beside an installed cremed-eval, or in its source tree.
+/// Of the laboratory, installed beside cremed-eval or in its source tree.
 std::filesystem::path script_path(const std::string& script) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
   auto installed = program.parent_path().parent_path() / "share/cremed" / script;
@@ -55,7 +55,8 @@ void run_script(std::vector<std::string> command, const std::string& picture) {
   arguments.push_back(nullptr);
   pid_t child = 0;
   if (const int error = start_script(arguments, child); error != 0) {
-    throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(error));
+    throw std::runtime_error("cannot run " + command[0] +
+                             ", of cremed-laboratory: " + std::strerror(error));
   }
   int status = 0;
   if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {

@@ -6,21 +6,17 @@ import collections
 import math
 
 import cremed
-from heard_drive import names_of
 from thinning import extremes, rounded, runs
 
 DEG_PER_RAD = 180 / math.pi
-MOTION_STATUSES = names_of(cremed.ego_motion_t, "STATUS_")
-ODOMETRY_STATUSES = names_of(cremed.odometry_t, "STATUS_")
-DOUBTS = names_of(cremed.status_t, "DOUBT_")
-FAULTS = names_of(cremed.status_t, "FAULT_")
-CAUSES = names_of(cremed.status_t, "CAUSE_")
+MOTION_STATUSES = cremed.names_of(cremed.ego_motion_t, "STATUS_")
+ODOMETRY_STATUSES = cremed.names_of(cremed.odometry_t, "STATUS_")
+DOUBTS = cremed.names_of(cremed.status_t, "DOUBT_")
+FAULTS = cremed.names_of(cremed.status_t, "FAULT_")
+CAUSES = cremed.names_of(cremed.status_t, "CAUSE_")
 # Of status_t, by time. 0: nothing to compare yet.
-INNOVATIONS = ("innovation_doppler", "innovation_next", "odometry_innovation_doppler",
-               "odometry_innovation_lateral", "odometry_innovation_yaw")
-COUNTERS = tuple(name for name in cremed.status_t.__slots__ if name != "bus_state" and name.startswith((
-    "frames_", "malformed_", "bus_", "clock_", "crc_", "counter_", "scans", "parts_", "stamps_",
-    "detections_", "motions_of_", "messages_", "odometry_targets_")))
+NIS = ("nis_doppler", "nis_next", "odometry_nis_doppler", "odometry_nis_lateral", "odometry_nis_yaw")
+COUNTERS = tuple(cremed.names_of(cremed.status_t, "COUNTER_").values())
 
 
 def whole(value):
@@ -94,7 +90,7 @@ class DriveReport:
                     rounded([last.odometry_mount_yaw_error_std_rad * DEG_PER_RAD])[0],
                 "doppler_scale_error": rounded([last.odometry_doppler_scale_error])[0],
                 "doppler_scale_error_sigma": rounded([last.odometry_doppler_scale_error_std])[0],
-                **{name: rounded([getattr(last, name)])[0] for name in INNOVATIONS}}
+                **{name: rounded([getattr(last, name)])[0] for name in NIS}}
 
     def path(self):
         columns = self.drive.odometry
@@ -127,7 +123,7 @@ class DriveReport:
         return [(time, " + ".join(names_in(bits, DOUBTS))) for time, bits in changes]
 
     def radar_series(self, messages):
-        columns = {name: [getattr(m, name) or math.nan for m in messages] for name in INNOVATIONS}
+        columns = {name: [getattr(m, name) or math.nan for m in messages] for name in NIS}
         for name, field, factor in (("mount_yaw_deg", "odometry_mount_yaw_error", DEG_PER_RAD),
                                     ("doppler_scale_percent", "odometry_doppler_scale_error", 100)):
             unit = "_rad" if factor == DEG_PER_RAD else ""

@@ -3,6 +3,7 @@
 """What an LCM log of cremed tells of a drive, as columns: an hour of it is a million messages."""
 import os
 import struct
+import types
 from array import array
 
 import cremed
@@ -12,12 +13,6 @@ from thinning import evenly
 TARGETS = 120_000
 ODOMETRY_COLUMNS = ("utime", "status", "x", "y", "yaw", "cov_xx", "cov_xy", "cov_yy", "vx", "sigma_vx",
                     "vy", "yaw_rate", "sigma_yaw_rate")
-
-
-def names_of(kind, prefix):
-    """{0: "ok", ...}, of the constants STATUS_OK = 0, ..."""
-    return {getattr(kind, name): name.removeprefix(prefix).lower()
-            for name in dir(kind) if name.startswith(prefix)}
 
 
 def odometry_row(m):
@@ -35,7 +30,7 @@ class HeardDrive:
         self.path, self.told, self.size = path, told, max(os.path.getsize(path), 1)
         self.odometry = {name: array("d") for name in ODOMETRY_COLUMNS}
         self.motions = {}   # Source: (times, statuses).
-        self.statuses = {}  # Radar: its messages, one a second.
+        self.statuses = {}  # Radar: the fields of its messages, one a second.
         self.scan_times, self.targets = {}, 0
         self.damage = None
         self._read()
@@ -82,7 +77,8 @@ class HeardDrive:
         statuses.append(message.status)
 
     def _take_status(self, message):
-        self.statuses.setdefault(message.source, []).append(message)
+        fields = types.SimpleNamespace(**cremed.fields_of(message))
+        self.statuses.setdefault(message.source, []).append(fields)
 
     def _span(self):
         columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]

@@ -197,12 +197,12 @@ function addLearned(ylabel, name) {
 function showRadars() {
   const log = {logscale: true, valueRange: [0.03, 30]};
   if (figures.odometry) {
-    addForRadars("innovations", "state: Doppler", "odometry_innovation_doppler", log);
-    addForRadars("innovations", "state: sideways", "odometry_innovation_lateral", log);
-    addForRadars("innovations", "state: yaw", "odometry_innovation_yaw", log);
+    addForRadars("innovations", "state: Doppler", "odometry_nis_doppler", log);
+    addForRadars("innovations", "state: sideways", "odometry_nis_lateral", log);
+    addForRadars("innovations", "state: yaw", "odometry_nis_yaw", log);
   }
-  addForRadars("innovations", "positions/Doppler", "innovation_doppler", {...log, marks: [3]});
-  addForRadars("innovations", "motion/the next", "innovation_next",
+  addForRadars("innovations", "positions/Doppler", "nis_doppler", {...log, marks: [3]});
+  addForRadars("innovations", "motion/the next", "nis_next",
                {...log, marks: [3], xlabel: "time [s]"});
   if (figures.odometry) {
     addLearned("mount yaw error [°]", "mount_yaw_deg");

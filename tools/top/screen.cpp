@@ -192,7 +192,7 @@ ScreenLine radar_line(const Json& radar) {
   text += right(fixed(radar["scan_rate_hz"], 1), 8);
   text += right(has_status ? percent(status["scans_incomplete"], status["scans"]) : "-", 8);
   text += right(std::to_string(radar["targets"].get<int>()), 9);
-  text += right(fixed(told("odometry_innovation_doppler"), 2), 7);
+  text += right(fixed(told("odometry_nis_doppler"), 2), 7);
   text +=
       right(has_status ? learned(status["mount_yaw_deg"], status["mount_yaw_sigma_deg"]) : "-", 15);
   text += right(has_status ? milliseconds(status["latency_p99_us"]) : "-", 8);

@@ -58,24 +58,27 @@ Json path_json(const std::vector<PathPoint>& points) {
   return {{"x", std::move(x)}, {"y", std::move(y)}};
 }
 
-double scaled(double factor, float value) { return factor * static_cast<double>(value); }
-
 Json status_json(const status_t& m) {
+  const auto figure = [&](std::int32_t place, double factor = 1.0) {
+    return factor * static_cast<double>(m.figures[place]);
+  };
   return {{"doubts", m.doubts},
-          {"innovation_doppler", m.innovation_doppler},
-          {"innovation_next", m.innovation_next},
-          {"odometry_innovation_doppler", m.odometry_innovation_doppler},
-          {"odometry_innovation_lateral", m.odometry_innovation_lateral},
-          {"odometry_innovation_yaw", m.odometry_innovation_yaw},
-          {"mount_yaw_deg", scaled(kDegPerRad, m.odometry_mount_yaw_error_rad)},
-          {"mount_yaw_sigma_deg", scaled(kDegPerRad, m.odometry_mount_yaw_error_std_rad)},
-          {"doppler_scale_percent", scaled(100.0, m.odometry_doppler_scale_error)},
-          {"doppler_scale_sigma_percent", scaled(100.0, m.odometry_doppler_scale_error_std)},
+          {"nis_doppler", figure(status_t::FIGURE_NIS_DOPPLER)},
+          {"nis_next", figure(status_t::FIGURE_NIS_NEXT)},
+          {"odometry_nis_doppler", figure(status_t::FIGURE_ODOMETRY_NIS_DOPPLER)},
+          {"odometry_nis_lateral", figure(status_t::FIGURE_ODOMETRY_NIS_LATERAL)},
+          {"odometry_nis_yaw", figure(status_t::FIGURE_ODOMETRY_NIS_YAW)},
+          {"mount_yaw_deg", figure(status_t::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_RAD, kDegPerRad)},
+          {"mount_yaw_sigma_deg",
+           figure(status_t::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_STD_RAD, kDegPerRad)},
+          {"doppler_scale_percent", figure(status_t::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR, 100.0)},
+          {"doppler_scale_sigma_percent",
+           figure(status_t::FIGURE_ODOMETRY_DOPPLER_SCALE_ERROR_STD, 100.0)},
           {"latency_p50_us", m.latency_p50_us},
           {"latency_p99_us", m.latency_p99_us},
           {"latency_max_us", m.latency_max_us},
-          {"scans", m.scans},
-          {"scans_incomplete", m.scans_incomplete},
+          {"scans", m.counters[status_t::COUNTER_SCANS]},
+          {"scans_incomplete", m.counters[status_t::COUNTER_SCANS_INCOMPLETE]},
           {"left_out", m.odometry_leaves_out != 0},
           {"fault", m.odometry_fault}};
 }

@@ -11,6 +11,7 @@
 
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 
@@ -29,6 +30,8 @@ class OdometryOutput {
   void start();
   /// Sets the anchor and the last output to the time of the state, as a start does.
   void restart_anchor();
+  /// Makes the present pose the anchor.
+  void renew_anchor();
   /// Called before a start of the state. The pose since the start keeps its last published value;
   /// its covariance grows by the unknown motion in `gap_s`.
   void bridge(double gap_s);
@@ -37,6 +40,9 @@ class OdometryOutput {
 
   /// Propagates the state and renews the anchor on the way if it is due.
   void advance_to(std::int64_t stamp_us);
+  [[nodiscard]] double anchor_age_s() const {
+    return seconds_between(anchor_.utime_us, state_.time_us());
+  }
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 
   /// The output at the time of the state.
@@ -58,7 +64,6 @@ class OdometryOutput {
                                          std::int64_t utime_us);
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
-  void renew_anchor();
 
   OdometryState& state_;
   Anchor anchor_;

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <ceres/ceres.h>
 
 #include "tools/eval/calibrate/calibration_residuals.hpp"
+#include "tools/eval/calibrate/least_squares.hpp"
 
 namespace cremed {
 namespace {
@@ -42,16 +42,16 @@ constexpr std::int64_t kNoBlock = -1;
 
 }  // namespace
 
-/// The terms of one solve(). Ceres owns them.
+/// The terms of one solve().
 struct CalibrationProblem {
   CalibrationFit& fit;
-  ceres::Problem problem;
+  LeastSquares squares;
   std::vector<Group> groups;
 
-  explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_measurements(); }
+  explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_all(); }
 
-  void minimise();
-  void add_measurements();
+  void add_unknowns();
+  void add_all();
   void add_velocity(const VelocityMeasurement& measurement);
   void add_yaw_rate(const YawRateMeasurement& measurement);
   void add_changes();
@@ -60,18 +60,34 @@ struct CalibrationProblem {
   template <std::size_t N>
   void add_prior(const std::array<double, N>& prior, const std::array<double, N>& std,
                  std::array<double, N>& value) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<PriorResidual<N>, N, N>(new PriorResidual<N>{prior, std}),
-        nullptr, value.data());
+    squares.add<static_cast<int>(N)>(PriorResidual<N>{prior, std}, Loss{}, value);
     groups.push_back({static_cast<int>(N), kNoBlock});
   }
-  [[nodiscard]] std::vector<double*> parameters();
   void set_std();
 
   void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kGroupUs}); }
 };
 
-void CalibrationProblem::add_measurements() {
+/// Nodes first, radars and the vehicle last.
+void CalibrationProblem::add_unknowns() {
+  for (const VelocityMeasurement& measurement : fit.velocities_) {
+    fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, 0.0));
+  }
+  for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
+    const double lead_s = fit.radars_[measurement.radar].value[kPositionLead];
+    fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, lead_s));
+  }
+  for (auto& [number, node] : fit.nodes_) {
+    squares.add_unknowns(node);
+  }
+  for (FittedRadar& radar : fit.radars_) {
+    squares.add_unknowns(radar.value);
+  }
+  squares.add_unknowns(fit.vehicle_.value);
+}
+
+void CalibrationProblem::add_all() {
+  add_unknowns();
   for (const VelocityMeasurement& measurement : fit.velocities_) {
     add_velocity(measurement);
   }
@@ -82,27 +98,23 @@ void CalibrationProblem::add_measurements() {
   if (fit.truth_ != nullptr) {
     add_truth();
   }
+  add_priors();
 }
 
 void CalibrationProblem::add_velocity(const VelocityMeasurement& measurement) {
   const auto at = fit.place(measurement.radar, measurement.stamp_us, 0.0);
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<VelocityResidual, kDopplerStates, 3, 3,
-                                                           kRollingStates, kCalibrationStates>(
-                               new VelocityResidual{measurement.equations, at}),
-                           new ceres::HuberLoss(kHuber), fit.nodes_[at.node].data(),
-                           fit.nodes_[at.node + 1].data(), fit.vehicle_.value.data(),
-                           fit.radars_[measurement.radar].value.data());
+  squares.add<kDopplerStates>(VelocityResidual{measurement.equations, at},
+                              Loss{Loss::Kind::huber, kHuber}, fit.nodes_.at(at.node),
+                              fit.nodes_.at(at.node + 1), fit.vehicle_.value,
+                              fit.radars_[measurement.radar].value);
   note(kDopplerStates, measurement.stamp_us);
 }
 
 void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
   FittedRadar& radar = fit.radars_[measurement.radar];
   const auto at = fit.place(measurement.radar, measurement.stamp_us, radar.value[kPositionLead]);
-  problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<YawRateResidual, 1, 3, 3, kCalibrationStates>(
-          new YawRateResidual{measurement, at}),
-      new ceres::HuberLoss(1.0), fit.nodes_[at.node].data(), fit.nodes_[at.node + 1].data(),
-      radar.value.data());
+  squares.add<1>(YawRateResidual{measurement, at}, Loss{Loss::Kind::huber, 1.0},
+                 fit.nodes_.at(at.node), fit.nodes_.at(at.node + 1), radar.value);
   note(1, measurement.stamp_us);
 }
 
@@ -112,11 +124,10 @@ void CalibrationProblem::add_changes() {
   for (auto& [number, node] : fit.nodes_) {
     add_prior<3>({}, std, node);
     if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<ChangeResidual, 2, 3, 3>(
-              new ChangeResidual{kChangeFactor * fit.prior_.acceleration_std_mps2 * kNodeS,
-                                 kChangeFactor * fit.prior_.yaw_acceleration_std_radps2 * kNodeS}),
-          nullptr, node.data(), next->second.data());
+      squares.add<2>(
+          ChangeResidual{kChangeFactor * fit.prior_.acceleration_std_mps2 * kNodeS,
+                         kChangeFactor * fit.prior_.yaw_acceleration_std_radps2 * kNodeS},
+          Loss{}, node, next->second);
       groups.push_back({2, kNoBlock});
     }
   }
@@ -132,9 +143,7 @@ void CalibrationProblem::add_truth() {
           Eigen::Rotation2Dd(-0.5 * motion->z()) * Eigen::Vector2d(motion->head<2>());
       const MotionNode mean = {way.x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
                                way.y() / (2 * kNodeS)};
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TruthResidual, 3, 3, kRollingStates>(
-                                   new TruthResidual{mean, std}),
-                               nullptr, node.data(), fit.vehicle_.value.data());
+      squares.add<3>(TruthResidual{mean, std}, Loss{}, node, fit.vehicle_.value);
       note(3, stamp_us);
     }
   }
@@ -147,25 +156,10 @@ void CalibrationProblem::add_priors() {
   }
   for (std::size_t i = 0; i < fit.yaw_std_rad_.size(); ++i) {
     FittedRadar& radar = fit.radars_[i];
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<YawResidual, 1, kCalibrationStates>(
-            new YawResidual{radar.prior[kYaw], std::max(fit.yaw_std_rad_[i], kHeldStd)}),
-        new ceres::CauchyLoss(1.0), radar.value.data());
+    squares.add<1>(YawResidual{radar.prior[kYaw], std::max(fit.yaw_std_rad_[i], kHeldStd)},
+                   Loss{Loss::Kind::cauchy, 1.0}, radar.value);
     groups.push_back({1, kNoBlock});
   }
-}
-
-/// Nodes first, radars and the vehicle last.
-std::vector<double*> CalibrationProblem::parameters() {
-  std::vector<double*> blocks;
-  for (auto& [number, node] : fit.nodes_) {
-    blocks.push_back(node.data());
-  }
-  for (FittedRadar& radar : fit.radars_) {
-    blocks.push_back(radar.value.data());
-  }
-  blocks.push_back(fit.vehicle_.value.data());
-  return blocks;
 }
 
 namespace {
@@ -226,23 +220,10 @@ Eigen::VectorXd by_priors(const Eigen::MatrixXd& effects, const std::vector<Grou
   return squares;
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> to_eigen(ceres::CRSMatrix& matrix) {
-  return Eigen::Map<Eigen::SparseMatrix<double, Eigen::RowMajor>>(
-      matrix.num_rows, matrix.num_cols, static_cast<Eigen::Index>(matrix.values.size()),
-      matrix.rows.data(), matrix.cols.data(), matrix.values.data());
-}
-
 }  // namespace
 
 void CalibrationProblem::set_std() {
-  ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks = parameters();
-  problem.GetResidualBlocks(&options.residual_blocks);
-  std::vector<double> residuals;
-  ceres::CRSMatrix crs;
-  problem.Evaluate(options, nullptr, &residuals, nullptr, &crs);
-  const auto jacobian = to_eigen(crs);
-
+  const auto [jacobian, errors, cost] = squares.linearise();
   const Eigen::Index all = jacobian.cols();
   const auto wanted =
       static_cast<Eigen::Index>(fit.radars_.size() * kCalibrationStates + kRollingStates);
@@ -250,7 +231,6 @@ void CalibrationProblem::set_std() {
   Eigen::MatrixXd units = Eigen::MatrixXd::Zero(all, wanted);
   units.bottomRows(wanted).setIdentity();
   const Eigen::MatrixXd columns = factors.solve(units);
-  const Eigen::Map<const Eigen::VectorXd> errors(residuals.data(), jacobian.rows());
   const Eigen::VectorXd variances =
       jackknife(jacobian, errors, groups, wanted) + by_priors(jacobian * columns, groups);
   const Eigen::VectorXd std = variances.cwiseSqrt();
@@ -282,6 +262,11 @@ MotionPlace CalibrationFit::place(std::size_t radar, std::int64_t stamp_us, doub
   return {node, static_cast<double>(shifted_us - node * kNodeUs) / kNodeUs, shift_s, slope(node)};
 }
 
+void CalibrationFit::make_nodes(const MotionPlace& at) {
+  nodes_.try_emplace(at.node);
+  nodes_.try_emplace(at.node + 1);
+}
+
 /// By least squares over the neighbouring nodes.
 MotionNode CalibrationFit::slope(std::int64_t number) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -307,30 +292,13 @@ MotionNode CalibrationFit::slope(std::int64_t number) const {
   return {slope.x(), slope.y(), 0.0};
 }
 
-void CalibrationProblem::minimise() {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 50;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) {
-    throw std::runtime_error("the calibration has no solution: " + summary.message);
-  }
-}
-
 void CalibrationFit::solve() {
   CalibrationProblem problem(*this);
-  problem.add_priors();
-  problem.minimise();
+  problem.squares.solve();
   problem.set_std();
 }
 
-void CalibrationFit::minimise() {
-  CalibrationProblem problem(*this);
-  problem.add_priors();
-  problem.minimise();
-}
+void CalibrationFit::minimise() { CalibrationProblem(*this).squares.solve(); }
 
 CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool is_inside) const {
   CalibrationFit result = *this;
@@ -338,38 +306,31 @@ CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool i
     return result;
   }
   const std::int64_t begin = nodes_.begin()->first;
-  const std::int64_t length = nodes_.rbegin()->first - begin + 1;
+  const auto length = static_cast<std::size_t>(nodes_.rbegin()->first - begin + 1);
   const auto is_outside = [&](std::int64_t node) {
-    const auto at = static_cast<std::size_t>(count * static_cast<std::size_t>(node - begin)) /
-                    static_cast<std::size_t>(length);
+    const std::size_t at =
+        count * static_cast<std::size_t>(std::max<std::int64_t>(node - begin, 0)) / length;
     return (at == index) != is_inside;
   };
-  std::erase_if(result.velocities_, [&](const VelocityMeasurement& measurement) {
+  const auto is_measured_outside = [&](const auto& measurement) {
     return is_outside(measurement.stamp_us / kNodeUs);
-  });
-  std::erase_if(result.yaw_rates_, [&](const YawRateMeasurement& measurement) {
-    return is_outside(measurement.stamp_us / kNodeUs);
-  });
+  };
+  std::erase_if(result.velocities_, is_measured_outside);
+  std::erase_if(result.yaw_rates_, is_measured_outside);
   std::erase_if(result.nodes_, [&](const auto& node) { return is_outside(node.first); });
   return result;
 }
 
 double CalibrationFit::misfit(const std::vector<CalibrationVector>& values) const {
   CalibrationFit trial = *this;
+  trial.yaw_std_rad_.clear();
   for (std::size_t radar = 0; radar < values.size(); ++radar) {
-    trial.radars_[radar].value = values[radar];
+    trial.radars_[radar].prior = trial.radars_[radar].value = values[radar];
+    trial.radars_[radar].prior_std = {};
   }
   CalibrationProblem problem(trial);
-  problem.add_prior(trial.vehicle_.prior, trial.vehicle_.prior_std, trial.vehicle_.value);
-  for (FittedRadar& radar : trial.radars_) {
-    if (problem.problem.HasParameterBlock(radar.value.data())) {
-      problem.problem.SetParameterBlockConstant(radar.value.data());
-    }
-  }
-  problem.minimise();
-  double cost = 0.0;
-  problem.problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
-  return cost;
+  problem.squares.solve();
+  return problem.squares.linearise().cost;
 }
 
 std::optional<Eigen::Vector3d> CalibrationFit::motion(std::size_t radar, std::int64_t stamp_us,

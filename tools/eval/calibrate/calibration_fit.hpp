@@ -147,6 +147,7 @@ class CalibrationFit {
   friend struct CalibrationProblem;
   [[nodiscard]] MotionPlace place(std::size_t radar, std::int64_t stamp_us, double lead_s) const;
   [[nodiscard]] MotionNode slope(std::int64_t number) const;
+  void make_nodes(const MotionPlace& at);
 
   std::vector<FittedRadar> radars_;
   FittedVehicle vehicle_;

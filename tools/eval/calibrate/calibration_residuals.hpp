@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The terms of CalibrationFit's least squares, for automatic differentiation by Ceres.
+// The terms of CalibrationFit's least squares, for automatic differentiation (LeastSquares).
 
 #include <algorithm>
 #include <array>

@@ -6,13 +6,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/eval/figures_json.hpp"
+#include "tools/laboratory/figures_json.hpp"
 
 namespace cremed {
 namespace {
 
 /// Keeps the order of members; NaN becomes null.
 using Json = nlohmann::ordered_json;
+
+/// For 1, 2 and 3 sigma.
+Json coverage_json(const Credibility& credibility, int axis) {
+  return Json::array({credibility.coverage(axis, 1), credibility.coverage(axis, 2),
+                      credibility.coverage(axis, 3)});
+}
 
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
@@ -97,6 +103,16 @@ Json to_json(const SourceEvaluation& source) {
 }
 
 }  // namespace
+
+Json credibility_json(const Credibility& c) {
+  return {{"n", c.count()},
+          {"rmse_m", c.rmse_m()},
+          {"rmse_deg", c.rmse_deg()},
+          {"anees", c.anees()},
+          {"coverage_x", coverage_json(c, 0)},
+          {"coverage_y", coverage_json(c, 1)},
+          {"coverage_yaw", coverage_json(c, 2)}};
+}
 
 void print_json(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                 const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {

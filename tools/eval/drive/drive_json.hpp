@@ -5,9 +5,15 @@
 #include <cstdio>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/drive_evaluation.hpp"
 
 namespace cremed {
+
+/// For scripts; NaN becomes null. Members keep their order.
+nlohmann::ordered_json credibility_json(const Credibility& credibility);
 
 /// The output of cremed-eval drive as one JSON object: "sources" in order of appearance, with
 /// "drift", "segments" and, with wheels, "wheels" and "twist"; then "truth_std" and

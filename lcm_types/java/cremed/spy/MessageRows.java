@@ -3,6 +3,7 @@
 package cremed.spy;
 
 import cremed.ego_motion_t;
+import java.lang.reflect.Array;
 import java.lang.reflect.Field;
 import java.lang.reflect.Modifier;
 import java.util.ArrayList;
@@ -25,7 +26,10 @@ public final class MessageRows {
           "radar_output", new Code("OUTPUT_", false),
           "radar_faults", new Code("FAULT_", true),
           "doubts", new Code("DOUBT_", true));
-  private static final int LONGEST_ARRAY = 11;
+  /** Arrays of a status_t: their places have the names of these constants. */
+  private static final Map<String, String> LISTS =
+      Map.of("counters", "COUNTER_", "figures", "FIGURE_");
+  private static final int LONGEST_ARRAY = 16;
 
   private MessageRows() {}
 
@@ -33,7 +37,9 @@ public final class MessageRows {
     List<String[]> rows = new ArrayList<>();
     try {
       for (Field field : message.getClass().getFields()) {
-        if (!Modifier.isStatic(field.getModifiers())) {
+        if (LISTS.containsKey(field.getName())) {
+          addNamed(LISTS.get(field.getName()), field.get(message), message.getClass(), rows);
+        } else if (!Modifier.isStatic(field.getModifiers())) {
           rows.add(new String[] {field.getName(), text(field, message)});
         }
       }
@@ -41,6 +47,16 @@ public final class MessageRows {
       throw new IllegalStateException(e);
     }
     return rows;
+  }
+
+  private static void addNamed(String prefix, Object values, Class<?> type, List<String[]> rows)
+      throws IllegalAccessException {
+    for (Field constant : type.getFields()) {
+      if (constant.getName().startsWith(prefix)) {
+        String name = constant.getName().substring(prefix.length()).toLowerCase(Locale.ROOT);
+        rows.add(new String[] {name, number(Array.get(values, constant.getInt(null)))});
+      }
+    }
   }
 
   /** The name of the message's status, as "standing_still". */
@@ -65,13 +81,13 @@ public final class MessageRows {
   }
 
   private static String array(Object values) {
-    int length = java.lang.reflect.Array.getLength(values);
+    int length = Array.getLength(values);
     if (length > LONGEST_ARRAY) {
       return length + " values";
     }
     StringJoiner text = new StringJoiner("  ");
     for (int i = 0; i < length; ++i) {
-      text.add(number(java.lang.reflect.Array.get(values, i)));
+      text.add(number(Array.get(values, i)));
     }
     return text.toString();
   }

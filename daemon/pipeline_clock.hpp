@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace cremed {
+
+/// Clock for durations.
+struct PipelineClock {
+  std::int64_t (*now_us)();
+  /// true: `now_us` is the clock of the stamps, and latency counts from the stamp of a scan's last
+  /// frame; false: from the call of on_frame().
+  bool is_stamp_clock = false;
+};
+
+}  // namespace cremed

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/laboratory/pairs/pairs_evaluation.hpp"
+
+#include <ctime>
+#include <limits>
+
+namespace cremed {
+namespace {
+
+std::int64_t processor_us() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return time.tv_sec * 1000000 + (time.tv_nsec + 500) / 1000;
+}
+
+}  // namespace
+
+bool has_solution(const RegistrationResult& result) {
+  return result.has_motion() && result.covariance(0, 0) > 0.0;
+}
+
+TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehicle_from_radar) {
+  TargetSet targets;
+  for (const Detection& detection : detections) {
+    targets.add(detection, vehicle_from_radar);
+  }
+  return targets;
+}
+
+PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& options,
+                      RegisterFunction method) {
+  const TargetSet previous = to_targets(pair.previous, pair.vehicle_from_radar);
+  const TargetSet current = to_targets(pair.current, pair.vehicle_from_radar);
+  PairResult result;
+  if (previous.size() > 0 && current.size() > 0) {
+    const RegistrationContext context{options, pair.vehicle_from_radar, pair.dt_s};
+    const std::int64_t begin_us = processor_us();
+    result.registration = method(previous, current, context);
+    result.solve_us = processor_us() - begin_us;
+  }
+  if (!has_solution(result.registration)) {
+    result.registration.motion.setConstant(std::numeric_limits<double>::quiet_NaN());
+    result.registration.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
+std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
+                                    const RegistrationOptions& options, RegisterFunction method) {
+  std::vector<PairResult> results;
+  results.reserve(pairs.size());
+  for (const RegistrationPair& pair : pairs) {
+    results.push_back(solve_pair(pair, options, method));
+  }
+  return results;
+}
+
+Credibility evaluate_pairs(const std::vector<RegistrationPair>& pairs,
+                           const std::vector<PairResult>& results, int degrees_of_freedom,
+                           std::size_t& left_out) {
+  Credibility credibility(degrees_of_freedom);
+  left_out = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const RegistrationResult& result = results[i].registration;
+    if (has_solution(result)) {
+      const Pose2& truth = pairs[i].truth;
+      credibility.add(result.motion, result.covariance, {truth.x_m, truth.y_m, truth.yaw_rad});
+    } else {
+      ++left_out;
+    }
+  }
+  return credibility;
+}
+
+}  // namespace cremed

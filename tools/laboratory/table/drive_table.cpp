@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/laboratory/table/drive_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+#include "daemon/output/text_line.hpp"
+#include "daemon/process/progress_bar.hpp"
+#include "daemon/process/usage_error.hpp"
+#include "tools/laboratory/parallel_for.hpp"
+#include "tools/laboratory/table/drive_figures.hpp"
+
+namespace cremed {
+namespace {
+
+struct KnownDrive {
+  std::string_view name;
+  std::string_view folder;         ///< In that of the data.
+  std::string_view configuration;  ///< In the drive's folder, or in the project's config.
+  bool is_in_mean = false;
+};
+
+constexpr std::array kDrives{
+    KnownDrive{"nuScenes 0061", "nuscenes/scene-0061", "nuscenes-singapore.toml", true},
+    KnownDrive{"nuScenes 0103", "nuscenes/scene-0103", "nuscenes-boston.toml", true},
+    KnownDrive{"nuScenes 0655", "nuscenes/scene-0655", "nuscenes-boston.toml", true},
+    KnownDrive{"nuScenes 0796", "nuscenes/scene-0796", "nuscenes-singapore.toml", true},
+    KnownDrive{"nuScenes 1094", "nuscenes/scene-1094", "nuscenes-singapore.toml", true},
+    KnownDrive{"RadarScenes 105", "radarscenes/sequence-105", "radarscenes.toml"},
+    KnownDrive{"... motion flags ignored", "radarscenes/sequence-105",
+               "radarscenes-unflagged.toml"}};
+
+constexpr std::string_view kMeanName = "nuScenes, mean";
+
+/// Figures of one group. In the pattern each digit is a figure with that many decimals.
+struct Column {
+  std::string_view title;
+  std::string_view group;
+  std::string_view pattern;
+};
+
+struct Layout {
+  std::string_view name;
+  std::vector<Column> columns;
+};
+
+/// Yaw in degrees, per cent of the path, ANEES.
+constexpr std::string_view kPose = "2 / 2 / 2";
+
+const std::vector<Layout>& layouts() {
+  static const std::vector<Layout> kLayouts{
+      {"overview",
+       {{"odometry after 10 s", "10 s", "2 deg, 2 %"},
+        {"ANEES after 1 s, 10 s", "anees", "2, 2"},
+        {"front radar alone: odometry after 10 s, ANEES", "front alone", "2 deg, 2 %, 2"},
+        {"front radar from scan to scan, ANEES", "front", "4 m, 3 deg, 2"}}},
+      {"times",
+       {{"after 1 s", "1 s", kPose},
+        {"5 s", "5 s", kPose},
+        {"10 s", "10 s", kPose},
+        {"30 s", "30 s", kPose},
+        {"10 s, front radar alone", "front alone", kPose}}},
+      {"methods",
+       {{"cremed", "10 s", kPose},
+        {"submap of ten sweeps", "submap", kPose},
+        {"submap of 80 sweeps", "submap_80", kPose},
+        {"Kellner's velocity", "kellner", "2 / 2 / 0"}}},
+      {"scans",
+       {{"front: m / deg / ANEES", "front", "4 / 3 / 2"},
+        {"both rear radars", "rear", "4 / 3 / 2"},
+        {"front: NEES of x by the wheels, of yaw by the gyro", "front by wheels", "2, 2"},
+        {"odometry from output to output: the same", "outputs by wheels", "2, 2"}}}};
+  return kLayouts;
+}
+
+/// "–" if the drive has no such figures.
+std::string cell(const DriveFigures& figures, const Column& column) {
+  const auto found = figures.find(column.group);
+  const auto is_number = [](double value) { return std::isfinite(value); };
+  if (found == figures.end() ||
+      !std::all_of(found->second.begin(), found->second.end(), is_number)) {
+    return "–";
+  }
+  std::string text;
+  std::size_t next = 0;
+  for (const char letter : column.pattern) {
+    if (letter >= '0' && letter <= '9') {
+      text += TextLine().fixed(found->second.at(next++), letter - '0').view();
+    } else {
+      text += letter;
+    }
+  }
+  return text;
+}
+
+TabledDrive tabled(const KnownDrive& known, const DriveTableOptions& options) {
+  const auto folder = std::filesystem::path(options.data) / known.folder;
+  auto configuration = folder / known.configuration;
+  if (!exists(configuration)) {
+    configuration = std::filesystem::path(options.project) / "config" / known.configuration;
+  }
+  for (const auto& path : {folder / "truth.csv", configuration}) {
+    if (!exists(path)) {
+      throw UsageError("--drives: there is no " + path.string() +
+                       "; FOLDER must hold the recorded drives, and the command be run in the "
+                       "project's folder");
+    }
+  }
+  return {std::string(known.name), folder, configuration};
+}
+
+struct NamedFigures {
+  std::string name;
+  DriveFigures figures;
+};
+
+/// With the mean below those in it.
+std::vector<NamedFigures> all_figures(const DriveTableOptions& options) {
+  std::vector<TabledDrive> drives;
+  drives.reserve(kDrives.size());
+  for (const KnownDrive& known : kDrives) {
+    drives.push_back(tabled(known, options));
+  }
+  std::vector<DriveFigures> figures(drives.size());
+  ProgressBar progress("drives", drives.size());
+  parallel_for(drives.size(), options.threads, [&](std::size_t i) {
+    figures[i] = drive_figures(drives[i]);
+    progress.advance();
+  });
+  std::vector<NamedFigures> result;
+  std::vector<DriveFigures> in_mean;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (!kDrives[i].is_in_mean && !in_mean.empty()) {
+      result.push_back({std::string(kMeanName), mean_figures(in_mean)});
+      in_mean.clear();
+    }
+    result.push_back({drives[i].name, figures[i]});
+    if (kDrives[i].is_in_mean) {
+      in_mean.push_back(figures[i]);
+    }
+  }
+  return result;
+}
+
+/// Rows only of drives with at least one of the figures.
+ReadmeTable table_of(const Layout& layout, const std::vector<NamedFigures>& drives) {
+  ReadmeTable table{std::string(layout.name), {"drive"}, {}};
+  for (const Column& column : layout.columns) {
+    table.header.emplace_back(column.title);
+  }
+  for (const NamedFigures& drive : drives) {
+    const bool has_any =
+        std::any_of(layout.columns.begin(), layout.columns.end(),
+                    [&](const Column& column) { return drive.figures.contains(column.group); });
+    if (has_any) {
+      std::vector<std::string>& row = table.rows.emplace_back();
+      row.push_back(drive.name);
+      for (const Column& column : layout.columns) {
+        row.push_back(cell(drive.figures, column));
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<ReadmeTable> drive_tables(const DriveTableOptions& options) {
+  const auto drives = all_figures(options);
+  std::vector<ReadmeTable> tables;
+  for (const Layout& layout : layouts()) {
+    tables.push_back(table_of(layout, drives));
+  }
+  return tables;
+}
+
+}  // namespace cremed

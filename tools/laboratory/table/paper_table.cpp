@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/laboratory/table/paper_table.hpp"
+
+#include <array>
+#include <string>
+
+#include "daemon/process/progress_bar.hpp"
+#include "tools/laboratory/pairs/icp.hpp"
+#include "tools/laboratory/pairs/known_correspondences.hpp"
+#include "tools/laboratory/pairs/pairs_evaluation.hpp"
+#include "tools/laboratory/pairs/profile.hpp"
+#include "tools/laboratory/pairs/sum_approximation.hpp"
+#include "tools/laboratory/parallel_for.hpp"
+
+namespace cremed {
+namespace {
+
+using MakeOptions = RegistrationOptions (*)(std::string_view profile_name, bool doppler);
+
+RegistrationOptions paper_options(std::string_view profile_name, bool doppler) {
+  return *profile(profile_name, doppler, Likelihood::max_sum_mixture);
+}
+
+RegistrationOptions our_options(std::string_view profile_name, bool doppler) {
+  return *profile(profile_name, doppler, Likelihood::exclusive);
+}
+
+/// A method of the table; methods with Doppler run on problems with Doppler (2 DoF) only.
+struct TableMethod {
+  std::string_view name;
+  std::string_view published;  // what the paper calls it
+  bool doppler;
+  RegisterFunction solve;
+  MakeOptions options;
+  bool is_always_3dof = false;
+};
+
+const std::vector<TableMethod>& table_methods() {
+  static const std::vector<TableMethod> kMethods{
+      {"MSM", "MSM", false, register_msm, our_options},
+      {"MSM-D", "MSM-D", true, register_msm, our_options},
+      {"MSM(paper)", "MSM", false, register_msm, paper_options},
+      {"MSM-D(paper)", "MSM-D", true, register_msm, paper_options},
+      {"SA", "SA", false, register_sum_approximation, paper_options},
+      {"SA-D", "SA-D", true, register_sum_approximation, paper_options},
+      {"ICP", "ICP", false, register_icp, paper_options, true},
+  };
+  return kMethods;
+}
+
+/// The pairs of one problem, regenerated for every method: cheaper than storing them.
+struct PairSource {
+  SimulatedProblem problem;
+  std::uint64_t seed;
+  std::size_t sets;
+  std::size_t runs;
+
+  [[nodiscard]] std::size_t count() const { return sets * runs; }
+  [[nodiscard]] RegistrationPair pair(std::size_t i) const {
+    return simulated_pair(problem, seed, i / runs, i % runs);
+  }
+};
+
+PairSource pair_source(SimulatedProblem problem, const PaperTableOptions& options) {
+  const SimulatedProblemSettings& paper = settings(problem);
+  return {problem, options.seed, options.sets == 0 ? paper.sets : options.sets,
+          options.runs == 0 ? paper.runs : options.runs};
+}
+
+struct Outcome {
+  PairResult result;
+  Eigen::Vector3d truth;
+};
+
+/// `solve`(pair) for every pair, in their order for any number of threads.
+template <typename Solve>
+std::vector<Outcome> run(const PairSource& source, unsigned threads, std::string_view name,
+                         const Solve& solve) {
+  std::vector<Outcome> outcomes(source.count());
+  ProgressBar progress(std::string(settings(source.problem).name).append(" ").append(name),
+                       outcomes.size());
+  parallel_for(outcomes.size(), threads, [&](std::size_t i) {
+    const RegistrationPair pair = source.pair(i);
+    outcomes[i].result = solve(pair);
+    outcomes[i].truth << pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad;
+    progress.advance();
+  });
+  return outcomes;
+}
+
+Figures to_figures(const Credibility& credibility) {
+  return {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
+}
+
+Figures run_bound(const PairSource& source, unsigned threads, const RegistrationOptions& options) {
+  const auto outcomes = run(source, threads, "bound", [&](const RegistrationPair& pair) {
+    return PairResult{register_known(pair, options), 0};
+  });
+  Credibility credibility(options.degrees_of_freedom);
+  for (const Outcome& outcome : outcomes) {
+    const RegistrationResult& r = outcome.result.registration;
+    if (has_solution(r)) {
+      credibility.add(r.motion, r.covariance, outcome.truth);
+    }
+  }
+  return to_figures(credibility);
+}
+
+void add_outcome(const Outcome& outcome, Credibility& credibility, TableRow& row) {
+  const RegistrationResult& r = outcome.result.registration;
+  row.iterations += r.iterations;
+  row.milliseconds += 1e-3 * static_cast<double>(outcome.result.solve_us);
+  if (!has_solution(r)) {
+    ++row.left_out;
+    row.ambiguous += r.status == RegistrationStatus::ambiguous ? 1U : 0U;
+    return;
+  }
+  const double nees =
+      normalised_error_squared(r.motion, r.covariance, outcome.truth, row.degrees_of_freedom);
+  credibility.add(r.motion, r.covariance, outcome.truth);
+  row.nees.add(nees);
+  row.gross += nees > kGrossNees ? 1U : 0U;
+  row.no_convergence += r.status == RegistrationStatus::no_convergence ? 1U : 0U;
+}
+
+void fill_in(const std::vector<Outcome>& outcomes, TableRow& row) {
+  Credibility credibility(row.degrees_of_freedom);
+  for (const Outcome& outcome : outcomes) {
+    add_outcome(outcome, credibility, row);
+  }
+  const auto pairs = static_cast<double>(outcomes.size());
+  row.iterations /= pairs;
+  row.milliseconds /= pairs;
+  row.count = credibility.count();
+  row.ours = to_figures(credibility);
+  row.consistent = anees_interval(row.count, row.degrees_of_freedom, 0.95);
+}
+
+TableRow run_method(const PairSource& source, unsigned threads, const TableMethod& method,
+                    const Figures& bound) {
+  const SimulatedProblemSettings& problem = settings(source.problem);
+  TableRow row;
+  row.problem = problem.name;
+  row.method = method.name;
+  row.paper = published_figures(problem.name, method.published);
+  row.bound = bound;
+  row.degrees_of_freedom = method.is_always_3dof ? 3 : problem.degrees_of_freedom;
+  const RegistrationOptions options = method.options(problem.profile, method.doppler);
+  const auto solve = [&](const RegistrationPair& pair) {
+    return solve_pair(pair, options, method.solve);
+  };
+  fill_in(run(source, threads, method.name, solve), row);
+  return row;
+}
+
+}  // namespace
+
+std::vector<TableRow> paper_table(const PaperTableOptions& options) {
+  std::vector<TableRow> rows;
+  for (const SimulatedProblem problem : kSimulatedProblems) {
+    const SimulatedProblemSettings& chosen = settings(problem);
+    const bool has_doppler = chosen.degrees_of_freedom == 2;
+    const PairSource source = pair_source(problem, options);
+    const auto bound = [&](bool doppler) {
+      return run_bound(source, options.threads, *profile(chosen.profile, doppler));
+    };
+    const std::array<Figures, 2> bounds{bound(false), has_doppler ? bound(true) : Figures{}};
+    for (const TableMethod& method : table_methods()) {
+      if (has_doppler || !method.doppler) {
+        rows.push_back(run_method(source, options.threads, method, bounds[method.doppler ? 1 : 0]));
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace cremed

@@ -60,11 +60,13 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
 
 TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") {
   const TemporaryFolder folder;
-  const std::string mount = "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 } # by tape\n";
+  const std::string right =
+      write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
+  const std::string mount = "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 } # by tape\n";
   const std::string file = write_configuration(folder, "c.toml", mount);
   const std::string log = folder.file("drive.log");
   REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration 15 --config " + file + " --output " + log)
+                   "--scenario bends --duration 15 --config " + right + " --output " + log)
               .status == 0);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
@@ -73,11 +75,32 @@ TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") 
   CHECK_THAT(text_of(file),
              Catch::StartsWith(kHead + "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = "));
   CHECK_THAT(text_of(file), Catch::Contains(" } # by tape\n"));
+  CHECK_THAT(result.error, Catch::Contains("checked on each fifth of the drive"));
   const auto yaw_rad = [](const std::string& text) {
     return parse_configuration(text, "c").radars.at(0).ego_motion.vehicle_from_radar.yaw_rad;
   };
   CHECK(yaw_rad(text_of(file)) == yaw_rad(kHead + mount + result.output));
-  CHECK(yaw_rad(text_of(file)) != 0.1);
+  CHECK(yaw_rad(text_of(file)) == Approx(0.1).margin(0.01));
+}
+
+TEST_CASE("cremed-eval calibrate refuses what fits the rest of the drive no better") {
+  const TemporaryFolder folder;
+  const std::string file =
+      write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration 15 --config " + file + " --output " + log)
+              .status == 0);
+  const std::string before = text_of(file);
+  const ToolRun result =
+      run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  CHECK_THAT(result.error, Catch::Contains(": no better, so that these are kept\n"));
+  CHECK_THAT(result.error,
+             Catch::Contains("scans: what was found fits other parts of the drive no better\n"));
+  CHECK_THAT(result.error, Catch::Contains(" kept 5.73\n"));
+  CHECK(text_of(file) == before);
 }
 
 TEST_CASE("cremed-eval calibrate finds the same yaw, however often its angle went around") {

@@ -24,7 +24,7 @@ class Command:
 
 
 def documents():
-    return [path for path in sorted(ROOT.rglob("README.md"))
+    return [path for path in sorted(ROOT.rglob("*.md"))
             if "build" not in path.relative_to(ROOT).parts[0]]
 
 

@@ -103,13 +103,26 @@ void print_vehicle(const Calibration& calibration) {
                calibration.is_slip_changed ? "" : ": kept");
 }
 
+void print_check(const Calibration& calibration) {
+  if (const auto& check = calibration.check) {
+    std::fprintf(stderr,
+                 "checked on each fifth of the drive with what the others give: misfit %.0f, with "
+                 "the configured values %.0f%s\n",
+                 check->found, check->configured,
+                 check->is_better ? "" : ": no better, so that these are kept");
+  }
+}
+
 void print_table(const Configuration& configuration, const Calibration& calibration) {
   std::fprintf(stderr, "kept: the drive gives no better value\n");
+  print_check(calibration);
   print_vehicle(calibration);
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
     const RadarCalibration& radar = calibration.radars[i];
     const RadarConfiguration& configured = configuration.radars[i];
-    std::fprintf(stderr, "%s, %zu scans\n", configured.name.c_str(), radar.scans);
+    std::fprintf(
+        stderr, "%s, %zu scans%s\n", configured.name.c_str(), radar.scans,
+        radar.is_refused ? ": what was found fits other parts of the drive no better" : "");
     for (const Column& column : kColumns) {
       print_state(configured, radar, column);
     }

@@ -130,6 +130,8 @@ class Calibrator {
   void choose_changes();
   void limit_kept();
   bool drop_changes();
+  void settle();
+  void check();
   void solve();
 
   const Configuration& configuration_;
@@ -142,6 +144,7 @@ class Calibrator {
   bool is_started_ = false;
   int round_ = 0;
   std::vector<RadarCalibration> radars_;
+  std::optional<HeldOutCheck> check_;
 };
 
 Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
@@ -308,15 +311,47 @@ bool Calibrator::drop_changes() {
   return is_dropped;
 }
 
-void Calibrator::finish() {
+void Calibrator::settle() {
   do {
     limit_kept();
     solve();
   } while (drop_changes());
 }
 
+/// Refuses what fits no better in the parts of the drive where it was not found.
+void Calibrator::check() {
+  std::vector<ChangedStates> changed;
+  bool is_any = false;
+  for (const RadarCalibration& radar : radars_) {
+    changed.push_back(radar.is_changed);
+    is_any = is_any ||
+             std::any_of(changed.back().begin(), changed.back().end(), [](bool is) { return is; });
+  }
+  if (!is_any) {
+    return;
+  }
+  check_ = check_held_out(fit_, changed);
+  bool is_any_refused = false;
+  for (std::size_t i = 0; i < radars_.size(); ++i) {
+    if (!check_->is_better || !check_->is_radar_better[i]) {
+      radars_[i].is_refused =
+          std::any_of(changed[i].begin(), changed[i].end(), [](bool is) { return is; });
+      radars_[i].is_changed = {};
+      is_any_refused = is_any_refused || radars_[i].is_refused;
+    }
+  }
+  if (is_any_refused) {
+    settle();
+  }
+}
+
+void Calibrator::finish() {
+  settle();
+  check();
+}
+
 Calibration Calibrator::result() const {
-  Calibration result{radars_, fit_.vehicle(), false, has_truth_};
+  Calibration result{radars_, fit_.vehicle(), false, has_truth_, check_};
   double& std = result.vehicle.std[kSlip];
   std = std::hypot(std, errors_.slip);
   const double configured = configuration_.odometry.filter.slip_per_lateral_acceleration;

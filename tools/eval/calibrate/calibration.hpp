@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/configuration/configuration.hpp"
 #include "tools/eval/calibrate/calibration_fit.hpp"
+#include "tools/eval/calibrate/held_out_check.hpp"
 #include "tools/eval/calibrate/sensor_noise.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 
@@ -23,6 +25,7 @@ struct RadarCalibration {
   std::array<bool, kCalibrationStates> is_changed{};
   SensorNoise noise;
   std::size_t scans = 0;
+  bool is_refused = false;  ///< What was found fits other parts of the drive no better.
 };
 
 struct Calibration {
@@ -30,6 +33,7 @@ struct Calibration {
   FittedVehicle vehicle;
   bool is_slip_changed = false;  ///< false: the configured one was kept.
   bool has_truth = false;
+  std::optional<HeldOutCheck> check;  ///< Of what was found; nothing if that was nothing.
 };
 
 /// Errors that do not average over one drive: standard deviations, added to what the drive's blocks

@@ -298,6 +298,41 @@ void CalibrationFit::solve() {
   problem.set_std();
 }
 
+void CalibrationFit::minimise() { CalibrationProblem(*this).squares.solve(); }
+
+CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool is_inside) const {
+  CalibrationFit result = *this;
+  if (nodes_.empty()) {
+    return result;
+  }
+  const std::int64_t begin = nodes_.begin()->first;
+  const auto length = static_cast<std::size_t>(nodes_.rbegin()->first - begin + 1);
+  const auto is_outside = [&](std::int64_t node) {
+    const std::size_t at =
+        count * static_cast<std::size_t>(std::max<std::int64_t>(node - begin, 0)) / length;
+    return (at == index) != is_inside;
+  };
+  const auto is_measured_outside = [&](const auto& measurement) {
+    return is_outside(measurement.stamp_us / kNodeUs);
+  };
+  std::erase_if(result.velocities_, is_measured_outside);
+  std::erase_if(result.yaw_rates_, is_measured_outside);
+  std::erase_if(result.nodes_, [&](const auto& node) { return is_outside(node.first); });
+  return result;
+}
+
+double CalibrationFit::misfit(const std::vector<CalibrationVector>& values) const {
+  CalibrationFit trial = *this;
+  trial.yaw_std_rad_.clear();
+  for (std::size_t radar = 0; radar < values.size(); ++radar) {
+    trial.radars_[radar].prior = trial.radars_[radar].value = values[radar];
+    trial.radars_[radar].prior_std = {};
+  }
+  CalibrationProblem problem(trial);
+  problem.squares.solve();
+  return problem.squares.linearise().cost;
+}
+
 std::optional<Eigen::Vector3d> CalibrationFit::motion(std::size_t radar, std::int64_t stamp_us,
                                                       double lead_s) const {
   const MotionPlace at = place(radar, stamp_us, lead_s);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kOutputs = {"clusters", "objects"};
 constexpr std::uint8_t kSensors = 8;
+constexpr std::string_view kInvertAzimuth = "invert_azimuth";
 
 /// A foreign frame with one of these identifiers changes a setting or gives a wrong motion. 0x008
 /// and 0x010 (relay) are harmless.
@@ -38,7 +39,7 @@ RadarSettings read(OptionReader& reader) {
   reader.bits("keep_dyn_props", keep_dyn_props, 7);
   options.keep_dyn_props = static_cast<std::uint8_t>(keep_dyn_props);
   reader.integer("min_existence_code", options.min_existence_code, 0, 7);
-  reader.boolean("invert_azimuth", options.invert_azimuth);
+  reader.boolean(kInvertAzimuth, options.invert_azimuth);
   reader.boolean("motion_feedback", options.motion_feedback);
   return options;
 }
@@ -122,7 +123,8 @@ constexpr RadarFamily row(std::string_view type) {
           .describe = kOfSettings<describe<model>>,
           .key = kOfSettings<key>,
           .obeyed_ids = kOfSettings<obeyed_ids>,
-          .rotation_lead_s = kOfSettings<rotation_lead_s>};
+          .rotation_lead_s = kOfSettings<rotation_lead_s>,
+          .azimuth_sign_key = kInvertAzimuth};
 }
 
 constexpr RadarFamily kArs408 = [] {

@@ -14,6 +14,8 @@ namespace {
 constexpr std::array<std::string_view, 3> kCrcPolicies = {"off", "count", "enforce"};
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
 constexpr std::uint8_t kLength = 8;
+constexpr std::string_view kInvertAzimuth = "invert_azimuth";
+constexpr std::string_view kInvertDoppler = "invert_doppler";
 
 void check_ids(OptionReader& reader, const BoschGprOptions& options) {
   if (reader.clean() && options.info_id >= options.base_id &&
@@ -31,8 +33,8 @@ RadarSettings read(OptionReader& reader) {
   if (const auto policy = reader.choice("crc_policy", kCrcPolicies)) {
     options.crc_policy = static_cast<CrcPolicy>(*policy);
   }
-  reader.boolean("invert_azimuth", options.invert_azimuth);
-  reader.boolean("invert_doppler", options.invert_doppler);
+  reader.boolean(kInvertAzimuth, options.invert_azimuth);
+  reader.boolean(kInvertDoppler, options.invert_doppler);
   reader.number("min_existence", options.min_existence, {0.0, 0.96875});
   check_ids(reader, options);
   return options;
@@ -89,7 +91,9 @@ const RadarFamily& family_of(const BoschGprOptions& /*options*/) {
                                          .label = kOfSettings<label>,
                                          .describe = kOfSettings<describe>,
                                          .key = kOfSettings<key>,
-                                         .recognise = recognise};
+                                         .recognise = recognise,
+                                         .azimuth_sign_key = kInvertAzimuth,
+                                         .doppler_sign_key = kInvertDoppler};
   return kBoschGpr;
 }
 

@@ -45,6 +45,9 @@ struct RadarFamily {
   /// Default time by which the radar extrapolates positions with the yaw rate it receives
   /// (estimator/scan/rotation_lead.hpp); null: it receives none.
   double (*rotation_lead_s)(const RadarSettings&) = nullptr;
+  // The keys that invert a sign of its measurements, for advice; empty: none.
+  std::string_view azimuth_sign_key = {};  ///< Of a radar that is mounted upside down.
+  std::string_view doppler_sign_key = {};
 };
 
 /// Adapts a function of a family's options to one of RadarSettings, for a row.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cremed/estimator/fusion/output/fused_motion.hpp"
-#include "cremed/estimator/fusion/output/motion_witness.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {

@@ -9,9 +9,9 @@
 
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
 #include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/radar_status.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/option_reader.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
 #include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
@@ -29,6 +30,10 @@ inline constexpr std::string_view kFusedSource = "fused";
 
 /// Name of the vehicle's state as source of the trajectory; not allowed for a radar.
 inline constexpr std::string_view kOdometrySource = "odometry";
+
+/// Limits of keys of [radar.calibration] that are also advised.
+inline constexpr Range kDopplerScales{0.5, 2.0};
+inline constexpr Range kStampOffsetsS{-0.5, 0.5};
 
 /// One [[radar]] table.
 struct RadarConfiguration {

@@ -132,9 +132,9 @@ void read_calibration(TomlReader& reader, RadarConfiguration& radar) {
   DetectionCorrection& correction = radar.ego_motion.correction;
   read_rotation_lead(reader, radar);
   reader.number("azimuth_scale", correction.azimuth_scale, {0.9, 1.1});
-  reader.number("stamp_offset_s", radar.stamp_offset_s, {-0.5, 0.5});
+  reader.number("stamp_offset_s", radar.stamp_offset_s, kStampOffsetsS);
   reader.number("doppler_offset_mps", correction.doppler_offset_mps, {-5.0, 5.0});
-  reader.number("doppler_scale", correction.doppler_scale, {0.5, 2.0});
+  reader.number("doppler_scale", correction.doppler_scale, kDopplerScales);
   reader.number("range_std_factor", correction.range_std_factor, {0.1, 10.0});
   reader.number("azimuth_std_factor", correction.azimuth_std_factor, {0.1, 10.0});
   reader.number("doppler_std_factor", correction.doppler_std_factor, {0.1, 10.0});

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cremed/can_decoders/bosch_gpr.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/can_decoders/radar_family.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -172,7 +172,7 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
        {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
        {count_of(status, MotionStatus::non_finite), "report it: it is a bug in cremed"},
        {count_of(status, MotionStatus::implausible),
-        "check type, invert_azimuth, invert_doppler and the limits of speed"},
+        "check type, the keys that invert a sign and the limits of speed"},
        {count_of(status, MotionStatus::ambiguous),
         "the surroundings hold too few fixed targets, or its noise is set too small: "
         "`cremed-eval calibrate`"}});
@@ -288,8 +288,13 @@ void add_doubts(const BeliefStatus& belief, Findings& findings) {
 }
 
 std::string remedy_of_sign(const RadarConfiguration& radar) {
-  return concat({radar.decoder.as<BoschGprOptions>() != nullptr ? "change invert_doppler, or " : "",
-                 "turn mount.yaw_rad by pi"});
+  const std::string_view key = radar.decoder.family().doppler_sign_key;
+  return concat({key.empty() ? "" : concat({"change ", key, ", or "}), "turn mount.yaw_rad by pi"});
+}
+
+std::string remedy_of_upside_down(const RadarConfiguration& radar) {
+  const std::string_view key = radar.decoder.family().azimuth_sign_key;
+  return concat({"if it is mounted upside down, ", key.empty() ? "turn it over" : "change ", key});
 }
 
 void add_wrong_speed(const RadarConfiguration& radar, const BeliefStatus& belief,
@@ -332,8 +337,8 @@ struct CauseText {
 };
 
 /// "; if it is so on every drive, KEY = VALUE", if the key can have this value.
-std::string lasting(std::string_view key, double value, double least, double most) {
-  return least <= value && value <= most
+std::string lasting(std::string_view key, double value, Range possible) {
+  return possible.min <= value && value <= possible.max
              ? concat({"; if it is so on every drive, calibration.", key, " = ", digits(value)})
              : "";
 }
@@ -351,13 +356,13 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
                       percent > 0.0 ? "large" : "small"}),
               concat({"the sensor or the scale of its signal is wrong",
                       lasting("doppler_scale",
-                              rounded(cause.value * ego_motion.correction.doppler_scale, 1e3), 0.5,
-                              2.0)})};
+                              rounded(cause.value * ego_motion.correction.doppler_scale, 1e3),
+                              kDopplerScales)})};
     }
     case FaultKind::sign:
       return {"its Doppler has the wrong sign, or it looks the other way", remedy_of_sign(radar)};
     case FaultKind::upside_down:
-      return {"its left is its right", "if it is mounted upside down, change invert_azimuth"};
+      return {"its left is its right", remedy_of_upside_down(radar)};
     case FaultKind::mount_yaw:
       return {
           concat({"it looks ", decimal(std::abs(cause.value) * kDegPerRad), " degrees further ",
@@ -375,7 +380,7 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
       return {concat({"its scans are ", decimal(cause.value), " s late"}),
               concat({"find what delays its bus or its stamps",
                       lasting("stamp_offset_s", rounded(radar.stamp_offset_s - cause.value, 1e2),
-                              -0.5, 0.5)})};
+                              kStampOffsetsS)})};
     case FaultKind::exchanged:
       return {concat({"it sees what a radar at the mount of ",
                       cause.other < all.size() ? all[cause.other].name : "another", " sees"}),

@@ -74,6 +74,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     faults_.accuse(radar, stamp_us);
   }
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
+  if (const auto believed = faults_.take_correction()) {
+    add_error_of_pose(*believed);
+  }
   begin_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
@@ -126,8 +129,9 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
-  const bool is_lost = condition_.is_lost() && is_trusted && !parked_.is_in_doubt() &&
-                       gap_s > -state_.options().max_lateness_s;
+  const bool is_lost = (condition_.is_lost() && is_trusted && !parked_.is_in_doubt() &&
+                        gap_s > -state_.options().max_lateness_s) ||
+                       faults_.take_reversal();
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
       faults_.require_positions();
@@ -168,6 +172,17 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
     trust.doppler_noise.clear();
   }
   trust.is_trusted = is_trusted;
+}
+
+/// The pose since the anchor has the error of a radar that was found at fault: as far as known,
+/// that of the state's speed and yaw rate against those of the others.
+void OdometryFilter::add_error_of_pose(const Eigen::Vector2d& believed) {
+  const double since_s = output_.anchor_age_s();
+  const double way_m = (state_.gaussian.mean(kSpeed) - believed.x()) * since_s;
+  const double turn_rad = (state_.gaussian.mean(kYawRate) - believed.y()) * since_s;
+  state_.gaussian.add_variance(kX, squared(way_m));
+  state_.gaussian.add_variance(kY, squared(0.5 * turn_rad * believed.x() * since_s));
+  state_.gaussian.add_variance(kYaw, squared(turn_rad));
 }
 
 /// Left-out radars as a bit set: all that are judged if it is not known which is at fault.
@@ -374,6 +389,11 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
       consensus_[i].forgive();
     }
   }
+  // The maps hold what seemed at rest, where it seemed to be.
+  for (const auto& track : tracks_) {
+    track->map.clear();
+  }
+  nodes_.clear();
   state_.start_motion(majority->value(), majority->covariance());
   vehicle_.restart_errors();
   state_.gaussian.add_variance(kX, squared(error.x() * since_s));
@@ -431,8 +451,7 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
 void OdometryFilter::compare_speed(std::size_t radar, const MapMatch& match) {
   double since_s = 0.0;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    since_s += match.by_node[i](0, 0) / match.x_share *
-               seconds_between(nodes_.stamp_us(i), state_.time_us());
+    since_s += match.by_node[i](0, 0) * seconds_between(nodes_.stamp_us(i), state_.time_us());
   }
   const auto expected = expected_velocity(radar);
   if (expected && since_s > 0.0) {

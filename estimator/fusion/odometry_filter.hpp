@@ -11,10 +11,11 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
-#include "cremed/estimator/fusion/gate/filter_condition.hpp"
-#include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
-#include "cremed/estimator/fusion/gate/radar_consensus.hpp"
+#include "cremed/estimator/doubt/scan/two_worlds.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
+#include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
 #include "cremed/estimator/fusion/map/map_nodes.hpp"
 #include "cremed/estimator/fusion/map/map_registration.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
@@ -23,7 +24,6 @@
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/vehicle_signals.hpp"
-#include "cremed/estimator/motion/two_worlds.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -47,10 +47,10 @@ struct OdometryRadar {
 /// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and one
 /// of lateral motion and yaw since the nodes by positions (MapMeasurement).
 ///
-/// `gate/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly fails
-/// it is left out until it agrees again. If a majority of radars contradicts the filter and agrees
-/// with each other, the velocity is reset to theirs. A vehicle that stood is not moved by what
-/// departs beside it (ParkedVehicle).
+/// `doubt/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly
+/// fails it is left out until it agrees again. If a majority of radars contradicts the filter and
+/// agrees with each other, the velocity is reset to theirs. A vehicle that stood is not moved by
+/// what departs beside it (ParkedVehicle).
 ///
 /// `output/`: poses relative to an anchor and since the start, and predictions between scans.
 ///
@@ -105,6 +105,7 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
+  void add_error_of_pose(const Eigen::Vector2d& believed);
   [[nodiscard]] std::uint32_t left_out() const;
   ParkedVehicle::Verdict judge_parked(std::size_t radar, const TargetSet& targets,
                                       const ScanVelocity& scan, std::int64_t stamp_us);

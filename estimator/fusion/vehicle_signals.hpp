@@ -8,16 +8,16 @@
 #include <optional>
 
 #include "cremed/can_decoders/vehicle_reading.hpp"
-#include "cremed/estimator/fusion/gate/radar_trust.hpp"
-#include "cremed/estimator/fusion/gate/signal_check.hpp"
-#include "cremed/estimator/fusion/gate/signal_trust.hpp"
-#include "cremed/estimator/fusion/gate/standing_value.hpp"
+#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
+#include "cremed/estimator/doubt/vehicle/signal_check.hpp"
+#include "cremed/estimator/doubt/vehicle/signal_trust.hpp"
+#include "cremed/estimator/doubt/vehicle/standing_value.hpp"
 #include "cremed/estimator/fusion/measurement/signal_track.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
-#include "cremed/estimator/motion/innovation_mean.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {

@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "cremed/estimator/motion/median.hpp"
+#include "cremed/estimator/scan/median.hpp"
 
 namespace cremed {
 namespace {

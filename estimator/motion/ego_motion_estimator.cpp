@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cremed/estimator/motion/median.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/median.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {

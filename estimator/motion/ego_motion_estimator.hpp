@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/doubt/scan/two_worlds.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
-#include "cremed/estimator/motion/two_worlds.hpp"
 #include "cremed/estimator/registration/predicted_motion.hpp"
 #include "cremed/estimator/registration/registration.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -36,7 +36,7 @@ enum class MotionStatus : std::uint8_t {
   ambiguous = 10,       ///< Too few targets matched; or another motion fits nearly as well or
                         ///< explains the Doppler of many targets, unless only this motion
                         ///< continues the one before; or the motion
-                        ///< contradicts the odometry (fusion/output/motion_witness.hpp).
+                        ///< contradicts the odometry (doubt/vehicle/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 

@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "test/daemon/memory_lcm.hpp"
 

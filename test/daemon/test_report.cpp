@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/report/report.hpp"
 
 using namespace cremed;
@@ -150,7 +150,7 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
                             Case{MotionStatus::degenerate, "few fixed targets"},
                             Case{MotionStatus::no_convergence, "max_iterations"},
                             Case{MotionStatus::non_finite, "bug"},
-                            Case{MotionStatus::implausible, "invert_doppler"},
+                            Case{MotionStatus::implausible, "limits of speed"},
                             Case{MotionStatus::ambiguous, "few fixed targets"});
   RadarStatus status = healthy();
   no_estimate_but(status, row.status);
@@ -261,8 +261,11 @@ TEST_CASE("No key is advised that the radar does not have, and no value that it 
   CHECK(remedy_of(front(), {FaultKind::sign, -1.0}) == "turn mount.yaw_rad by pi");
   gpr.decoder = BoschGprOptions();
   CHECK_THAT(remedy_of(gpr, {FaultKind::sign, -1.0}), Catch::Contains("change invert_doppler"));
+  CHECK_THAT(remedy_of(gpr, {FaultKind::upside_down}), Catch::Contains("change invert_azimuth"));
   CHECK(remedy_of(front(), {FaultKind::scale, 2.5}) ==
         "the sensor or the scale of its signal is wrong");
+  CHECK_THAT(remedy_of(front(), {FaultKind::scale, kDopplerScales.max}),
+             Catch::Contains("doppler_scale = 2"));
   CHECK(remedy_of(front(), {FaultKind::late, 0.6}) == "find what delays its bus or its stamps");
 }
 

@@ -19,6 +19,9 @@ inline TruthNoise nuscenes_truth_noise() {
                      {0.034, 0.0088, 0.00133, 0.3}});
 }
 
+/// 0.02 m/s and 0.15 degrees a second (0.1 to 0.2, by scene).
+inline WheelStd nuscenes_wheel_std() { return {0.02, 0.0026}; }
+
 /// A drive in a folder of the recorded data, without its frames after `duration_s`.
 inline FaultDrive recorded_fault_drive(const std::string& name, const std::string& folder,
                                        const Configuration& configuration, const TruthNoise& noise,
@@ -35,10 +38,14 @@ inline FaultDrive recorded_fault_drive(const std::string& name, const std::strin
 /// Of nuScenes, e.g. "0061".
 inline FaultDrive nuscenes_fault_drive(const std::string& scene) {
   const bool is_boston = scene == "0103" || scene == "0655";
-  return recorded_fault_drive(
-      "scene-" + scene, "data/nuscenes/scene-" + scene,
+  const std::string folder = "data/nuscenes/scene-" + scene;
+  FaultDrive drive = recorded_fault_drive(
+      "scene-" + scene, folder,
       configuration_of_car(is_boston ? "nuscenes-boston" : "nuscenes-singapore"),
       nuscenes_truth_noise());
+  std::istringstream wheels(read_shared(folder + "/wheels.csv"));
+  drive.wheels.emplace(wheels, nuscenes_wheel_std());
+  return drive;
 }
 
 /// Of RadarScenes: sequence 105. `are_flags_used`: whether the sensors' own judgement of what moves

@@ -17,7 +17,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/ars408_messages.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/report/report.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/simulate/ars408_encoder.hpp"

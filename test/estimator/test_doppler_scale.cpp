@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/motion/doppler_scale.hpp"
+#include "cremed/estimator/doubt/radar/doppler_scale.hpp"
 #include "test/estimator/circle_drive.hpp"
 
 using namespace cremed;

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/fault_cause.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_cause.hpp"
 
 namespace cremed {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 
 namespace cremed {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/motion/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
 
 namespace cremed {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/output/motion_witness.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 
 namespace cremed {
 namespace {

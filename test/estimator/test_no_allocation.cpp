@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
 #include "test/estimator/numeric.hpp"

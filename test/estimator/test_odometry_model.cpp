@@ -191,6 +191,7 @@ TEST_CASE("a scan that was taken at the predicted pose needs no correction") {
     state.gaussian.set_mean(state.error(0, i), 0.0);
   }
   state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
+  state.gaussian.set_mean(kCommonYawPerMetre, 0.0);
   MapScene scene(state);
   CHECK(scene.linearise(scene.match()).residual.norm() < 1e-6);
 }
@@ -268,6 +269,7 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
     state.gaussian.set_mean(state.error(0, i), 0.0);
   }
   state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
+  state.gaussian.set_mean(kCommonYawPerMetre, 0.0);
   MapScene scene(state);
   const LinearMeasurement linear = scene.linearise(scene.match());
   const auto check_error = [&](int which, double error) {
@@ -298,7 +300,8 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
           composed_pose(way_m * Eigen::Vector3d(0.0, lateral, yaw_radpm), nodes[i]);
       scene.insert(i, relative_pose(nodes[i], moved));
     }
-    check_error(state.error(0, lateral > 0.0 ? kLateralPerMetre : kYawPerMetre),
+    const int yaw_error = GENERATE(+kCommonYawPerMetre, radar(0) + kYawPerMetre);
+    check_error(lateral > 0.0 ? state.error(0, kLateralPerMetre) : yaw_error,
                 lateral > 0.0 ? lateral : yaw_radpm);
   }
 }

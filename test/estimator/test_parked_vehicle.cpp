@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/parked_vehicle.hpp"
+#include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/motion/rival_speed.hpp"
+#include "cremed/estimator/doubt/scan/rival_speed.hpp"
 
 namespace cremed {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
 
 namespace cremed {

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/signal_check.hpp"
+#include "cremed/estimator/doubt/vehicle/signal_check.hpp"
 
 namespace cremed {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/signal_trust.hpp"
+#include "cremed/estimator/doubt/vehicle/signal_trust.hpp"
 
 namespace cremed {
 namespace {

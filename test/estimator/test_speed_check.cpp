@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/motion/speed_check.hpp"
+#include "cremed/estimator/doubt/radar/speed_check.hpp"
 #include "test/estimator/circle_drive.hpp"
 
 using namespace cremed;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/gate/standing_value.hpp"
+#include "cremed/estimator/doubt/vehicle/standing_value.hpp"
 
 namespace cremed {
 namespace {

@@ -117,23 +117,41 @@ class DriveJudge {
         anchor != true_us_.end() ? anchor->second : odometry.utime_anchor_us - step_us;
     true_us_[odometry.utime_us] = result.us;
     if (const auto truth = drive_.truth.motion(anchor_us, result.us)) {
-      result.sigmas = sigmas(odometry, *truth, result.us - anchor_us);
+      result.sigmas = sigmas(odometry, *truth, anchor_us, result.us);
     }
     return result;
   }
 
   [[nodiscard]] double sigmas(const Odometry& odometry, const Eigen::Vector3d& truth,
-                              std::int64_t interval_us) const {
-    const Eigen::Vector3d error = estimation_error(odometry.pose, truth);
-    const Eigen::Matrix3d noise = drive_.truth_noise.covariance(std::abs(interval_us));
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double variance = odometry.covariance(axis, axis) + noise(axis, axis);
-      if (odometry.covariance(axis, axis) > 0.0) {
-        largest = std::max(largest, std::abs(error(axis)) / std::sqrt(variance));
+                              std::int64_t from_us, std::int64_t to_us) const {
+    const std::int64_t interval_us = std::abs(to_us - from_us);
+    Eigen::Vector3d sigmas =
+        sigmas_by_axis(odometry, truth, drive_.truth_noise.covariance(interval_us).diagonal());
+    if (const auto wheels = drive_.wheels ? drive_.wheels->motion(from_us, to_us) : std::nullopt) {
+      const double interval_s = static_cast<double>(interval_us) / kUsPerS;
+      const WheelStd& std = drive_.wheels->std();
+      const Eigen::Vector3d by_wheels =
+          sigmas_by_axis(odometry, *wheels,
+                         interval_s * interval_s *
+                             Eigen::Vector3d(std.speed_mps, 0.0, std.yaw_rate_radps).cwiseAbs2());
+      for (const int axis : {0, 2}) {  // Of y the wheels tell nothing.
+        sigmas(axis) = std::min(sigmas(axis), by_wheels(axis));
       }
     }
-    return largest;
+    return sigmas.maxCoeff();
+  }
+
+  static Eigen::Vector3d sigmas_by_axis(const Odometry& odometry, const Eigen::Vector3d& reference,
+                                        const Eigen::Vector3d& variance_of_reference) {
+    const Eigen::Vector3d error = estimation_error(odometry.pose, reference);
+    Eigen::Vector3d sigmas = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double variance = odometry.covariance(axis, axis);
+      if (variance > 0.0) {
+        sigmas(axis) = std::abs(error(axis)) / std::sqrt(variance + variance_of_reference(axis));
+      }
+    }
+    return sigmas;
   }
 
   [[nodiscard]] std::int64_t end_us() const { return drive_.frames.back().stamp_us; }

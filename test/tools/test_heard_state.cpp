@@ -110,6 +110,27 @@ TEST_CASE("Nothing heard is null, not zero") {
   CHECK(json["radars"].empty());
 }
 
+TEST_CASE("A radar's scans have a rate by their stamps, and a silence by the clock") {
+  HeardState state;
+  ego_motion_t motion = motion_of("front", ego_motion_t::STATUS_OK);
+  motion.utime = 1'000'000'000;
+  state.take(motion);
+  CHECK(json_of(state)["radars"][0]["scan_rate_hz"].is_null());
+  for (int i = 0; i < 100; ++i) {
+    motion.utime += 75'000;
+    state.take(motion);
+  }
+  CHECK(json_of(state)["radars"][0]["scan_rate_hz"].get<double>() == Approx(1.0 / 0.075));
+  CHECK(json_of(state)["radars"][0]["silent_s"].get<double>() < 1.0);
+  motion.utime -= 500'000'000;  // Another replay.
+  state.take(motion);
+  CHECK(json_of(state)["radars"][0]["scan_rate_hz"].is_null());
+  CHECK(json_of(state)["pose"].is_null());
+  state.take(odometry(1));
+  CHECK(json_of(state)["pose"]["silent_s"].get<double>() < 1.0);
+  CHECK(json_of(state)["pose"]["behind_s"].get<double>() > 1e6);
+}
+
 TEST_CASE("An hour's drive stays a minute of motion and a path") {
   HeardState state;
   for (std::int64_t seq = 0; seq <= 180'000; ++seq) {

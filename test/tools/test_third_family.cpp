@@ -15,6 +15,7 @@
 #include "cremed/can_decoders/radar_family.hpp"
 #include "daemon/configuration/configuration_summary.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/report/report.hpp"
 #include "test/tools/doctor_bench.hpp"
 #include "test/tools/pipeline_bench.hpp"
 #include "tools/doctor/suggestion.hpp"
@@ -128,7 +129,8 @@ const RadarFamily& family_of(const FanOptions& /*options*/) {
                                     .label = kOfSettings<label>,
                                     .describe = kOfSettings<describe>,
                                     .key = kOfSettings<key>,
-                                    .recognise = recognise};
+                                    .recognise = recognise,
+                                    .doppler_sign_key = "invert_doppler"};
   return kFan;
 }
 
@@ -243,6 +245,17 @@ TEST_CASE("--check-config shows it, and its identifiers are let through") {
                       "0x504-0x505\n"));
   CHECK(configuration.radars[0].decoder.label() == "Fan");
   CHECK(ids_on(0, configuration) == std::vector<std::uint32_t>{0x504, 0x505});
+}
+
+TEST_CASE("Of its keys only those are advised that it has") {
+  const Configuration configuration = parse(kText);
+  RadarStatus status;
+  const auto remedy_of = [&](FaultKind kind) {
+    status.odometry.cause = {kind};
+    return left_out_finding(configuration.radars[0], status, configuration.radars).remedy;
+  };
+  CHECK(remedy_of(FaultKind::sign) == "change invert_doppler, or turn mount.yaw_rad by pi");
+  CHECK(remedy_of(FaultKind::upside_down) == "if it is mounted upside down, turn it over");
 }
 
 TEST_CASE("Its frames become odometry") {

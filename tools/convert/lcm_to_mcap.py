@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """An LCM log of cremed as MCAP."""
+import json
 import math
 
 import cremed
@@ -55,34 +56,52 @@ def topic_of(message):
     return TOPICS[type(message)] + (f"_{source.upper()}" if source else "")
 
 
-def write_messages(log, writer):
+class JsonProfile:
+    """All fields of all messages: (topic, type, bytes) of a message."""
+    name, encoding, schema_encoding = "", "json", "jsonschema"
+
+    @staticmethod
+    def schema(kind):
+        name, schema = schema_of(kind)
+        return name, json.dumps(schema)
+
+    @staticmethod
+    def records(message):
+        return [(topic_of(message), type(message), json.dumps(as_json(message), allow_nan=False).encode())]
+
+
+def each_once(heard_messages):
+    """What is published on the channel for all, and on that of the source, is one message."""
+    last = {}
+    for heard in heard_messages:
+        message = heard.message
+        stream, key = (type(message), getattr(message, "source", "")), (message.utime, message.seq)
+        if 0 < message.utime < LATEST_US and last.get(stream) != key:  # 0: a status from before the first frame.
+            last[stream] = key
+            yield heard
+
+
+def write_messages(log, writer, profile):
     """How many; and what is wrong with the log, of which all before that is written: None, if nothing.
     The time of a message is that of its measurement: a log of a replay has the drive's pace. The time of
     recording is the time of publication."""
-    last, count = {}, 0
-    schemas = {kind: schema_of(kind) for kind in TOPICS}
+    count = 0
     try:
-        for heard in cremed.read_log(log):
-            message, topic = heard.message, topic_of(heard.message)
-            key = (message.utime, message.seq)
-            if not 0 < message.utime < LATEST_US:  # 0: a status from before the first frame.
-                continue
-            if last.get(topic) == key:  # On the channel for all, and on that of the source.
-                continue
-            last[topic] = key
-            writer.add(topic, schemas[type(message)], message.seq, message.utime * 1000,
-                       max(heard.received_us, 0) * 1000, as_json(message))
-            count += 1
+        for heard in each_once(cremed.read_log(log)):
+            message = heard.message
+            for topic, kind, content in profile.records(message):
+                writer.add(topic, kind, message.seq, message.utime * 1000, max(heard.received_us, 0) * 1000, content)
+                count += 1
     except cremed.DamagedLog as damage:
         return count, damage
     return count, None
 
 
-def convert(log, out, library):
+def convert(log, out, library, profile):
     """Raises, after it has converted what comes before damage, where there is any."""
     with replaced_file(out) as file:
-        writer = McapWriter(file, library)
-        count, damage = write_messages(log, writer)
+        writer = McapWriter(file, library, profile)
+        count, damage = write_messages(log, writer, profile)
         if count == 0:
             raise damage or ValueError(f"{log}: has none of cremed's messages; record with lcm-logger")
         writer.finish()

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes MCAP files (mcap.dev/spec), which Foxglove and PlotJuggler read: JSON messages in chunks with
+"""Writes MCAP files (mcap.dev/spec), which Foxglove, PlotJuggler and ROS 2 read: messages in chunks with
 an index, not compressed."""
-import json
 import math
 import struct
 import zlib
@@ -38,19 +37,21 @@ class Chunk:
 
 
 class McapWriter:
-    def __init__(self, file, library):
-        self.file, self.chunk = file, Chunk()
+    """`profile`: its name, the encodings of its messages and schemas, and a schema (name, text) of a kind."""
+
+    def __init__(self, file, library, profile):
+        self.file, self.profile, self.chunk = file, profile, Chunk()
         self.schemas, self.channels, self.counts = {}, {}, {}
         self.definitions = {SCHEMA: [], CHANNEL: []}
         self.chunk_indexes, self.first_ns, self.last_ns = [], math.inf, 0
         self.written = 0  # A pipe does not tell.
-        self._write(MAGIC + record(HEADER, text("") + text(library)))
+        self._write(MAGIC + record(HEADER, text(profile.name) + text(library)))
 
-    def add(self, topic, schema, sequence, log_time_ns, publish_time_ns, message):
-        """`schema`: (name, JSON schema); `message`: what JSON can hold."""
-        channel = self.channels.get(topic) or self._define_channel(topic, *schema)
+    def add(self, topic, kind, sequence, log_time_ns, publish_time_ns, message):
+        """`kind`: of a message, as the profile knows it; `message`: bytes."""
+        channel = self.channels.get(topic) or self._define_channel(topic, kind)
         content = struct.pack("<HIQQ", channel, sequence & 0xFFFFFFFF, log_time_ns, publish_time_ns)
-        self.chunk.add(channel, log_time_ns, content + json.dumps(message, allow_nan=False).encode())
+        self.chunk.add(channel, log_time_ns, content + message)
         self.counts[channel] = self.counts.get(channel, 0) + 1
         if len(self.chunk.data) >= CHUNK_BYTES:
             self._write_chunk()
@@ -79,14 +80,15 @@ class McapWriter:
         self.definitions[opcode].append(content)
         self.chunk.data += record(opcode, content)
 
-    def _define_channel(self, topic, schema_name, schema):
-        if schema_name not in self.schemas:
-            number = self.schemas[schema_name] = len(self.schemas) + 1
-            self._define(SCHEMA, struct.pack("<H", number) + text(schema_name) + text("jsonschema")
-                         + text(json.dumps(schema)))
+    def _define_channel(self, topic, kind):
+        if kind not in self.schemas:
+            number = self.schemas[kind] = len(self.schemas) + 1
+            name, schema = self.profile.schema(kind)
+            self._define(SCHEMA, struct.pack("<H", number) + text(name) + text(self.profile.schema_encoding)
+                         + text(schema))
         number = self.channels[topic] = len(self.channels) + 1
-        self._define(CHANNEL, struct.pack("<HH", number, self.schemas[schema_name]) + text(topic)
-                     + text("json") + table("", []))
+        self._define(CHANNEL, struct.pack("<HH", number, self.schemas[kind]) + text(topic)
+                     + text(self.profile.encoding) + table("", []))
         return number
 
     def _write_chunk(self):

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +30,7 @@
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/suggestion.hpp"
+#include "tools/doctor/unconfigured.hpp"
 #include "tools/program.hpp"
 
 namespace {
@@ -127,12 +125,10 @@ void print(const Finding& finding) {
   std::cout << severity_name(finding.severity) << ": " << to_text(finding) << '\n';
 }
 
-/// Whether no one has said yet which radars there are. A pipe cannot be read twice.
-bool is_unconfigured(const Arguments& arguments) {
-  std::error_code error;
-  const std::string& log = arguments.replay;
-  const bool is_pipe = log == "-" || std::filesystem::is_fifo(log, error);
-  return arguments.config.empty() && !log.empty() && !is_pipe && is_unwritten();
+/// A pipe cannot be read twice.
+bool finds_radars(const Arguments& arguments) {
+  return !arguments.replay.empty() && !is_pipe(arguments.replay) &&
+         is_unconfigured(arguments.config);
 }
 
 Observation observe(const Arguments& arguments, const Configuration& configuration,
@@ -140,7 +136,7 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   Observation observation = arguments.replay.empty()
                                 ? observe_live(configuration, arguments.seconds, stop)
                                 : observe_log(configuration, arguments.replay);
-  if (is_unconfigured(arguments)) {
+  if (finds_radars(arguments)) {
     drop_doubts_of_mounts(observation);
   }
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
@@ -151,26 +147,15 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   return observation;
 }
 
-Configuration without_radars() {
-  Configuration nothing;
-  nothing.odometry.enabled = false;
-  return nothing;
-}
-
 /// Without a configuration: the radars that are in the log, which is read twice.
 LocatedRadars locate_unconfigured(const std::string& log) {
-  const Observation observation = observe_log(without_radars(), log);
-  const Configuration configuration = examined_configuration(observation);
-  if (configuration.radars.empty()) {
-    throw std::runtime_error(no_suggestion(observation));
-  }
-  return {configuration,
+  return {examined_radars(observe_log(without_radars(), log)),
           {{Severity::note, "there is no configuration, so each radar in the log is examined alone",
             std::string(kWriteFirst)}}};
 }
 
 LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_t* stop) {
-  if (is_unconfigured(arguments)) {
+  if (finds_radars(arguments)) {
     return locate_unconfigured(arguments.replay);
   }
   const Configuration asked = load_configuration(configuration_path(arguments.config));

@@ -10,6 +10,11 @@
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
+
+std::string no_frame_in(const std::string& path) {
+  return concat({path, ": no CAN frame in it; lines of `candump -L` are expected"});
+}
+
 Observation observe_log(const Configuration& configuration, const std::string& path) {
   Observer observer(configuration);
   StampOrder stamps;
@@ -33,8 +38,7 @@ Observation observe_log(const Configuration& configuration, const std::string& p
     is_empty = is_empty && bus.state == InterfaceState::absent;
   }
   if (is_empty) {
-    throw std::runtime_error(
-        concat({path, ": no CAN frame in it; lines of `candump -L` are expected"}));
+    throw std::runtime_error(no_frame_in(path));
   }
   return observation;
 }

@@ -13,4 +13,7 @@ namespace cremed {
 /// cannot be read or holds no frame.
 Observation observe_log(const Configuration& configuration, const std::string& path);
 
+/// The message for a log without a frame.
+std::string no_frame_in(const std::string& path);
+
 }  // namespace cremed

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
-#include "cremed/estimator/motion/self_check.hpp"
+#include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"

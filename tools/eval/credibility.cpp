@@ -68,7 +68,7 @@ double Credibility::rmse_deg() const {
 double Credibility::anees() const { return mean(nees_, count_); }
 
 double Credibility::coverage(int axis, int sigmas) const {
-  if (!is_estimated(axis)) {
+  if (!is_estimated(axis) || std::isnan(nees_)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   return mean(

@@ -20,7 +20,7 @@ double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Ma
 
 /// Agreement of estimates and their covariances with truth. Order of states: (x_m, y_m, yaw_rad).
 /// In two degrees of freedom y is estimated as 0 and excluded from the ANEES, but its error counts
-/// in the RMSE.
+/// in the RMSE. Where a covariance is unknown (NaN), so are ANEES and coverage.
 class Credibility {
  public:
   explicit Credibility(int degrees_of_freedom) : degrees_of_freedom_(degrees_of_freedom) {}
@@ -35,7 +35,7 @@ class Credibility {
   /// Average normalised estimation error squared, per degree of freedom: 1 if credible.
   [[nodiscard]] double anees() const;
   /// Share of errors within `sigmas` (1, 2, 3) standard deviations of `axis` (0 x, 1 y, 2 yaw);
-  /// NaN for an axis that is not estimated. Gaussian: 0.683, 0.954, 0.997.
+  /// NaN for an axis that is not estimated, or unknown. Gaussian: 0.683, 0.954, 0.997.
   [[nodiscard]] double coverage(int axis, int sigmas) const;
 
  private:

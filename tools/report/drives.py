@@ -11,12 +11,15 @@ import sys
 from dataclasses import dataclass, field
 
 import main_program
+import findings
 from drive_report import DriveReport
 from heard_drive import HeardDrive
-from page import index, page
+from index_page import Row, index
+from page import data_of, page
 from programs import is_lcm, replay
 from replaced_file import replaced_file
 from truth_report import truth_data
+from unconfigured import examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
 # Of the time that a candump log takes.
@@ -30,36 +33,74 @@ class Drive:
     truth: str = None
     truth_stds: list = field(default_factory=list)
     page: str = None  # Path; None: only the numbers are asked for.
+    has_index: bool = False  # The page stands in a folder with one.
     json: str = None
     figures: dict = field(default_factory=dict)
     troubles: list = field(default_factory=list)  # The page lacks what they say.
+    findings: list = field(default_factory=list)
+    truth_figures: list = None
+
+
+def logs_in(folder):
+    """[(log, name of its page)]: all below it that are named as candump and lcm-logger name them."""
+    logs = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".log", ".lcm") and path.is_file())
+    if not logs:
+        raise main_program.UsageError(f"{folder}: has no file *.log or *.lcm")
+    return [(str(log), "-".join(log.relative_to(folder).with_suffix("").parts)) for log in logs]
+
+
+def named_logs(paths):
+    for path in paths:
+        yield from logs_in(path) if os.path.isdir(path) else [(path, pathlib.Path(path).stem)]
 
 
 def drives_of(arguments):
-    groups = [arguments.logs] if arguments.merge else [[log] for log in arguments.logs]
+    named = list(named_logs(arguments.logs))
+    is_one = arguments.merge or (len(named) == 1 and not os.path.isdir(arguments.logs[0]))
+    groups = [([log for log, _ in named], "")] if is_one else [([log], name) for log, name in named]
     truths = arguments.truth + [None] * (len(groups) - len(arguments.truth))
-    drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for logs, truth in zip(groups, truths)]
-    for drive in drives if arguments.output else ():
-        name = pathlib.Path(drive.logs[0]).stem + ".html"
-        drive.page = os.path.join(arguments.output, name) if len(drives) > 1 else arguments.output
+    drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for (logs, _), truth in zip(groups, truths)]
+    for drive, (_, name) in zip(drives if arguments.output else (), groups):
+        drive.page, drive.has_index = arguments.output, not is_one
+        if not is_one:
+            drive.page = os.path.join(arguments.output, f"{name}.html")
     return drives
 
 
 def measure(drive, programs, told):
     """What the page shows. `told` is called with the part that is done."""
     with main_program.temporary_folder("cremed-report-") as name:
-        folder, lcm_log, warnings, begun = pathlib.Path(name), drive.logs[0], [], 0.0
-        if not is_lcm(drive.logs):
+        folder, lcm_log, warnings, begun, found = pathlib.Path(name), drive.logs[0], [], 0.0, []
+        is_candump, config = not is_lcm(drive.logs), drive.config
+        if is_candump:
             begun = REPLAY_PART
-            lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, drive.config, folder,
+            if not config and len(drive.logs) == 1 and is_unwritten():
+                config, missing = examined_configuration(programs, drive.logs[0], folder)
+                found.append(missing)
+            lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, config, folder,
                                                        lambda part: told(REPLAY_PART * part))
         heard = heard_of(lcm_log, drive, lambda part: told(begun + 0.9 * (1 - begun) * part))
         data = {"logs": [os.path.basename(log) for log in drive.logs],
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
+        data["mounts_unknown"] = bool(found)
+        data["findings"] = findings_of(drive, programs, data, found, is_candump and config)
         if drive.truth:
             data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
         told(1.0)
         return data
+
+
+def findings_of(drive, programs, data, found, config):
+    """`config`: of a candump log. The doctor reads that again, so it is asked only where cremed warned."""
+    of_drive = findings.of_the_drive(data)
+    if found:  # Without a configuration all else follows from that.
+        return found
+    if config and len(drive.logs) == 1 and (data["warnings"] or of_drive):
+        found += findings.of_the_doctor(programs / "cremed-doctor", drive.logs, config)
+    elif not config:
+        found += [findings.finding("error", trouble) for trouble in drive.troubles]
+        found += [findings.of_messages()] if of_drive else []
+    return findings.in_order(found + of_drive)
 
 
 def heard_of(lcm_log, drive, told):
@@ -67,7 +108,7 @@ def heard_of(lcm_log, drive, told):
         heard = HeardDrive(lcm_log, told)
     except ValueError as error:  # Its cause comes first.
         raise ValueError("\n".join(drive.troubles) or error) from error
-    drive.troubles = drive.troubles or heard.troubles()
+    drive.troubles = drive.troubles or [trouble.replace(str(lcm_log), drive.logs[0]) for trouble in heard.troubles()]
     return heard
 
 
@@ -76,10 +117,30 @@ def make(drive, programs, share, version, told):
     if drive.page:
         with replaced_file(drive.page) as file:
             file.write(page(data, share).encode())
-    drive.figures = data["figures"]
+    take_figures(drive, data)
     numbers = {name: value for name, value in data.items() if name != "scans"}
     drive.json = json.dumps(numbers, allow_nan=False) + "\n"
     return drive
+
+
+def take_figures(drive, data):
+    drive.figures, drive.findings = data["figures"], data["findings"]
+    drive.truth_figures = data["truth"]["figures"] if "truth" in data else None
+
+
+def is_made(drive, version):
+    """Whether an earlier run has made the page, by the same version, of these files."""
+    inputs = [*drive.logs, *filter(None, (drive.config, drive.truth))]
+    try:
+        if os.path.getmtime(drive.page) < max(map(os.path.getmtime, inputs)):
+            return False
+        data = data_of(drive.page)
+    except (OSError, ValueError, TypeError):
+        return False
+    if data.get("version") != version or (drive.truth is None) != ("truth" not in data):
+        return False
+    take_figures(drive, data)
+    return True
 
 
 class Progress:
@@ -157,25 +218,35 @@ def make_at_once(drives, jobs, *arguments):
             raise
 
 
-def make_pages(drives, programs, share, jobs, version):
+def index_folder(drives):
+    """Where several pages go; nothing for one page, or none."""
+    return os.path.dirname(drives[0].page) if drives[0].page and drives[0].has_index else None
+
+
+def make_pages(drives, programs, share, jobs, version, resume=False):
     """Returns the drives that could be made; what is wrong is printed."""
     global PROGRESS  # pylint: disable=global-statement
-    PROGRESS = Progress(len(drives))
-    if len(drives) > 1 and drives[0].page:
-        os.makedirs(os.path.dirname(drives[0].page), exist_ok=True)
+    folder = index_folder(drives)
+    if folder:
+        os.makedirs(folder, exist_ok=True)
+    old = [drive for drive in drives if resume and is_made(drive, version)]
+    new = [drive for drive in drives if drive not in old]
+    PROGRESS = Progress(len(new))
     arguments = programs, share, version
     try:
-        results = (make_at_once(drives, jobs, *arguments) if len(drives) > 1 else
-                   [make_one(0, drives[0], *arguments)])
+        results = (make_at_once(new, jobs, *arguments) if len(new) > 1 else
+                   [make_one(number, drive, *arguments) for number, drive in enumerate(new)])
     finally:
         PROGRESS.wipe()
     made = [result for result in results if isinstance(result, Drive)]
     for result in results:
         for trouble in result.troubles if isinstance(result, Drive) else [result]:
             main_program.tell("cremed-report", trouble)
-    if len(made) < len(drives) > 1:
-        main_program.tell("cremed-report", f"{len(drives) - len(made)} of {len(drives)} drives have no report")
-    if len(drives) > 1 and drives[0].page:
-        with replaced_file(os.path.join(os.path.dirname(drives[0].page), "index.html")) as file:
-            file.write(index(made).encode())
-    return made
+    if len(made) < len(new) and len(drives) > 1:
+        main_program.tell("cremed-report", f"{len(new) - len(made)} of {len(drives)} drives have no report")
+    if folder:
+        rows = [Row.of(result) if isinstance(result, Drive) else Row(drive.logs[0], failure=result)
+                for drive, result in [*zip(new, results), *((drive, drive) for drive in old)]]
+        with replaced_file(os.path.join(folder, "index.html")) as file:
+            file.write(index(rows, share).encode())
+    return old + made

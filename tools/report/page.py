@@ -33,15 +33,10 @@ def page(data, share):
     return re.sub(r"\{\{(.*?)\}\}", lambda match: texts[match[1]], template)
 
 
-def index(drives):
-    rows = "".join(
-        f'<tr><td><a href="{html.escape(os.path.basename(drive.page))}">{html.escape(drive.logs[0])}</a>'
-        f'<td>{drive.figures["duration_s"]:.1f}<td>{drive.figures["path_length_m"]:.0f}'
-        f'<td>{html.escape(", ".join(in_doubt(drive.figures)) or "none")}' for drive in drives)
-    return ('<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>cremed: drives</title>'
-            '<style>body{font:15px sans-serif;margin:2em}td,th{padding:.2em 1em;text-align:left}</style>'
-            f'<h1>{len(drives)} drives</h1><table><tr><th>drive<th>s<th>m<th>radars in doubt{rows}</table>')
-
-
-def in_doubt(figures):
-    return [radar for radar, told in figures["radars"].items() if told["statuses_with_doubt"]]
+def data_of(path):
+    """What a page that was made shows."""
+    with open(path, encoding="utf-8") as file:
+        found = re.search(r'<script type="application/json" id="data">(.*?)</script>', file.read(), re.DOTALL)
+    if not found:
+        raise ValueError(f"{path}: is no page of cremed-report")
+    return json.loads(found[1])

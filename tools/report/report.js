@@ -9,11 +9,11 @@ const radars = Object.keys(data.radars).length ? Object.keys(data.radars)
   : Object.keys(data.statuses).filter((name) => name !== "odometry" && name !== "fused");
 const hueOf = hues(radars);
 const charts = new TimeCharts((time) => setTime(time));
-const DOUBT_COLOR = MOVING, NO_DOUBT = "#e6f2ea";
+const DOUBT_COLOR = MOVING, NO_DOUBT = inScheme("#e6f2ea", "#1f3a2b");
 let now = 0;
 
 const byId = (id) => document.getElementById(id);
-const hueOfSource = (source) => hueOf[source] ?? (source === "fused" ? MUTED : DARK);
+const hueOfSource = (source) => hueOf[source] ?? (source === "fused" ? MUTED : INK);
 
 /** Index of the last that is not after `time`, 0 at least. */
 function indexAt(times, time) {
@@ -30,6 +30,26 @@ function showAbout() {
   byId("about").textContent = `${begin} UTC, ${radars.length} radars; made by ${data.version}`;
 }
 
+/** A text with commands in `backquotes`. */
+function addText(parent, text) {
+  text.split("`").forEach((part, i) => element(parent, i % 2 ? "code" : "span", part));
+}
+
+const MOODS = {error: "bad", warning: "careful", note: "muted"};
+
+function showFindings() {
+  if (!data.findings.length) element(byId("findings"), "li", "Nothing is wrong.", {className: "good"});
+  for (const {severity, what, remedy} of data.findings) {
+    const item = element(byId("findings"), "li", "", {className: MOODS[severity]});
+    element(item, "b", `${severity}: `).className = MOODS[severity];
+    addText(item, what);
+    if (remedy) {
+      element(item, "br");
+      addText(item, `Remedy: ${remedy}`);
+    }
+  }
+}
+
 function share(statuses, wanted) {
   const all = Object.values(statuses).reduce((sum, count) => sum + count, 0);
   return 100 * wanted.reduce((sum, name) => sum + (statuses[name] ?? 0), 0) / all;
@@ -42,15 +62,17 @@ function showTiles() {
     element(made, "span", text);
   };
   tile("duration", fixed(figures.duration_s, 1, " s"));
-  tile("path length", fixed(figures.path_length_m, 0, " m"));
-  tile("maximum speed", fixed(figures.maximum_speed_mps * 3.6, 1, " km/h"));
   if (figures.odometry) {
+    tile("path length", fixed(figures.path_length_m, 0, " m"));
+    tile("maximum speed", fixed(figures.maximum_speed_mps, 1, " m/s"));
     tile("odometry ok or standing still",
          fixed(share(figures.odometry.statuses, ["ok", "standing_still"]), 1, " %"));
+  } else {
+    tile("odometry", "none");
   }
   const doubted = radars.filter(
     (radar) => Object.keys(figures.radars[radar]?.statuses_with_doubt ?? {}).length);
-  tile("radars in doubt at some time", doubted.join(", ") || "none");
+  if (!data.mounts_unknown) tile("radars in doubt at some time", doubted.join(", ") || "none");
   const odometry = truth?.figures.find(({source}) => source === "odometry");
   const late = odometry?.segments.find(({after}) => after === "10 s");
   if (late?.segments) tile("position error after 10 s, of the path", fixed(late.position_percent, 2, " %"));
@@ -61,12 +83,12 @@ function showTiles() {
 
 function drawMap(plane) {
   if (truth) plane.line(truth.path.x, truth.path.y, TRUTH, 6);
-  plane.line(path.x, path.y, DARK, 1.6);
+  plane.line(path.x, path.y, INK, 1.6);
   if (!path.t.length) return;
   const i = indexAt(path.t, now);
   const pose = {x: path.x[i], y: path.y[i], yaw: path.yaw[i]};
   plane.ellipse(pose, [path.cov_xx[i], path.cov_xy[i], path.cov_yy[i]], HUES[0]);
-  plane.vehicle(pose, DARK);
+  plane.vehicle(pose, INK);
   byId("pose").textContent = `x ${fixed(pose.x, 2, " m")}, y ${fixed(pose.y, 2, " m")}, yaw ` +
     `${fixed(degrees(pose.yaw), 1, "°")}; sigma ${fixed(Math.sqrt(path.cov_xx[i]), 3)} and ` +
     `${fixed(Math.sqrt(path.cov_yy[i]), 3, " m")}; ${fixed(path.vx[i], 2, " m/s")}`;
@@ -96,7 +118,7 @@ const around = new Plane(byId("scans"), drawScansNow,
 
 function showPlanes() {
   fillLegend(byId("map-legend"), [
-    {text: "odometry", color: DARK, mark: "━"}, {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"},
+    {text: "odometry", color: INK, mark: "━"}, {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"},
     ...(truth ? [{text: "truth, aligned at the start", color: TRUTH, mark: "━"}] : [])]);
   map.fit(boxOf(truth ? [path, truth.path] : [path]));
   const every = Math.ceil(data.scans.length / 200);
@@ -105,7 +127,8 @@ function showPlanes() {
     .sort((a, b) => a - b);
   const reach = Math.max(20, far[Math.floor(0.9 * far.length)] ?? 20);
   around.fit([-reach, -reach, reach, reach]);
-  byId("scans-note").textContent = data.scans.length ? OUTLIER_MEANS + keptScans()
+  const means = data.mounts_unknown ? "Mounts are not known: each radar is drawn in its own frame." : OUTLIER_MEANS;
+  byId("scans-note").textContent = data.scans.length ? means + keptScans()
     : "The log has no scans: set output.publish_scans = true.";
 }
 
@@ -149,6 +172,7 @@ function showMotion() {
 }
 
 function addForRadars(parent, ylabel, name, options = {}) {
+  if (!radars.some((radar) => data.radars[radar]?.[name].some((value) => value !== null))) return;
   const div = element(element(byId(parent), "div"), "div", "", {className: "chart"});
   charts.add(div, ylabel, radars.filter((radar) => data.radars[radar]).map((radar) => {
     const series = data.radars[radar];
@@ -172,14 +196,18 @@ function addLearned(ylabel, name) {
 
 function showRadars() {
   const log = {logscale: true, valueRange: [0.03, 30]};
-  addForRadars("innovations", "state: Doppler", "odometry_innovation_doppler", log);
-  addForRadars("innovations", "state: sideways", "odometry_innovation_lateral", log);
-  addForRadars("innovations", "state: yaw", "odometry_innovation_yaw", log);
+  if (figures.odometry) {
+    addForRadars("innovations", "state: Doppler", "odometry_innovation_doppler", log);
+    addForRadars("innovations", "state: sideways", "odometry_innovation_lateral", log);
+    addForRadars("innovations", "state: yaw", "odometry_innovation_yaw", log);
+  }
   addForRadars("innovations", "positions/Doppler", "innovation_doppler", {...log, marks: [3]});
   addForRadars("innovations", "motion/the next", "innovation_next",
                {...log, marks: [3], xlabel: "time [s]"});
-  addLearned("mount yaw error [°]", "mount_yaw_deg");
-  addLearned("Doppler scale error [%]", "doppler_scale_percent");
+  if (figures.odometry) {
+    addLearned("mount yaw error [°]", "mount_yaw_deg");
+    addLearned("Doppler scale error [%]", "doppler_scale_percent");
+  }
   fillLegend(byId("radars-legend"), radars.map((text) => ({text, color: hueOf[text], mark: "━"})));
 }
 
@@ -251,7 +279,7 @@ function showNees(errors, color) {
   replaceChart("nees", "NEES", [
     {name: "NEES", color, t: errors.t, value: errors.nees},
     {name: "95 % of means", color: HUES[1], t: errors.t, value: middle, sigma: half},
-    {name: "mean over 2 s", color: DARK, t: errors.t, value: errors.mean_nees}],
+    {name: "mean over 2 s", color: INK, t: errors.t, value: errors.mean_nees}],
   {series: {NEES: {strokeWidth: 0, drawPoints: true}, "95 % of means": {strokeWidth: 0}}, logscale: true,
    valueRange: [0.01, 100], marks: [1], xlabel: "time [s]"});
 }
@@ -317,9 +345,15 @@ function showWarnings() {
   byId("warnings-text").textContent = data.warnings.join("\n");
 }
 
+function hide(parts) {
+  document.querySelectorAll(parts).forEach((part) => { part.hidden = true; });
+}
+
 showAbout();
+showFindings();
 showTiles();
-showMotion();
+if (figures.odometry) showMotion(); else hide(".of-odometry");
+if (data.mounts_unknown) hide(".of-mounts");
 showStatuses();
 if (truth) showTruth();
 showRadars();

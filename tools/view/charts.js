@@ -3,16 +3,26 @@
 // What cremed-report and cremed-view draw with; curves over time are dygraphs'.
 "use strict";
 
+// As the reader's system asks for; a change reloads the page.
+const SCHEME = matchMedia("(prefers-color-scheme: dark)");
+SCHEME.addEventListener("change", () => location.reload());
+const inScheme = (light, dark) => (SCHEME.matches ? dark : light);
+
 // One hue a radar, in the order of the configuration. Orange and red are kept for what moves and
 // what contradicts.
-const HUES = ["#0072b2", "#009e73", "#aa4499", "#3fa7dd", "#8c6d31", "#332288", "#77b300", "#7f7f7f"];
-const DARK = "#1c2733", GRID = "#e3e8ed", MUTED = "#5f6b78", LEFT_OUT = "#b9c2cb";
-const MOVING = "#e07b00", OUTLIER = "#d0021b", TRUTH = "#9aa5b1";
+const HUES = inScheme(
+  ["#0072b2", "#009e73", "#aa4499", "#3fa7dd", "#8c6d31", "#332288", "#77b300", "#7f7f7f"],
+  ["#4a9fe0", "#2fc297", "#d778c8", "#8fd3f7", "#c9a561", "#a396ff", "#a6d93b", "#b0b0b0"]);
+const INK = inScheme("#1c2733", "#e4ebf2"), GRID = inScheme("#e3e8ed", "#2c3742");
+const MUTED = inScheme("#5f6b78", "#9aa7b4"), LEFT_OUT = inScheme("#b9c2cb", "#56626e");
+const MOVING = inScheme("#e07b00", "#f59b33"), OUTLIER = inScheme("#d0021b", "#ff5c6c");
+const PLATE = inScheme("#ffffffcc", "#171e25cc"), TRUTH = inScheme("#9aa5b1", "#6f7c89");
+// Each its own: green is good, grey a start, yellow an estimate without measurement, red lost.
 const STATUS_COLORS = {
-  ok: "#3a9d5d", standing_still: "#9bd3ae", no_reference: "#c5ced6", initialising: "#c5ced6",
-  predicted: "#f2cf63", gap_too_long: "#f2cf63", incomplete_scan: "#e8b53c",
-  too_few_targets: "#dda52c", ambiguous: "#e07b00", degenerate: "#c1440e", no_convergence: "#c1440e",
-  implausible: "#d0021b", non_finite: "#d0021b", lost: "#d0021b",
+  ok: "#3a9d5d", standing_still: "#9bd3ae", no_reference: "#cdd6de", initialising: "#8fa3b5",
+  predicted: "#f2cf63", gap_too_long: "#b9a27c", incomplete_scan: "#5f7f95",
+  too_few_targets: "#c9a0dc", ambiguous: "#e07b00", degenerate: "#8e5bb0", no_convergence: "#4b2a7b",
+  implausible: "#a23b5c", non_finite: "#4a0d18", lost: "#d0021b",
 };
 const NINETY_FIVE_PERCENT = 5.991;  // Of chi-square with two degrees of freedom.
 const USABLE = 0, FLAGGED_MOVING = 3;  // radar_scan_t.DETECTION_*
@@ -45,7 +55,8 @@ function fillTable(table, head, rows) {
   const body = element(table, "tbody");
   for (const cells of rows) {
     const row = element(body, "tr");
-    cells.forEach((cell) => element(row, "td", cell));
+    // On a narrow screen a cell has the name of its column beside it.
+    cells.forEach((cell, i) => { element(row, "td", cell).dataset.label = head[i]; });
   }
 }
 
@@ -124,25 +135,34 @@ class Plane {
     this.area = cleared(this.canvas);
     this.context = this.area.context;
     this.at = this.zoomed ?? this.home(this.area);
+    this.labels = [];
     this.grid();
     this.draw(this);
+    this.labels.forEach((label) => this.write(label));
+  }
+
+  /** Above what is drawn, on a plate of its own. */
+  write({text, x, y, align}) {
+    const {context} = this, width = context.measureText(text).width;
+    const left = align === "center" ? x - width / 2 : align === "right" ? x - width : x;
+    context.fillStyle = PLATE;
+    context.fillRect(left - 2, y - 10, width + 4, 13);
+    Object.assign(context, {fillStyle: MUTED, textAlign: "left"});
+    context.fillText(text, left, y);
   }
 
   grid() {
     const {context, area: {width, height}, at: {scale, middle}} = this;
     const step = tickStep(Math.min(width, height) / scale, 5);
     context.strokeStyle = GRID;
-    context.fillStyle = MUTED;
     for (const axis of [0, 1]) {
       const half = (axis === 0 ? width : height) / scale / 2 + step;
       for (let k = Math.ceil((middle[axis] - half) / step); k * step < middle[axis] + half; ++k) {
         this.gridLine(axis, k * step, step);
       }
     }
-    context.textAlign = "right";
-    context.fillText(this.names[this.forwardUp ? 1 : 0], width - 6, height - 18);
-    context.textAlign = "left";
-    context.fillText(this.names[this.forwardUp ? 0 : 1], 4, 12);
+    this.labels.push({text: this.names[this.forwardUp ? 1 : 0], x: width - 6, y: height - 4, align: "right"},
+                     {text: this.names[this.forwardUp ? 0 : 1], x: 4, y: 12, align: "left"});
   }
 
   gridLine(axis, value, step) {
@@ -153,14 +173,12 @@ class Plane {
       const x = width / 2 + 20 + scale * (value - middle[0]);
       context.moveTo(x, 0);
       context.lineTo(x, height);
-      context.textAlign = "center";
-      if (x > 40) context.fillText(text, x, height - 4);
+      if (x > 40 && x < width - 70) this.labels.push({text, x, y: height - 4, align: "center"});
     } else {
       const y = height / 2 - 12 - scale * (value - middle[1]);
       context.moveTo(0, y);
       context.lineTo(width, y);
-      context.textAlign = "left";
-      if (y > 24 && y < height - 28) context.fillText(text, 4, y - 3);
+      if (y > 34 && y < height - 28) this.labels.push({text, x: 4, y: y + 4, align: "left"});
     }
     context.stroke();
   }
@@ -276,7 +294,7 @@ function drawTarget(context, x, y, role, hue) {
 /** Scans around the vehicle; returns how many targets have each role. */
 function drawScans(plane, scans, hueOf) {
   const counts = {};
-  plane.vehicle({x: 0, y: 0, yaw: 0}, DARK);
+  plane.vehicle({x: 0, y: 0, yaw: 0}, INK);
   for (const scan of scans) {
     for (const {x, y, role} of targetsOf(scan)) {
       drawTarget(plane.context, ...plane.pixel(x, y), role, hueOf[scan.source]);
@@ -348,8 +366,9 @@ class TimeCharts {
     this.followers.forEach((follow) => follow());
   }
 
-  /** Where time is on the page: left and width of the curves, the seconds there. */
+  /** Where time is on the page: left and width of the curves, the seconds there. Nothing without curves. */
   axis() {
+    if (!this.charts.length) return null;
     const area = this.charts[0].getArea();
     return {left: area.x, width: area.w, window: this.charts[0].xAxisRange()};
   }
@@ -374,8 +393,9 @@ function line(context, x0, y0, x1, y1) {
 }
 
 /** Strips of colour over time, in line with the curves: rows {name: [[time, text], ...]}. */
-function drawTimeline(canvas, rows, end, colorOf, {left, width, window: [begin, last]}, time) {
-  const {context} = cleared(canvas), step = 20;
+function drawTimeline(canvas, rows, end, colorOf, axis, time) {
+  const {context, width: room} = cleared(canvas), step = 20;
+  const {left, width, window: [begin, last]} = axis ?? {left: 80, width: room - 92, window: [0, end]};
   const place = (t) => left + width * (t - begin) / (last - begin);
   Object.entries(rows).forEach(([name, runs], row) => {
     context.fillStyle = MUTED;

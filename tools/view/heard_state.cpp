@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,9 @@ using Json = nlohmann::json;
 constexpr std::int64_t kMotionsUs = 60'000'000;
 constexpr std::int64_t kMotionSpacingUs = 100'000;
 constexpr std::int64_t kOldScanUs = 1'000'000;
+/// Rates of scans are means over this time: 26 scans of an ARS408 as fast as it gets.
+constexpr std::int64_t kRateUs = 2'000'000;
+constexpr std::size_t kMostRateScans = 200;
 
 /// "unknown" for a number that is none of the type's.
 template <typename Status>
@@ -41,7 +45,7 @@ Json pose_json(const odometry_t& m) {
           {"x", m.x_in_odom_frame_m},
           {"y", m.y_in_odom_frame_m},
           {"yaw", m.yaw_in_odom_frame_rad},
-          {"covariance", {covariance[0], covariance[1], covariance[4]}}};
+          {"covariance", {covariance[0], covariance[1], covariance[4], covariance[8]}}};
 }
 
 Json path_json(const std::vector<PathPoint>& points) {
@@ -78,6 +82,37 @@ Json status_json(const status_t& m) {
 
 long hundredths(float value) { return std::isfinite(value) ? std::lround(100.0F * value) : 0; }
 
+Json silent_s(const std::optional<std::chrono::steady_clock::time_point>& heard) {
+  return heard
+             ? Json(
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - *heard).count())
+             : Json();
+}
+
+double behind_s(std::int64_t utime_us) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count() - seconds(utime_us);
+}
+
+/// Null before the second scan.
+Json rate_hz(const std::deque<std::int64_t>& scans_us) {
+  if (scans_us.size() < 2) {
+    return {};
+  }
+  return static_cast<double>(scans_us.size() - 1) / seconds(scans_us.back() - scans_us.front());
+}
+
+/// A stamp that is not later than the last begins anew.
+void note_scan(std::int64_t stamp_us, std::deque<std::int64_t>& scans_us) {
+  if (!scans_us.empty() && stamp_us <= scans_us.back()) {
+    scans_us.clear();
+  }
+  scans_us.push_back(stamp_us);
+  while (scans_us.front() < stamp_us - kRateUs || scans_us.size() > kMostRateScans) {
+    scans_us.pop_front();
+  }
+}
+
 /// As charts.js reads it.
 Json targets_json(const radar_scan_t& m) {
   Json targets = Json::array();
@@ -106,28 +141,22 @@ Json scan_json(const radar_scan_t& m, const std::optional<odometry_t>& odometry)
           {"targets", targets_json(m)}};
 }
 
-Json radar_json(const std::string& name, const std::optional<ego_motion_t>& motion,
-                const std::optional<status_t>& status) {
-  Json json{{"name", name}, {"motion", Json()}, {"targets", 0}, {"status", Json()}};
-  if (motion) {
-    json["motion"] = status_name<MotionStatus>(motion->status, kMotionStatusCount);
-    json["targets"] = motion->num_targets;
-  }
-  if (status) {
-    json["status"] = status_json(*status);
-  }
-  return json;
-}
-
 }  // namespace
+
+void HeardState::note_message() {
+  ++messages_;
+  heard_ = std::chrono::steady_clock::now();
+}
 
 void HeardState::take(const odometry_t& message) {
   const std::scoped_lock lock(mutex_);
-  ++messages_;
+  note_message();
   if (odometry_ && (message.seq < odometry_->seq || message.utime < odometry_->utime)) {
     begin_anew();
   }
   odometry_ = message;
+  odometry_heard_ = heard_;
+  behind_s_ = behind_s(message.utime);
   path_.add({message.x_in_odom_frame_m, message.y_in_odom_frame_m});
   keep_motion(message);
 }
@@ -161,21 +190,23 @@ HeardState::Radar* HeardState::radar(const std::string& name) {
   if (radars_.size() == kMaxRadars || name == kFusedSource) {
     return nullptr;
   }
-  radars_.push_back({name, {}, {}, {}, {}});
+  radars_.emplace_back().name = name;
   return &radars_.back();
 }
 
 void HeardState::take(const ego_motion_t& message) {
   const std::scoped_lock lock(mutex_);
-  ++messages_;
+  note_message();
   if (Radar* const known = radar(message.source)) {
     known->motion = message;
+    known->motion_heard = heard_;
+    note_scan(message.utime, known->scans_us);
   }
 }
 
 void HeardState::take(const status_t& message) {
   const std::scoped_lock lock(mutex_);
-  ++messages_;
+  note_message();
   if (Radar* const known = radar(message.source)) {
     known->status = message;
   }
@@ -183,7 +214,7 @@ void HeardState::take(const status_t& message) {
 
 void HeardState::take(const radar_scan_t& message) {
   const std::scoped_lock lock(mutex_);
-  ++messages_;
+  note_message();
   if (Radar* const known = radar(message.source)) {
     known->scan = message;
     known->odometry_at_scan = odometry_;
@@ -216,19 +247,40 @@ nlohmann::json HeardState::scans_json() const {
   return scans;
 }
 
-std::string HeardState::json() const {
+nlohmann::json HeardState::radar_json(const Radar& radar) {
+  Json json{{"name", radar.name},
+            {"motion", Json()},
+            {"targets", 0},
+            {"scan_rate_hz", rate_hz(radar.scans_us)},
+            {"silent_s", silent_s(radar.motion_heard)},
+            {"status", radar.status ? status_json(*radar.status) : Json()}};
+  if (radar.motion) {
+    json["motion"] = status_name<MotionStatus>(radar.motion->status, kMotionStatusCount);
+    json["targets"] = radar.motion->num_targets;
+  }
+  return json;
+}
+
+nlohmann::json HeardState::snapshot() const {
   const std::scoped_lock lock(mutex_);
   Json radars = Json::array();
   for (const Radar& radar : radars_) {
-    radars.push_back(radar_json(radar.name, radar.motion, radar.status));
+    radars.push_back(radar_json(radar));
   }
-  const Json json{{"messages", messages_},
-                  {"pose", odometry_ ? pose_json(*odometry_) : Json()},
-                  {"path", path_json(path_.points())},
-                  {"rates", motions_json()},
-                  {"radars", std::move(radars)},
-                  {"scans", scans_json()}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json pose;
+  if (odometry_) {
+    pose = pose_json(*odometry_);
+    pose["silent_s"] = silent_s(odometry_heard_);
+    pose["behind_s"] = behind_s_;
+  }
+  return {{"messages", messages_},   {"silent_s", silent_s(heard_)},
+          {"pose", std::move(pose)}, {"path", path_json(path_.points())},
+          {"rates", motions_json()}, {"radars", std::move(radars)},
+          {"scans", scans_json()}};
+}
+
+std::string HeardState::json() const {
+  return snapshot().dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace cremed

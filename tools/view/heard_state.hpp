@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -29,7 +30,9 @@ class HeardState {
   void take(const status_t& message);
   void take(const radar_scan_t& message);
 
-  /// One JSON object, as view.js reads it. What is not known is null.
+  /// One JSON object, as view.js and cremed-top read it. What is not known is null.
+  [[nodiscard]] nlohmann::json snapshot() const;
+  /// The same as text.
   [[nodiscard]] std::string json() const;
 
  private:
@@ -40,22 +43,30 @@ class HeardState {
     double yaw_rate_radps = 0.0;
     double yaw_rate_std_radps = 0.0;
   };
+  using HeardAt = std::optional<std::chrono::steady_clock::time_point>;
   struct Radar {
     std::string name;
     std::optional<ego_motion_t> motion;
+    HeardAt motion_heard;
+    std::deque<std::int64_t> scans_us;  // Stamps of the last seconds.
     std::optional<status_t> status;
     std::optional<radar_scan_t> scan;
     std::optional<odometry_t> odometry_at_scan;
   };
   Radar* radar(const std::string& name);
+  void note_message();
   void begin_anew();
   void keep_motion(const odometry_t& message);
+  [[nodiscard]] static nlohmann::json radar_json(const Radar& radar);
   [[nodiscard]] nlohmann::json motions_json() const;
   [[nodiscard]] nlohmann::json scans_json() const;
 
   mutable std::mutex mutex_;
   std::int64_t messages_ = 0;
+  HeardAt heard_;
   std::optional<odometry_t> odometry_;
+  HeardAt odometry_heard_;
+  double behind_s_ = 0.0;  // This computer's clock after the stamp of the odometry.
   ThinnedPath path_;
   std::deque<Motion> motions_;
   std::vector<Radar> radars_;  // In the order in which they were heard: that of the configuration.

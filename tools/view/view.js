@@ -3,22 +3,24 @@
 // The live page: asks for the state again and again, and draws it.
 "use strict";
 
-const PERIOD_MS = 250, SILENT_MS = 2000;
+const PERIOD_MS = 250, SILENT_S = 2;
+// Clocks of two computers differ by less; what is older was measured in an earlier drive.
+const REPLAY_S = 60;
 // status_t.DOUBT_*, from the lowest bit.
 const DOUBTS = ["registration contradicts Doppler", "motions contradict each other",
                 "other radars contradict", "covariance too large", "positions contradict speed",
                 "stamps run ahead"];
 const byId = (id) => document.getElementById(id);
 
-let state = null, messages = -1, heardAt = 0;
+let state = null, messages = -1;
 const charts = new TimeCharts();
 const rates = {};
 
 const map = new Plane(byId("map"), (plane) => {
   if (!state?.pose) return;
-  plane.line([...state.path.x, state.pose.x], [...state.path.y, state.pose.y], DARK, 1.6);
+  plane.line([...state.path.x, state.pose.x], [...state.path.y, state.pose.y], INK, 1.6);
   plane.ellipse(state.pose, state.pose.covariance, HUES[0]);
-  plane.vehicle(state.pose, DARK);
+  plane.vehicle(state.pose, INK);
 });
 const around = new Plane(byId("scans"), (plane) => {
   if (!state) return;
@@ -39,8 +41,6 @@ function fillTiles(tiles) {
 }
 
 function showPose({pose, rates: {vx, yaw_rate: yawRate}}) {
-  byId("status").textContent = pose.status.replaceAll("_", " ");
-  byId("status").style.color = STATUS_COLORS[pose.status] ?? OUTLIER;
   const last = (values) => values[values.length - 1];
   const sigma = (variance) => Math.sqrt(Math.max(variance, 0));
   fillTiles([
@@ -78,6 +78,8 @@ function latency({latency_p50_us: p50, latency_p99_us: p99, latency_max_us: max}
 const nis = (key) => ({status}) => (status[key] ? fixed(status[key], 2) : "–");
 const ROWS = [
   ["last motion", ({motion}) => (motion ?? "–").replaceAll("_", " ")],
+  ["scans per second", ({scan_rate_hz: rate, silent_s: silent}) =>
+    (silent >= SILENT_S ? `silent for ${silent.toFixed(0)} s` : fixed(rate, 1))],
   ["usable targets", ({targets}) => targets],
   ["scans (incomplete)", ({status}) => `${status.scans} (${status.scans_incomplete})`],
   ["doubts", ({status}) => named(status.doubts)],
@@ -94,7 +96,7 @@ const ROWS = [
 ];
 
 function showRadars(radars) {
-  const cell = (radar, tell) => (radar.status || tell === ROWS[0][1] ? tell(radar) : "–");
+  const cell = (radar, tell) => (radar.status || ROWS.slice(0, 2).some((row) => row[1] === tell) ? tell(radar) : "–");
   fillTable(byId("radars"), ["", ...radars.map(({name}) => name)],
             ROWS.map(([text, tell]) => [text, ...radars.map((radar) => cell(radar, tell))]));
 }
@@ -102,7 +104,6 @@ function showRadars(radars) {
 function show() {
   byId("scans-note").textContent = state.scans.length ? OUTLIER_MEANS
     : "No scans: run cremed with --publish-scans, or output.publish_scans = true.";
-  showRadars(state.radars);
   around.redraw();
   if (!state.pose) return;
   showPose(state);
@@ -111,12 +112,27 @@ function show() {
   showRates("yaw-rate", "yaw rate [°/s]", HUES[1], "yaw_rate", "seconds ago");
 }
 
+/** What is not told any more is not good, whatever it was. */
+function showStatus({pose}) {
+  const isSilent = pose && pose.silent_s >= SILENT_S;
+  byId("status").textContent = isSilent ? "silent" : (pose?.status ?? "").replaceAll("_", " ");
+  byId("status").style.color = isSilent ? OUTLIER : STATUS_COLORS[pose?.status] ?? OUTLIER;
+}
+
+function ageOf({messages: heard, silent_s: silent, pose}) {
+  if (!heard) return "no message from cremed yet";
+  if (silent >= SILENT_S) return `silent for ${silent.toFixed(0)} s`;
+  if (!pose) return "no odometry yet";
+  if (pose.silent_s >= SILENT_S) return `no odometry for ${pose.silent_s.toFixed(0)} s, last ${pose.status.replaceAll("_", " ")}`;
+  const kind = Math.abs(pose.behind_s) > REPLAY_S ? "replay of" : "live,";
+  return `${kind} ${new Date(pose.utime / 1000).toISOString()}`;
+}
+
 function showAge() {
-  const silent = Date.now() - heardAt;
-  byId("about").textContent = !state?.messages ? "no message from cremed yet"
-    : silent < SILENT_MS ? `live, ${new Date(state.pose ? state.pose.utime / 1000 : heardAt).toISOString()}`
-      : `silent for ${(silent / 1000).toFixed(0)} s`;
-  byId("about").className = state?.messages && silent < SILENT_MS ? "muted" : "bad";
+  const text = ageOf(state);
+  byId("about").textContent = text;
+  byId("about").className = /^(live|replay)/.test(text) ? "muted" : "bad";
+  showStatus(state);
 }
 
 async function ask() {
@@ -124,18 +140,19 @@ async function ask() {
     state = await (await fetch("state.json")).json();
     if (state.messages !== messages) {
       messages = state.messages;
-      heardAt = Date.now();
       show();
     }
     showAge();
+    showRadars(state.radars);
   } catch (error) {
     byId("about").textContent = `cremed-view does not answer: ${error.message}`;
     byId("about").className = "bad";
+    byId("status").textContent = "";
   }
   setTimeout(ask, PERIOD_MS);
 }
 
-fillLegend(byId("map-legend"), [{text: "odometry", color: DARK, mark: "━"},
+fillLegend(byId("map-legend"), [{text: "odometry", color: INK, mark: "━"},
                                 {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"}]);
 around.fit([-80, -80, 80, 80]);
 ask();

@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/configuration/configuration.hpp"
-#include "daemon/configuration/lcm_url.hpp"
 #include "daemon/process/signals.hpp"
 #include "tools/program.hpp"
 #include "tools/view/heard_state.hpp"
 #include "tools/view/lcm_listener.hpp"
+#include "tools/view/listening.hpp"
 #include "tools/view/view_server.hpp"
 
 namespace {
@@ -28,12 +25,6 @@ struct Arguments {
   std::string lcm_url;
   cremed::ViewAddress address;
 };
-
-/// Where LCM's own programs listen, if nothing else is asked for.
-std::string default_url() {
-  const char* const named = std::getenv("LCM_DEFAULT_URL");
-  return named != nullptr ? named : cremed::OutputConfiguration{}.lcm_url;
-}
 
 /// Listens until it is to stop, then ends the server. At the end of a log (file://) the page stays.
 void listen(const std::stop_token& stop, cremed::LcmListener& listener,
@@ -67,20 +58,9 @@ int show(const Arguments& arguments) {
   return cremed::stop_requested() ? 0 : kRunTimeFailure;
 }
 
-/// A log is read; with mode=w LCM would empty it.
-bool can_be_heard(std::string_view url) {
-  if (url.starts_with("file://")) {
-    return url.find("mode=w") == std::string_view::npos;
-  }
-  return url != "none" && cremed::is_lcm_url(url);
-}
-
 int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
-  arguments.lcm_url = default_url();
-  app.add_option("--lcm-url", arguments.lcm_url,
-                 "Where to listen (default: $LCM_DEFAULT_URL, or LCM's default group); "
-                 "file://LOG plays a log of lcm-logger");
+  cremed::add_lcm_url(app, arguments.lcm_url);
   app.add_option("--address", arguments.address.host,
                  "Address to serve on; 0.0.0.0: whoever reaches this computer may look")
       ->capture_default_str();
@@ -88,10 +68,7 @@ int run(CLI::App& app, int argc, char** argv) {
       ->check(CLI::Range(0, kHighestPort))
       ->capture_default_str();
   app.parse(argc, argv);
-  if (!can_be_heard(arguments.lcm_url)) {
-    throw CLI::ValidationError("--lcm-url", "'" + arguments.lcm_url + "' is no URL such as " +
-                                                cremed::OutputConfiguration{}.lcm_url);
-  }
+  cremed::require_audible(arguments.lcm_url);
   return show(arguments);
 }
 

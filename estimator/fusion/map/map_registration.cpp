@@ -130,10 +130,12 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
     }
   }
   const Eigen::Matrix3d inverse = complete.inverse();
+  const double x_share = 1.0 - inverse(0, 0) / squared(kPriorStd.x());
   for (Eigen::Matrix3d& by : match.by_node) {
     by = (inverse * by).eval();
+    by(0, 0) /= x_share;
   }
-  match.x_share = 1.0 - inverse(0, 0) / squared(kPriorStd.x());
+  match.x_share = 1.0 - match.covariance(0, 0) / squared(kPriorStd.x());
   match.by_azimuth_scale = (inverse * match.by_azimuth_scale).eval();
 }
 

@@ -23,10 +23,12 @@ struct MapMatch {
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();
   /// Its covariance, with the noise of both targets of each pair.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  /// Derivative of `correction` by a motion of the targets of each node: the node's share of the
-  /// information. All add up to the unit matrix, less the share of the prior of x.
+  /// Derivative of the targets' best pose by a motion of those of each node: the node's share of
+  /// their information. On the diagonal all add up to 1.
   std::array<Eigen::Matrix3d, TargetMap::kNodes> by_node;
-  double x_share = 1.0;  ///< Of the targets in the information of x; the rest is the prior.
+  /// Of the targets in the observed information of x; the rest is the prior. Of a displacement
+  /// along x the correction has this share.
+  double x_share = 1.0;
   /// Derivative of `correction` by a scale error of all azimuths: true = (1 + error) reported.
   Eigen::Vector3d by_azimuth_scale = Eigen::Vector3d::Zero();
   double matched = 0.0;  ///< Number of the scan's targets with a partner: sum of probabilities.

@@ -13,11 +13,11 @@ using namespace state_layout;
 
 namespace {
 
-/// G without the effects of x on y and yaw and of these on x, and without the prior of x.
+/// G without the effects of x on y and yaw and of these on x.
 Eigen::Matrix3d share_of(const MapMatch& match, std::size_t node) {
   const Eigen::Matrix3d& by_node = match.by_node[node];
   Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
-  share(0, 0) = by_node(0, 0) / match.x_share;
+  share(0, 0) = by_node(0, 0);
   share.bottomRightCorner<2, 2>() = by_node.bottomRightCorner<2, 2>();
   return share;
 }
@@ -104,6 +104,7 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
   depend_on(state.error(radar, kMountYaw), by_mount_yaw);
   depend_on(state.error(radar, kLateralPerMetre), by_lateral);
   depend_on(state.error(radar, kYawPerMetre), by_yaw);
+  depend_on(kCommonYawPerMetre, by_yaw);
   depend_on(state.error(radar, kAzimuthScale), match.by_azimuth_scale);
   depend_on(kCommonAzimuthScale, match.by_azimuth_scale);
   measurement.noise(0, 0) += squared(state.options().position_x_per_metre * way_m);

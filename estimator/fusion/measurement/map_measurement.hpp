@@ -18,12 +18,13 @@ namespace cremed {
 /// scan's; (11) of the README:
 ///
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
-///         + sum_k G_k (d Jl_k - (q, r) x_k) + h (e + e_c)
+///         + sum_k G_k (d Jl_k - (q, r + r_c) x_k) + h (e + e_c)
 ///
 /// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, q lateral and
-/// r yaw error over distance, e scale error of azimuths (e_c common to all radars) with its effect
-/// h (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are neglected
-/// in G_k. At any time Doppler knows x far better; over seconds x tells the scale of Doppler.
+/// r yaw error over distance, e scale error of azimuths (r_c, e_c common to all radars) with its
+/// effect h (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are
+/// neglected in G_k. At any time Doppler knows x far better; over seconds x tells the scale of
+/// Doppler.
 struct MapMeasurement {
   const OdometryState& state;
   const TargetMap& map;

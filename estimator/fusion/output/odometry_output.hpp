@@ -11,6 +11,7 @@
 
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 
@@ -37,6 +38,9 @@ class OdometryOutput {
 
   /// Propagates the state and renews the anchor on the way if it is due.
   void advance_to(std::int64_t stamp_us);
+  [[nodiscard]] double anchor_age_s() const {
+    return seconds_between(anchor_.utime_us, state_.time_us());
+  }
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 
   /// The output at the time of the state.

@@ -66,7 +66,7 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
-      considered_{{kCommonAzimuthScale}, {kSlipPerAcceleration}} {
+      considered_{{kCommonAzimuthScale}, {kCommonYawPerMetre}, {kSlipPerAcceleration}} {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
       considered_.push_back({error(i, which)});
@@ -104,6 +104,7 @@ void OdometryState::start(std::int64_t time_us) {
                squared(options_.slip_per_lateral_acceleration_std));
   gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
   gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
+  gaussian.set(kCommonYawPerMetre, 0.0, squared(options_.common_yaw_per_metre_std));
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
       gaussian.set(error(i, which), 0.0, squared(prior_std(i, which)));

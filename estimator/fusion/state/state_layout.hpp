@@ -26,7 +26,8 @@ inline constexpr int kMotionStates = 10;
 inline constexpr int kCommonOffset = 10;        ///< m/s
 inline constexpr int kCommonAzimuthScale = 11;  ///< 1
 inline constexpr int kCommonScale = 12;         ///< 1
-inline constexpr int kOutput = 13;              ///< Clone of the pose at the last output.
+inline constexpr int kCommonYawPerMetre = 13;   ///< rad/m
+inline constexpr int kOutput = 14;              ///< Clone of the pose at the last output.
 inline constexpr int kPose = 3;                 ///< States of a clone.
 /// Clones of past poses on which the maps of the radars hang.
 inline constexpr int kFirstNode = kOutput + kPose;

@@ -11,6 +11,7 @@
 #include "tools/eval/drive/drive_json.hpp"
 #include "tools/eval/drive/drive_report.hpp"
 #include "tools/eval/drive/drive_tables.hpp"
+#include "tools/eval/drive/other_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
 #include "tools/eval/recorded_drive.hpp"
@@ -101,6 +102,17 @@ void add_baselines(const DriveFiles& files, const DriveReference& reference,
   }
 }
 
+void add_others(const DriveFiles& files, const DriveReference& reference,
+                std::vector<SourceEvaluation>& sources) {
+  for (const std::string& other : files.others) {
+    const RecordedOdometry odometry = read_other_trajectory(other);
+    sources.push_back(evaluate_source(odometry, reference, sources.front().first_window_us));
+    if (sources.back().errors.empty()) {
+      throw std::runtime_error(other + ": no pose within truth's time");
+    }
+  }
+}
+
 void print_tables(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                   const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {
   print_drive(file, sources, reference.truth_noise);
@@ -129,6 +141,7 @@ void run_drive(const DriveFiles& files) {
   }
   check_overlap(files, sources, reference.truth);
   add_baselines(files, reference, sources);
+  add_others(files, reference, sources);
   const auto print = files.as_json ? print_json : print_tables;
   print(stdout, sources, reference, compare_references(reference));
   say_what_is_missing(sources);

@@ -20,6 +20,7 @@ struct DriveFiles {
   std::string tables;                  ///< Folder for the plotted data as CSV; empty: none.
   std::string truth_tum;               ///< Truth to write in TUM format; empty: none.
   std::vector<std::string> baselines;  ///< candump logs for other methods; may be empty.
+  std::vector<std::string> others;     ///< Trajectories of other systems; may be empty.
   std::string config;                  ///< Configuration for these logs.
   bool as_json = false;                ///< Prints JSON instead of tables.
 };

@@ -92,6 +92,13 @@ void add_drive(CLI::App& app, DriveFiles& files) {
   auto* config = command->add_option("--config", files.config, "Configuration of its radars");
   logs->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->needs(config);
   config->needs(logs);
+  command
+      ->add_option("--other", files.others,
+                   "Trajectory of another system to compare: FILE in TUM format (x forward, y "
+                   "left), or FILE,TIMES in KITTI's (a camera's axes), of the rear axle's centre; "
+                   "may repeat")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--json", files.as_json, "Print one JSON object instead of the tables");
   command
       ->add_option("--plot", files.plot,

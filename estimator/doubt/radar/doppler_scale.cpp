@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/radar/doppler_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "cremed/estimator/doubt/radar/side_gate.hpp"
+#include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kStep = 0.01;
+/// Way between compared scans: a range error of 0.15 m of two targets is then 3 %.
+constexpr double kWayM = 5.0;
+/// Below this way the votes are too wide; above this time too few targets are found again.
+constexpr double kMinWayM = 1.5;
+constexpr double kMaxIntervalS = 1.0;
+/// A longer pause breaks the way by Doppler.
+constexpr double kMaxScanPeriodS = 0.3;
+/// Of the noise of two velocities.
+constexpr double kMaxStepMps = 1.5;
+/// Votes fade with this time.
+constexpr double kMemoryS = 3.0;
+/// Difference of a target's range between two scans.
+constexpr double kRangeStdM = 0.15;
+constexpr double kMinWidth = 0.02;
+/// Votes farther away than this count by less than 1e-5.
+constexpr double kMaxWidths = 5.0;
+/// Of targets nearer to each other than this only one votes: those of one object vote for all
+/// differences of their positions.
+constexpr double kSpacingM = 0.5;
+/// Four standard deviations of an ARS408's Doppler.
+constexpr double kMaxResidualMps = 0.5;
+/// Smaller r are a healthy radar's.
+constexpr double kMaxShare = 0.03;
+/// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
+constexpr double kClearSigmas = 4.0;
+/// Of the votes for the way back, more than for r = 0. Healthy radars of 0061, 0103, 1094 and
+/// RadarScenes 105 have 0.7 at most, with the sign of Doppler flipped 3 to 14 after a second.
+constexpr double kReversedSigmas = 3.0;
+/// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
+constexpr double kContradictingSigmas = 1.5;
+
+/// A target in the axes of the way between two scans.
+struct AlongWay {
+  double side_m;
+  double steps;  // Along the way, in shares of kStep of it.
+  double side_variance_m2;
+};
+
+}  // namespace
+
+void DopplerScale::forget() {
+  count_ = 0;
+  votes_.fill(0.0);
+  reversed_.fill(0.0);
+}
+
+void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us) {
+  auto velocity = doppler_.fit(targets, velocity_mps_, kArs408DopplerStdMps);
+  if (!velocity) {
+    velocity =
+        doppler_.fit(targets, DopplerVelocityEstimator::search(targets), kArs408DopplerStdMps);
+  }
+  if (!velocity) {
+    count_ = 0;
+    return;
+  }
+  advance(velocity->velocity_mps, yaw_rate_radps, stamp_us);
+  Scan& now = scan(0);
+  take(targets, now);
+  for (std::size_t age = 1; age < count_; ++age) {
+    const Scan& past = scan(age);
+    const Eigen::Vector2d way_m =
+        Eigen::Rotation2Dd(-past.yaw_rad) * Eigen::Vector2d(now.way_m - past.way_m);
+    const bool is_last =
+        age + 1 == count_ || seconds_between(scan(age + 1).stamp_us, stamp_us) > kMaxIntervalS;
+    if (way_m.norm() >= kWayM || (is_last && way_m.norm() >= kMinWayM)) {
+      vote(past, now, way_m);
+      judge(way_m.norm());
+      return;
+    }
+    if (is_last) {
+      return;
+    }
+  }
+}
+
+/// Begins the next scan, at the way and yaw since the one before.
+void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_radps,
+                           std::int64_t stamp_us) {
+  const Scan& last = scan(0);
+  const double dt_s = seconds_between(last.stamp_us, stamp_us);
+  if ((velocity_mps - velocity_mps_).norm() > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
+    forget();  // Votes of before tell nothing of this Doppler.
+  }
+  const Eigen::Vector2d mean_mps = 0.5 * (velocity_mps_ + velocity_mps);
+  velocity_mps_ = velocity_mps;
+  newest_ = (newest_ + 1) % kScans;
+  Scan& now = scan(0);
+  now.stamp_us = stamp_us;
+  if (count_ == 0 || !(dt_s > 0.0 && dt_s <= kMaxScanPeriodS)) {
+    count_ = 1;
+    now.way_m.setZero();
+    now.yaw_rad = 0.0;
+    return;
+  }
+  count_ = std::min(count_ + 1, kScans);
+  const double turn_rad = yaw_rate_radps * dt_s;
+  now.way_m = last.way_m + dt_s * (Eigen::Rotation2Dd(last.yaw_rad + 0.5 * turn_rad) * mean_mps);
+  now.yaw_rad = last.yaw_rad + turn_rad;
+  const double kept = std::exp(-dt_s / kMemoryS);
+  for (Votes* votes : {&votes_, &reversed_}) {
+    std::for_each(votes->begin(), votes->end(), [&](double& some) { some *= kept; });
+  }
+}
+
+/// The static targets, one a place.
+void DopplerScale::take(const TargetSet& targets, Scan& to) const {
+  to.size = 0;
+  for (const Target& target : targets) {
+    const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps_.x() +
+                                target.sin_bearing * velocity_mps_.y();
+    if (std::abs(residual_mps) > kMaxResidualMps) {
+      continue;
+    }
+    const Eigen::Vector2d m(target.x_m - mount_.x_m, target.y_m - mount_.y_m);
+    const Point* points = to.points.data();
+    const bool is_near = std::any_of(points, points + to.size, [&](const Point& other) {
+      return (other.m - m).cwiseAbs().maxCoeff() < kSpacingM;
+    });
+    if (!is_near) {
+      to.points[to.size++] = {m, target.covariance_m2.yy};
+    }
+    if (to.size == kMaxTargets) {
+      return;
+    }
+  }
+}
+
+/// `way_m`: from `from` to `to`, in the axes of `from`.
+void DopplerScale::vote(const Scan& from, const Scan& to, const Eigen::Vector2d& way_m) {
+  const Eigen::Rotation2Dd to_from(from.yaw_rad - to.yaw_rad);
+  const Eigen::Vector2d way = to_from * way_m;
+  const double length_m = way.norm();
+  const Eigen::Vector2d across = Eigen::Vector2d(-way.y(), way.x()) / length_m;
+  const Eigen::Vector2d steps = way / (length_m * length_m * kStep);
+  const auto along = [&](const Eigen::Vector2d& m, double side_variance_m2) {
+    return AlongWay{across.dot(m), steps.dot(m), side_variance_m2};
+  };
+  std::array<AlongWay, kMaxTargets> later;
+  const auto end = std::transform(
+      to.points.begin(), to.points.begin() + static_cast<std::ptrdiff_t>(to.size), later.begin(),
+      [&](const Point& point) { return along(point.m, point.side_variance_m2); });
+  std::sort(later.begin(), end,
+            [](const AlongWay& a, const AlongWay& b) { return a.side_m < b.side_m; });
+  for (std::size_t i = 0; i < from.size; ++i) {
+    const AlongWay before = along(to_from * from.points[i].m, from.points[i].side_variance_m2);
+    const auto first = std::lower_bound(
+        later.begin(), end, before.side_m - kMaxSideGateM,
+        [](const AlongWay& point, double lowest_m) { return point.side_m < lowest_m; });
+    for (auto now = first; now != end && now->side_m <= before.side_m + kMaxSideGateM; ++now) {
+      const double share_steps = before.steps - now->steps;
+      const double step = std::abs(share_steps) - 1.0 / kStep + kMiddle;
+      if (step >= 0.0 && step < static_cast<double>(kSteps - 1) &&
+          is_within_side_gate(before.side_m - now->side_m,
+                              before.side_variance_m2 + now->side_variance_m2)) {
+        Votes& votes = share_steps > 0.0 ? votes_ : reversed_;
+        const auto lower = static_cast<std::size_t>(step);
+        const double upper_part = step - static_cast<double>(lower);
+        votes[lower] += 1.0 - upper_part;
+        votes[lower + 1] += upper_part;
+      }
+    }
+  }
+}
+
+void DopplerScale::judge(double way_m) {
+  const double width_steps = std::max(kMinWidth, kRangeStdM / way_m) / kStep;
+  std::array<double, kSteps> weights;  // Of votes so many steps away.
+  for (std::size_t k = 0; k < kSteps; ++k) {
+    weights[k] = std::exp(-0.5 * squared(static_cast<double>(k) / width_steps));
+  }
+  const int reach = static_cast<int>(kMaxWidths * width_steps);
+  const auto near = [&](const Votes& votes, int step) {
+    double sum = 0.0;
+    const int last = std::min(step + reach, static_cast<int>(kSteps) - 1);
+    for (int k = std::max(step - reach, 0); k <= last; ++k) {
+      sum += votes[static_cast<std::size_t>(k)] *
+             weights[static_cast<std::size_t>(std::abs(k - step))];
+    }
+    return sum;
+  };
+  const double given = near(votes_, kMiddle);
+  if (const double reversed = near(reversed_, kMiddle);
+      reversed - given > kReversedSigmas * std::sqrt(reversed + given)) {
+    correction_ = -1.0;
+    is_wrong_ = true;
+    return;
+  }
+  int best = kMiddle;
+  double most = 0.0;
+  for (int step = kMiddle - kMaxShareSteps; step <= kMiddle + kMaxShareSteps; ++step) {
+    const double votes = near(votes_, step);
+    best = votes > most ? step : best;
+    most = std::max(votes, most);
+  }
+  constexpr double kSqrtTwoPi = 2.5066;
+  const double chance = std::accumulate(votes_.begin(), votes_.end(), 0.0) /
+                        static_cast<double>(kSteps) * width_steps * kSqrtTwoPi;
+  if (most - chance <= kClearSigmas * std::sqrt(chance + 1.0)) {
+    return;
+  }
+  const double share = kStep * (best - kMiddle);
+  correction_ = 1.0 + share;
+  if (std::abs(share) < kMaxShare) {
+    is_wrong_ = false;
+  } else if (most - given > kContradictingSigmas * std::sqrt(most + given)) {
+    is_wrong_ = true;
+  }
+}
+
+}  // namespace cremed

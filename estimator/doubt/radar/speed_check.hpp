@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cremed/estimator/doubt/radar/position_speed.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Checks a radar's Doppler speed against the speed by its positions. It detects Doppler that is
+/// stuck or over ground instead of relative to the sensor, and stamps that do not run at the rate
+/// of time.
+///
+/// Compares every 0.2 s. A contradiction is another speed, more than 2 m/s from Doppler's, that has
+/// more votes by 2.25 sigma: none in 3457 comparisons on the healthy drives of test_faults and
+/// nuScenes, about 2 % on RadarScenes 105. Contradictions count up, agreements count down; the
+/// doubt begins at kMaxContradictions and ends at 0. Detection takes 1 s of driving.
+class SpeedCheck {
+ public:
+  /// Adds the targets of the next scan.
+  void add(const TargetSet& targets, std::int64_t stamp_us);
+  /// To be called when the clock of the stamps was set.
+  void forget() { has_reference_ = false; }
+
+  [[nodiscard]] bool is_contradicted() const { return is_contradicted_; }
+  /// Whether a comparison was possible in the last kVerdictValidS.
+  [[nodiscard]] bool is_checked() const { return has_verdict_; }
+
+ private:
+  static constexpr int kMaxContradictions = 2;
+  static constexpr double kVerdictValidS = 5.0;
+
+  [[nodiscard]] std::optional<double> doppler_mps(const TargetSet& targets);
+  void judge(const SpeedSupport& support, double doppler_mps);
+
+  PositionSpeed positions_;
+  DopplerVelocityEstimator doppler_;
+  TargetSet current_;    // One target a place.
+  TargetSet reference_;  // The same of an earlier scan.
+  std::int64_t reference_us_ = 0;
+  double reference_mps_ = 0.0;
+  std::int64_t verdict_us_ = 0;
+  int contradictions_ = 0;
+  bool has_reference_ = false;
+  bool has_verdict_ = false;
+  bool is_contradicted_ = false;
+};
+
+}  // namespace cremed

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/scan/rival_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cremed/estimator/scan/median.hpp"
+
+namespace cremed {
+namespace {
+
+/// Gate of a vote for a speed, in its standard deviations. It rejects 1 in 370 true votes.
+constexpr double kMaxVoteSigmas = 3.0;
+/// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
+constexpr float kPlaceRadiusM = 3.0F;
+
+/// Number of targets with a vote that are not near a target of an earlier vote. Counts all earlier
+/// ones that are near, without branches, which is faster than to find the first.
+template <typename Votes>
+std::size_t count_places(const TargetSet& targets, const Votes& votes) {
+  std::array<float, kMaxDetections> x_m;
+  std::array<float, kMaxDetections> y_m;
+  std::size_t places = 0;
+  for (std::size_t k = 0; k < votes.size(); ++k) {
+    const Target& here = targets[votes[k].target];
+    x_m[k] = static_cast<float>(here.x_m);
+    y_m[k] = static_cast<float>(here.y_m);
+    int near = 0;
+    for (std::size_t earlier = 0; earlier < k; ++earlier) {
+      const float dx_m = x_m[earlier] - x_m[k];
+      const float dy_m = y_m[earlier] - y_m[k];
+      near += dx_m * dx_m + dy_m * dy_m < kPlaceRadiusM * kPlaceRadiusM ? 1 : 0;
+    }
+    places += near == 0 ? 1 : 0;
+  }
+  return places;
+}
+
+}  // namespace
+
+double speed_along_x_mps(const Target& target, const Eigen::Vector3d& velocity,
+                         const Pose2& vehicle_from_radar) {
+  const double across_mps = velocity.y() + velocity.z() * vehicle_from_radar.x_m;
+  const double turn_mps =
+      across_mps * target.sin_bearing - velocity.z() * vehicle_from_radar.y_m * target.cos_bearing;
+  return -(target.doppler_mps + turn_mps) / target.cos_bearing;
+}
+
+RivalSpeed::Votes RivalSpeed::collect(const TargetSet& targets, const Eigen::Vector3d& velocity) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Target& target = targets[i];
+    if (std::abs(target.cos_bearing) < kMinForwardCosine) {
+      continue;
+    }
+    const double bearing_mps = velocity.x() * target.sin_bearing * target.bearing_std_rad;
+    votes_[count++] = {
+        speed_along_x_mps(target, velocity, vehicle_from_radar_),
+        std::hypot(target.doppler_std_mps, bearing_mps) / std::abs(target.cos_bearing),
+        static_cast<std::uint16_t>(i)};
+  }
+  return {votes_.data(), count};
+}
+
+double RivalSpeed::median_near(Votes votes, double speed_mps, double change_mps) {
+  auto last = near_mps_.begin();
+  for (const Vote& vote : votes) {
+    if (std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps + change_mps) {
+      *last++ = vote.speed_mps;
+    }
+  }
+  return median_or(speed_mps, near_mps_.begin(), last);
+}
+
+RivalSpeed::Votes RivalSpeed::largest_group(Votes votes) {
+  std::sort(votes.begin(), votes.end(),
+            [](const Vote& a, const Vote& b) { return a.speed_mps < b.speed_mps; });
+  Votes largest;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < votes.size(); ++begin) {
+    const double width_mps = 2.0 * kMaxVoteSigmas * votes[begin].std_mps;
+    while (end < votes.size() && votes[end].speed_mps - votes[begin].speed_mps <= width_mps) {
+      ++end;
+    }
+    if (end > begin + largest.size()) {
+      largest = votes.subspan(begin, end - begin);
+    }
+  }
+  return largest;
+}
+
+SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& velocity,
+                             double change_mps) {
+  const Votes votes = collect(targets, velocity);
+  const double speed_mps = median_near(votes, velocity.x(), change_mps);
+  const auto first_other = std::partition(votes.begin(), votes.end(), [&](const Vote& vote) {
+    return std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps;
+  });
+  const Votes rival = largest_group({first_other, votes.end()});
+  const double rival_mps =
+      rival.empty() ? 0.0 : 0.5 * (rival.front().speed_mps + rival.back().speed_mps);
+  return {count_places(targets, Votes(votes.begin(), first_other)), count_places(targets, rival),
+          rival_mps, speed_mps, targets.size() - votes.size()};
+}
+
+}  // namespace cremed

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/doubt/scan/rival_speed.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
+/// along, which cannot be distinguished. The previous motion decides if it can continue at only one
+/// of the two speeds. Without a previous motion, the estimated speed needs more places than a truck
+/// has if at least two places contradict it. The doubt ends after ten scans without a rival; a
+/// smaller rival maintains it.
+class TwoWorlds {
+ public:
+  explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}
+
+  /// Checks a scan; true if in doubt. `velocity`, `change_mps`: see RivalSpeed::count.
+  /// `continues(speed_mps)`: whether the vehicle can have this speed after its previous motion.
+  /// `is_start`: there is no previous motion.
+  template <typename Continues>
+  bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
+             bool is_start, Continues continues) {
+    const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
+    const bool is_open =
+        (is_start && votes.own + votes.abeam < kMinRoadPlaces && votes.rival >= kMinRivalPlaces) ||
+        (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
+    doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
+    return is_in_doubt();
+  }
+  [[nodiscard]] bool is_in_doubt() const { return doubtful_scans_ > 0; }
+
+ private:
+  static constexpr int kClearScans = 10;  ///< 0.75 s of an ARS408.
+  /// The rear of a truck and its sides are three to five places of 3 m.
+  static constexpr std::size_t kMinRoadPlaces = 6;
+  /// One place may be another car.
+  static constexpr std::size_t kMinRivalPlaces = 2;
+
+  [[nodiscard]] bool is_rival(const SpeedVotes& votes) const;
+
+  RivalSpeed rival_speed_;
+  int doubtful_scans_ = 0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// Above this sigma a scan's Doppler sets the speed without a gate: max_doppler_nis would accept
+/// errors of 4 m/s and more, a usual speed of other cars relative to the vehicle.
+constexpr double kUnknownSpeedStdMps = 1.0;
+/// Longer than kScanVerdictValidS: no scan in doubt yet.
+constexpr std::int64_t kLongAgoUs = 1'000'000;
+/// Bound of a yaw rate that counts as zero. False-alarm rate: 1 in 370.
+constexpr double kStandstillSigmas = 3.0;
+
+bool stands(const Odometry& odometry, double standstill_mps) {
+  const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };
+  return std::abs(odometry.twist.x()) <= standstill_mps && std(0) <= standstill_mps &&
+         std::abs(odometry.twist.z()) <= kStandstillSigmas * std(2);
+}
+
+}  // namespace
+
+void FilterCondition::start() {
+  is_settled_ = false;
+  used_scans_ = 0;
+  used_us_ = clear_us_ = state_.time_us();
+  doubt_us_ = state_.time_us() - kLongAgoUs;
+}
+
+void FilterCondition::use_scan(bool is_clear) {
+  used_us_ = state_.time_us();
+  clear_us_ = is_clear ? used_us_ : clear_us_;
+  ++used_scans_;
+  is_settled_ = is_settled_ || is_known();
+}
+
+bool FilterCondition::is_speed_unknown() const {
+  return state_.gaussian.std(kSpeed) > kUnknownSpeedStdMps;
+}
+
+bool FilterCondition::is_known() const {
+  const OdometryOptions& options = state_.options();
+  return state_.gaussian.std(kSpeed) <= options.settled_speed_std_mps &&
+         state_.gaussian.std(kYawRate) <= options.settled_yaw_rate_std_radps &&
+         used_scans_ >= options.settled_scans && faults_.is_verified() &&
+         consensus_.agreeing(used_us_) > consensus_.contradicting(used_us_);
+}
+
+bool FilterCondition::is_lost() const {
+  return seconds_between(used_us_, state_.time_us()) > state_.options().lost_s;
+}
+
+OdometryStatus FilterCondition::status(const Odometry& odometry) const {
+  const OdometryOptions& options = state_.options();
+  const double unused_s = seconds_between(used_us_, odometry.utime_us);
+  const bool is_predicted = unused_s > options.predicted_s;
+  const bool is_doubtful = seconds_between(doubt_us_, odometry.utime_us) <= kScanVerdictValidS;
+  if (is_doubtful && (!is_settled_ || is_predicted)) {
+    return OdometryStatus::ambiguous;
+  }
+  if (unused_s > options.lost_s) {
+    return OdometryStatus::lost;
+  }
+  if (!is_settled_) {
+    return consensus_.contradicting(state_.time_us()) > 0 ? OdometryStatus::ambiguous
+                                                          : OdometryStatus::initialising;
+  }
+  if (is_predicted) {
+    return OdometryStatus::predicted;
+  }
+  if (seconds_between(clear_us_, odometry.utime_us) > options.ambiguous_s) {
+    return OdometryStatus::ambiguous;
+  }
+  return stands(odometry, options.standstill_mps) ? OdometryStatus::standing_still
+                                                  : OdometryStatus::ok;
+}
+
+}  // namespace cremed

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+#include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+
+namespace cremed {
+
+/// Validity of the filter's output: how well the state is observed, and how recent its measurements
+/// are.
+class FilterCondition {
+ public:
+  /// The arguments must outlive this object.
+  FilterCondition(const OdometryState& state, const RadarConsensus& consensus,
+                  const FaultHypotheses& faults)
+      : state_(state), consensus_(consensus), faults_(faults) {}
+
+  void start();
+  /// Records that a scan's Doppler was used. `is_clear`: most of its targets are static.
+  void use_scan(bool is_clear);
+  /// Records a scan that showed two worlds (TwoWorlds).
+  void doubt() { doubt_us_ = state_.time_us(); }
+
+  [[nodiscard]] int used_scans() const { return used_scans_; }
+  [[nodiscard]] std::int64_t used_us() const { return used_us_; }
+  /// The start is over: the state no longer depends on the prior.
+  [[nodiscard]] bool is_settled() const { return is_settled_; }
+  /// The speed is so uncertain that the gate on Doppler would accept wrong speeds.
+  [[nodiscard]] bool is_speed_unknown() const;
+  [[nodiscard]] bool is_lost() const;
+  /// As defined by OdometryStatus.
+  [[nodiscard]] OdometryStatus status(const Odometry& odometry) const;
+
+ private:
+  [[nodiscard]] bool is_known() const;
+
+  const OdometryState& state_;
+  const RadarConsensus& consensus_;
+  const FaultHypotheses& faults_;
+  bool is_settled_ = false;
+  int used_scans_ = 0;
+  std::int64_t used_us_ = 0;   // Last scan used.
+  std::int64_t clear_us_ = 0;  // Last clear scan used.
+  std::int64_t doubt_us_ = 0;  // Last scan that showed two worlds.
+};
+
+}  // namespace cremed

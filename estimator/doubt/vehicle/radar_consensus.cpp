@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+/// Scan period of a slow radar: bounds the duration of a contradiction.
+constexpr double kScanPeriodS = 0.1;
+/// Bound of the disagreement of radars that agree on a velocity. False-alarm rate with two radars:
+/// 1 in 135 (chi-square of three degrees of freedom above 12); lower with more.
+constexpr double kMaxDisagreement = 4.0;
+
+}  // namespace
+
+RadarConsensus::RadarConsensus(const OdometryState& state)
+    : state_(state), trusts_(state.radars()) {}
+
+void RadarConsensus::clear() { std::fill(trusts_.begin(), trusts_.end(), RadarTrust()); }
+
+int RadarConsensus::count(std::int64_t time_us, bool agree) const {
+  return static_cast<int>(std::count_if(
+      trusts_.begin(), trusts_.end(),
+      [&](const RadarTrust& trust) { return trust.votes(time_us) && trust.agrees == agree; }));
+}
+
+std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
+  JointVelocity joint(state_.options());
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const RadarTrust& trust = trusts_[i];
+    if (trust.votes(time_us) && !trust.agrees) {
+      joint.add(trust.velocity, state_.mount(i), seconds_between(trust.verdict_us, time_us));
+    }
+  }
+  if (joint.radars() < 2 || joint.radars() <= agreeing(time_us) ||
+      joint.disagreement() > kMaxDisagreement) {
+    return std::nullopt;
+  }
+  return joint;
+}
+
+bool RadarConsensus::is_step(std::int64_t time_us) const {
+  std::int64_t last_agreed_us = std::numeric_limits<std::int64_t>::min();
+  std::int64_t first_us = std::numeric_limits<std::int64_t>::max();
+  for (const RadarTrust& trust : trusts_) {
+    if (trust.votes(time_us) && trust.agrees) {
+      last_agreed_us = std::max(last_agreed_us, trust.verdict_us);
+    } else if (trust.votes(time_us)) {
+      first_us = std::min(first_us, trust.verdict_us);
+    }
+  }
+  return last_agreed_us < first_us;
+}
+
+bool RadarConsensus::contradicts_positions(std::int64_t time_us) const {
+  int judged = 0;
+  int confirmed = 0;
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const bool is_judged =
+        trusts_[i].votes(time_us) && !trusts_[i].agrees && !looks_across(state_.mount(i));
+    judged += is_judged ? 1 : 0;
+    confirmed += is_judged && trusts_[i].contradicts_positions ? 1 : 0;
+  }
+  return confirmed > 0 && 2 * confirmed >= judged;
+}
+
+double RadarConsensus::longest_contradiction_s() const {
+  int scans = 0;
+  for (const RadarTrust& trust : trusts_) {
+    scans = trust.has_agreed() ? scans : std::max(scans, trust.contradictions);
+  }
+  return scans * kScanPeriodS;
+}
+
+std::uint32_t RadarConsensus::at_fault() const {
+  std::uint32_t radars = 0;
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    const RadarTrust& trust = trusts_[i];
+    const bool lasts = seconds_between(trust.left_out_us, trust.verdict_us) >= RadarTrust::kFaultyS;
+    radars |= is_left_out(i) && lasts ? 1U << i : 0U;
+  }
+  return radars;
+}
+
+}  // namespace cremed

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cremed/estimator/doubt/vehicle/joint_velocity.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+
+namespace cremed {
+
+/// Majority vote of the radars: which of them agree with the filter by their last scans, and which
+/// contradict it. If a majority contradicts the filter and agrees with each other, the filter is
+/// wrong.
+class RadarConsensus {
+ public:
+  /// Uses options and mounts of `state`, which must outlive this object.
+  explicit RadarConsensus(const OdometryState& state);
+
+  void clear();
+  [[nodiscard]] RadarTrust& operator[](std::size_t radar) { return trusts_[radar]; }
+  [[nodiscard]] const RadarTrust& operator[](std::size_t radar) const { return trusts_[radar]; }
+
+  // Numbers of trusted radars, by their scans of the last 0.3 s.
+  [[nodiscard]] int agreeing(std::int64_t time_us) const { return count(time_us, true); }
+  [[nodiscard]] int contradicting(std::int64_t time_us) const { return count(time_us, false); }
+  /// Joint velocity of the contradicting radars, if they are two or more, the majority, and agree
+  /// with each other.
+  [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
+  /// Every radar that contradicts did so after the last that agreed: all changed at once.
+  [[nodiscard]] bool is_step(std::int64_t time_us) const;
+  /// Whether half or more of the contradicting radars contradict their own positions.
+  [[nodiscard]] bool contradicts_positions(std::int64_t time_us) const;
+  /// Longest time for which a radar has contradicted.
+  [[nodiscard]] double longest_contradiction_s() const;
+  /// A radar that looks sideways and repeatedly contradicts the filter; FaultHypotheses judges the
+  /// others.
+  [[nodiscard]] bool is_left_out(std::size_t radar) const {
+    return trusts_[radar].is_left_out && looks_across(state_.mount(radar));
+  }
+  /// Those for which it lasts, as a bit set.
+  [[nodiscard]] std::uint32_t at_fault() const;
+
+ private:
+  [[nodiscard]] int count(std::int64_t time_us, bool agree) const;
+
+  const OdometryState& state_;
+  std::vector<RadarTrust> trusts_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "daemon/configuration/configuration.hpp"
+#include "tools/doctor/observation.hpp"
+
+// For one who has a log and no configuration yet.
+namespace cremed {
+
+/// To observe buses without knowing what is on them.
+Configuration without_radars();
+
+/// Whether no one has said yet which radars there are: neither `named` nor the standard file does.
+bool is_unconfigured(const std::string& named);
+
+/// A log that cannot be read twice.
+bool is_pipe(const std::string& log);
+
+/// The radars observed, to examine each alone (examined_configuration). Throws std::runtime_error
+/// with the traffic and advice if there are none.
+Configuration examined_radars(const Observation& observation);
+
+}  // namespace cremed

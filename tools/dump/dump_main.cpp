@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/configuration_path.hpp"
+#include "daemon/process/message_text.hpp"
+#include "daemon/process/usage_error.hpp"
+#include "tools/doctor/interface_search.hpp"
+#include "tools/doctor/log_lines.hpp"
+#include "tools/doctor/log_observation.hpp"
+#include "tools/doctor/unconfigured.hpp"
+#include "tools/dump/log_head.hpp"
+#include "tools/dump/record_writer.hpp"
+#include "tools/dump/scan_reader.hpp"
+#include "tools/program.hpp"
+
+namespace {
+
+using namespace cremed;
+
+enum ExitStatus : int { good = 0, failure = 1 };
+
+struct Arguments {
+  std::string log;
+  std::string config;
+  std::string radar;
+  bool is_json = false;
+  bool without_targets = false;
+};
+
+/// Nothing: the radars are to be found in the log itself, while it is read.
+std::optional<Configuration> configuration_of(const Arguments& arguments) {
+  if (is_unconfigured(arguments.config)) {
+    return is_pipe(arguments.log)
+               ? std::nullopt
+               : std::optional(examined_radars(observe_log(without_radars(), arguments.log)));
+  }
+  LocatedRadars located =
+      locate_in_log(load_configuration(configuration_path(arguments.config)), arguments.log);
+  for (const Finding& finding : located.findings) {
+    std::cerr << "cremed-dump: " << to_text(finding) << '\n';
+  }
+  return std::move(located.configuration);
+}
+
+/// Leaves the radar that was asked for.
+void select(const std::string& wanted, Configuration& configuration) {
+  std::string names;
+  for (const RadarConfiguration& radar : configuration.radars) {
+    names += (names.empty() ? "" : ", ") + radar.name;
+  }
+  std::erase_if(configuration.radars, [&](const RadarConfiguration& radar) {
+    return !wanted.empty() && radar.name != wanted;
+  });
+  if (configuration.radars.empty()) {
+    throw UsageError(concat({"--radar: ", in_quotes(wanted), " is none of ", names}));
+  }
+}
+
+std::unique_ptr<RecordWriter> make_writer(const Arguments& arguments) {
+  const RecordOptions options{!arguments.without_targets, is_pipe(arguments.log)};
+  if (arguments.is_json) {
+    return std::make_unique<JsonRecords>(std::cout, options);
+  }
+  return std::make_unique<TextRecords>(std::cout, options);
+}
+
+/// Reads the log once; without a configuration, its head tells the radars.
+class Dump {
+ public:
+  explicit Dump(const Arguments& arguments)
+      : arguments_(arguments), writer_(make_writer(arguments)) {
+    if (const auto configuration = configuration_of(arguments)) {
+      begin(*configuration);
+    }
+  }
+
+  void run() {
+    read_log(arguments_.log, [&](const CandumpLine& line) { take(line); });
+    if (!reader_) {
+      end_head();
+    }
+    reader_->finish();
+  }
+
+  /// Tells what one may miss in the output. Whether it is complete.
+  [[nodiscard]] bool report() const {
+    if (bad_lines_ != 0) {
+      std::cerr << "cremed-dump: " << counted(bad_lines_, "line")
+                << " of another form than candump -L writes\n";
+    }
+    const std::string silent = reader_->silent();
+    if (!silent.empty()) {
+      std::cerr << "cremed-dump: no scan of " << silent
+                << "; cremed-doctor --replay LOG tells why\n";
+    }
+    return bad_lines_ == 0 && silent.empty();
+  }
+
+ private:
+  void begin(Configuration configuration) {
+    select(arguments_.radar, configuration);
+    reader_.emplace(configuration, *writer_);
+  }
+
+  void end_head() {
+    begin(head_.examined(arguments_.log));
+    head_.replay([&](const CandumpLine& line) { reader_->add(line); });
+    head_.clear();
+  }
+
+  void take(const CandumpLine& line) {
+    bad_lines_ += line.status == CandumpStatus::malformed ? 1 : 0;
+    if (reader_) {
+      reader_->add(line);
+      return;
+    }
+    head_.add(line);
+    if (head_.is_complete()) {
+      end_head();
+    }
+  }
+
+  const Arguments& arguments_;
+  std::unique_ptr<RecordWriter> writer_;
+  LogHead head_;
+  std::optional<ScanReader> reader_;
+  std::uint64_t bad_lines_ = 0;
+};
+
+int run(CLI::App& app, int argc, char** argv) {
+  Arguments arguments;
+  app.footer(
+      "Example, what a bus says now, as JSON:\n"
+      "  candump -L can0 | cremed-dump - --json");
+  app.add_option("LOG", arguments.log, "Log of `candump -L` or `-l`; - for standard input")
+      ->required();
+  app.add_option("--config", arguments.config,
+                 "Configuration (default: /etc/cremed/cremed.toml; if that names no radar, all "
+                 "that are recognised in the log)");
+  app.add_option("--radar", arguments.radar, "Only the radar of this name");
+  app.add_flag("--json", arguments.is_json, "One JSON object a line");
+  app.add_flag("--no-targets", arguments.without_targets, "Scans without their targets");
+  app.parse(argc, argv);
+  Dump dump(arguments);
+  dump.run();
+  return dump.report() ? good : failure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cremed::run_program("cremed-dump",
+                             "Prints the radar scans in a log of CAN frames\n"
+                             "Speed and yaw rate sent to an ARS408, or named in [vehicle], too.",
+                             run, argc, argv);
+}

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong with a drive, and its remedy: what stands first on its page."""
+import json
+import subprocess
+
+GOOD = ("ok", "standing_still")
+SEVERITIES = ("error", "warning", "note")  # As the doctor's, the worst first.
+MOST_SPANS = 3  # That are named.
+LONG_START_S = 5.0  # An odometry begins within two seconds of driving.
+
+
+def finding(severity, what, remedy=""):
+    return {"severity": severity, "what": what, "remedy": remedy}
+
+
+def of_the_doctor(doctor, logs, config):
+    """cremed-doctor's findings on a candump log."""
+    command = [doctor, "--json", "--replay", *logs] + (["--config", config] if config else [])
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    try:
+        return json.loads(done.stdout)["findings"]
+    except ValueError:  # It says why it has none.
+        return [finding("error", line.removeprefix("cremed-doctor: ")) for line in done.stderr.splitlines()]
+
+
+def of_messages():
+    """For a log in which the doctor finds no frames to examine."""
+    return finding("note", "a log of messages tells no remedies",
+                   "record the frames too, `candump -l any`, for `cremed-doctor --replay LOG`")
+
+
+def spans(changes, end, is_wrong):
+    """[(begin, end)] of [(time, name)] while is_wrong(name); neighbours are one."""
+    found = []
+    for (begin, name), (until, _) in zip(changes, [*changes[1:], (end, "")]):
+        if is_wrong(name):
+            if found and found[-1][1] == begin:
+                begin = found.pop()[0]
+            found.append((begin, until))
+    return found
+
+
+def told(times):
+    """"from 3.1 s to 4.0 s and 2 times more, 5.2 s in all"""
+    text = ", ".join(f"from {begin:.1f} s to {end:.1f} s" for begin, end in times[:MOST_SPANS])
+    if len(times) > MOST_SPANS:
+        text += f" and {len(times) - MOST_SPANS} times more"
+    return text + (f", {sum(end - begin for begin, end in times):.1f} s in all" if len(times) > 1 else "")
+
+
+def of_the_odometry(changes, end):
+    """Until it was good for the first time it was starting, whatever it said."""
+    begin = next((time for time, name in changes if name in GOOD), end) if changes else 0.0
+    found = []
+    if begin > LONG_START_S:
+        found.append(finding("warning", f"the odometry began {begin:.1f} s after the drive",
+                             "a drive begins with a second of driving or of standing still"))
+    for name in sorted({name for time, name in changes if time > begin} - {*GOOD}):
+        times = spans([change for change in changes if change[0] >= begin], end, lambda other, name=name: other == name)
+        found.append(finding("warning", f"the odometry was {name} {told(times)}"))
+    return found
+
+
+def of_the_radar(radar, changes, figures, end):
+    found, causes = [], figures["statuses_left_out"]
+    if causes:
+        known = [cause.replace("_", " ") for cause in causes if cause != "unknown"]
+        found.append(finding("warning", f"{radar}: left out of the odometry for {sum(causes.values())} s: "
+                                        + (", ".join(known) or "the cause is not known")))
+    for name in sorted({name for _, doubts in changes for name in doubts.split(" + ") if name}):
+        times = spans(changes, end, lambda doubts, name=name: name in doubts.split(" + "))
+        found.append(finding("warning", f"{radar}: in doubt {told(times)}: {name.replace('_', ' ')}"))
+    return found
+
+
+def of_the_drive(data):
+    """Of the numbers of a page: which seconds, which radar."""
+    end = data["figures"]["duration_s"]
+    found = [] if data["figures"]["odometry"] else [
+        finding("error", "there is no odometry in this drive: the page shows each radar by itself")]
+    found += of_the_odometry(data["statuses"].get("odometry", []), end)
+    for radar, changes in data["doubts"].items():
+        found += of_the_radar(radar, changes, data["figures"]["radars"][radar], end)
+    return found
+
+
+def in_order(found):
+    return sorted(found, key=lambda one: SEVERITIES.index(one["severity"]))

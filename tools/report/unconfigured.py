@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: 2026 the cremed authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A report for one who has a log and no configuration: each radar by itself, as mounts are not known."""
+import pathlib
+
+from findings import finding
+from programs import run
+
+STANDARD = pathlib.Path("/etc/cremed/cremed.toml")
+# As cremed-doctor examines them: without a mount there is no common odometry, and the motion is free.
+EXAMINED = "odometry.enabled = false\nestimator.degrees_of_freedom = 3\n"
+MOUNT_UNKNOWN = '"FILL IN"'
+
+
+def is_unwritten(path=STANDARD):
+    """Absent, or as the package installs it: comments only."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        return True
+    except (OSError, UnicodeDecodeError):
+        return False  # cremed says what is wrong.
+    return all(not line.strip() or line.strip().startswith("#") for line in lines)
+
+
+def examined_configuration(programs, log, folder):
+    """(the file, the finding that tells of it): of the radars that the doctor recognises in the log."""
+    suggestion = run([programs / "cremed-doctor", "--replay", log, "--suggest-config"])
+    path = folder / "examined.toml"
+    path.write_text(EXAMINED + suggestion.replace(MOUNT_UNKNOWN, "0"), encoding="utf-8")
+    return str(path), finding(
+        "error", "there is no configuration: the radars are those recognised in the log, and their mounts unknown, "
+        "so there is no odometry", "`cremed-doctor --replay LOG --suggest-config > my.toml` writes a first one; fill in "
+        "the mounts, then `cremed-report LOG --config my.toml --output report.html`")

@@ -121,10 +121,11 @@ std::uint32_t FaultHypotheses::at_fault() const {
 }
 
 void FaultHypotheses::add_speed_by_positions(std::size_t radar, std::int64_t stamp_us,
-                                             double speed_mps, double since_s) {
-  tracks_[radar].speed = Speed{stamp_us, speed_mps,
-                               squared(kPositionSpeedShare * speed_mps) +
-                                   squared(kPositionM / since_s) + squared(kPositionMps)};
+                                             double speed_mps, double since_s, double variance_m2) {
+  tracks_[radar].speed =
+      Speed{stamp_us, speed_mps,
+            squared(kPositionSpeedShare * speed_mps) +
+                (squared(kPositionM) + variance_m2) / squared(since_s) + squared(kPositionMps)};
 }
 
 void FaultHypotheses::add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {

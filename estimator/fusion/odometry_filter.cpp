@@ -74,7 +74,8 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     faults_.accuse(radar, stamp_us);
   }
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
-  if (const auto believed = faults_.take_correction()) {
+  const auto believed = faults_.take_correction();
+  if (believed) {
     add_error_by_radar(*believed);
   }
   begin_if_needed(stamp_us, is_trusted);
@@ -92,7 +93,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
   parked_.add_output(odometry);
-  if (condition_.settle()) {
+  if (condition_.settle() || believed) {
     output_.renew_anchor();  // The way until now may be that of a wrong radar.
   }
   return result;

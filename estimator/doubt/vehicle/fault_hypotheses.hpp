@@ -105,6 +105,7 @@ class FaultHypotheses {
     std::int64_t stamp_us = 0;
     double mps = 0.0;
     double variance = 0.0;
+    double variance_of_method = 0.0;  // Without the noise of the targets.
   };
   /// The newest scans of one radar.
   struct Track {

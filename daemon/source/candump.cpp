@@ -3,7 +3,9 @@
 #include "daemon/source/candump.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
 
 #include "daemon/configuration/bus_options.hpp"
@@ -82,17 +84,48 @@ class Cursor {
 };
 
 /// The whole text as a number; false if it is not one.
-bool parse_number(std::string_view text, int base, std::uint64_t& value) {
+bool parse_number(std::string_view text, std::uint64_t& value) {
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value, base);
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
   return error == std::errc{} && stop == end;
 }
 
-constexpr int hex_nibble(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return -1;
+/// Of at most 18 digits.
+std::uint64_t decimal(std::string_view digits) {
+  std::uint64_t value = 0;
+  for (const char digit : digits) {
+    value = 10 * value + static_cast<std::uint64_t>(digit - '0');
+  }
+  return value;
+}
+
+constexpr std::array<std::int8_t, 256> make_nibbles() {
+  std::array<std::int8_t, 256> nibbles{};
+  nibbles.fill(-1);
+  constexpr std::string_view kLower = "0123456789abcdef";
+  constexpr std::string_view kUpper = "0123456789ABCDEF";
+  for (std::size_t i = 0; i < kLower.size(); ++i) {
+    nibbles[static_cast<unsigned char>(kLower[i])] = static_cast<std::int8_t>(i);
+    nibbles[static_cast<unsigned char>(kUpper[i])] = static_cast<std::int8_t>(i);
+  }
+  return nibbles;
+}
+
+constexpr auto kNibbles = make_nibbles();
+
+/// -1: not a hex digit.
+constexpr int hex_nibble(char c) { return kNibbles[static_cast<unsigned char>(c)]; }
+
+/// Of at most 8 hex digits; false if one is not.
+bool parse_hex(std::string_view digits, std::uint32_t& value) {
+  value = 0;
+  int any = 0;  // Negative if one of them is.
+  for (const char digit : digits) {
+    const int nibble = hex_nibble(digit);
+    value = 16 * value + static_cast<std::uint32_t>(nibble);
+    any |= nibble;
+  }
+  return any >= 0;
 }
 
 constexpr bool is_fd_length(std::size_t length) {
@@ -114,11 +147,8 @@ Error parse_stamp(Cursor& cursor, CandumpLine& line) {
   if (decimals.size() != 6 && decimals.size() != 9) {
     return kDecimals;
   }
-  std::uint64_t whole = 0;
-  std::uint64_t micros = 0;
-  parse_number(seconds, 10, whole);
-  parse_number(decimals.substr(0, 6), 10, micros);  // 9 decimals: rounded down.
-  line.frame.stamp_us = static_cast<std::int64_t>(whole * 1000000 + micros);
+  const std::uint64_t micros = decimal(decimals.substr(0, 6));  // 9 decimals: rounded down.
+  line.frame.stamp_us = static_cast<std::int64_t>(decimal(seconds) * 1000000 + micros);
   return {};
 }
 
@@ -144,28 +174,26 @@ Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
 }
 
 Error parse_identifier(std::string_view digits, CanFrame& frame) {
-  std::uint64_t id = 0;
-  if ((digits.size() != 3 && digits.size() != 8) || !parse_number(digits, 16, id)) {
+  std::uint32_t id = 0;
+  if ((digits.size() != 3 && digits.size() != 8) || !parse_hex(digits, id)) {
     return kIdDigits;
   }
-  return digits.size() == 3 ? parse_standard_id(static_cast<std::uint32_t>(id), frame)
-                            : parse_extended_id(static_cast<std::uint32_t>(id), frame);
+  return digits.size() == 3 ? parse_standard_id(id, frame) : parse_extended_id(id, frame);
 }
 
 /// Pairs of hex digits, optionally separated by '.'.
 Error parse_bytes(std::string_view text, std::size_t capacity, CanFrame& frame) {
-  while (!text.empty()) {
-    text.remove_prefix(text.front() == '.' ? 1 : 0);
-    const int high = text.empty() ? -1 : hex_nibble(text[0]);
-    const int low = text.size() < 2 ? -1 : hex_nibble(text[1]);
-    if (high < 0 || low < 0) {
+  for (std::size_t at = 0; at < text.size(); at += 2) {
+    at += text[at] == '.' ? 1 : 0;
+    const int high = at < text.size() ? hex_nibble(text[at]) : -1;
+    const int low = at + 1 < text.size() ? hex_nibble(text[at + 1]) : -1;
+    if ((high | low) < 0) {
       return kDataDigits;
     }
     if (frame.length == capacity) {
       return capacity == kClassicCapacity ? kClassicLength : kFdLength;
     }
     frame.data[frame.length++] = static_cast<std::uint8_t>(16 * high + low);
-    text.remove_prefix(2);
   }
   return {};
 }
@@ -233,7 +261,7 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   const bool has_bracket = cursor.take_blanks() && cursor.take('[');
   const std::string_view length = cursor.take_digits();
   std::uint64_t bytes = 0;
-  if (!has_bracket || !cursor.take(']') || !parse_number(length, 10, bytes)) {
+  if (!has_bracket || !cursor.take(']') || !parse_number(length, bytes)) {
     return kFrameShape;
   }
   if (const Error error = parse_identifier(word, line.frame); !error.empty()) {
@@ -298,7 +326,7 @@ CandumpLine parse_frame(std::string_view text) {
 CandumpLine parse_drop_count(std::string_view text) {
   Cursor cursor(text.substr(kDropPrefix.size()));
   CandumpLine line;
-  const bool counted = parse_number(cursor.take_digits(), 10, line.dropped_frames);
+  const bool counted = parse_number(cursor.take_digits(), line.dropped_frames);
   cursor.take_while(is_no_quote);
   const bool opened = cursor.take('\'');
   line.interface_name = cursor.take_while(is_no_quote);

@@ -66,12 +66,14 @@ double Association::scale(bool over_relaxed) {
                            change_.begin() + static_cast<std::ptrdiff_t>(columns_));
 }
 
-int Association::solve(int max_rounds) {
-  int rounds = 1;
-  while (scale(rounds > kPlainRounds) > kTolerance && rounds < max_rounds) {
+int Association::solve(int max_rounds, double tolerance) {
+  int rounds = 0;
+  double change = 0.0;
+  do {
     ++rounds;
-  }
-  is_solved_ = rounds < max_rounds || max_rounds >= kMaxRounds;
+    change = scale(rounds > kPlainRounds);
+  } while (change > tolerance && rounds < max_rounds);
+  is_solved_ = change <= kTolerance || max_rounds >= kMaxRounds;
   if (rounds > kPlainRounds) {
     scale(false);  // after a plain round no column has more than one partner
   }

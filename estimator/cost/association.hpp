@@ -54,12 +54,15 @@ class Association {
   /// Adds a pair with its psi and g = -d log psi / d state. false: full, the pair is left out.
   bool add(std::size_t column, double ratio, const Eigen::Vector3d& gradient);
 
+  /// Replaces the psi of a pair.
+  void set_ratio(std::size_t k, double ratio) { ratio_[k] = std::min(ratio, kMaxRatio); }
+
   /// Sets the factors to start values that do not depend on earlier ones.
   void start();
   /// Computes the probabilities, starting from the present factors; returns the number of rounds.
-  /// If `max_rounds` is too small, the next call continues.
-  int solve(int max_rounds = kMaxRounds);
-  /// Whether the last call converged or used kMaxRounds.
+  /// With fewer rounds or a larger tolerance the next call continues.
+  int solve(int max_rounds = kMaxRounds, double tolerance = kTolerance);
+  /// Whether the last call converged to kTolerance or used kMaxRounds.
   [[nodiscard]] bool is_solved() const { return is_solved_; }
   /// The minimum of (4), an approximation of -log of the sum over all assignments.
   [[nodiscard]] double cost() const;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "cremed/estimator/cost/exponentiate.hpp"
 #include "cremed/estimator/scan/rotation.hpp"
 
 namespace cremed {
@@ -24,6 +26,8 @@ constexpr double kClutterPerM2 = 1e-6;
 /// Rounds of the association in steps before the last. Convergence takes 13 rounds on average and
 /// often 32 (nuScenes 0103), a fifth of a registration's time, and gives the same motions.
 constexpr int kRoundsPerStep = 8;
+/// And their tolerance: a fiftieth of a target's weight.
+constexpr double kToleranceOfStep = 0.02;
 
 /// Work to evaluate a pair, in evaluations of a mixture component, which are vectorised.
 constexpr std::int64_t kPairWork = 4;
@@ -70,40 +74,58 @@ void ExclusiveLikelihood::assign(const TargetSet& previous, const TargetSet& cur
     const double nearest_ratio = scale / std::sqrt(current[i].covariance_m2.determinant());
     max_squared_distance_[i] = 2.0 * std::log(std::max(nearest_ratio / kMinRatio, 1.0));
   }
-  for (std::size_t j = 0; j < previous.size(); ++j) {
-    x_m_[j] = previous[j].x_m;
-    y_m_[j] = previous[j].y_m;
-    variance_m2_[j] = previous[j].covariance_m2.trace();
-  }
+  sort(previous);
   candidate_begin_[0] = 0;
   matched_ = 0.0;
   evaluations_ = static_cast<std::int64_t>(current.size() * ray.size());
 }
 
-/// Prefilters by e'e / trace(C), a lower bound of the squared Mahalanobis distance.
+void ExclusiveLikelihood::sort(const TargetSet& previous) {
+  const std::size_t size = previous.size();
+  std::iota(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(size), 0);
+  std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(size),
+            [&](std::uint16_t a, std::uint16_t b) { return previous[a].x_m < previous[b].x_m; });
+  max_variance_x_m2_ = 0.0;
+  for (std::size_t k = 0; k < size; ++k) {
+    const Target& target = previous[sorted_[k]];
+    x_m_[k] = target.x_m;
+    y_m_[k] = target.y_m;
+    variance_m2_[k] = target.covariance_m2.trace();
+    max_variance_x_m2_ = std::max(max_variance_x_m2_, target.covariance_m2.xx);
+  }
+}
+
+/// Prefilters by lower bounds of the squared Mahalanobis distance: ex^2 / C_xx with the largest
+/// C_xx, which is a range of the sorted targets, and e'e / trace(C).
 bool ExclusiveLikelihood::list_row(std::size_t i, const TargetSet& previous, const Target& moved) {
   const double x_m = moved.x_m;
   const double y_m = moved.y_m;
   const double variance_m2 = moved.covariance_m2.trace();
   const double max_distance = std::sqrt(max_squared_distance_[i]) + kListMarginSigmas;
   const double max_squared_distance = max_distance * max_distance;
-  const std::size_t size = previous.size();
-  for (std::size_t j = 0; j < size; ++j) {
-    const double ex = x_m - x_m_[j];
-    const double ey = y_m - y_m_[j];
-    excess_m2_[j] = ex * ex + ey * ey - max_squared_distance * (variance_m2_[j] + variance_m2);
+  const double reach_m = max_distance * std::sqrt(max_variance_x_m2_ + moved.covariance_m2.xx);
+  const double* const all = x_m_.data();
+  const double* const begin = std::lower_bound(all, all + previous.size(), x_m - reach_m);
+  const double* const end = std::upper_bound(begin, all + previous.size(), x_m + reach_m);
+  const auto first = static_cast<std::size_t>(begin - all);
+  const auto last = static_cast<std::size_t>(end - all);
+  for (std::size_t k = first; k < last; ++k) {
+    const double ex = x_m - x_m_[k];
+    const double ey = y_m - y_m_[k];
+    excess_m2_[k] = ex * ex + ey * ey - max_squared_distance * (variance_m2_[k] + variance_m2);
   }
   // Without branches, because they would be unpredictable.
   std::size_t near = 0;
-  for (std::size_t j = 0; j < size; ++j) {
-    near_[near] = static_cast<std::uint16_t>(j);
-    near += excess_m2_[j] <= 0.0 ? 1U : 0U;
+  for (std::size_t k = first; k < last; ++k) {
+    near_[near] = static_cast<std::uint16_t>(k);
+    near += excess_m2_[k] <= 0.0 ? 1U : 0U;
   }
   std::size_t count = candidate_begin_[i];
-  for (std::size_t k = 0; k < near; ++k) {
-    const std::uint16_t j = near_[k];
+  for (std::size_t n = 0; n < near; ++n) {
+    const std::uint16_t k = near_[n];
+    const std::uint16_t j = sorted_[k];
     const Symmetric2 covariance = previous[j].covariance_m2 + moved.covariance_m2;
-    if (covariance.inverse().quadratic(x_m - x_m_[j], y_m - y_m_[j]) <= max_squared_distance) {
+    if (covariance.inverse().quadratic(x_m - x_m_[k], y_m - y_m_[k]) <= max_squared_distance) {
       if (count == candidates_.size()) {
         return false;
       }
@@ -140,9 +162,20 @@ void ExclusiveLikelihood::add_pair(std::size_t i, std::size_t j, const Target& p
     return;
   }
   const Eigen::Vector2d pull = information * Eigen::Vector2d(ex, ey);
-  const double density = std::sqrt(information.determinant()) * std::exp(-0.5 * squared_distance);
-  terms_[association_.size()] = {information, pull.x(), pull.y()};
-  association_.add(j, ratio_scale_m2_[i] * density, along_states(pull, lever_m));
+  const double greatest_ratio = ratio_scale_m2_[i] * std::sqrt(information.determinant());
+  const std::size_t k = association_.size();
+  terms_[k] = {information, pull.x(), pull.y(), greatest_ratio};
+  exponents_[k] = -0.5 * squared_distance;
+  association_.add(j, greatest_ratio, along_states(pull, lever_m));
+}
+
+/// All at once, because exponentials are faster then.
+void ExclusiveLikelihood::set_ratios() {
+  const std::size_t size = association_.size();
+  exponentiate({exponents_.data(), size});
+  for (std::size_t k = 0; k < size; ++k) {
+    association_.set_ratio(k, terms_[k].greatest_ratio * exponents_[k]);
+  }
 }
 
 NormalEquations ExclusiveLikelihood::linearise(const TargetSet& previous, const TargetSet& current,
@@ -159,12 +192,13 @@ NormalEquations ExclusiveLikelihood::linearise(const TargetSet& previous, const 
       add_pair(i, candidates_[k], previous[candidates_[k]], moved, lever_m_[i]);
     }
   }
+  set_ratios();
   if (is_new_) {
     association_.start();
     is_new_ = false;
   }
   const auto rounds = static_cast<std::int64_t>(
-      association_.solve(settle ? Association::kMaxRounds : kRoundsPerStep));
+      settle ? association_.solve() : association_.solve(kRoundsPerStep, kToleranceOfStep));
   evaluations_ += kPairWork * static_cast<std::int64_t>(candidate_begin_[current.size()]) +
                   rounds * static_cast<std::int64_t>(association_.size());
   return sum_up();

@@ -73,16 +73,20 @@ class ExclusiveLikelihood {
   struct Term {
     Symmetric2 information;   // C_ij^-1
     double x_per_m, y_per_m;  // C_ij^-1 e_ij
+    double greatest_ratio;    // psi_ij at e_ij = 0
   };
 
+  void sort(const TargetSet& previous);
   bool list_row(std::size_t i, const TargetSet& previous, const Target& moved);
   void add_pair(std::size_t i, std::size_t j, const Target& previous, const Target& moved,
                 const Eigen::Vector2d& lever_m);
+  void set_ratios();
   [[nodiscard]] NormalEquations sum_up();
 
   // Not initialised: most elements are never used.
   Association association_;
   std::array<Term, Association::kMaxPairs> terms_;
+  std::array<double, Association::kMaxPairs> exponents_;  // of psi_ij / greatest_ratio
   // Possible partners of each current target i, from candidate_begin_[i] on.
   Candidates candidates_;
   std::array<std::size_t, kMaxDetections + 1> candidate_begin_;
@@ -91,11 +95,13 @@ class ExclusiveLikelihood {
   std::array<Eigen::Vector2d, kMaxDetections> lever_m_;  // R(yaw) m_i
   Row ratio_scale_m2_;                                   // psi_ij / N(r_i - mu_j; C_ij)
   Row max_squared_distance_;                             // beyond it psi_ij < kMinRatio
-  // Of each previous target:
-  alignas(64) Row x_m_;
-  alignas(64) Row y_m_;
-  alignas(64) Row variance_m2_;  // trace of the covariance
-  alignas(64) Row excess_m2_;    // scratch of list_row, like the next
+  // Of each previous target, sorted by x:
+  std::array<std::uint16_t, kMaxDetections> sorted_;  // its index
+  Row x_m_;
+  Row y_m_;
+  Row variance_m2_;  // trace of the covariance
+  double max_variance_x_m2_ = 0.0;
+  Row excess_m2_;  // scratch of list_row, like the next
   std::array<std::uint16_t, kMaxDetections> near_;
   double matched_ = 0.0;
   std::int64_t evaluations_ = 0;

@@ -78,9 +78,11 @@ MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
 }
 
 MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
+  const double doppler_mps = doppler_speed_mps();
   const std::array<Eigen::Vector3d, 3> starts{
-      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {doppler_speed_mps() * dt_s, 0.0, 0.0}};
-  const RegistrationResult result = registration_.solve(targets_, dt_s, starts);
+      Eigen::Vector3d::Zero(), last_velocity_ * dt_s, {doppler_mps * dt_s, 0.0, 0.0}};
+  const auto predicted = predict(doppler_mps, dt_s);
+  const RegistrationResult result = registration_.solve(targets_, dt_s, starts, predicted);
   motion.iterations = result.iterations;
   const MotionStatus status = judge(result, dt_s);
   has_velocity_ = status == MotionStatus::ok || status == MotionStatus::standing_still;
@@ -92,6 +94,15 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     last_velocity_ = result.motion / dt_s;
   }
   return status;
+}
+
+/// None if Doppler shows another speed than a vehicle can reach from the last motion.
+std::optional<PredictedMotion> EgoMotionEstimator::predict(double doppler_mps, double dt_s) const {
+  if (!has_velocity_ || std::abs(doppler_mps - last_velocity_.x()) > kMaxAccelerationMps2 * dt_s) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d velocity(doppler_mps, last_velocity_.y(), last_velocity_.z());
+  return PredictedMotion{velocity * dt_s, continued(dt_s)};
 }
 
 MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double dt_s) {
@@ -128,15 +139,14 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
   return is_standing(result, dt_s) ? MotionStatus::standing_still : MotionStatus::ok;
 }
 
-/// Whether a vehicle can accelerate from the last estimate to this one. A match of chance
-/// neighbours can be anywhere in the search range and rarely fulfils this.
+ContinuedMotion EgoMotionEstimator::continued(double dt_s) const {
+  const Eigen::Vector3d limits(kMaxAccelerationMps2, kMaxAccelerationMps2,
+                               kMaxYawAccelerationRadps2);
+  return {last_velocity_ * dt_s, limits * dt_s * dt_s};
+}
+
 bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s) const {
-  const Eigen::Vector3d departure = (result.motion - last_velocity_ * dt_s).cwiseAbs();
-  const Eigen::Vector3d possible(kMaxAccelerationMps2, kMaxAccelerationMps2,
-                                 kMaxYawAccelerationRadps2);
-  const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
-  return has_velocity_ && sigma.x() > 0.0 &&
-         (departure.array() <= (possible * dt_s * dt_s + kMaxSigmas * sigma).array()).all();
+  return has_velocity_ && continued(dt_s).allows(result);
 }
 
 /// Uses Doppler even if the estimate does not.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -12,6 +13,7 @@
 #include "cremed/can_decoders/radar_scan.hpp"
 #include "cremed/estimator/doubt/scan/two_worlds.hpp"
 #include "cremed/estimator/motion/ego_motion_options.hpp"
+#include "cremed/estimator/registration/predicted_motion.hpp"
 #include "cremed/estimator/registration/registration.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -81,6 +83,8 @@ class EgoMotionEstimator {
   MotionStatus check(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
+  [[nodiscard]] std::optional<PredictedMotion> predict(double doppler_mps, double dt_s) const;
+  [[nodiscard]] ContinuedMotion continued(double dt_s) const;
   [[nodiscard]] bool continues(const RegistrationResult& result, double dt_s) const;
   bool is_standing(const RegistrationResult& result, double dt_s);
   double median_normalised_doppler();

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include "cremed/estimator/cost/normal_equations.hpp"
+#include "cremed/estimator/registration/learned_curvature.hpp"
 #include "cremed/estimator/registration/registration_result.hpp"
 
 namespace cremed {
@@ -38,6 +41,9 @@ inline constexpr int kMaxHalvings = 12;
 /// Largest squared length, in standard deviations, of a step whose gain rounding of the cost may
 /// hide: 0.3 sigma.
 inline constexpr double kMaxStuckSquaredStep = 0.1;
+
+/// Steps shorter than this, 0.1 sigma, are mostly the last one.
+inline constexpr double kLastSquaredStep = 1e-2;
 
 /// Limits that end a descent.
 struct StoppingRule {
@@ -71,6 +77,8 @@ bool take_step(Cost& cost, Eigen::Vector3d step, const StoppingRule& rule, Desce
 /// Gauss-Newton with step halving, from the linearisation in `descent`.
 template <RegistrationCost Cost>
 RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descent) {
+  LearnedCurvature curvature(rule.degrees_of_freedom);
+  double last_squared_step = std::numeric_limits<double>::infinity();
   for (const int last = descent.iterations + rule.max_iterations;;) {
     if (!cost.is_complete()) {
       return RegistrationStatus::ambiguous;
@@ -79,12 +87,17 @@ RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descen
       return RegistrationStatus::non_finite;
     }
     const NormalEquations& equations = descent.equations;
-    const auto inverse = invert_information(equations.information, rule.degrees_of_freedom);
+    const auto inverse = invert_information(
+        Cost::kHasStepControl ? equations.information : curvature.of(equations.information),
+        rule.degrees_of_freedom);
     if (!inverse) {
       return RegistrationStatus::degenerate;
     }
     const Eigen::Vector3d step = -*inverse * equations.gradient;
     const double squared_step = -step.dot(equations.gradient);
+    if (squared_step >= std::exchange(last_squared_step, squared_step)) {
+      curvature.stop();
+    }
     if (squared_step < rule.step_tolerance) {
       if (cost.is_settled()) {
         return RegistrationStatus::converged;
@@ -94,10 +107,17 @@ RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descen
       descent.equations = cost.linearise(descent.at);
     } else if (descent.iterations == last) {
       return RegistrationStatus::no_convergence;
-    } else if (!take_step(cost, step, rule, descent)) {
-      const bool is_spent = cost.evaluations() >= rule.max_evaluations;
-      return is_spent || squared_step > kMaxStuckSquaredStep ? RegistrationStatus::no_convergence
-                                                             : RegistrationStatus::converged;
+    } else {
+      if (squared_step < kLastSquaredStep) {
+        cost.settle();
+      }
+      const Eigen::Vector3d before = equations.gradient;
+      if (!take_step(cost, step, rule, descent)) {
+        const bool is_spent = cost.evaluations() >= rule.max_evaluations;
+        return is_spent || squared_step > kMaxStuckSquaredStep ? RegistrationStatus::no_convergence
+                                                               : RegistrationStatus::converged;
+      }
+      curvature.add(step, equations.gradient - before, equations.information);
     }
   }
 }

@@ -58,8 +58,8 @@ Registration::Registration(const RegistrationOptions& options, const Pose2& vehi
                  vehicle_from_radar) {}
 
 void Registration::set_previous(const TargetSet& targets) {
-  mixture_.set_previous(targets, ray_);
   previous_ = targets;
+  has_mixture_ = false;
   is_previous_finite_ = targets.is_finite();
 }
 
@@ -68,30 +68,48 @@ RegistrationResult Registration::solve(const TargetSet& current, double dt_s) {
   return solve(current, dt_s, zero);
 }
 
-RegistrationResult Registration::solve(const TargetSet& current, double dt_s, Starts starts) {
+RegistrationResult Registration::solve(const TargetSet& current, double dt_s, Starts starts,
+                                       const std::optional<PredictedMotion>& predicted) {
   if (!is_previous_finite_ || !current.is_finite()) {
     return {};
   }
   mixture_.set_current(current, dt_s);
   RegistrationResult result = options_.likelihood == Likelihood::exclusive
-                                  ? solve_exclusive(current, dt_s, starts)
+                                  ? solve_exclusive(current, dt_s, starts, predicted)
                                   : search(mixture_, starts);
   result.component_evaluations = evaluations();
   return result;
 }
 
 RegistrationResult Registration::solve_exclusive(const TargetSet& current, double dt_s,
-                                                 Starts starts) {
+                                                 Starts starts,
+                                                 const std::optional<PredictedMotion>& predicted) {
   exclusive_.set_scans(previous_, current, dt_s, ray_);
   const auto possible = static_cast<double>(std::min(current.size(), previous_.size()));
+  const auto matches_few = [&](const RegistrationResult& result) {
+    return result.matched < kRestartMatchedShare * possible;
+  };
+  const auto is_expected = [&](const RegistrationResult& result) {
+    return predicted && predicted->continued.allows(result);
+  };
+  int iterations = 0;
+  if (predicted) {
+    const RegistrationResult result = second_stage(exclusive_, {{predicted->motion}, {}});
+    if (result.status == RegistrationStatus::converged && !matches_few(result) &&
+        is_expected(result)) {
+      return result;
+    }
+    iterations = result.iterations;
+  }
   RegistrationResult result = search(exclusive_, starts);
+  result.iterations += iterations;
   const bool has_ended = result.status == RegistrationStatus::converged ||
                          result.status == RegistrationStatus::degenerate;
-  if (options_.restarts && has_ended && result.matched / possible < kRestartMatchedShare) {
+  if (options_.restarts && has_ended && matches_few(result) && !is_expected(result)) {
     result = search_again(starts.front(), result);
   }
   if (result.status == RegistrationStatus::converged &&
-      result.matched / possible < kMinMatchedShare) {
+      result.matched < kMinMatchedShare * possible) {
     result.status = RegistrationStatus::ambiguous;
   }
   return result;
@@ -99,15 +117,15 @@ RegistrationResult Registration::solve_exclusive(const TargetSet& current, doubl
 
 template <typename Cost>
 RegistrationResult Registration::search(Cost& exact, Starts starts) {
-  Descent descent = first_stage(starts, Cost::kStartTolerance);
-  RegistrationResult result;
-  result.status = RegistrationStatus::no_convergence;
-  if (evaluations() < options_.max_component_evaluations) {
-    second_stage(exact, descent, result);
+  prepare_mixture();
+  return second_stage(exact, first_stage(starts, Cost::kStartTolerance));
+}
+
+void Registration::prepare_mixture() {
+  if (!has_mixture_) {
+    mixture_.set_previous(previous_, ray_);
+    has_mixture_ = true;
   }
-  result.motion = descent.at.motion;
-  result.iterations = descent.iterations;
-  return result;
 }
 
 Descent Registration::first_stage(Starts starts, double step_tolerance) {
@@ -142,15 +160,22 @@ Descent Registration::best_of(Starts starts) {
 }
 
 template <typename Cost>
-void Registration::second_stage(Cost& exact, Descent& descent, RegistrationResult& result) {
-  exact.start();
-  descent.equations = exact.linearise(descent.at);
-  result.status =
-      descend(exact, rule(exact, options_.max_iterations, options_.step_tolerance), descent);
-  result.cost = descent.equations.cost;
-  result.matched = exact.matched();
-  if (!result.has_motion()) {
-    return;
+RegistrationResult Registration::second_stage(Cost& exact, Descent descent) {
+  RegistrationResult result;
+  result.status = RegistrationStatus::no_convergence;
+  const bool has_work_left = evaluations() < options_.max_component_evaluations;
+  if (has_work_left) {
+    exact.start();
+    descent.equations = exact.linearise(descent.at);
+    result.status =
+        descend(exact, rule(exact, options_.max_iterations, options_.step_tolerance), descent);
+    result.cost = descent.equations.cost;
+    result.matched = exact.matched();
+  }
+  result.motion = descent.at.motion;
+  result.iterations = descent.iterations;
+  if (!has_work_left || !result.has_motion()) {
+    return result;
   }
   if (const auto covariance = exact.covariance(descent.at, descent.equations)) {
     result.covariance = *covariance;
@@ -158,6 +183,7 @@ void Registration::second_stage(Cost& exact, Descent& descent, RegistrationResul
   } else {
     result.status = RegistrationStatus::degenerate;
   }
+  return result;
 }
 
 RegistrationResult Registration::search_again(const Eigen::Vector3d& start,

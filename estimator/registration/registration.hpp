@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include "cremed/estimator/cost/mixture_cost.hpp"
 #include "cremed/estimator/cost/outlier_ray.hpp"
 #include "cremed/estimator/registration/gauss_newton.hpp"
+#include "cremed/estimator/registration/predicted_motion.hpp"
 #include "cremed/estimator/registration/registration_options.hpp"
 #include "cremed/estimator/registration/registration_result.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -39,9 +41,12 @@ class Registration {
   /// The motion to the current scan, `dt_s` later. The search starts at zero as in the paper.
   RegistrationResult solve(const TargetSet& current, double dt_s);
 
-  /// The same, started where the cost of the first stage is lowest among `starts` (not empty).
+  /// The same, started where the cost of the first stage is lowest among `starts` (not empty). With
+  /// Likelihood::exclusive a prediction is tried first, without the first stage: it lies in the
+  /// right basin if the result matches enough targets and does not depart too far.
   RegistrationResult solve(const TargetSet& current, double dt_s,
-                           std::span<const Eigen::Vector3d> starts);
+                           std::span<const Eigen::Vector3d> starts,
+                           const std::optional<PredictedMotion>& predicted = std::nullopt);
 
  private:
   using Starts = std::span<const Eigen::Vector3d>;
@@ -51,9 +56,11 @@ class Registration {
   RegistrationResult search(Cost& exact, Starts starts);
   Descent first_stage(Starts starts, double step_tolerance);
   template <typename Cost>
-  void second_stage(Cost& exact, Descent& descent, RegistrationResult& result);
+  RegistrationResult second_stage(Cost& exact, Descent descent);
   Descent best_of(Starts starts);
-  RegistrationResult solve_exclusive(const TargetSet& current, double dt_s, Starts starts);
+  void prepare_mixture();
+  RegistrationResult solve_exclusive(const TargetSet& current, double dt_s, Starts starts,
+                                     const std::optional<PredictedMotion>& predicted);
   RegistrationResult search_again(const Eigen::Vector3d& start, const RegistrationResult& first);
   template <typename Cost>
   [[nodiscard]] StoppingRule rule(const Cost& cost, int max_iterations,
@@ -66,6 +73,7 @@ class Registration {
   ExclusiveCost exclusive_;
   TargetSet previous_;
   bool is_previous_finite_ = false;
+  bool has_mixture_ = false;  // mixture_ holds the previous scan
 };
 
 }  // namespace cremed

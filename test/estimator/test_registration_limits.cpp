@@ -261,6 +261,59 @@ TEST_CASE("of several starts the one with the lowest cost is used, in any order"
   CHECK(is_found(registration.solve(current, kDt, std::array{kStill, far, near})));
 }
 
+TEST_CASE("a prediction in the right basin needs no first stage") {
+  Random random(10);
+  const Points points = simulation::scatter(random, 40, 5.0, 60.0, radians(50.0), 1.0);
+  const Eigen::Vector3d motion(0.8, 0.0, 0.02);
+  const TargetSet current = simulation::targets(see(points, motion), {});
+  Registration registration(options_of(2, true), {});
+  registration.set_previous(simulation::targets(see(points, kStill), {}));
+  const std::array starts{kStill};
+  const Eigen::Vector3d limits(0.1, 0.1, 0.05);
+  const RegistrationResult searched = registration.solve(current, kDt, starts);
+  const Eigen::Vector3d near(0.78, 0.0, 0.015);
+  const RegistrationResult refined =
+      registration.solve(current, kDt, starts, PredictedMotion{near, {near, limits}});
+  REQUIRE(refined.status == RegistrationStatus::converged);
+  CHECK((refined.motion - searched.motion).norm() < 1e-4);
+  CHECK(refined.component_evaluations < searched.component_evaluations / 2);
+
+  SECTION("one in another basin is searched for") {
+    const Eigen::Vector3d far(-3.0, 0.0, -0.3);
+    const RegistrationResult other =
+        registration.solve(current, kDt, starts, PredictedMotion{far, {far, limits}});
+    CHECK((other.motion - searched.motion).norm() < 1e-4);
+    CHECK(other.component_evaluations > searched.component_evaluations);
+  }
+  SECTION("a result that departs too far from the motion before is searched for") {
+    const Eigen::Vector3d before(0.3, 0.0, 0.02);
+    const RegistrationResult other =
+        registration.solve(current, kDt, starts, PredictedMotion{near, {before, limits}});
+    CHECK((other.motion - searched.motion).norm() < 1e-4);
+    CHECK(other.component_evaluations > searched.component_evaluations);
+  }
+}
+
+TEST_CASE("few matches are searched for from other yaw angles, unless the motion was expected") {
+  Random random(12);
+  const Points seen_twice = simulation::scatter(random, 12, 5.0, 60.0, radians(50.0), 1.0);
+  Points before = simulation::scatter(random, 20, 5.0, 60.0, radians(50.0), 1.0);
+  Points after = simulation::scatter(random, 20, 5.0, 60.0, radians(50.0), 1.0);
+  before.insert(before.end(), seen_twice.begin(), seen_twice.end());
+  after.insert(after.end(), seen_twice.begin(), seen_twice.end());
+  const Eigen::Vector3d motion(0.8, 0.0, 0.02);
+  const TargetSet current = simulation::targets(see(after, motion), {});
+  Registration registration(options_of(2, true), {});
+  registration.set_previous(simulation::targets(see(before, kStill), {}));
+  const std::array starts{kStill};
+  const Eigen::Vector3d limits(0.1, 0.1, 0.05);
+  CHECK(registration.solve(current, kDt, starts).starts == 5);
+  const RegistrationResult expected =
+      registration.solve(current, kDt, starts, PredictedMotion{motion, {motion, limits}});
+  CHECK(expected.starts == 1);
+  CHECK((expected.motion - motion).norm() < 0.02);
+}
+
 TEST_CASE("an exact start takes no step") {
   Random random(9);
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 6.0);

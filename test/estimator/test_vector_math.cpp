@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/cost/exponentiate.hpp"
 #include "cremed/estimator/cost/vector_math.hpp"
 #include "test/estimator/simulation.hpp"
 
@@ -37,6 +39,22 @@ TEST_CASE("the exponential is exact to a few units in the last place, down to ex
   CHECK(vector_math::exponential<Pack>(both(0.0))[0] == 1.0);
   CHECK(vector_math::exponential<Pack>(both(-1e300))[0] ==
         vector_math::exponential<Pack>(both(-600.0))[0]);
+}
+
+TEST_CASE("exponentials of any number of values are those of each") {
+  Random random(34);
+  for (std::size_t size = 0; size < 20; ++size) {
+    std::vector<double> values(size);
+    for (double& value : values) {
+      value = -std::pow(10.0, uniform(random, -3.0, 3.0));
+    }
+    std::vector<double> expected;
+    for (const double value : values) {
+      expected.push_back(vector_math::exponential<Pack>(both(value))[0]);
+    }
+    exponentiate(values);
+    CHECK(values == expected);
+  }
 }
 
 TEST_CASE("the logarithm is exact to two units in the last place, also next to 1") {

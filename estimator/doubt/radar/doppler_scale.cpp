@@ -31,6 +31,8 @@ constexpr double kMemoryS = 3.0;
 /// Difference of a target's range between two scans.
 constexpr double kRangeStdM = 0.15;
 constexpr double kMinWidth = 0.02;
+/// Votes farther away than this count by less than 1e-5.
+constexpr double kMaxWidths = 5.0;
 /// Of targets nearer to each other than this only one votes: those of one object vote for all
 /// differences of their positions.
 constexpr double kSpacingM = 0.5;
@@ -45,6 +47,13 @@ constexpr double kClearSigmas = 4.0;
 constexpr double kReversedSigmas = 3.0;
 /// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
 constexpr double kContradictingSigmas = 1.5;
+
+/// A target in the axes of the way between two scans.
+struct AlongWay {
+  double side_m;
+  double steps;  // Along the way, in shares of kStep of it.
+  double side_variance_m2;
+};
 
 }  // namespace
 
@@ -144,15 +153,26 @@ void DopplerScale::vote(const Scan& from, const Scan& to, const Eigen::Vector2d&
   const double length_m = way.norm();
   const Eigen::Vector2d across = Eigen::Vector2d(-way.y(), way.x()) / length_m;
   const Eigen::Vector2d steps = way / (length_m * length_m * kStep);
+  const auto along = [&](const Eigen::Vector2d& m, double side_variance_m2) {
+    return AlongWay{across.dot(m), steps.dot(m), side_variance_m2};
+  };
+  std::array<AlongWay, kMaxTargets> later;
+  const auto end = std::transform(
+      to.points.begin(), to.points.begin() + static_cast<std::ptrdiff_t>(to.size), later.begin(),
+      [&](const Point& point) { return along(point.m, point.side_variance_m2); });
+  std::sort(later.begin(), end,
+            [](const AlongWay& a, const AlongWay& b) { return a.side_m < b.side_m; });
   for (std::size_t i = 0; i < from.size; ++i) {
-    const Eigen::Vector2d before = to_from * from.points[i].m;
-    for (std::size_t j = 0; j < to.size; ++j) {
-      const double variance = from.points[i].side_variance_m2 + to.points[j].side_variance_m2;
-      const Eigen::Vector2d moved = before - to.points[j].m;
-      const double share_steps = steps.dot(moved);
+    const AlongWay before = along(to_from * from.points[i].m, from.points[i].side_variance_m2);
+    const auto first = std::lower_bound(
+        later.begin(), end, before.side_m - kMaxSideGateM,
+        [](const AlongWay& point, double lowest_m) { return point.side_m < lowest_m; });
+    for (auto now = first; now != end && now->side_m <= before.side_m + kMaxSideGateM; ++now) {
+      const double share_steps = before.steps - now->steps;
       const double step = std::abs(share_steps) - 1.0 / kStep + kMiddle;
       if (step >= 0.0 && step < static_cast<double>(kSteps - 1) &&
-          is_within_side_gate(across.dot(moved), variance)) {
+          is_within_side_gate(before.side_m - now->side_m,
+                              before.side_variance_m2 + now->side_variance_m2)) {
         Votes& votes = share_steps > 0.0 ? votes_ : reversed_;
         const auto lower = static_cast<std::size_t>(step);
         const double upper_part = step - static_cast<double>(lower);
@@ -169,9 +189,11 @@ void DopplerScale::judge(double way_m) {
   for (std::size_t k = 0; k < kSteps; ++k) {
     weights[k] = std::exp(-0.5 * squared(static_cast<double>(k) / width_steps));
   }
+  const int reach = static_cast<int>(kMaxWidths * width_steps);
   const auto near = [&](const Votes& votes, int step) {
     double sum = 0.0;
-    for (int k = 0; k < static_cast<int>(kSteps); ++k) {
+    const int last = std::min(step + reach, static_cast<int>(kSteps) - 1);
+    for (int k = std::max(step - reach, 0); k <= last; ++k) {
       sum += votes[static_cast<std::size_t>(k)] *
              weights[static_cast<std::size_t>(std::abs(k - step))];
     }

@@ -11,8 +11,6 @@
 namespace cremed {
 namespace {
 
-/// Bounds the work. An ARS408 sends its nearest targets first, which are the most precise.
-constexpr std::size_t kMaxTargets = 96;
 /// Half of this step moves a target at 40 m by 0.6 m in 0.3 s.
 constexpr double kYawRateStepRadps = 0.1;
 /// In standard deviations of the expected number of chance votes plus one. False-alarm rate: 1 % of
@@ -30,22 +28,39 @@ double votes_around(const Votes& votes, std::size_t step) {
 
 }  // namespace
 
-void PositionSpeed::count(const TargetSet& previous, const TargetSet& current, double dt_s,
+/// Those that can pass the side gate, from right to left.
+PositionSpeed::Places PositionSpeed::sort_by_side(const TargetSet& previous) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < std::min(previous.size(), kMaxTargets); ++i) {
+    const Target& target = previous[i];
+    if (target.covariance_m2.yy <= kMaxSideVarianceM2) {
+      places_[count++] = {target.x_m, target.y_m, target.covariance_m2.yy};
+    }
+  }
+  std::sort(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Place& a, const Place& b) { return a.y_m < b.y_m; });
+  return {places_.data(), count};
+}
+
+void PositionSpeed::count(Places previous, const TargetSet& current, double dt_s,
                           double yaw_rate_radps, Votes& votes) {
   votes.fill(0);
   const double c = std::cos(yaw_rate_radps * dt_s);
   const double s = std::sin(yaw_rate_radps * dt_s);
   const double steps_per_m = 1.0 / (dt_s * kStepMps);
-  const std::size_t n = std::min(previous.size(), kMaxTargets);
   for (std::size_t i = 0; i < std::min(current.size(), kMaxTargets); ++i) {
     const Target& target = current[i];
     const double x_m = c * target.x_m - s * target.y_m;
     const double y_m = s * target.x_m + c * target.y_m;
-    for (std::size_t j = 0; j < n; ++j) {
-      const double variance = target.covariance_m2.yy + previous[j].covariance_m2.yy;
-      const double step = (previous[j].x_m - x_m) * steps_per_m - kMinSpeedMps / kStepMps + 0.5;
+    const auto first =
+        std::lower_bound(previous.begin(), previous.end(), y_m - kMaxSideGateM,
+                         [](const Place& place, double lowest_m) { return place.y_m < lowest_m; });
+    for (auto place = first; place != previous.end() && place->y_m <= y_m + kMaxSideGateM;
+         ++place) {
+      const double step = (place->x_m - x_m) * steps_per_m - kMinSpeedMps / kStepMps + 0.5;
       if (step >= 0.0 && step < static_cast<double>(kSteps) &&
-          is_within_side_gate(previous[j].y_m - y_m, variance)) {
+          is_within_side_gate(place->y_m - y_m,
+                              target.covariance_m2.yy + place->side_variance_m2)) {
         ++votes[static_cast<std::size_t>(step)];
       }
     }
@@ -87,10 +102,11 @@ std::optional<SpeedSupport> PositionSpeed::compare(const TargetSet& previous,
   newest_ = (newest_ + 1) % kPairs;
   Pair& pair = pairs_[newest_];
   pair.given_step = static_cast<std::size_t>(given_step);
+  const Places places = sort_by_side(previous);
   for (std::size_t k = 0; k < kYawRates; ++k) {
     constexpr std::size_t kMiddle = kYawRates / 2;
     const double steps = static_cast<double>(k) - static_cast<double>(kMiddle);
-    count(previous, current, dt_s, steps * kYawRateStepRadps, pair.votes[k]);
+    count(places, current, dt_s, steps * kYawRateStepRadps, pair.votes[k]);
   }
   const SpeedSupport support = sum_up();
   return support.best_votes > support.max_chance_votes ? std::optional(support) : std::nullopt;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -50,10 +51,23 @@ class PositionSpeed {
     std::size_t given_step = 0;  ///< Step of the given speed.
   };
 
-  static void count(const TargetSet& previous, const TargetSet& current, double dt_s,
-                    double yaw_rate_radps, Votes& votes);
+  /// A target of the earlier scan.
+  struct Place {
+    double x_m;
+    double y_m;
+    double side_variance_m2;
+  };
+  using Places = std::span<const Place>;
+
+  Places sort_by_side(const TargetSet& previous);
+  static void count(Places previous, const TargetSet& current, double dt_s, double yaw_rate_radps,
+                    Votes& votes);
   [[nodiscard]] SpeedSupport sum_up() const;
 
+  /// Bounds the work. An ARS408 sends its nearest targets first, which are the most precise.
+  static constexpr std::size_t kMaxTargets = 96;
+
+  std::array<Place, kMaxTargets> places_;
   std::array<Pair, kPairs> pairs_{};
   std::size_t newest_ = 0;
 };

@@ -6,14 +6,17 @@
 
 namespace cremed {
 
+/// The side gate is at most 1.2 m wide, less than half a lane.
+inline constexpr double kMaxSideVarianceM2 = 0.6 * 0.6;
+inline constexpr double kSideGateSigmas = 2.0;
+inline constexpr double kMaxSideGateM = 1.2;
+
 /// Whether two targets of two scans may be one, by their distance across the way and its variance.
 /// 5 % of true pairs are rejected, and all whose distance is so uncertain that a target in the next
-/// lane would pass: the gate is at most 1.2 m wide, less than half a lane.
+/// lane would pass.
 inline bool is_within_side_gate(double across_m, double variance_m2) {
-  constexpr double kMaxSideStdM = 0.6;
-  constexpr double kGateSigmas = 2.0;
-  return variance_m2 <= squared(kMaxSideStdM) &&
-         squared(across_m) <= squared(kGateSigmas) * variance_m2;
+  return variance_m2 <= kMaxSideVarianceM2 &&
+         squared(across_m) <= squared(kSideGateSigmas) * variance_m2;
 }
 
 }  // namespace cremed

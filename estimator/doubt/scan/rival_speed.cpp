@@ -14,20 +14,26 @@ namespace {
 /// Gate of a vote for a speed, in its standard deviations. It rejects 1 in 370 true votes.
 constexpr double kMaxVoteSigmas = 3.0;
 /// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
-constexpr double kPlaceRadiusM = 3.0;
+constexpr float kPlaceRadiusM = 3.0F;
 
-/// Number of targets with a vote that are not near a target of an earlier vote.
+/// Number of targets with a vote that are not near a target of an earlier vote. Counts all earlier
+/// ones that are near, without branches, which is faster than to find the first.
 template <typename Votes>
 std::size_t count_places(const TargetSet& targets, const Votes& votes) {
+  std::array<float, kMaxDetections> x_m;
+  std::array<float, kMaxDetections> y_m;
   std::size_t places = 0;
-  for (auto vote = votes.begin(); vote != votes.end(); ++vote) {
-    const Target& here = targets[vote->target];
-    places += std::none_of(votes.begin(), vote, [&](const auto& other) {
-      const Target& there = targets[other.target];
-      const double dx_m = here.x_m - there.x_m;
-      const double dy_m = here.y_m - there.y_m;
-      return dx_m * dx_m + dy_m * dy_m < kPlaceRadiusM * kPlaceRadiusM;
-    });
+  for (std::size_t k = 0; k < votes.size(); ++k) {
+    const Target& here = targets[votes[k].target];
+    x_m[k] = static_cast<float>(here.x_m);
+    y_m[k] = static_cast<float>(here.y_m);
+    int near = 0;
+    for (std::size_t earlier = 0; earlier < k; ++earlier) {
+      const float dx_m = x_m[earlier] - x_m[k];
+      const float dy_m = y_m[earlier] - y_m[k];
+      near += dx_m * dx_m + dy_m * dy_m < kPlaceRadiusM * kPlaceRadiusM ? 1 : 0;
+    }
+    places += near == 0 ? 1 : 0;
   }
   return places;
 }

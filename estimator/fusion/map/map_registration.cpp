@@ -14,9 +14,6 @@
 namespace cremed {
 namespace {
 
-/// Bounds the work; targets beyond have no partner. RadarScenes, with 200 targets a scan, has up to
-/// 10 000.
-constexpr std::size_t kMaxPairs = 32768;
 /// Clutter, 1/m^2: the density of an ARS408's targets within 50 m. From 0.005 to 0.1 the yaw error
 /// on scenes 0061, 0103, 1094 and RadarScenes 105 changes by less than a tenth.
 constexpr double kClutterPerM2 = 0.02;
@@ -27,11 +24,10 @@ const Eigen::Vector3d kPriorStd(0.1, 0.3, 0.02);
 constexpr int kMaxIterations = 8;
 /// Squared step over the standard deviation: 1 % of it.
 constexpr double kConverged = 1e-4;
-/// Squared distance in sigmas beyond which a pair's weight, 4e-6 of its greatest, is left out.
-constexpr double kNoPartner = 25.0;
-/// The same from the predicted pose, farther than any correction reaches: two thirds of the pairs
-/// of RadarScenes are left, and the same results.
-constexpr double kOutOfReach = 100.0;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+/// Squared distance in sigmas from the predicted pose beyond which a pair is left out: 5 sigma, and
+/// two that a correction may take away. With 10 sigma the results are the same to 1e-4 sigma.
+constexpr double kOutOfReach = 49.0;
 /// Least share of the complete information, in every direction, that is left after the missing
 /// information, for a step and for a result. Where less is left neighbours are confused.
 constexpr double kMinObservedShareOfStep = 0.2;
@@ -61,67 +57,48 @@ bool is_positive(const Eigen::Matrix3d& matrix) {
 }  // namespace
 
 MapRegistration::MapRegistration(double position_std_factor)
-    : variance_factor_(squared(position_std_factor)) {
-  pairs_.reserve(kMaxPairs);
-}
+    : variance_factor_(squared(position_std_factor)) {}
 
 void MapRegistration::find_pairs(const TargetSet& targets, const TargetMap& map) {
   pairs_.clear();
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Target& target = targets[i];
     const Eigen::Vector2d at(target.x_m, target.y_m);
+    begin_[i] = pairs_.size();
     map.for_each_near(target.x_m, target.y_m, [&](const TargetMap::Placed& placed) {
       const Eigen::Vector2d e = placed.at_m - at;
-      if (pairs_.size() == kMaxPairs || e.squaredNorm() > squared(TargetMap::kCellM)) {
+      if (pairs_.is_full() || e.squaredNorm() > squared(TargetMap::kCellM)) {
         return;
       }
       const Symmetric2 c = variance_factor_ * (target.covariance_m2 + placed.covariance_m2);
       const Symmetric2 information = c.inverse();
-      if (information.quadratic(e.x(), e.y()) > kOutOfReach) {
-        return;
+      if (information.quadratic(e.x(), e.y()) <= kOutOfReach) {
+        pairs_.add(placed, information, std::sqrt(information.determinant()) / kTwoPi);
       }
-      const double density = 1.0 / (2.0 * std::numbers::pi * std::sqrt(c.determinant()));
-      pairs_.push_back({static_cast<std::uint16_t>(i), placed.node, placed.at_m, placed.azimuth_rad,
-                        information, density, 0.0});
     });
+    pairs_.pad();
   }
+  begin_[targets.size()] = pairs_.size();
 }
 
-/// Sets the weights at `motion`, and sums information and gradient of -log p.
+/// Sums information and gradient of -log p at `motion`.
 MapRegistration::Sums MapRegistration::sum_up(const TargetSet& targets,
                                               const Eigen::Vector3d& motion, double clutter) {
   Sums sums;
   const Rotation turn(motion.z());
-  for (auto begin = pairs_.begin(); begin != pairs_.end();) {
-    const Target& target = targets[begin->target];
-    const Eigen::Vector2d turned = turn * Eigen::Vector2d(target.x_m, target.y_m);
-    const Eigen::Vector2d at = turned + motion.head<2>();
-    double sum = clutter;
-    auto end = begin;
-    for (; end != pairs_.end() && end->target == begin->target; ++end) {
-      const double squared_distance =
-          end->information.quadratic(at.x() - end->at_m.x(), at.y() - end->at_m.y());
-      end->weight =
-          squared_distance < kNoPartner ? end->density * std::exp(-0.5 * squared_distance) : 0.0;
-      sum += end->weight;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (begin_[i] == begin_[i + 1]) {
+      continue;
     }
-    // Of the point of this target, which all pairs share.
-    Symmetric2 complete;
-    Symmetric2 missing;
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    for (; begin != end; ++begin) {
-      if (begin->weight > 0.0) {
-        begin->weight /= sum;
-        const Eigen::Vector2d force = begin->information * (at - begin->at_m);
-        complete = complete + begin->weight * begin->information;
-        missing = missing + begin->weight * outer(force);
-        mean += begin->weight * force;
-        sums.matched += begin->weight;
-      }
-    }
-    sums.complete += information_of(complete, turned);
-    sums.missing += information_of(missing + -1.0 * outer(mean), turned);
-    sums.gradient += gradient_of(mean, turned);
+    const Eigen::Vector2d turned = turn * Eigen::Vector2d(targets[i].x_m, targets[i].y_m);
+    const PairSums pairs = pairs_.sum_up(begin_[i], begin_[i + 1], turned + motion.head<2>());
+    const double share = 1.0 / (clutter + pairs.weight);
+    const Eigen::Vector2d force = share * pairs.force;
+    sums.complete += information_of(share * pairs.information, turned);
+    sums.missing += information_of(share * pairs.squared_force + -1.0 * outer(force), turned);
+    sums.gradient += gradient_of(force, turned);
+    sums.matched += share * pairs.weight;
+    share_[i] = share;
   }
   return sums;
 }
@@ -133,16 +110,24 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
   Eigen::Matrix3d complete = Eigen::Matrix3d::Zero();
   complete(0, 0) = 1.0 / squared(kPriorStd.x());
   const Eigen::Vector2d radar_m(mount.x_m, mount.y_m);
-  for (const Pair& pair : pairs_) {
-    const Target& target = targets[pair.target];
-    const Eigen::Vector2d at(target.x_m, target.y_m);
-    const Eigen::Vector2d moved = azimuth_rad(target, mount) * (at - radar_m) -
-                                  pair.azimuth_rad * (pair.at_m - map.radar_m(pair.node));
-    const Eigen::Matrix3d information = pair.weight * information_of(pair.information, at);
-    match.by_node[pair.node] += information;
-    complete += information;
-    match.by_azimuth_scale +=
-        pair.weight * gradient_of(pair.information * Eigen::Vector2d(-moved.y(), moved.x()), at);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Eigen::Vector2d at(targets[i].x_m, targets[i].y_m);
+    const Eigen::Vector2d moved = azimuth_rad(targets[i], mount) * (at - radar_m);
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      if (pairs_.weight(k) == 0.0) {
+        continue;
+      }
+      const double probability = share_[i] * pairs_.weight(k);
+      const std::uint8_t node = pairs_.node(k);
+      const Eigen::Vector2d more_moved =
+          moved - pairs_.azimuth_rad(k) * (pairs_.at_m(k) - map.radar_m(node));
+      const Eigen::Matrix3d information = probability * information_of(pairs_.information(k), at);
+      match.by_node[node] += information;
+      complete += information;
+      match.by_azimuth_scale +=
+          probability *
+          gradient_of(pairs_.information(k) * Eigen::Vector2d(-more_moved.y(), more_moved.x()), at);
+    }
   }
   const Eigen::Matrix3d inverse = complete.inverse();
   const double x_share = 1.0 - inverse(0, 0) / squared(kPriorStd.x());

@@ -4,12 +4,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/map/map_pairs.hpp"
 #include "cremed/estimator/fusion/map/target_map.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/symmetric2.hpp"
@@ -52,16 +51,6 @@ class MapRegistration {
   std::optional<MapMatch> solve(const TargetSet& targets, const TargetMap& map, const Pose2& mount);
 
  private:
-  /// A target of the scan and one of the map that may be the same.
-  struct Pair {
-    std::uint16_t target;
-    std::uint8_t node;
-    Eigen::Vector2d at_m;  ///< Of the map's target.
-    double azimuth_rad;    ///< Of the map's target, seen from the radar then.
-    Symmetric2 information;
-    double density;  ///< N(0; C)
-    double weight;   ///< Probability that they are the same.
-  };
   struct Sums {
     Eigen::Matrix3d complete = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d missing = Eigen::Matrix3d::Zero();
@@ -75,7 +64,11 @@ class MapRegistration {
                        MapMatch& match) const;
 
   double variance_factor_;
-  std::vector<Pair> pairs_;  // Ordered by target. Does not grow beyond its initial capacity.
+  MapPairs pairs_;
+  // Of each target: its pairs are those from begin_[i] to before begin_[i + 1], and their weights
+  // have to be multiplied by share_[i] to be probabilities.
+  std::array<std::size_t, kMaxDetections + 1> begin_{};
+  std::array<double, kMaxDetections> share_{};
 };
 
 }  // namespace cremed

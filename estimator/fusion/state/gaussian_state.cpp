@@ -89,10 +89,11 @@ double GaussianState::innovate(const LinearMeasurement& measurement) {
 }
 
 void GaussianState::update(std::span<const Considered> considered) {
+  static_assert(kNumbers == 3);
+  // One sum a column: each number by itself would load and store the covariance again.
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
-    for (int number = 0; number < kNumbers; ++number) {
-      covariance_.col(j) -= gain_(j, number) * gain_.col(number);
-    }
+    covariance_.col(j) -=
+        gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1) + gain_(j, 2) * gain_.col(2);
   }
   for (const Considered& a : considered) {
     for (const Considered& b : considered) {

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/registration/registration_result.hpp"
+
+namespace cremed {
+
+/// The motion of before over the time between two scans, and the largest departure from it that a
+/// vehicle can reach by accelerating.
+struct ContinuedMotion {
+  Eigen::Vector3d motion;
+  Eigen::Vector3d max_departure;
+
+  /// Whether a result is possible after the motion before. A match of chance neighbours can be
+  /// anywhere in the search range and rarely is. The noise of a true one is bounded by 3 sigma
+  /// (false-alarm rate: 1 in 370).
+  [[nodiscard]] bool allows(const RegistrationResult& result) const {
+    constexpr double kMaxSigmas = 3.0;
+    const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
+    const Eigen::Vector3d departure = (result.motion - motion).cwiseAbs();
+    return sigma.x() > 0.0 &&
+           (departure.array() <= (max_departure + kMaxSigmas * sigma).array()).all();
+  }
+};
+
+/// A motion that is known well enough to be refined without a search.
+struct PredictedMotion {
+  Eigen::Vector3d motion;
+  ContinuedMotion continued;
+};
+
+}  // namespace cremed

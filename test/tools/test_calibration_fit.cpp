@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "tools/eval/calibrate/calibration_fit.hpp"
+#include "tools/eval/calibrate/held_out_check.hpp"
 
 namespace cremed {
 namespace {
@@ -124,6 +125,51 @@ TEST_CASE("what is held stays, and the vehicle's motion comes out") {
   CHECK(motion->x() == Approx(Vehicle::v_mps(30.0)).margin(0.05));
   CHECK(motion->y() == Approx(Vehicle::w_radps(30.0)).margin(0.03));
   CHECK_FALSE(fit.motion(0, kBeginUs - 10'000'000));
+}
+
+TEST_CASE("what is found is held against parts of the drive in which it was not found") {
+  std::vector<ChangedStates> yaws(kTruths.size());
+  for (ChangedStates& changed : yaws) {
+    changed[kYaw] = true;
+  }
+  int refused = 0;
+  constexpr int kDrives = 10;
+  for (unsigned seed = 1; seed <= kDrives; ++seed) {
+    const Drive drive(kTruths, seed);
+    CalibrationFit right = drive.fit({});
+    right.minimise();
+    refused += check_held_out(right, yaws).is_better ? 0 : 1;
+
+    CalibrationVector error{};
+    error[kYaw] = 0.009;
+    CalibrationFit wrong = drive.fit(error);  // Of all radars.
+    wrong.minimise();
+    const HeldOutCheck check = check_held_out(wrong, yaws);
+    CAPTURE(seed, check.found, check.configured);
+    CHECK(check.found < check.configured);
+    CHECK(check.is_better);
+    for (const bool is_better : check.is_radar_better) {
+      CHECK(is_better);
+    }
+  }
+  // Nothing is better than the truth but by chance.
+  CHECK(refused >= kDrives - 2);
+}
+
+TEST_CASE("a part of a drive has the measurements of its time") {
+  CalibrationFit fit = Drive(kTruths, 1).fit({});
+  fit.minimise();
+  const CalibrationFit second = fit.part(1, 5, true);
+  CHECK(second.motion(0, kBeginUs + 18'000'000));
+  CHECK_FALSE(second.motion(0, kBeginUs + 6'000'000));
+  CHECK_FALSE(second.motion(0, kBeginUs + 30'000'000));
+  const CalibrationFit others = fit.part(1, 5, false);
+  CHECK_FALSE(others.motion(0, kBeginUs + 18'000'000));
+  CHECK(others.motion(0, kBeginUs + 30'000'000));
+  // Together they have all.
+  const std::vector<CalibrationVector>& truths = kTruths;
+  CHECK(second.misfit(truths) + others.misfit(truths) ==
+        Approx(fit.part(0, 1, true).misfit(truths)).epsilon(0.02));
 }
 
 }  // namespace

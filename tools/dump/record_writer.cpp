@@ -30,13 +30,6 @@ std::string_view name(Validity validity) {
 }
 std::string_view name(Motion motion) { return kMotionNames[static_cast<std::size_t>(motion)]; }
 
-void end_record(std::ostream& out, const RecordOptions& options) {
-  out << '\n';
-  if (options.is_live) {
-    out.flush();
-  }
-}
-
 /// "(1436509052.249713) can0 ", as candump -L.
 TextLine line_at(std::int64_t stamp_us, std::string_view interface) {
   constexpr std::int64_t kUsPerS = 1'000'000;
@@ -68,7 +61,7 @@ void add_target(TextLine& line, const Detection& target) {
                  "deg");
   add_with_sigma(line, target.doppler_mps, target.doppler_std_mps, 2, "m/s");
   add(line, target.rcs_dbm2, 1, 7);
-  line.text(" dBm2  ").text(name(target.validity)).text(", ").text(name(target.motion)).text("\n");
+  line.text(" dBm2  ").text(name(target.validity)).text(", ").text(name(target.motion));
 }
 
 /// JSON has no NaN.
@@ -105,21 +98,25 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+void RecordWriter::end_record() {
+  out_ << '\n';
+  if (options_.is_live) {
+    out_.flush();
+  }
+}
+
 void TextRecords::scan(const std::string& interface, const std::string& radar,
                        const RadarScan& scan) {
   TextLine line = line_at(scan.stamp_us, printable(interface));
   line.text(radar).text(" scan ").integer(scan.counter).text(" ").text(name(scan.status));
   line.text(", ").integer(scan.count).text(" of ").integer(scan.announced).text(" targets");
-  out_ << line.view();
-  end_record(out_, {});
-  for (std::size_t i = 0; options_.with_targets && i < scan.count; ++i) {
+  out() << line.view();
+  for (std::size_t i = 0; with_targets() && i < scan.count; ++i) {
     TextLine target;
     add_target(target, scan.detections[i]);
-    out_ << target.view();
+    out() << '\n' << target.view();
   }
-  if (options_.is_live) {
-    out_.flush();
-  }
+  end_record();
 }
 
 void TextRecords::reading(const std::string& interface, std::uint32_t id,
@@ -131,13 +128,13 @@ void TextRecords::reading(const std::string& interface, std::uint32_t id,
   } else {
     line.text(" yaw rate ").fixed(kDegPerRad * reading.value, 2).text(" deg/s");
   }
-  out_ << line.view();
-  end_record(out_, options_);
+  out() << line.view();
+  end_record();
 }
 
 void TextRecords::lost(const std::string& interface, std::uint64_t frames) {
-  out_ << printable(interface) << " lost " << counted(frames, "frame");
-  end_record(out_, options_);
+  out() << printable(interface) << " lost " << counted(frames, "frame");
+  end_record();
 }
 
 void JsonRecords::scan(const std::string& interface, const std::string& radar,
@@ -149,16 +146,16 @@ void JsonRecords::scan(const std::string& interface, const std::string& radar,
   line.text(",\"counter\":").integer(scan.counter);
   add_name(line, "status", name(scan.status));
   line.text(",\"announced\":").integer(scan.announced).text(",\"count\":").integer(scan.count);
-  out_ << line.view();
-  if (options_.with_targets) {
-    out_ << ",\"targets\":[";
+  out() << line.view();
+  if (with_targets()) {
+    out() << ",\"targets\":[";
     for (std::size_t i = 0; i < scan.count; ++i) {
-      out_ << (i == 0 ? "" : ",") << target_json(scan.detections[i]).view();
+      out() << (i == 0 ? "" : ",") << target_json(scan.detections[i]).view();
     }
-    out_ << ']';
+    out() << ']';
   }
-  out_ << '}';
-  end_record(out_, options_);
+  out() << '}';
+  end_record();
 }
 
 void JsonRecords::reading(const std::string& interface, std::uint32_t id,
@@ -168,13 +165,13 @@ void JsonRecords::reading(const std::string& interface, std::uint32_t id,
   line.text(",\"interface\":").text(quoted(interface)).text(",\"id\":").integer(id);
   add_key(line, reading.signal == VehicleSignal::speed ? "speed_mps" : "yaw_rate_radps",
           reading.value, 6);
-  out_ << line.view() << '}';
-  end_record(out_, options_);
+  out() << line.view() << '}';
+  end_record();
 }
 
 void JsonRecords::lost(const std::string& interface, std::uint64_t frames) {
-  out_ << R"({"type":"lost","interface":)" << quoted(interface) << ",\"frames\":" << frames << '}';
-  end_record(out_, options_);
+  out() << R"({"type":"lost","interface":)" << quoted(interface) << ",\"frames\":" << frames << '}';
+  end_record();
 }
 
 }  // namespace cremed

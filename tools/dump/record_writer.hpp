@@ -11,10 +11,15 @@
 
 namespace cremed {
 
+struct RecordOptions {
+  bool with_targets = true;
+  bool is_live = false;  ///< Someone waits for each record.
+};
+
 /// Writes what a log holds, as a program or a person reads it.
 class RecordWriter {
  public:
-  RecordWriter() = default;
+  RecordWriter(std::ostream& out, const RecordOptions& options) : out_(out), options_(options) {}
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
   virtual ~RecordWriter() = default;
@@ -25,39 +30,35 @@ class RecordWriter {
                        const VehicleReading& reading) = 0;
   /// Frames that the recording lost before its next line.
   virtual void lost(const std::string& interface, std::uint64_t frames) = 0;
-};
 
-struct RecordOptions {
-  bool with_targets = true;
-  bool is_live = false;  ///< Someone waits for each record.
+ protected:
+  [[nodiscard]] std::ostream& out() { return out_; }
+  [[nodiscard]] bool with_targets() const { return options_.with_targets; }
+  void end_record();
+
+ private:
+  std::ostream& out_;
+  RecordOptions options_;
 };
 
 /// A line a record, and one a target below it; stamps as candump writes them.
 class TextRecords final : public RecordWriter {
  public:
-  TextRecords(std::ostream& out, const RecordOptions& options) : out_(out), options_(options) {}
+  using RecordWriter::RecordWriter;
   void scan(const std::string& interface, const std::string& radar, const RadarScan& scan) override;
   void reading(const std::string& interface, std::uint32_t id,
                const VehicleReading& reading) override;
   void lost(const std::string& interface, std::uint64_t frames) override;
-
- private:
-  std::ostream& out_;
-  RecordOptions options_;
 };
 
 /// A JSON object a line. SI units, radians, microseconds.
 class JsonRecords final : public RecordWriter {
  public:
-  JsonRecords(std::ostream& out, const RecordOptions& options) : out_(out), options_(options) {}
+  using RecordWriter::RecordWriter;
   void scan(const std::string& interface, const std::string& radar, const RadarScan& scan) override;
   void reading(const std::string& interface, std::uint32_t id,
                const VehicleReading& reading) override;
   void lost(const std::string& interface, std::uint64_t frames) override;
-
- private:
-  std::ostream& out_;
-  RecordOptions options_;
 };
 
 }  // namespace cremed

@@ -15,8 +15,8 @@
 
 #include "test/data_tests/shared_data.hpp"
 #include "tools/eval/csv_table.hpp"
-#include "tools/laboratory/table/drive_pairs.hpp"
 #include "tools/eval/temporary_folder.hpp"
+#include "tools/laboratory/table/drive_pairs.hpp"
 
 using namespace cremed;
 

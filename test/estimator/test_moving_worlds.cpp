@@ -13,8 +13,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/fusion/odometry_filter.hpp"
 #include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/simulation.hpp"
 

@@ -74,11 +74,11 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     faults_.accuse(radar, stamp_us);
   }
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
-  if (const auto believed = faults_.take_correction()) {
+  const auto believed = faults_.take_correction();
+  if (believed) {
     add_error_by_radar(*believed);
   }
   begin_if_needed(stamp_us, is_trusted);
-  const bool was_settled = condition_.is_settled();
   if (is_usable(radar, targets, stamp_us)) {
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
@@ -88,15 +88,14 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
       use_positions(radar, targets, stamp_us);
     }
   }
-  if (condition_.is_settled() && !was_settled) {
-    // The way until now may be that of a wrong radar.
-    output_.renew_anchor();
-  }
   // The condition is that of the returned output, from before a renewal of the anchor.
   Odometry odometry = output_.next();
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
   parked_.add_output(odometry);
+  if (condition_.settle() || believed) {
+    output_.renew_anchor();  // The way until now may be that of a wrong radar.
+  }
   return result;
 }
 
@@ -469,7 +468,7 @@ void OdometryFilter::compare_speed(std::size_t radar, const MapMatch& match) {
   if (expected && since_s > 0.0) {
     faults_.add_speed_by_positions(radar, state_.time_us(),
                                    expected->x() + match.correction.x() / (match.x_share * since_s),
-                                   since_s);
+                                   since_s, match.covariance(0, 0) / squared(match.x_share));
   }
 }
 

@@ -25,8 +25,8 @@ struct RegistrationOptions {
   /// The second stage ends at a step whose squared length in standard deviations (step' J'J step)
   /// is smaller than this.
   double step_tolerance = 1e-5;
-  /// If few targets are matched, search from other yaw angles. Useful if the start is a guess, not
-  /// if it is a prediction.
+  /// If few targets are matched, search from other yaw angles, unless the result continues the
+  /// motion before (PredictedMotion).
   bool restarts = true;
   /// Limit on the work of one registration, in evaluations of a mixture component.
   std::int64_t max_component_evaluations = 800'000;

@@ -73,7 +73,7 @@ class Comparison {
     motion.covariance(2, 2) = std::pow(0.075 * 0.01, 2);
     faults_.add_motion(radar, motion);
     if (has_positions) {
-      faults_.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0);
+      faults_.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0, 0.0);
     } else {
       faults_.add_too_few_targets(radar, stamp_us);
     }

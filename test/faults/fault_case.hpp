@@ -38,7 +38,8 @@ struct FaultCase {
   std::uint32_t guilty = 0;
   /// What is wrong with them, if it is one of these.
   FaultKind cause = FaultKind::unknown;
-  /// So small that it may be learned: the guilty radar need not be named.
+  /// So small that it may be learned, or cannot be told: the guilty radar need not be named if
+  /// poses are right.
   bool may_be_learned = false;
 
   /// A step of the clock is over at once.

@@ -121,10 +121,11 @@ std::uint32_t FaultHypotheses::at_fault() const {
 }
 
 void FaultHypotheses::add_speed_by_positions(std::size_t radar, std::int64_t stamp_us,
-                                             double speed_mps, double since_s) {
-  tracks_[radar].speed = Speed{stamp_us, speed_mps,
-                               squared(kPositionSpeedShare * speed_mps) +
-                                   squared(kPositionM / since_s) + squared(kPositionMps)};
+                                             double speed_mps, double since_s, double variance_m2) {
+  const double of_method = squared(kPositionSpeedShare * speed_mps) +
+                           squared(kPositionM / since_s) + squared(kPositionMps);
+  tracks_[radar].speed =
+      Speed{stamp_us, speed_mps, of_method + variance_m2 / squared(since_s), of_method};
 }
 
 void FaultHypotheses::add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {
@@ -428,7 +429,7 @@ bool FaultHypotheses::is_supported(Set set, std::int64_t time_us) const {
     }
     if (track.speed && is_fresh(track.speed->stamp_us)) {
       const double limit_mps = kSupportingStdMps + kSupportingShare * std::abs(track.speed->mps);
-      return track.speed->variance <= squared(limit_mps);
+      return track.speed->variance_of_method <= squared(limit_mps);
     }
     has_targets = has_targets || !(track.too_few_targets_us && is_fresh(*track.too_few_targets_us));
   }

@@ -45,9 +45,10 @@ class FaultHypotheses {
   void clear();
   /// A radar's own check found it wrong (SelfCheck).
   void accuse(std::size_t radar, std::int64_t time_us);
-  /// Speed along x of the radar by its positions, over the last `since_s`.
+  /// Speed along x of the radar by its positions, over the last `since_s`. `variance_m2`: of the
+  /// way, by the noise of the targets.
   void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,
-                              double since_s);
+                              double since_s, double variance_m2);
   /// A scan has too few fixed targets to tell the speed.
   void add_too_few_targets(std::size_t radar, std::int64_t stamp_us);
   /// A motion by one radar alone, for its yaw rate.
@@ -104,6 +105,7 @@ class FaultHypotheses {
     std::int64_t stamp_us = 0;
     double mps = 0.0;
     double variance = 0.0;
+    double variance_of_method = 0.0;  // Without the noise of the targets.
   };
   /// The newest scans of one radar.
   struct Track {

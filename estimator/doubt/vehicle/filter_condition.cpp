@@ -38,7 +38,12 @@ void FilterCondition::use_scan(bool is_clear) {
   used_us_ = state_.time_us();
   clear_us_ = is_clear ? used_us_ : clear_us_;
   ++used_scans_;
-  is_settled_ = is_settled_ || is_known();
+}
+
+bool FilterCondition::settle() {
+  const bool settles = !is_settled_ && is_known();
+  is_settled_ = is_settled_ || settles;
+  return settles;
 }
 
 bool FilterCondition::is_speed_unknown() const {

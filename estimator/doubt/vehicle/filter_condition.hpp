@@ -26,6 +26,9 @@ class FilterCondition {
   /// Records a scan that showed two worlds (TwoWorlds).
   void doubt() { doubt_us_ = state_.time_us(); }
 
+  /// Ends the start if the state is known; true if it ends now.
+  bool settle();
+
   [[nodiscard]] int used_scans() const { return used_scans_; }
   [[nodiscard]] std::int64_t used_us() const { return used_us_; }
   /// The start is over: the state no longer depends on the prior.

@@ -26,7 +26,7 @@ constexpr int kMaxIterations = 8;
 constexpr double kConverged = 1e-4;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 /// Squared distance in sigmas from the predicted pose beyond which a pair is left out: 5 sigma, and
-/// two that a correction may take away. With 10 sigma the results are the same to 1e-4 sigma.
+/// two that a correction may take away. With 10 sigma the odometry is the same to 5e-4 sigma.
 constexpr double kOutOfReach = 49.0;
 /// Least share of the complete information, in every direction, that is left after the missing
 /// information, for a step and for a result. Where less is left neighbours are confused.

@@ -115,7 +115,7 @@ struct OdometryOptions {
   /// rate less well. With 0.0004 for one radar and none in common yaw errs by a fifth more.
   OrnsteinUhlenbeck yaw_per_metre{0.0002, 1.5};
   double common_yaw_per_metre_std = 0.0002;
-  OrnsteinUhlenbeck lateral_per_metre{0.02, 15.0};
+  OrnsteinUhlenbeck lateral_per_metre{0.02, 5.0};
 
   // Doppler.
   /// Of one target: initial value, adapted to the residuals.

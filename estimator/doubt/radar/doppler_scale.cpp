@@ -27,7 +27,7 @@ constexpr double kMaxScanPeriodS = 0.3;
 /// Of the noise of two velocities.
 constexpr double kMaxStepMps = 1.5;
 /// Votes fade with this time.
-constexpr double kMemoryS = 3.0;
+constexpr double kVotesMemoryS = 3.0;
 /// Difference of a target's range between two scans.
 constexpr double kRangeStdM = 0.15;
 constexpr double kMinWidth = 0.02;
@@ -117,7 +117,7 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   const double turn_rad = yaw_rate_radps * dt_s;
   now.way_m = last.way_m + dt_s * (Eigen::Rotation2Dd(last.yaw_rad + 0.5 * turn_rad) * mean_mps);
   now.yaw_rad = last.yaw_rad + turn_rad;
-  const double kept = std::exp(-dt_s / kMemoryS);
+  const double kept = std::exp(-dt_s / kVotesMemoryS);
   for (Votes* votes : {&votes_, &reversed_}) {
     std::for_each(votes->begin(), votes->end(), [&](double& some) { some *= kept; });
   }

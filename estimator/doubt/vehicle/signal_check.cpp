@@ -14,7 +14,7 @@ namespace cremed {
 namespace {
 
 /// Comparisons lose their weight over this time: some turns of a drive in town.
-constexpr double kMemoryS = 60.0;
+constexpr double kSignalMemoryS = 60.0;
 /// Prior of the errors: wide enough for any wrong unit. A speed has no offset, which could hardly
 /// be told from a scale.
 constexpr double kScalePriorStd = 1.0;
@@ -37,7 +37,7 @@ constexpr double kOutlierSigmas = 3.0;
 /// Scans of several radars at one time count as this far apart.
 constexpr double kShortestIntervalS = 0.01;
 /// Bound of the errors: by chance one in 370 is larger.
-constexpr double kMaxSigmas = 3.0;
+constexpr double kMaxSignalSigmas = 3.0;
 
 const OrnsteinUhlenbeck& radar_error(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? kSpeedError : kYawRateError;
@@ -120,7 +120,7 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
       variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
   const double error = std::abs(mean - rate - left.sum()) / std;
   const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
-  const double kept = std::exp(-std::max(passed_s, 0.0) / kMemoryS);
+  const double kept = std::exp(-std::max(passed_s, 0.0) / kSignalMemoryS);
   compared_us_ = std::max(compared_us_, end_us);
   information_ = prior_ + kept * (information_ - prior_) + weight * by * by.transpose();
   weighted_ = kept * weighted_ + weight * (mean - rate) * by;
@@ -140,7 +140,7 @@ SignalFault SignalCheck::fault() const {
   const Eigen::Vector3d sigmas =
       found.value.cwiseAbs2().cwiseQuotient(found.variance + tolerance_.cwiseAbs2());
   Eigen::Index largest = 0;
-  if (sigmas.maxCoeff(&largest) <= squared(kMaxSigmas)) {
+  if (sigmas.maxCoeff(&largest) <= squared(kMaxSignalSigmas)) {
     return SignalFault::none;
   }
   constexpr std::array<SignalFault, 3> kFaults{SignalFault::offset, SignalFault::scale,

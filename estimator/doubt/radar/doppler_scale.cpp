@@ -25,7 +25,7 @@ constexpr double kMaxIntervalS = 1.0;
 /// A longer pause breaks the way by Doppler.
 constexpr double kMaxScanPeriodS = 0.3;
 /// Of the noise of two velocities.
-constexpr double kMaxStepMps = 1.5;
+constexpr double kMaxDopplerStepMps = 1.5;
 /// Votes fade with this time.
 constexpr double kVotesMemoryS = 3.0;
 /// Difference of a target's range between two scans.
@@ -98,7 +98,8 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
                            std::int64_t stamp_us) {
   const Scan& last = scan(0);
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
-  if ((velocity_mps - velocity_mps_).norm() > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
+  if ((velocity_mps - velocity_mps_).norm() >
+      kMaxAccelerationMps2 * std::abs(dt_s) + kMaxDopplerStepMps) {
     forget();  // Votes of before tell nothing of this Doppler.
     is_wrong_ = false;
   }

@@ -56,9 +56,9 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = doppler_mps(targets);
   thin_out(targets, current_);
-  if (speed_mps && has_reference_ &&
+  if (is_contradicted_ && speed_mps && has_reference_ &&
       std::abs(*speed_mps - reference_mps_) > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
-    forget();  // What was found of the Doppler before tells nothing of this one.
+    forget();  // A fault that ends: what was found of the Doppler before tells nothing of this one.
   }
   if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
     const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);

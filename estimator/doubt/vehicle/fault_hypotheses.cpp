@@ -44,9 +44,9 @@ constexpr double kBetweenScansMps = 0.05;
 /// Errors by positions: of the way, 1.1 % over 2 s on these drives, and that of one scan; of the
 /// yaw rate, 0.1 to 0.35 degrees a second, and turns registered 1 to 4 % too small.
 constexpr double kPositionSpeedShare = 0.01;
-constexpr double kPositionM = 0.07;
+constexpr double kPositionM = 0.05;
 /// Of the state's speed, which they correct.
-constexpr double kPositionMps = 0.07;
+constexpr double kPositionMps = 0.05;
 constexpr double kPositionYawRateRadps = 0.008;
 constexpr double kPositionTurnShare = 0.03;
 /// In addition to OdometryOptions: a mount measured by hand that is a degree off is learned.

@@ -19,8 +19,6 @@ TEST_CASE("values that contradict each other are refused") {
        "estimator.outlier_ray.max_range_m", "is 0.4", "greater than min_range_m = 0.5"},
       {kArs408 + "[radar.estimator]\noutlier_ray.min_range_m = 60\n", 7,
        "radar.estimator.outlier_ray.min_range_m", "is 60", "less than max_range_m = 50"},
-      {kArs408 + "[estimator]\nlikelihood = \"exclusive\"\ncovariance = \"exclusive\"\n", 8,
-       "estimator.covariance", "is the old name of likelihood", "must be left out"},
       {kGpr + "info_id = 0x25F\n", 6, "radar.info_id", "makes", "outside base_id to base_id + 95"},
       {kGpr + "base_id = 0x0C0\n", 6, "radar.base_id", "makes", "outside base_id to base_id + 95"},
       {kArs408 + "[output]\ntum_source = \"rear\"\n", 7, "output.tum_source", "is \"rear\"",

@@ -81,6 +81,9 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
   if (mounts_.size() == 1) {
     consider_but_by_x(error(0, kDopplerScale));
   }
+  if (options.vehicle.is_used()) {
+    considered_but_by_x_.push_back({vehicle_error(kYawRateGain)});
+  }
   considered_at_rest_ = considered_;
   // A single radar's are not separable from slip and speed, and not learned.
   for (std::size_t i = 0; mounts_.size() > 1 && i < mounts_.size(); ++i) {

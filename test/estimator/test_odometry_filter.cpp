@@ -101,7 +101,7 @@ TEST_CASE("the output at a new anchor's time still refers to the old one") {
     }
     before = odometry;
   }
-  CHECK(renewed == 3);
+  CHECK(renewed == 4);
 }
 
 TEST_CASE("standing still is detected, and so is driving off") {

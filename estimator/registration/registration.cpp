@@ -94,7 +94,7 @@ RegistrationResult Registration::solve_exclusive(const TargetSet& current, doubl
   };
   int iterations = 0;
   if (predicted) {
-    const RegistrationResult result = second_stage(exclusive_, {{predicted->motion}, {}});
+    RegistrationResult result = second_stage(exclusive_, {{predicted->motion}, {}});
     if (result.status == RegistrationStatus::converged && !matches_few(result) &&
         is_expected(result)) {
       return result;

@@ -400,16 +400,22 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
       consensus_[i].forgive();
     }
   }
-  // The maps hold what seemed at rest, where it seemed to be.
-  for (const auto& track : tracks_) {
-    track->map.clear();
+  if (std::abs(error.x()) > state_.options().static_doppler_mps) {
+    // The maps hold what seemed at rest at the wrong speed.
+    clear_maps();
   }
-  nodes_.clear();
   state_.start_motion(majority->value(), majority->covariance());
   vehicle_.restart_errors();
   state_.gaussian.add_variance(kX, squared(error.x() * since_s));
   state_.gaussian.add_variance(kY, squared(error.x() * since_s));
   state_.gaussian.add_variance(kYaw, squared(error.y() * since_s));
+}
+
+void OdometryFilter::clear_maps() {
+  for (const auto& track : tracks_) {
+    track->map.clear();
+  }
+  nodes_.clear();
 }
 
 // Positions.

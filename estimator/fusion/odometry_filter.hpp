@@ -125,6 +125,7 @@ class OdometryFilter {
                                              double age_s);
   [[nodiscard]] bool is_witness(std::size_t radar) const;
   void follow_majority(std::int64_t stamp_us);
+  void clear_maps();
   void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   void match(std::size_t radar, double age_s);
   void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);

@@ -45,6 +45,10 @@ inline constexpr double kMaxStuckSquaredStep = 0.1;
 /// Steps shorter than this, 0.1 sigma, are mostly the last one.
 inline constexpr double kLastSquaredStep = 1e-2;
 
+/// Steps by learned curvature; after as many it has led to where EM is slow, and EM begins again
+/// from the start. Typical searches take four (RadarScenes 105).
+inline constexpr int kMaxLearnedSteps = 30;
+
 /// Limits that end a descent.
 struct StoppingRule {
   int degrees_of_freedom;
@@ -79,7 +83,9 @@ template <RegistrationCost Cost>
 RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descent) {
   LearnedCurvature curvature(rule.degrees_of_freedom);
   double last_squared_step = std::numeric_limits<double>::infinity();
-  for (const int last = descent.iterations + rule.max_iterations;;) {
+  const Unknowns start = descent.at;
+  const int last_learned = descent.iterations + kMaxLearnedSteps;
+  for (int last = descent.iterations + rule.max_iterations;;) {
     if (!cost.is_complete()) {
       return RegistrationStatus::ambiguous;
     }
@@ -118,6 +124,13 @@ RegistrationStatus descend(Cost& cost, const StoppingRule& rule, Descent& descen
                                                                : RegistrationStatus::converged;
       }
       curvature.add(step, equations.gradient - before, equations.information);
+      if (!Cost::kHasStepControl && descent.iterations == last_learned) {
+        curvature.stop();
+        descent.at = start;
+        descent.equations = cost.linearise(start);
+        last += kMaxLearnedSteps;
+        last_squared_step = std::numeric_limits<double>::infinity();
+      }
     }
   }
 }

@@ -20,6 +20,8 @@ constexpr double kSameStartRad = 0.005;
 /// repeated. Of 1032 pairs of successive scans (nuScenes, front radar) none has less, and 1 % have
 /// less than 0.62; of pairs of scans from different places 0.1 % have more.
 constexpr double kRestartMatchedShare = 0.5;
+/// With fewer targets a full search is cheap, and a minimum near the prediction may be another.
+constexpr double kMinPredictedTargets = 20.0;
 /// With a smaller share after all searches the matches are chance neighbours. Of pairs from
 /// different places 5 to 26 % have more and are left to the test for a rival.
 constexpr double kMinMatchedShare = 0.3;
@@ -89,11 +91,12 @@ RegistrationResult Registration::solve_exclusive(const TargetSet& current, doubl
   const auto matches_few = [&](const RegistrationResult& result) {
     return result.matched < kRestartMatchedShare * possible;
   };
+  const bool is_predicted = predicted && possible >= kMinPredictedTargets;
   const auto is_expected = [&](const RegistrationResult& result) {
-    return predicted && predicted->continued.allows(result);
+    return is_predicted && predicted->continued.allows(result);
   };
   int iterations = 0;
-  if (predicted) {
+  if (is_predicted) {
     RegistrationResult result = second_stage(exclusive_, {{predicted->motion}, {}});
     if (result.status == RegistrationStatus::converged && !matches_few(result) &&
         is_expected(result)) {

@@ -323,8 +323,7 @@ TEST_CASE("targets that move are left out of the map and counted, the others are
 TEST_CASE("the yaw error of a mount is learned") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
   drive.radar(0).mount.yaw_rad += 0.015;
-  // Three sigma of its prior take longer than one.
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 12; ++i) {
     drive.set_motion(9.0, i % 2 == 0 ? 0.2 : -0.2);
     CHECK(drive.drive(1.0).left_out == 0U);
   }

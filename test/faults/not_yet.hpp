@@ -35,8 +35,6 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"all zero for 5 s", "R", "", kAllDoubted},
     {"late 500 ms", "", "U", kTime},
     {"learned mounts wrong", "I", "", "a side radar is left out instead of learned anew"},
-    {"truck ahead", "", "I", kMajority},
-    {"alone, truck ahead", "", "I", kMajority},
     {"train", "", "I", kMajority},
     {"convoy", "", "I", kMajority},
     {"jam-starts", "", "I", kMajority},

@@ -93,9 +93,7 @@ void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
   const double excess = support.best_votes - support.given_votes;
   const bool contradicts =
       is_other && excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes);
-  // Where targets are dense chance itself votes for 0 m/s: at rest nothing agrees.
-  const bool agrees = !contradicts && std::abs(doppler_mps) > PositionSpeed::kStepMps &&
-                      (!is_other || support.given_votes > support.max_chance_votes);
+  const bool agrees = !contradicts && (!is_other || support.given_votes > support.max_chance_votes);
   contradictions_ =
       std::clamp(contradictions_ + (contradicts ? 1 : 0) - (agrees ? 1 : 0), 0, kMaxContradictions);
   if (contradictions_ == 0 || contradictions_ == kMaxContradictions) {

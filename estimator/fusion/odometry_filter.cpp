@@ -89,7 +89,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     }
   }
   // The condition is that of the returned output, from before a renewal of the anchor.
-  Odometry odometry = output_.next();
+  Odometry odometry = output_.at_scan();
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
   parked_.add_output(odometry);
@@ -116,8 +116,7 @@ void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is
 
 void OdometryFilter::forget() {
   faults_.clear();
-  output_.bridge(state_.options().max_gap_s);
-  output_.forget_predictions();
+  output_.leave_clock();
   vehicle_.forget();
   has_started_ = false;
 }
@@ -140,25 +139,22 @@ void OdometryFilter::begin_if_needed(std::int64_t stamp_us, bool is_trusted) {
     if (is_lost) {
       faults_.require_positions();
     }
-    output_.bridge(seconds_between(condition_.used_us(), stamp_us));
-    has_started_ = false;
-  }
-  if (!has_started_) {
-    restart(stamp_us);
+    restart(stamp_us, seconds_between(condition_.used_us(), stamp_us));
+  } else if (!has_started_) {
+    restart(stamp_us, 0.0);
   }
 }
 
-void OdometryFilter::restart(std::int64_t stamp_us) {
+void OdometryFilter::restart(std::int64_t stamp_us, double gap_s) {
   for (const auto& track : tracks_) {
     track->clear();
   }
   nodes_.clear();
   consensus_.clear();
-  state_.restart(stamp_us);
+  output_.restart(stamp_us, gap_s);
   condition_.start();
   step_.reset();
   parked_.clear();
-  output_.start();
   has_started_ = true;
 }
 
@@ -224,9 +220,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
       condition_.used_scans() == 0) {
     // The speed, and so the distance, was unknown since the start: restart here.
-    output_.bridge(0.0);
-    state_.restart(state_.time_us());
-    output_.restart_anchor();
+    output_.restart(state_.time_us(), 0.0);
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, targets, *scan, stamp_us);
@@ -310,13 +304,13 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   if (is_witness(radar)) {
     measurement.noise *= state_.options().doppler_noise_factor_across;
   }
-  const double nis = state_.gaussian.innovate(measurement);
-  const bool is_expected = nis <= state_.options().max_doppler_nis;
-  trust.doppler.add(stamp_us, 0.5 * nis);
+  const Innovation innovation = state_.gaussian.innovate(measurement);
+  const bool is_expected = innovation.nis <= state_.options().max_doppler_nis;
+  trust.doppler.add(stamp_us, 0.5 * innovation.nis);
   trust.judge(stamp_us, scan.velocity, is_expected);
   const bool is_used = !consensus_.is_left_out(radar) && trust.is_trusted;
   if (is_used) {
-    trust.doppler_noise.add(0.5 * nis);
+    trust.doppler_noise.add(0.5 * innovation.nis);
   }
   if (!is_expected) {
     trust.contradicts_positions = positions_confirm_state(radar, targets, age_s);
@@ -329,7 +323,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     return false;
   }
   if (is_used) {
-    state_.update();
+    state_.update(innovation);
     output_.add_radar(radar);
     if (!is_witness(radar)) {
       condition_.use_scan(scan.is_clear);
@@ -455,12 +449,12 @@ void OdometryFilter::match(std::size_t radar, double age_s) {
   }
   LinearMeasurement measurement = from_map.linearise(*match, has_x);
   measurement.noise *= trust.position_noise.value();
-  const double nis = state_.gaussian.innovate(measurement);
-  trust.lateral.add(state_.time_us(), state_.gaussian.innovations().y());
-  trust.yaw.add(state_.time_us(), state_.gaussian.innovations().z());
-  trust.position_noise.add(0.5 * nis);
-  if (nis <= state_.options().max_position_nis) {
-    state_.update(true);
+  const Innovation innovation = state_.gaussian.innovate(measurement);
+  trust.lateral.add(state_.time_us(), innovation.nis_of_numbers.y());
+  trust.yaw.add(state_.time_us(), innovation.nis_of_numbers.z());
+  trust.position_noise.add(0.5 * innovation.nis);
+  if (innovation.nis <= state_.options().max_position_nis) {
+    state_.update(innovation, true);
   }
 }
 

@@ -90,7 +90,7 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     has_started_ = true;
     motion.motion = result.motion;
     motion.covariance = result.covariance;
-    motion.doppler_innovation = result.doppler_innovation;
+    motion.doppler_nis = result.doppler_nis;
     last_velocity_ = result.motion / dt_s;
   }
   return status;

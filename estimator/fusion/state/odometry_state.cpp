@@ -92,10 +92,10 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
   }
 }
 
-void OdometryState::update(bool is_of_positions) {
+void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
   const ConsideredStates& driving = is_of_positions ? considered_but_by_x_ : considered_;
-  gaussian.update(is_at_rest ? considered_at_rest_ : driving);
+  gaussian.update(innovation, is_at_rest ? considered_at_rest_ : driving);
 }
 
 void OdometryState::start(std::int64_t time_us) {

@@ -50,7 +50,7 @@ class OdometryState {
   /// Propagates them.
   void advance_signal(VehicleSignal signal, double dt_s);
 
-  /// Kalman update with the last innovation of `gaussian`. Scales of azimuths, lever arms and what
+  /// Kalman update with an innovation of `gaussian`. Scales of azimuths, lever arms and what
   /// positions turn by in common are consider parameters: they are hardly observable, but seem so
   /// where each scan is linearised at another speed or yaw rate. As estimated states, scales of
   /// azimuths ran to -20 % in turns, and lever arms of 0.1 m to 3.4 m in an hour straight on. So is
@@ -60,7 +60,7 @@ class OdometryState {
   /// 0.3 % too small. At rest so are mount yaws and Doppler scales of several radars: nothing
   /// observes them, and all scans have the same map, whose noise they would learn: 0.4 degrees in
   /// three minutes.
-  void update(bool is_of_positions = false);
+  void update(const Innovation& innovation, bool is_of_positions = false);
 
   /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -18,8 +19,6 @@ using namespace state_layout;
 /// show a crawling vehicle as standing.
 constexpr double kFrozenSpeedMps = 0.5;
 constexpr double kFrozenYawRateRadps = 0.02;
-/// Uncertainty of the filter's values: by chance one in 370 errs by more.
-constexpr double kFrozenSigmas = 3.0;
 /// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
 constexpr double kMaxErrorSigmas = 4.0;
 
@@ -126,7 +125,7 @@ void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known)
   source.lost.update(seconds_between(*source.heard_us, stamp_us) > state_.options().vehicle.lost_s);
   const int rate = rate_of(source.signal);
   if (is_known) {
-    source.standing.expect(state_.gaussian.mean(rate), kFrozenSigmas * state_.gaussian.std(rate));
+    source.standing.expect(state_.gaussian.mean(rate), kGateSigmas * state_.gaussian.std(rate));
   }
   source.frozen.update(source.standing.is_frozen());
 }

@@ -80,7 +80,7 @@ class EgoMotionEstimator {
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
  private:
-  MotionStatus check(const RadarScan& scan);
+  MotionStatus select_targets(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
   [[nodiscard]] std::optional<PredictedMotion> predict(double doppler_mps, double dt_s) const;

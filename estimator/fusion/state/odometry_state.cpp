@@ -62,6 +62,7 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
     : gaussian(size_of(mounts.size(), options)),
       options_(options),
       mounts_(std::move(mounts)),
+      has_forward_radar_(!std::all_of(mounts_.begin(), mounts_.end(), looks_across)),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
@@ -256,6 +257,11 @@ void OdometryState::advance_signal(VehicleSignal signal, double dt_s) {
     forget(gaussian, vehicle_error(kYawRateGain), scale, 0.0, dt_s);
     gaussian.add_variance(vehicle_error(kYawRateBias), squared(options.yaw_rate_bias_walk) * dt_s);
   }
+}
+
+Eigen::Vector2d OdometryState::radar_velocity(std::size_t radar) const {
+  const double w = gaussian.mean(kYawRate);
+  return {gaussian.mean(kSpeed) - w * mounts_[radar].y_m, w * mounts_[radar].x_m};
 }
 
 Eigen::Vector3d OdometryState::pose_before(double age_s) const {

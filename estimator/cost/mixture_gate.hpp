@@ -67,8 +67,10 @@ CREMED_ALWAYS_INLINE void find_keys(const MixtureComponents& components, const M
   least_key = reduce(low, Least());
 }
 
-/// Upper bound of the keys of components that are not negligible; infinite if rounding errors are
-/// too large to bound it.
+/// Upper bound of the keys of components that are not negligible, with the rounding of single
+/// precision: that of a squared distance grows with the eccentricity of the covariances, and with
+/// the size of coordinates in standard deviations. Infinite, so that all blocks are listed, if it
+/// can be more than 2 %.
 CREMED_ALWAYS_INLINE float greatest_key(const MixtureComponents& components,
                                         const MixturePoint& point, float least_key) {
   constexpr double kUnit = 0x1p-24;               // rounding of a float

@@ -15,7 +15,9 @@ namespace {
 
 using namespace state_layout;
 
-/// Least share of the targets in the information of x. Their prior has a sigma of 0.1 m.
+/// Least share of the information of x that is of the targets; the rest is the search's prior of
+/// 0.1 m (MapRegistration). x is divided by that share, which makes its noise up to five times as
+/// large.
 constexpr double kMinShareOfX = 0.2;
 /// Least share of a scan's targets in the map with which they confirm the state. On healthy drives
 /// half to nine tenths are in the map.

@@ -33,8 +33,9 @@ struct DopplerVelocity {
 /// an outlier. It is not in the result; its effect there is per_offset = (A'WA)^-1 A'W 1.
 class DopplerVelocityEstimator {
  public:
-  /// The velocity nearest to `start`, if targets with residuals up to 2.3 m/s (4.685 times 0.5)
-  /// agree on one. `std_mps`: standard deviation of a target's Doppler.
+  /// The velocity on which the targets agree whose Doppler differs from `start` by less than 2.3
+  /// m/s, where the first weights become zero; none if they are too few or in one direction.
+  /// `std_mps`: standard deviation of a target's Doppler.
   std::optional<DopplerVelocity> fit(const TargetSet& targets, const Eigen::Vector2d& start,
                                      double std_mps);
   /// The velocity that explains most targets, roughly: a start for fit(). Zero for an empty set.

@@ -33,10 +33,9 @@ enum class MotionStatus : std::uint8_t {
   no_convergence = 7,   ///< A limit on iterations or work was reached.
   non_finite = 8,       ///< A number of the scan is NaN, infinite, or a sigma not > 0.
   implausible = 9,      ///< Speed > max_speed_mps or turn > max_yaw_rate_radps.
-  ambiguous = 10,       ///< Too few targets matched; or another motion fits nearly as well or
-                        ///< explains the Doppler of many targets, unless only this motion
-                        ///< continues the one before; or the motion
-                        ///< contradicts the odometry (doubt/vehicle/motion_witness.hpp).
+  ambiguous = 10,       ///< RegistrationStatus::ambiguous, of a motion that does not continue the
+                        ///< one before; two worlds (doubt/scan/two_worlds.hpp); or the odometry
+                        ///< contradicts it (doubt/vehicle/motion_witness.hpp).
 };
 inline constexpr std::size_t kMotionStatusCount = 11;
 

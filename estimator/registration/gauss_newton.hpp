@@ -45,8 +45,8 @@ inline constexpr double kMaxStuckSquaredStep = 0.1;
 /// Steps shorter than this, 0.1 sigma, are mostly the last one.
 inline constexpr double kLastSquaredStep = 1e-2;
 
-/// Steps by learned curvature; after as many it has led to where EM is slow, and EM begins again
-/// from the start. Typical searches take four (RadarScenes 105).
+/// Limit of steps by learned curvature; typical searches take four (RadarScenes 105). A search that
+/// has not ended by then begins again at its start, by EM alone, with as many steps more.
 inline constexpr int kMaxLearnedSteps = 30;
 
 /// Limits that end a descent.

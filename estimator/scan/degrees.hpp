@@ -6,7 +6,7 @@
 
 namespace cremed {
 
-// Only users and two protocols see degrees. All other code uses radians.
+// Angles are in radians, but for text that people read and for what a protocol sends in degrees.
 inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 

@@ -125,8 +125,9 @@ void OdometryOutput::add_motion(Odometry& odometry) {
   }
 }
 
-/// The state stays at the last scan, so that a scan measured before the predicted time can still be
-/// used. It reaches a new anchor later than the predictions in that anchor's frame.
+/// Predictions run ahead of the state, which stays at the last scan so that one measured before the
+/// predicted time can still be used. They refer to a new anchor before the state gets there:
+/// next_anchor_us_ is its time until advance_to() does.
 std::optional<Odometry> OdometryOutput::predict_next(std::int64_t now_us) {
   const OdometryOptions& options = state_.options();
   const std::int64_t from_us = state_.time_us();

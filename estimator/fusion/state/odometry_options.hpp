@@ -15,9 +15,9 @@ struct OrnsteinUhlenbeck {
   double time_s = 1.0;  ///< Correlation time.
 };
 
-/// An error with a prior that walks, but not away from its prior: an Ornstein-Uhlenbeck process of
-/// that standard deviation whose random walk over short times is `walk`, per sqrt(s). What is not
-/// observed, the common part of slip and mounts, then stays within its prior on a long drive.
+/// The Ornstein-Uhlenbeck process of this standard deviation that over short times is a random walk
+/// of `walk` per sqrt(s). A plain walk has no bound: the common part of slip and mount yaws, which
+/// nothing observes, would leave its prior on a long drive.
 inline OrnsteinUhlenbeck bounded_walk(double std, double walk) {
   return {std, walk > 0.0 ? 2.0 * std * std / (walk * walk) : 1e9};
 }
@@ -121,11 +121,12 @@ struct OdometryOptions {
   /// cannot be separated from the turn, and on a straight not from drifting targets.
   double position_azimuth_scale_std = 0.005;
   double common_azimuth_scale_std = 0.005;
-  /// Of a scan against the map, over distance: yaw, rad/m, and y. Against gyro and truth (0061,
-  /// 0103, 1094, RadarScenes 105) yaw scatters by 0.1 to 0.2 degrees, whatever the distance; a
-  /// third of that variance lasts for a second, and each radar has a mean of 0.0001 rad/m in a
-  /// drive, up to 0.0007 for 15 s. The latter is considered, not estimated: Doppler tells the yaw
-  /// rate less well. With 0.0004 for one radar and none in common yaw errs by a fifth more.
+  /// Of a scan against the map: yaw error for each metre driven since the map's scans, of one radar
+  /// and common to all, and y for each metre. Against gyro and truth (0061, 0103, 1094, RadarScenes
+  /// 105) yaw scatters by 0.1 to 0.2 degrees, whatever the distance; a third of that variance lasts
+  /// for a second, and each radar has a mean of 0.0001 rad/m in a drive, up to 0.0007 for 15 s. The
+  /// common part is considered only, since Doppler tells the yaw rate less well. Without it, and
+  /// with 0.0004 for one radar, yaw errs by a fifth more.
   ErrorProcess yaw_per_metre{0.0002, 1.5};
   double common_yaw_per_metre_std = 0.0002;
   ErrorProcess lateral_per_metre{0.02, 5.0};

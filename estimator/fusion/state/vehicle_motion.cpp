@@ -33,12 +33,10 @@ Decay decay(const OrnsteinUhlenbeck& noise, double dt_s) {
 /// Adds the noise of a rate and its derivative, an Ornstein-Uhlenbeck process.
 void add_rate_noise(const OrnsteinUhlenbeck& noise, double dt_s, int rate,
                     MotionStep::Matrix& sum) {
-  const double steps = std::abs(dt_s) / noise.time_s;
-  const double left = std::exp(-steps);
+  const double left = std::exp(-std::abs(dt_s) / noise.time_s);
   const double variance = noise.std * noise.std;
   const double cross = std::copysign(variance * noise.time_s * squared(1.0 - left), dt_s);
-  sum(rate, rate) +=
-      variance * squared(noise.time_s) * (2.0 * steps - 3.0 + 4.0 * left - left * left);
+  sum(rate, rate) += rate_variance(noise, dt_s);
   sum(rate, rate + 1) += cross;
   sum(rate + 1, rate) += cross;
   sum(rate + 1, rate + 1) += variance * (1.0 - left * left);
@@ -101,7 +99,10 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
 }
 
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s) {
-  return 2.0 * derivative.std * derivative.std / derivative.time_s * dt_s * dt_s * dt_s / 3.0;
+  const double steps = std::abs(dt_s) / derivative.time_s;
+  const double left = std::exp(-steps);
+  return derivative.std * derivative.std * squared(derivative.time_s) *
+         (2.0 * steps - 3.0 + 4.0 * left - left * left);
 }
 
 VehicleEstimate VehicleEstimate::predicted(double dt_s, const OdometryOptions& options) const {

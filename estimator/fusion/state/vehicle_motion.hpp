@@ -31,7 +31,7 @@ struct MotionStep {
 /// If `dt_s` is negative, the state at an earlier time with constant accelerations.
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options);
 
-/// Variance of a rate after a short time, by the noise of its derivative.
+/// Variance of a rate after `dt_s`, by the noise of its derivative since.
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s);
 
 /// Longest step: accelerations are nearly constant in it.

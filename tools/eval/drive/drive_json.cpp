@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/laboratory/figures_json.hpp"
-
 namespace cremed {
 namespace {
 

@@ -97,7 +97,7 @@ def findings_of(drive, programs, data, found, config):
     of_drive = findings.of_the_drive(data)
     if found:  # Without a configuration all else follows from that.
         return found
-    if config and len(drive.logs) == 1 and (data["warnings"] or of_drive):
+    if config and len(drive.logs) == 1 and data["warnings"]:
         of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, config)
         found += findings.without_what_is_told(of_doctor, of_drive)
     elif not config:

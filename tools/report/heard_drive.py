@@ -83,8 +83,10 @@ class HeardDrive:
     def _span(self):
         columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]
         ends = [time for column in columns if column for time in (column[0], column[-1])]
+        # Of a drive in which all radars were silent there are statuses.
+        ends = ends or [message.utime for messages in self.statuses.values() for message in messages]
         if not ends:
-            raise self.damage or ValueError(f"{self.path}: has none of cremed's motions; record with lcm-logger, or give "
+            raise self.damage or ValueError(f"{self.path}: has none of cremed's messages; record with lcm-logger, or give "
                              "the candump log")
         return int(min(ends)), int(max(ends))
 

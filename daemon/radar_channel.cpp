@@ -51,8 +51,8 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.decoder = decoder->counters();
   status_.assembler = assembler.counters();
   status_.selection = estimator.selection();
-  status_.belief.doppler_innovation = self_check.doppler().mean();
-  status_.belief.next_innovation = self_check.next().mean();
+  status_.belief.doppler_nis = self_check.doppler().mean();
+  status_.belief.next_nis = self_check.next().mean();
   status_.belief.is_speed_checked = self_check.speed().is_checked();
   const DopplerScale& scale = self_check.scale();
   status_.belief.doppler_correction =

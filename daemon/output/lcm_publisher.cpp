@@ -94,8 +94,8 @@ void fill_health(const RadarHealth& health, status_t& m) {
 void fill_belief(const BeliefStatus& belief, status_t& m) {
   m.doubts = static_cast<std::int32_t>(belief.doubts);
   m.speed_checked = belief.is_speed_checked ? 1 : 0;
-  set(S::FIGURE_NIS_DOPPLER, belief.doppler_innovation, m);
-  set(S::FIGURE_NIS_NEXT, belief.next_innovation, m);
+  set(S::FIGURE_NIS_DOPPLER, belief.doppler_nis, m);
+  set(S::FIGURE_NIS_NEXT, belief.next_nis, m);
 }
 
 void fill_odometry(const RadarReport& report, status_t& m) {
@@ -103,9 +103,9 @@ void fill_odometry(const RadarReport& report, status_t& m) {
   m.odometry_fault = static_cast<std::int8_t>(report.cause.kind);
   m.odometry_fault_value = static_cast<float>(report.cause.value);
   m.odometry_fault_radar = static_cast<std::int8_t>(report.cause.other);
-  set(S::FIGURE_ODOMETRY_NIS_DOPPLER, report.doppler_innovation, m);
-  set(S::FIGURE_ODOMETRY_NIS_LATERAL, report.lateral_innovation, m);
-  set(S::FIGURE_ODOMETRY_NIS_YAW, report.yaw_innovation, m);
+  set(S::FIGURE_ODOMETRY_NIS_DOPPLER, report.doppler_nis, m);
+  set(S::FIGURE_ODOMETRY_NIS_LATERAL, report.lateral_nis, m);
+  set(S::FIGURE_ODOMETRY_NIS_YAW, report.yaw_nis, m);
   set(S::FIGURE_ODOMETRY_DOPPLER_NOISE_FACTOR, report.doppler_noise_factor, m);
   set(S::FIGURE_ODOMETRY_POSITION_NOISE_FACTOR, report.position_noise_factor, m);
   set(S::FIGURE_ODOMETRY_MOUNT_YAW_ERROR_RAD, report.mount_yaw_rad, m);

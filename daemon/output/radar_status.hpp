@@ -26,9 +26,9 @@ struct LatencySummary {
 /// Whether a radar's covariance is credible, by SelfCheck and the odometry filter. Time-averaged
 /// NIS over the last minute: 1 expected, 0 none yet.
 struct BeliefStatus {
-  double doppler_innovation = 0.0;  ///< Doppler predicted from positions.
-  double next_innovation = 0.0;     ///< Each motion predicted from the one before.
-  std::uint32_t doubts = 0;         ///< Doubt bits; 0: no doubt.
+  double doppler_nis = 0.0;  ///< Doppler predicted from positions.
+  double next_nis = 0.0;     ///< Each motion predicted from the one before.
+  std::uint32_t doubts = 0;  ///< Doubt bits; 0: no doubt.
   /// Positions gave a speed in the last seconds, which the Doppler check needs.
   bool is_speed_checked = false;
   /// By which the Doppler would have to be multiplied, if its scale is wrong (DopplerScale).

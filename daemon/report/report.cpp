@@ -256,21 +256,21 @@ std::string decimal(double value) {
 
 struct DoubtText {
   Doubt doubt;
-  double BeliefStatus::*innovation;
+  double BeliefStatus::*nis;
   std::string_view what;
   std::string_view remedy;
 };
 
 constexpr std::array<DoubtText, 3> kDoubts{{
-    {registration_contradicts_doppler, &BeliefStatus::doppler_innovation,
+    {registration_contradicts_doppler, &BeliefStatus::doppler_nis,
      "the positions of its targets contradict their Doppler",
      "check the mount's yaw, the sign of Doppler and azimuth, and whether its noise is set too "
      "small: "
      "`cremed-eval calibrate`"},
-    {motions_contradict_each_other, &BeliefStatus::next_innovation,
+    {motions_contradict_each_other, &BeliefStatus::next_nis,
      "its motion jumps more than a vehicle's can",
      "check mount and detections; `cremed-eval calibrate` estimates its noise"},
-    {covariance_too_large, &BeliefStatus::doppler_innovation,
+    {covariance_too_large, &BeliefStatus::doppler_nis,
      "its errors are far smaller than its covariance",
      "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
 }};
@@ -278,11 +278,11 @@ constexpr std::array<DoubtText, 3> kDoubts{{
 void add_doubts(const BeliefStatus& belief, Findings& findings) {
   for (const DoubtText& text : kDoubts) {
     if ((belief.doubts & text.doubt) != 0) {
-      findings.push_back({Severity::warning,
-                          concat({"its covariance is not credible: ", text.what,
-                                  " (normalised innovation squared ",
-                                  decimal(belief.*text.innovation), ", 1 expected)"}),
-                          std::string(text.remedy)});
+      findings.push_back(
+          {Severity::warning,
+           concat({"its covariance is not credible: ", text.what,
+                   " (normalised innovation squared ", decimal(belief.*text.nis), ", 1 expected)"}),
+           std::string(text.remedy)});
     }
   }
 }
@@ -409,7 +409,7 @@ Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& sta
           concat({text.what,
                   "; excluded from the odometry (normalised innovation squared of its "
                   "Doppler ",
-                  decimal(status.odometry.doppler_innovation), ", 1 expected)"}),
+                  decimal(status.odometry.doppler_nis), ", 1 expected)"}),
           text.remedy};
 }
 

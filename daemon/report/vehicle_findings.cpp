@@ -34,7 +34,7 @@ std::string fault_text(VehicleSignal signal, const VehicleSignalReport& report) 
     case SignalFault::none:
       break;
   }
-  return fmt::format(" (normalised innovation squared {:.1f}, 1 expected)", report.innovation);
+  return fmt::format(" (normalised innovation squared {:.1f}, 1 expected)", report.nis);
 }
 
 }  // namespace

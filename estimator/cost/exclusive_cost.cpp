@@ -73,7 +73,7 @@ std::optional<Eigen::Matrix3d> ExclusiveCost::covariance(const Unknowns& at,
   return covariance;
 }
 
-double ExclusiveCost::doppler_innovation() const {
+double ExclusiveCost::doppler_nis() const {
   const auto by_position = invert_information(positions_.information, degrees_of_freedom_);
   const auto by_doppler = invert_information(doppler_.information, degrees_of_freedom_);
   if (!by_position || !by_doppler) {

@@ -51,10 +51,10 @@ class ExclusiveCost {
                                                           const NormalEquations& equations);
   /// Expected number of targets found again.
   [[nodiscard]] double matched() const { return likelihood_.matched(); }
-  /// RegistrationResult::doppler_innovation. At the solution the gradients g_p of the positions and
+  /// RegistrationResult::doppler_nis. At the solution the gradients g_p of the positions and
   /// g_d of the Doppler cancel. The solution of either alone lies H^-1 g away; the covariance of
   /// their difference is H_p^-1 + H_d^-1.
-  [[nodiscard]] double doppler_innovation() const;
+  [[nodiscard]] double doppler_nis() const;
 
  private:
   /// Lists the pairs again if targets may have moved beyond the margin of the last list.

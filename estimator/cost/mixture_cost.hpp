@@ -50,7 +50,7 @@ class MixtureCost {
                                                           const NormalEquations& equations) const;
   /// Not available with this likelihood.
   [[nodiscard]] static constexpr double matched() { return 0.0; }
-  [[nodiscard]] static constexpr double doppler_innovation() {
+  [[nodiscard]] static constexpr double doppler_nis() {
     return std::numeric_limits<double>::quiet_NaN();
   }
 

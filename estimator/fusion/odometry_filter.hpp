@@ -11,18 +11,17 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/doubt/scan/two_worlds.hpp"
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
-#include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
-#include "cremed/estimator/fusion/map/map_nodes.hpp"
-#include "cremed/estimator/fusion/map/map_registration.hpp"
+#include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
+#include "cremed/estimator/fusion/position_fusion.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/traffic_doubt.hpp"
 #include "cremed/estimator/fusion/vehicle_signals.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -94,58 +93,31 @@ class OdometryFilter {
   [[nodiscard]] const GaussianState& state() const { return state_.gaussian; }
 
  private:
-  /// A step of the speed by all radars that no vehicle can make.
-  struct Step {
-    std::int64_t used_us = 0;  // Of the last scan used before.
-    double mps = 0.0;
-  };
-
-  void begin_if_needed(std::int64_t stamp_us, bool is_trusted);
-  void restart(std::int64_t stamp_us);
+  void start_if_needed(std::int64_t stamp_us, bool is_trusted);
+  void restart(std::int64_t stamp_us, double gap_s);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
   void add_error_by_radar(const Eigen::Vector3d& believed);
   [[nodiscard]] std::uint32_t left_out() const;
-  ParkedVehicle::Verdict judge_parked(std::size_t radar, const TargetSet& targets,
-                                      const ScanVelocity& scan, std::int64_t stamp_us);
-  void rest();
-  void add_way();
-  void compare_speed(std::size_t radar, const MapMatch& match);
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
-  [[nodiscard]] std::optional<Eigen::Vector2d> expected_velocity(std::size_t radar) const;
-  bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
-                       std::int64_t stamp_us);
-  [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                     std::int64_t stamp_us);
-  [[nodiscard]] bool has_stepped() const;
-  [[nodiscard]] bool is_after_step(std::size_t radar, const ScanVelocity& scan) const;
-  [[nodiscard]] bool positions_confirm_state(std::size_t radar, const TargetSet& targets,
-                                             double age_s);
-  [[nodiscard]] bool is_witness(std::size_t radar) const;
   void follow_majority(std::int64_t stamp_us);
-  void clear_maps();
-  void use_positions(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
-  void match(std::size_t radar, double age_s);
-  void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);
+  [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
   std::vector<std::unique_ptr<RadarTrack>> tracks_;
-  MapNodes nodes_;
-  MapRegistration registration_;
-  TargetSet static_targets_;  // Of the present scan.
-  std::vector<TwoWorlds> two_worlds_;
   RadarConsensus consensus_;
   FaultHypotheses faults_;
   FilterCondition condition_;
-  ParkedVehicle parked_;
+  TrafficDoubt traffic_;
+  MajorityFollower majority_;
+  PositionFusion positions_;
   OdometryOutput output_;
   VehicleSignals vehicle_;
-  bool has_forward_radar_ = false;  // One that does not look sideways.
   bool has_started_ = false;
-  std::optional<Step> step_;
 };
 
 }  // namespace cremed

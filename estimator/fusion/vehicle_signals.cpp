@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -18,8 +19,6 @@ using namespace state_layout;
 /// show a crawling vehicle as standing.
 constexpr double kFrozenSpeedMps = 0.5;
 constexpr double kFrozenYawRateRadps = 0.02;
-/// Uncertainty of the filter's values: by chance one in 370 errs by more.
-constexpr double kFrozenSigmas = 3.0;
 /// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
 constexpr double kMaxErrorSigmas = 4.0;
 
@@ -126,7 +125,7 @@ void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known)
   source.lost.update(seconds_between(*source.heard_us, stamp_us) > state_.options().vehicle.lost_s);
   const int rate = rate_of(source.signal);
   if (is_known) {
-    source.standing.expect(state_.gaussian.mean(rate), kFrozenSigmas * state_.gaussian.std(rate));
+    source.standing.expect(state_.gaussian.mean(rate), kGateSigmas * state_.gaussian.std(rate));
   }
   source.frozen.update(source.standing.is_frozen());
 }
@@ -160,9 +159,9 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
           value.value);
   measurement.noise(0, 0) *= source.noise.value();
   measurement.noise(0, 0) += unverified_variance(source, value.value);
-  const double nis = state_.gaussian.innovate(measurement);
-  source.innovation.add(value.utime_us, nis);
-  judge(source, nis);
+  const Innovation innovation = state_.gaussian.innovate(measurement);
+  source.nis.add(value.utime_us, innovation.nis);
+  judge(source, innovation);
 }
 
 /// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
@@ -174,16 +173,16 @@ double VehicleSignals::unverified_variance(const Source& source, double value) c
   return squared(value * unverified(1)) + squared(change * unverified(2));
 }
 
-/// Updates the state with the last innovation if the signal is trusted.
-void VehicleSignals::judge(Source& source, double nis) {
+/// Updates the state if the signal is trusted.
+void VehicleSignals::judge(Source& source, const Innovation& innovation) {
   const bool was_left_out = source.trust.is_left_out();
-  const bool is_expected = nis <= state_.options().vehicle.max_nis &&
+  const bool is_expected = innovation.nis <= state_.options().vehicle.max_nis &&
                            !(was_left_out && source.check.fault() != SignalFault::none);
   source.trust.judge(is_expected);
   if (!was_left_out && !source.trust.is_left_out()) {
-    source.noise.add(nis);
+    source.noise.add(innovation.nis);
     if (is_expected) {
-      state_.update();
+      state_.update(innovation);
       ++source.used;
     }
     if (!has_credible_errors(source.signal) || source.check.fault() != SignalFault::none) {
@@ -223,7 +222,7 @@ VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
   report.times_left_out = source.trust.times_left_out();
   report.readings = source.readings;
   report.measurements_used = source.used;
-  report.innovation = source.innovation.mean();
+  report.nis = source.nis.mean();
   report.noise_factor = source.noise.value();
   report.scale = state.mean(scale);
   report.scale_std = state.std(scale);

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "cremed/can_decoders/vehicle_reading.hpp"
-#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/nis_mean.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
 #include "cremed/estimator/doubt/vehicle/signal_check.hpp"
 #include "cremed/estimator/doubt/vehicle/signal_trust.hpp"
@@ -67,7 +67,7 @@ class VehicleSignals {
     SignalCheck check;
     SignalTrust trust;
     NoiseFactor noise;
-    InnovationMean innovation;
+    NisMean nis;
     Fault lost;
     Fault frozen;
     std::uint64_t readings = 0;
@@ -81,7 +81,7 @@ class VehicleSignals {
   Source* earliest();
   void use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;
-  void judge(Source& source, double nis);
+  void judge(Source& source, const Innovation& innovation);
   [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
 
   OdometryState& state_;

@@ -6,16 +6,11 @@
 #include <cmath>
 
 #include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/median.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
-namespace {
-
-/// Bound of a difference in its standard deviations. False-alarm rate: 1 in 370.
-constexpr double kMaxSigmas = 3.0;
-
-}  // namespace
 
 std::string_view to_string(MotionStatus status) {
   static constexpr std::array<std::string_view, kMotionStatusCount> kNames{
@@ -35,11 +30,13 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   motion.utime_us = scan.stamp_us;
   motion.utime_start_us = has_reference_ ? reference_stamp_us_ : scan.stamp_us;
   motion.incomplete = scan.status != ScanStatus::complete;
-  motion.status = check(scan);
+  // 1. The usable targets, corrected.
+  motion.status = select_targets(scan);
   motion.targets = static_cast<int>(targets_.size());
   if (motion.status != MotionStatus::ok) {
     return motion;
   }
+  // 2. Their motion since the scan before (1-8), and whether that is credible.
   const double dt_s = seconds_between(reference_stamp_us_, scan.stamp_us);
   if (!has_reference_) {
     motion.status = MotionStatus::no_reference;
@@ -50,6 +47,7 @@ EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
   } else {
     motion.status = solve(dt_s, motion);
   }
+  // 3. The scan is the reference of the next.
   registration_.set_previous(targets_);
   reference_stamp_us_ = scan.stamp_us;
   has_reference_ = true;
@@ -60,8 +58,8 @@ void EgoMotionEstimator::forget_reference() {
   has_reference_ = has_velocity_ = has_started_ = false;
 }
 
-/// Selects the targets; ok if the scan is usable.
-MotionStatus EgoMotionEstimator::check(const RadarScan& scan) {
+/// ok if the scan is usable.
+MotionStatus EgoMotionEstimator::select_targets(const RadarScan& scan) {
   targets_.clear();
   if (scan.status == ScanStatus::conflicting_parts || scan.status == ScanStatus::over_capacity) {
     return MotionStatus::incomplete_scan;
@@ -90,7 +88,7 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     has_started_ = true;
     motion.motion = result.motion;
     motion.covariance = result.covariance;
-    motion.doppler_innovation = result.doppler_innovation;
+    motion.doppler_nis = result.doppler_nis;
     last_velocity_ = result.motion / dt_s;
   }
   return status;
@@ -154,7 +152,7 @@ bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, doubl
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
   return two_worlds_.check(targets_, result.motion / dt_s,
-                           0.5 * kMaxAccelerationMps2 * dt_s + kMaxSigmas * noise_mps,
+                           0.5 * kMaxAccelerationMps2 * dt_s + kGateSigmas * noise_mps,
                            !has_started_, [&](double speed_mps) {
                              other.motion.x() = speed_mps * dt_s;
                              return continues(other, dt_s);
@@ -168,7 +166,7 @@ bool EgoMotionEstimator::is_standing(const RegistrationResult& result, double dt
   const double limit_m = options_.standstill_mps * dt_s;
   const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
   return result.motion.head<2>().norm() <= limit_m && sigma.head<2>().maxCoeff() <= limit_m &&
-         std::abs(result.motion.z()) <= kMaxSigmas * sigma.z() &&
+         std::abs(result.motion.z()) <= kGateSigmas * sigma.z() &&
          median_normalised_doppler() <= 1.0;
 }
 

@@ -52,10 +52,10 @@ struct EgoMotion {
   MotionStatus status = MotionStatus::no_reference;
   Eigen::Vector3d motion = Eigen::Vector3d::Constant(kNan);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kNan);
-  bool incomplete = false;           ///< Parts of the current scan are missing.
-  int targets = 0;                   ///< Usable targets in the current scan.
-  int iterations = 0;                ///< Gauss-Newton steps.
-  double doppler_innovation = kNan;  ///< See RegistrationResult.
+  bool incomplete = false;    ///< Parts of the current scan are missing.
+  int targets = 0;            ///< Usable targets in the current scan.
+  int iterations = 0;         ///< Gauss-Newton steps.
+  double doppler_nis = kNan;  ///< See RegistrationResult.
 
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {
@@ -80,7 +80,7 @@ class EgoMotionEstimator {
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
  private:
-  MotionStatus check(const RadarScan& scan);
+  MotionStatus select_targets(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);
   [[nodiscard]] std::optional<PredictedMotion> predict(double doppler_mps, double dt_s) const;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/registration/registration_result.hpp"
+#include "cremed/estimator/scan/gate.hpp"
 
 namespace cremed {
 
@@ -15,14 +16,12 @@ struct ContinuedMotion {
   Eigen::Vector3d max_departure;
 
   /// Whether a result is possible after the motion before. A match of chance neighbours can be
-  /// anywhere in the search range and rarely is. The noise of a true one is bounded by 3 sigma
-  /// (false-alarm rate: 1 in 370).
+  /// anywhere in the search range and rarely is. The noise of a true one is bounded.
   [[nodiscard]] bool allows(const RegistrationResult& result) const {
-    constexpr double kMaxSigmas = 3.0;
     const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d departure = (result.motion - motion).cwiseAbs();
     return sigma.x() > 0.0 &&
-           (departure.array() <= (max_departure + kMaxSigmas * sigma).array()).all();
+           (departure.array() <= (max_departure + kGateSigmas * sigma).array()).all();
   }
 };
 

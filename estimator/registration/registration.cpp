@@ -182,7 +182,7 @@ RegistrationResult Registration::second_stage(Cost& exact, Descent descent) {
   }
   if (const auto covariance = exact.covariance(descent.at, descent.equations)) {
     result.covariance = *covariance;
-    result.doppler_innovation = exact.doppler_innovation();
+    result.doppler_nis = exact.doppler_nis();
   } else {
     result.status = RegistrationStatus::degenerate;
   }

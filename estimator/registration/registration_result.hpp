@@ -38,7 +38,7 @@ struct RegistrationResult {
   /// Normalised innovation squared (NIS) per degree of freedom of the motion by positions alone
   /// against that by Doppler alone: 1 on average. NaN if one of them does not observe all free
   /// states, or with max_sum_mixture.
-  double doppler_innovation = std::numeric_limits<double>::quiet_NaN();
+  double doppler_nis = std::numeric_limits<double>::quiet_NaN();
   double cost = 0.0;     ///< Negative log likelihood + constant of the likelihood.
   double matched = 0.0;  ///< Expected number of matched targets; 0 with max_sum_mixture.
   int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.

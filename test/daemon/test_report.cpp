@@ -208,8 +208,8 @@ TEST_CASE("Each doubt in the covariance is named with its figure and what to do"
       Case{other_radars_contradict, "contradicts the other radars", "6.4", "mount"},
       Case{covariance_too_large, "far smaller than its covariance", "4.2", "lower its noise"});
   RadarStatus status = healthy();
-  status.belief = {.doppler_innovation = 4.25, .next_innovation = 5.35};
-  status.odometry.doppler_innovation = 6.45;
+  status.belief = {.doppler_nis = 4.25, .next_nis = 5.35};
+  status.odometry.doppler_nis = 6.45;
   CHECK(radar_findings(front(), status, {}).empty());
   status.belief.doubts = row.doubt;
   const auto findings = radar_findings(front(), status, {});

@@ -73,7 +73,7 @@ TEST_CASE("a frozen signal and one that contradicts are named, with what the rad
   status = healthy();
   status.odometry.is_left_out = true;
   status.odometry.times_left_out = 1;
-  status.odometry.innovation = 20.0;
+  status.odometry.nis = 20.0;
   const std::string head = "excluded from the odometry: 0x301 contradicts the radars";
   CHECK(only_finding(status) == head + " (normalised innovation squared 20.0, 1 expected)");
   CHECK(signal_state(status) == SignalState::excluded);

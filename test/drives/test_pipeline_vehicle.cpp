@@ -180,7 +180,7 @@ TEST_CASE("Speed and yaw rate of the vehicle lower the errors, and are as certai
     // 50 Hz, two or three frames a measurement; none at standstill.
     CHECK(status.odometry.readings >= 4400);
     CHECK(status.odometry.measurements_used > 1000);
-    CHECK(status.odometry.innovation < 1.2);
+    CHECK(status.odometry.nis < 1.2);
     CHECK(std::abs(status.odometry.scale) < 3.0 * status.odometry.scale_std + 0.01);
   }
 }

@@ -176,11 +176,10 @@ TEST_CASE("Self-check: a healthy drive raises no doubt", "[long]") {
     CHECK(sink.statuses[radar].back().scans_in_odometry > 450);
     // A GPR facing backwards in a bend has too few targets.
     if (radar == kFront) CHECK(belief.is_speed_checked);
-    for (const double innovation :
-         {belief.doppler_innovation, belief.next_innovation, odometry.doppler_innovation,
-          odometry.lateral_innovation, odometry.yaw_innovation}) {
-      CHECK(innovation > 0.15);
-      CHECK(innovation < 2.0);
+    for (const double nis : {belief.doppler_nis, belief.next_nis, odometry.doppler_nis,
+                             odometry.lateral_nis, odometry.yaw_nis}) {
+      CHECK(nis > 0.15);
+      CHECK(nis < 2.0);
     }
   }
 }
@@ -194,8 +193,8 @@ TEST_CASE("Self-check: each fault shows within a minute, and the fused motion st
     const RecordingSink sink = run_pipeline(told, healthy.frames);
     const BeliefStatus& belief = last_belief(sink, fault.radar);
     const std::string text = report(told[fault.radar], sink.statuses[fault.radar].back());
-    CAPTURE(fault.name, belief.doppler_innovation, belief.next_innovation, text,
-            sink.statuses[fault.radar].back().odometry.doppler_innovation);
+    CAPTURE(fault.name, belief.doppler_nis, belief.next_nis, text,
+            sink.statuses[fault.radar].back().odometry.doppler_nis);
     CHECK(belief.doubts == fault.doubts);
     CHECK(last_belief(sink, 1 - fault.radar).doubts == 0);
     for (const std::string& cause : fault.causes) {

@@ -198,9 +198,10 @@ class ModelDrive {
   }
 
   void use(const LinearMeasurement& measurement, bool is_of_positions) {
-    nis_ += estimate_.gaussian.innovate(measurement);
+    const Innovation innovation = estimate_.gaussian.innovate(measurement);
+    nis_ += innovation.nis;
     numbers_ += is_of_positions ? 3 : 2;
-    estimate_.update(is_of_positions);
+    estimate_.update(innovation, is_of_positions);
   }
 
   static OdometryOptions options() {

@@ -287,8 +287,8 @@ TEST_CASE("late scans are used") {
     rear.pass(OdometryDrive::kPeriodUs);
   }
   CHECK(most < 5.0);
-  CHECK(filter.report(1).doppler_innovation < 2.0);
-  CHECK(filter.report(1).doppler_innovation > 0.05);
+  CHECK(filter.report(1).doppler_nis < 2.0);
+  CHECK(filter.report(1).doppler_nis > 0.05);
 }
 
 TEST_CASE("targets that move are left out of the map and counted, the others are found in it") {

@@ -27,7 +27,7 @@ SelfCheck checked(int degrees_of_freedom,
   SelfCheck check(options);
   while (vehicle.time_s() < duration_s) {
     DrawnMotion drawn = vehicle.next();
-    drawn.motion.doppler_innovation = 1.0;
+    drawn.motion.doppler_nis = 1.0;
     alter(vehicle.time_s(), drawn.motion);
     check.add(drawn.motion, {});
   }
@@ -51,20 +51,20 @@ TEST_CASE("self-check: each doubt begins and ends with its cause") {
     std::uint32_t doubts;
   };
   const auto row = GENERATE(
-      Row{"positions against Doppler", [](EgoMotion& m) { m.doppler_innovation = 4.0; },
+      Row{"positions against Doppler", [](EgoMotion& m) { m.doppler_nis = 4.0; },
           registration_contradicts_doppler},
-      Row{"below the limit", [](EgoMotion& m) { m.doppler_innovation = 2.9; }, 0},
+      Row{"below the limit", [](EgoMotion& m) { m.doppler_nis = 2.9; }, 0},
       Row{"jumps",
           [](EgoMotion& m) { m.motion.x() += m.utime_us / 75'000 % 2 == 0 ? 0.08 : -0.08; },
           motions_contradict_each_other},
       Row{"covariance far too large",
           [](EgoMotion& m) {
-            m.doppler_innovation = 0.3;
+            m.doppler_nis = 0.3;
             m.covariance *= 25.0;
           },
           covariance_too_large},
-      Row{"Doppler alone is small", [](EgoMotion& m) { m.doppler_innovation = 0.3; }, 0},
-      Row{"no Doppler", [](EgoMotion& m) { m.doppler_innovation = std::nan(""); }, 0});
+      Row{"Doppler alone is small", [](EgoMotion& m) { m.doppler_nis = 0.3; }, 0},
+      Row{"no Doppler", [](EgoMotion& m) { m.doppler_nis = std::nan(""); }, 0});
   CAPTURE(row.name);
   const SelfCheck during = checked(2, [&](double, EgoMotion& motion) { row.alter(motion); });
   CAPTURE(during.doppler().mean(), during.next().mean());

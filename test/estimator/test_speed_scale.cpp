@@ -49,8 +49,8 @@ double speed_error_after(double minutes, const std::vector<Pose2>& mounts) {
       velocity.per_offset = {mounts[radar].x_m > 0.0 ? -1.1 : 1.1, 0.0};
       velocity.velocity_mps = {town_speed_mps(time_s) + 0.02 * normal(random),
                                0.05 * normal(random)};
-      state.gaussian.innovate(DopplerMeasurement{state, radar, 0.0}.linearise(velocity));
-      state.update();
+      state.update(
+          state.gaussian.innovate(DopplerMeasurement{state, radar, 0.0}.linearise(velocity)));
     }
     if (time_s > 60.0 * (minutes - 1.0) && town_speed_mps(time_s) == 14.0) {
       error = std::max(error, std::abs(state.gaussian.mean(kSpeed) / 14.0 - 1.0));
@@ -111,8 +111,7 @@ class BendyDrive {
     velocity.covariance << 4e-4, 0.0, 0.0, 25e-4;
     velocity.velocity_mps = {kSpeedMps + 0.02 * normal_(random_),
                              w * kMount.x_m + 0.05 * normal_(random_)};
-    state_.gaussian.innovate(DopplerMeasurement{state_, 0, 0.0}.linearise(velocity));
-    state_.update();
+    state_.update(state_.gaussian.innovate(DopplerMeasurement{state_, 0, 0.0}.linearise(velocity)));
   }
 
   /// A registration in which each node has the same share.
@@ -133,8 +132,7 @@ class BendyDrive {
     }
     const MapMeasurement measurement{state_, *map_, 0, 0.0};
     map_->place(measurement.now_from_node());
-    state_.gaussian.innovate(measurement.linearise(match, true));
-    state_.update(true);
+    state_.update(state_.gaussian.innovate(measurement.linearise(match, true)), true);
   }
 
   std::mt19937_64 random_{1};

@@ -14,7 +14,7 @@ namespace {
 
 /// A time-averaged NIS above this shows too small a covariance: errors are 1.7 times as large as
 /// stated.
-constexpr double kMaxMeanInnovation = 3.0;
+constexpr double kMaxMeanNis = 3.0;
 /// Both above these show it too. Noise set three times too small gives 2.1 and 1.1 or more. Healthy
 /// recorded drives reach 2.3 by Doppler for seconds (nuScenes 0655 and 1094), but then 0.3 from
 /// motion to motion, where 1 is a vehicle that accelerates by its prior all the time.
@@ -45,8 +45,8 @@ void SelfCheck::add(const EgoMotion& motion, const TargetSet& targets) {
     scale_.add(targets, yaw_rate_radps_, motion.utime_us);
   }
   if (motion.status == MotionStatus::ok) {
-    if (std::isfinite(motion.doppler_innovation)) {
-      doppler_.add(motion.utime_us, motion.doppler_innovation);
+    if (std::isfinite(motion.doppler_nis)) {
+      doppler_.add(motion.utime_us, motion.doppler_nis);
     }
     compare_with_last(motion);
   }
@@ -90,10 +90,10 @@ std::uint32_t SelfCheck::doubts() const {
   if (looks_across_) {
     return result;
   }
-  if (doppler_.exceeds(kMaxMeanInnovation)) {
+  if (doppler_.exceeds(kMaxMeanNis)) {
     result |= registration_contradicts_doppler;
   }
-  if (next_.exceeds(kMaxMeanInnovation) ||
+  if (next_.exceeds(kMaxMeanNis) ||
       (doppler_.exceeds(kMaxMeanByDoppler) && next_.exceeds(kMaxMeanByNext))) {
     result |= motions_contradict_each_other;
   }

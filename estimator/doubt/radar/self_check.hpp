@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "cremed/estimator/doubt/radar/doppler_scale.hpp"
-#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/nis_mean.hpp"
 #include "cremed/estimator/doubt/radar/repeated_targets.hpp"
 #include "cremed/estimator/doubt/radar/speed_check.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
@@ -37,18 +37,18 @@ class SelfCheck {
   /// To be called when the clock of the stamps was set.
   void forget();
 
-  /// NIS of positions against Doppler (EgoMotion::doppler_innovation).
-  [[nodiscard]] const InnovationMean& doppler() const { return doppler_; }
+  /// NIS of positions against Doppler (EgoMotion::doppler_nis).
+  [[nodiscard]] const NisMean& doppler() const { return doppler_; }
   /// NIS of a motion's velocity against that of the previous motion, with the accelerations of
   /// SharedErrorOptions.
-  [[nodiscard]] const InnovationMean& next() const { return next_; }
+  [[nodiscard]] const NisMean& next() const { return next_; }
 
   /// Check of the Doppler speed by positions.
   [[nodiscard]] const SpeedCheck& speed() const { return speed_; }
   /// Check of the scale of Doppler by positions.
   [[nodiscard]] const DopplerScale& scale() const { return scale_; }
 
-  /// Factor on the covariance of a radar that looks sideways, by these innovations. It registers
+  /// Factor on the covariance of a radar that looks sideways, by these NIS. It registers
   /// the reflections of passed objects, which move along: ANEES of such radars is 2 to 30 on
   /// nuScenes, half of that in a tenth of their motions. 1 for others, which are doubted instead.
   [[nodiscard]] double covariance_factor() const;
@@ -63,8 +63,8 @@ class SelfCheck {
 
   RegistrationOptions options_;
   bool looks_across_;
-  InnovationMean doppler_;
-  InnovationMean next_;
+  NisMean doppler_;
+  NisMean next_;
   SpeedCheck speed_;
   DopplerScale scale_;
   RepeatedTargets repeated_;

@@ -44,7 +44,7 @@ EgoMotion withdrawn(EgoMotion motion) {
   motion.status = MotionStatus::ambiguous;
   motion.motion.setConstant(EgoMotion::kNan);
   motion.covariance.setConstant(EgoMotion::kNan);
-  motion.doppler_innovation = EgoMotion::kNan;
+  motion.doppler_nis = EgoMotion::kNan;
   return motion;
 }
 

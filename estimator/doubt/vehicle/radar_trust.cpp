@@ -9,13 +9,13 @@
 
 namespace cremed {
 
-void NoiseFactor::add(double innovation) {
-  constexpr double kRate = 0.05;          // One over 20 measurements.
-  constexpr double kMaxInnovation = 4.0;  // Exceeded by 2 % with a true covariance (exp(-4)).
-  if (std::isnan(innovation)) {
+void NoiseFactor::add(double nis) {
+  constexpr double kRate = 0.05;   // One over 20 measurements.
+  constexpr double kMaxNis = 4.0;  // Exceeded by 2 % with a true covariance (exp(-4)).
+  if (std::isnan(nis)) {
     return;
   }
-  const double excess = std::min(innovation, kMaxInnovation) - 1.0;
+  const double excess = std::min(nis, kMaxNis) - 1.0;
   value_ = std::clamp(value_ * std::exp(kRate * excess), 1.0, kMaxFactor);
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/nis_mean.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 
 namespace cremed {
@@ -15,8 +15,8 @@ namespace cremed {
 class NoiseFactor {
  public:
   [[nodiscard]] double value() const { return value_; }
-  /// `innovation`: NIS per degree of freedom, with the factor applied.
-  void add(double innovation);
+  /// `nis`: per degree of freedom, with the factor applied.
+  void add(double nis);
   void clear() { value_ = 1.0; }
 
  private:
@@ -38,9 +38,9 @@ struct RadarTrust {
   /// Time after which that is a fault: a passing vehicle takes less.
   static constexpr double kFaultyS = 3.0;
 
-  InnovationMean doppler;  ///< NIS of the last minute.
-  InnovationMean lateral;
-  InnovationMean yaw;
+  NisMean doppler;  ///< NIS of the last minute.
+  NisMean lateral;
+  NisMean yaw;
   NoiseFactor doppler_noise;
   NoiseFactor position_noise;
   int contradictions = 0;

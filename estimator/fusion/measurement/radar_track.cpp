@@ -28,7 +28,6 @@ bool is_majority(const DopplerVelocity& velocity, const TargetSet& targets) {
 RadarTrack::RadarTrack(const OdometryOptions& options) : options_(options) { clear(); }
 
 void RadarTrack::clear() {
-  map.clear();
   has_stamp_ = false;
   doppler_std_mps_ = options_.doppler_std_mps;
 }

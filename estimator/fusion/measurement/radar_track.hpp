@@ -7,8 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/fusion/map/target_map.hpp"
-#include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -23,7 +21,7 @@ struct ScanVelocity {
   bool is_clear = false;
 };
 
-/// Data of one radar in the odometry filter, besides its states.
+/// The scans of one radar: their order, and their velocity by Doppler.
 class RadarTrack {
  public:
   explicit RadarTrack(const OdometryOptions& options);
@@ -40,9 +38,6 @@ class RadarTrack {
   /// residuals.
   std::optional<ScanVelocity> velocity(const TargetSet& targets,
                                        const std::optional<Eigen::Vector2d>& expected);
-
-  TargetMap map;
-  MapCounters counters;
 
  private:
   const OdometryOptions& options_;

@@ -38,36 +38,31 @@ void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
 
 OdometryOutput::OdometryOutput(OdometryState& state) : state_(state) {}
 
-OdometryOutput::Anchor OdometryOutput::Anchor::next(std::int64_t at_us,
-                                                    const VehicleEstimate& vehicle) const {
-  const Eigen::Vector3d moved = vehicle.mean.head<kPose>();
-  return {at_us, composed_pose(pose, moved),
-          symmetric(composed_covariance(pose, covariance, moved,
+OdometryOutput::Anchor OdometryOutput::Anchor::moved(std::int64_t at_us,
+                                                     const VehicleEstimate& vehicle) const {
+  const Eigen::Vector3d motion = vehicle.mean.head<kPose>();
+  return {at_us, composed_pose(pose, motion),
+          symmetric(composed_covariance(pose, covariance, motion,
                                         vehicle.covariance.topLeftCorner<kPose, kPose>()))};
 }
 
-void OdometryOutput::bridge(double gap_s) {
+void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
   const OdometryOptions& options = state_.options();
   const double way_m = options.start_speed_std_mps * gap_s;
   const double turn_rad = options.start_yaw_rate_std_radps * gap_s;
-  anchor_ = anchor_.next(state_.time_us(), state_.vehicle());
+  anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
   anchor_.covariance.diagonal() +=
       Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
   odom_pose_ = gap_s > 0.0 && predicted_us_ > state_.time_us() ? predicted_odom_pose_ : odom_pose_;
   anchor_.pose = odom_pose_;
-}
-
-void OdometryOutput::start() {
-  predicted_us_ = std::max(predicted_us_, state_.time_us());
-  restart_anchor();
-}
-
-void OdometryOutput::restart_anchor() {
-  anchor_.utime_us = output_us_ = state_.time_us();
+  anchor_.utime_us = output_us_ = time_us;
   next_anchor_us_.reset();
+  predicted_us_ = std::max(predicted_us_, time_us);
+  state_.restart(time_us);
 }
 
-void OdometryOutput::forget_predictions() {
+void OdometryOutput::leave_clock() {
+  restart(state_.time_us(), state_.options().max_gap_s);
   predicted_us_ = std::numeric_limits<std::int64_t>::min();
 }
 
@@ -80,12 +75,12 @@ void OdometryOutput::advance_to(std::int64_t stamp_us) {
 }
 
 void OdometryOutput::renew_anchor() {
-  anchor_ = anchor_.next(state_.time_us(), state_.vehicle());
+  anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
   state_.renew_anchor();
   next_anchor_us_.reset();
 }
 
-Odometry OdometryOutput::next() {
+Odometry OdometryOutput::at_scan() {
   Odometry result = odometry(state_.vehicle(), anchor_, state_.time_us());
   result.is_new = state_.time_us() > output_us_;
   if (result.is_new) {
@@ -102,7 +97,7 @@ Odometry OdometryOutput::odometry(const VehicleEstimate& vehicle, const Anchor& 
   result.utime_anchor_us = anchor.utime_us;
   result.pose = vehicle.mean.head<kPose>();
   result.covariance = symmetric(vehicle.covariance.topLeftCorner<kPose, kPose>());
-  result.odom_covariance = anchor.next(utime_us, vehicle).covariance;
+  result.odom_covariance = anchor.moved(utime_us, vehicle).covariance;
   add_twist(vehicle, result);
   return result;
 }
@@ -161,7 +156,7 @@ Odometry OdometryOutput::predicted(std::int64_t utime_us) const {
   if (next_anchor_us_) {
     vehicle = vehicle.predicted(seconds_between(from_us, *next_anchor_us_), options);
     from_us = *next_anchor_us_;
-    anchor = anchor.next(from_us, vehicle);
+    anchor = anchor.moved(from_us, vehicle);
     vehicle = vehicle.at_origin();
   }
   const double ahead_s = seconds_between(from_us, utime_us);

@@ -18,6 +18,9 @@ namespace cremed {
 /// The published part of the state: the pose relative to an anchor and since the start, velocities,
 /// and the motion since the last output. Does not set Odometry::status and left_out.
 ///
+/// After restart() only advance_to() moves the state in time; at_scan() publishes it there, and
+/// predict_next() between scans.
+///
 /// The anchor is a recent pose that has no error because it is the origin. When it is renewed, all
 /// poses of the state are transformed into its frame. Covariances then stay small, and later
 /// measurements do not change the pose since the start.
@@ -26,27 +29,24 @@ class OdometryOutput {
   /// The state must outlive this object.
   explicit OdometryOutput(OdometryState& state);
 
-  /// Begins after a start of the state, with an anchor at its time.
-  void start();
-  /// Sets the anchor and the last output to the time of the state, as a start does.
-  void restart_anchor();
-  /// Makes the present pose the anchor.
-  void renew_anchor();
-  /// Called before a start of the state. The pose since the start keeps its last published value;
-  /// its covariance grows by the unknown motion in `gap_s`.
-  void bridge(double gap_s);
-  /// To be called when the clock of the stamps was set.
-  void forget_predictions();
+  /// Restarts the state, with an anchor there. The pose since the start goes on from its last
+  /// published value; its covariance grows by the unknown motion in `gap_s`.
+  void restart(std::int64_t time_us, double gap_s);
+  /// To be called when the clock of the stamps was set, before a restart at its new time: what was
+  /// published at later times of the old one does not count. The gap is at most max_gap_s.
+  void leave_clock();
 
   /// Propagates the state and renews the anchor on the way if it is due.
   void advance_to(std::int64_t stamp_us);
+  /// Makes the present pose the anchor.
+  void renew_anchor();
   [[nodiscard]] double anchor_age_s() const {
     return seconds_between(anchor_.utime_us, state_.time_us());
   }
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 
-  /// The output at the time of the state.
-  Odometry next();
+  /// The output at the time of the state, that of the last scan.
+  Odometry at_scan();
   /// See OdometryFilter::predict_next.
   std::optional<Odometry> predict_next(std::int64_t now_us);
 
@@ -57,7 +57,8 @@ class OdometryOutput {
     Eigen::Vector3d pose = Eigen::Vector3d::Zero();
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-    [[nodiscard]] Anchor next(std::int64_t utime_us, const VehicleEstimate& vehicle) const;
+    /// The anchor at the estimated pose.
+    [[nodiscard]] Anchor moved(std::int64_t at_us, const VehicleEstimate& vehicle) const;
   };
 
   [[nodiscard]] static Odometry odometry(const VehicleEstimate& vehicle, const Anchor& anchor,

@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 
 namespace cremed {
 
 GaussianState::GaussianState(int size)
-    : mean_(Eigen::VectorXd::Zero(size)),
-      covariance_(Eigen::MatrixXd::Zero(size, size)),
-      gain_(Gain::Zero(size, kNumbers)),
-      whitened_residual_(Eigen::Vector3d::Zero()),
-      innovations_(Eigen::Vector3d::Zero()) {}
+    : mean_(Eigen::VectorXd::Zero(size)), covariance_(Eigen::MatrixXd::Zero(size, size)) {
+  if (size > Innovation::kMaxStates) {
+    throw std::length_error("too many states");
+  }
+}
 
 double GaussianState::std(int i) const { return std::sqrt(covariance_(i, i)); }
 
@@ -64,49 +65,56 @@ void GaussianState::transform_pose(int to, const Eigen::Vector3d& mean,
   mean_.segment<3>(to) = mean;
 }
 
-double GaussianState::innovate(const LinearMeasurement& measurement) {
-  gain_.setZero();
+Innovation GaussianState::innovate(const LinearMeasurement& measurement) const {
+  Innovation result;
+  Innovation::Gain& gain = result.gain;
+  gain.setZero(mean_.size(), Innovation::kNumbers);
   for (int k = 0; k < measurement.states; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    for (int number = 0; number < kNumbers; ++number) {
-      gain_.col(number) += measurement.jacobian[i](number) * covariance_.col(measurement.state[i]);
+    for (int number = 0; number < Innovation::kNumbers; ++number) {
+      gain.col(number) += measurement.jacobian[i](number) * covariance_.col(measurement.state[i]);
     }
   }
-  Eigen::Matrix3d innovation = measurement.noise;
+  Eigen::Matrix3d covariance = measurement.noise;
   for (int k = 0; k < measurement.states; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    innovation += measurement.jacobian[i] * gain_.row(measurement.state[i]);
+    covariance += measurement.jacobian[i] * gain.row(measurement.state[i]);
   }
-  const Eigen::LLT<Eigen::Matrix3d> root(innovation);
+  const Eigen::LLT<Eigen::Matrix3d> root(covariance);
   if (root.info() != Eigen::Success) {
-    gain_.setZero();
-    return std::numeric_limits<double>::infinity();
+    gain.setZero();
+    result.whitened.setZero();
+    result.nis = std::numeric_limits<double>::infinity();
+    result.nis_of_numbers.setConstant(result.nis);
+    return result;
   }
-  innovations_ = measurement.residual.cwiseAbs2().cwiseQuotient(innovation.diagonal());
-  root.matrixU().solveInPlace<Eigen::OnTheRight>(gain_);
-  whitened_residual_ = root.matrixL().solve(measurement.residual);
-  return whitened_residual_.squaredNorm();
+  root.matrixU().solveInPlace<Eigen::OnTheRight>(gain);
+  result.whitened = root.matrixL().solve(measurement.residual);
+  result.nis = result.whitened.squaredNorm();
+  result.nis_of_numbers = measurement.residual.cwiseAbs2().cwiseQuotient(covariance.diagonal());
+  return result;
 }
 
-void GaussianState::update(std::span<const Considered> considered) {
-  static_assert(kNumbers == 3);
+void GaussianState::update(const Innovation& innovation, std::span<const Considered> considered) {
+  static_assert(Innovation::kNumbers == 3);
+  Innovation::Gain gain = innovation.gain;
   // One sum a column: each number by itself would load and store the covariance again.
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
     covariance_.col(j) -=
-        gain_(j, 0) * gain_.col(0) + gain_(j, 1) * gain_.col(1) + gain_(j, 2) * gain_.col(2);
+        gain(j, 0) * gain.col(0) + gain(j, 1) * gain.col(1) + gain(j, 2) * gain.col(2);
   }
   for (const Considered& a : considered) {
     for (const Considered& b : considered) {
-      for (int number = std::max(a.from, b.from); number < kNumbers; ++number) {
-        covariance_(a.state, b.state) += gain_(a.state, number) * gain_(b.state, number);
+      for (int number = std::max(a.from, b.from); number < Innovation::kNumbers; ++number) {
+        covariance_(a.state, b.state) += gain(a.state, number) * gain(b.state, number);
       }
     }
   }
   for (const Considered& a : considered) {
-    gain_.row(a.state).tail(kNumbers - a.from).setZero();
+    gain.row(a.state).tail(Innovation::kNumbers - a.from).setZero();
   }
-  for (int number = 0; number < kNumbers; ++number) {
-    mean_ += whitened_residual_(number) * gain_.col(number);
+  for (int number = 0; number < Innovation::kNumbers; ++number) {
+    mean_ += innovation.whitened(number) * gain.col(number);
   }
 }
 

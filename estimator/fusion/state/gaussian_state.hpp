@@ -10,11 +10,28 @@
 
 namespace cremed {
 
+/// What a measurement differs by from what a state expects, with the gain by which it updates that
+/// state.
+struct Innovation {
+  static constexpr int kNumbers = 3;      ///< Of a LinearMeasurement.
+  static constexpr int kMaxStates = 216;  ///< Those of 16 radars and the vehicle's signals.
+  using Gain = Eigen::Matrix<double, Eigen::Dynamic, kNumbers, Eigen::ColMajor, kMaxStates>;
+
+  /// Normalised innovation squared (NIS): chi-square with a degree of freedom for each number of
+  /// the measurement if mean and covariance are true. Infinite, without gain, if the innovation's
+  /// covariance is not positive definite.
+  double nis;
+  Eigen::Vector3d nis_of_numbers;  ///< Of each number alone.
+  Eigen::Vector3d whitened;        ///< L^-1 residual, with the innovation's covariance S = L L'.
+  Gain gain;                       ///< P H' L'^-1: the update adds gain whitened.
+};
+
 /// Mean and covariance of a state of fixed size, with the operations of a Kalman filter. Every
 /// operation keeps the covariance exactly symmetric and costs O(n), an update O(n^2). Only the
 /// constructor allocates.
 class GaussianState {
  public:
+  /// At most Innovation::kMaxStates, otherwise std::length_error.
   explicit GaussianState(int size);
 
   [[nodiscard]] int size() const { return static_cast<int>(mean_.size()); }
@@ -54,30 +71,19 @@ class GaussianState {
   void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
                       const Eigen::Matrix3d& by_first);
 
-  /// Normalised innovation squared (NIS) of a measurement: chi-square with a degree of freedom for
-  /// each of its numbers if mean and covariance are true. Infinite if the innovation's covariance
-  /// is not positive definite.
-  double innovate(const LinearMeasurement& measurement);
-  /// NIS of each of its numbers alone.
-  [[nodiscard]] const Eigen::Vector3d& innovations() const { return innovations_; }
+  [[nodiscard]] Innovation innovate(const LinearMeasurement& measurement) const;
   /// A consider parameter (Schmidt-Kalman): only the numbers of a measurement before `from` change
   /// its mean; by the others its variance, and covariances with such states, stay.
   struct Considered {
     int state;
     int from = 0;
   };
-  /// Kalman update with the measurement of the last call of innovate().
-  void update(std::span<const Considered> considered);
+  /// Kalman update with an innovation of this very state.
+  void update(const Innovation& innovation, std::span<const Considered> considered);
 
  private:
-  static constexpr int kNumbers = 3;  // Of a LinearMeasurement.
-  using Gain = Eigen::Matrix<double, Eigen::Dynamic, kNumbers>;
-
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
-  Gain gain_;                          // P H' L^-T with S = L L'
-  Eigen::Vector3d whitened_residual_;  // L^-1 residual
-  Eigen::Vector3d innovations_;
 };
 
 template <int Size>

@@ -92,9 +92,9 @@ struct RadarReport {
   FaultCause cause;          ///< If it is left out.
   /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
   /// without measurements.
-  double doppler_innovation = 0.0;
-  double lateral_innovation = 0.0;
-  double yaw_innovation = 0.0;
+  double doppler_nis = 0.0;
+  double lateral_nis = 0.0;
+  double yaw_nis = 0.0;
   /// Factors on the covariances of its measurements (NoiseFactor).
   double doppler_noise_factor = 1.0;
   double position_noise_factor = 1.0;
@@ -120,7 +120,7 @@ struct VehicleSignalReport {
   int times_left_out = 0;
   std::uint64_t readings = 0;           ///< Valid frames.
   std::uint64_t measurements_used = 0;  ///< By the filter, each the mean of several readings.
-  double innovation = 0.0;              ///< Time-averaged NIS, as of a radar.
+  double nis = 0.0;                     ///< Time-averaged, per degree of freedom, as of a radar.
   double noise_factor = 1.0;
   /// Learned errors, with standard deviations.
   double scale = 0.0;

@@ -62,6 +62,7 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
     : gaussian(size_of(mounts.size(), options)),
       options_(options),
       mounts_(std::move(mounts)),
+      has_forward_radar_(!std::all_of(mounts_.begin(), mounts_.end(), looks_across)),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
@@ -92,10 +93,10 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
   }
 }
 
-void OdometryState::update(bool is_of_positions) {
+void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
   const ConsideredStates& driving = is_of_positions ? considered_but_by_x_ : considered_;
-  gaussian.update(is_at_rest ? considered_at_rest_ : driving);
+  gaussian.update(innovation, is_at_rest ? considered_at_rest_ : driving);
 }
 
 void OdometryState::start(std::int64_t time_us) {
@@ -256,6 +257,11 @@ void OdometryState::advance_signal(VehicleSignal signal, double dt_s) {
     forget(gaussian, vehicle_error(kYawRateGain), scale, 0.0, dt_s);
     gaussian.add_variance(vehicle_error(kYawRateBias), squared(options.yaw_rate_bias_walk) * dt_s);
   }
+}
+
+Eigen::Vector2d OdometryState::radar_velocity(std::size_t radar) const {
+  const double w = gaussian.mean(kYawRate);
+  return {gaussian.mean(kSpeed) - w * mounts_[radar].y_m, w * mounts_[radar].x_m};
 }
 
 Eigen::Vector3d OdometryState::pose_before(double age_s) const {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/nis_mean.hpp"
 
 namespace cremed {
 namespace {
@@ -13,16 +13,15 @@ namespace {
 constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// Adds a number of innovations per second from `begin_s` on.
-void fill(InnovationMean& mean, double innovation, std::int64_t begin_s, std::int64_t end_s,
-          int rate_hz = 10) {
+/// Adds a number of NIS per second from `begin_s` on.
+void fill(NisMean& mean, double nis, std::int64_t begin_s, std::int64_t end_s, int rate_hz = 10) {
   for (std::int64_t us = begin_s * kSecondUs; us < end_s * kSecondUs; us += kSecondUs / rate_hz) {
-    mean.add(kStartUs + us, innovation);
+    mean.add(kStartUs + us, nis);
   }
 }
 
-TEST_CASE("innovation mean: without innovations there is no judgement") {
-  InnovationMean mean;
+TEST_CASE("NIS mean: without any there is no judgement") {
+  NisMean mean;
   CHECK(mean.count() == 0);
   CHECK(mean.mean() == 0.0);
   CHECK_FALSE(mean.is_enough());
@@ -37,9 +36,9 @@ TEST_CASE("innovation mean: without innovations there is no judgement") {
   CHECK(mean.count() == 0);
 }
 
-TEST_CASE("innovation mean: the window is a minute at any rate") {
+TEST_CASE("NIS mean: the window is a minute at any rate") {
   const int rate_hz = GENERATE(1, 10, 50);
-  InnovationMean mean;
+  NisMean mean;
   fill(mean, 4.0, 0, 100, rate_hz);
   CHECK(mean.count() == 60U * static_cast<unsigned>(rate_hz));
   CHECK(mean.mean() == Approx(4.0));
@@ -50,16 +49,16 @@ TEST_CASE("innovation mean: the window is a minute at any rate") {
   CHECK(mean.count() == 60U * static_cast<unsigned>(rate_hz));
 }
 
-TEST_CASE("innovation mean: a few outliers have little effect") {
-  InnovationMean mean;
+TEST_CASE("NIS mean: a few outliers have little effect") {
+  NisMean mean;
   fill(mean, 1.0, 0, 59);
   mean.add(kStartUs + 59 * kSecondUs, 1e12);
   mean.add(kStartUs + 59 * kSecondUs, std::numeric_limits<double>::infinity());
   CHECK(mean.mean() == Approx((590.0 + 2 * 25.0) / 592.0));
 }
 
-TEST_CASE("innovation mean: the window includes pauses") {
-  InnovationMean mean;
+TEST_CASE("NIS mean: the window includes pauses") {
+  NisMean mean;
   fill(mean, 9.0, 0, 30);
   fill(mean, 1.0, 75, 80);
   CHECK(mean.count() == 100 + 50);  // The last 10 of the first 30 s.
@@ -71,8 +70,8 @@ TEST_CASE("innovation mean: the window includes pauses") {
   CHECK(mean.mean() == 0.0);
 }
 
-TEST_CASE("innovation mean: a step back in time clears it, at any time") {
-  InnovationMean mean;
+TEST_CASE("NIS mean: a step back in time clears it, at any time") {
+  NisMean mean;
   fill(mean, 9.0, 100, 130);
   mean.add(kStartUs + 50 * kSecondUs, 2.0);
   CHECK(mean.count() == 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/doubt/radar/innovation_mean.hpp"
+#include "cremed/estimator/doubt/radar/nis_mean.hpp"
 
 #include <algorithm>
 
@@ -11,20 +11,20 @@ constexpr std::int64_t kUsPerSecond = 1'000'000;
 
 }  // namespace
 
-void InnovationMean::clear() {
+void NisMean::clear() {
   seconds_.fill({});
   count_ = 0;
 }
 
-void InnovationMean::add(std::int64_t utime_us, double innovation) {
+void NisMean::add(std::int64_t utime_us, double nis) {
   pass(utime_us);
   Second& now = seconds_[static_cast<std::uint64_t>(second_) % kSeconds];
   ++now.count;
-  now.sum += std::min(innovation, kMaxInnovation);
+  now.sum += std::min(nis, kMaxNis);
   ++count_;
 }
 
-void InnovationMean::pass(std::int64_t utime_us) {
+void NisMean::pass(std::int64_t utime_us) {
   const std::int64_t second = utime_us / kUsPerSecond;
   if (second < second_ || second - second_ >= static_cast<std::int64_t>(kSeconds)) {
     clear();
@@ -38,7 +38,7 @@ void InnovationMean::pass(std::int64_t utime_us) {
   }
 }
 
-double InnovationMean::mean() const {
+double NisMean::mean() const {
   double sum = 0.0;
   for (const Second& second : seconds_) {
     sum += second.sum;

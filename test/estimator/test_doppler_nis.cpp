@@ -108,8 +108,8 @@ TEST_CASE("registration: positions and Doppler differ as their covariances state
   int count = 0;
   for (int i = 0; i < kPairs; ++i) {
     const RegistrationResult result = solve_pair(options, random).result;
-    if (std::isfinite(result.doppler_innovation)) {
-      sum += result.doppler_innovation;
+    if (std::isfinite(result.doppler_nis)) {
+      sum += result.doppler_nis;
       ++count;
     }
   }
@@ -118,19 +118,19 @@ TEST_CASE("registration: positions and Doppler differ as their covariances state
   CHECK(sum / count < 1.2);
 }
 
-TEST_CASE("registration: without Doppler, or with max_sum_mixture, there is no innovation") {
+TEST_CASE("registration: without Doppler, or with max_sum_mixture, there is no NIS") {
   Random random(5);
   RegistrationOptions options = options_of(2, true, false);
   options.doppler.enabled = false;
-  CHECK(std::isnan(solve_pair(options, random).result.doppler_innovation));
+  CHECK(std::isnan(solve_pair(options, random).result.doppler_nis));
   options = options_of(2, false, false);
-  CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_innovation));
+  CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_nis));
   // One radar's Doppler observes two of three states.
-  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_innovation));
+  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_nis));
   options.likelihood = Likelihood::max_sum_mixture;
   const RegistrationResult result = solve_pair(options, random).result;
   CHECK(result.status == RegistrationStatus::converged);
-  CHECK(std::isnan(result.doppler_innovation));
+  CHECK(std::isnan(result.doppler_nis));
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/majority_follower.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/fusion/position_fusion.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// From so many scans on, 0.75 s of three radars, the state is not that of a wrong first radar,
+/// which the others tell within 0.4 s.
+constexpr int kMinScansOfState = 30;
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
+                                                        double possible_change_mps) {
+  const auto majority = consensus_.contradicting_majority(stamp_us);
+  if (!majority) {
+    return std::nullopt;
+  }
+  GaussianState& state = state_.gaussian;
+  const Eigen::Vector2d wrong(state.mean(kSpeed), state.mean(kYawRate));
+  const Eigen::Vector2d error = majority->value() - wrong;
+  const double since_s = consensus_.longest_contradiction_s();
+  if (condition_.used_scans() >= kMinScansOfState && consensus_.is_step(stamp_us) &&
+      std::abs(error.x()) > possible_change_mps) {
+    step_ = Step{condition_.used_us(), error.x()};
+  }
+  // The positions can tell which of the speeds is wrong once they would be that far apart.
+  if (has_stepped() || (std::abs(error.x()) * since_s > 2.0 * PositionFusion::kMaxConfirmedM &&
+                        consensus_.contradicts_positions(stamp_us))) {
+    condition_.doubt();
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < state_.radars(); ++i) {
+    if (consensus_[i].has_agreed()) {
+      state_.widen_errors(i);
+    } else {
+      consensus_[i].forgive();
+    }
+  }
+  state_.start_motion(majority->value(), majority->covariance());
+  // The pose errs by the error of the velocity over the time of the contradiction.
+  state.add_variance(kX, squared(error.x() * since_s));
+  state.add_variance(kY, squared(error.x() * since_s));
+  state.add_variance(kYaw, squared(error.y() * since_s));
+  return error;
+}
+
+bool MajorityFollower::is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const {
+  return has_stepped() && !condition_.is_speed_unknown() &&
+         std::abs(velocity_mps.x() - state_.radar_velocity(radar).x()) > 0.5 * std::abs(step_->mps);
+}
+
+}  // namespace cremed

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+
+namespace cremed {
+
+/// If a majority of radars contradicts the filter and agrees with each other, the velocity of the
+/// state is reset to theirs. A step of all radars that no vehicle can make is not followed, nor
+/// what is near it, nor what their own positions contradict: the filter is in doubt and then lost,
+/// and positions have to confirm the next start.
+class MajorityFollower {
+ public:
+  /// The arguments must outlive this object.
+  MajorityFollower(OdometryState& state, RadarConsensus& consensus, FilterCondition& condition)
+      : state_(state), consensus_(consensus), condition_(condition) {}
+
+  void clear() { step_.reset(); }
+  /// Returns the change of (v, w), if it followed. `possible_change_mps`: of the speed of a
+  /// vehicle, since the last scan that was used.
+  std::optional<Eigen::Vector2d> follow(std::int64_t stamp_us, double possible_change_mps);
+  /// All radars stepped, no scan was used since, and this velocity of a radar is nearer to where
+  /// they stepped to than to the state. That one's sigma grows: without this a step from 5 m/s to 0
+  /// was followed half a second later.
+  [[nodiscard]] bool is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const;
+
+ private:
+  /// A step of the speed by all radars that no vehicle can make.
+  struct Step {
+    std::int64_t used_us = 0;  // Of the last scan used before.
+    double mps = 0.0;
+  };
+
+  [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
+
+  OdometryState& state_;
+  RadarConsensus& consensus_;
+  FilterCondition& condition_;
+  std::optional<Step> step_;
+};
+
+}  // namespace cremed

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/position_fusion.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/fusion/measurement/map_measurement.hpp"
+#include "cremed/estimator/fusion/measurement/static_targets.hpp"
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+using namespace state_layout;
+
+/// Least share of the targets in the information of x. Their prior has a sigma of 0.1 m.
+constexpr double kMinShareOfX = 0.2;
+/// Least share of a scan's targets in the map with which they confirm the state. On healthy drives
+/// half to nine tenths are in the map.
+constexpr double kMinConfirmedShare = 0.4;
+
+}  // namespace
+
+PositionFusion::PositionFusion(OdometryState& state, RadarConsensus& consensus,
+                               FaultHypotheses& faults, const FilterCondition& condition)
+    : state_(state),
+      consensus_(consensus),
+      faults_(faults),
+      condition_(condition),
+      nodes_(state),
+      registration_(state.options().position_std_factor),
+      counters_(state.radars()) {
+  for (std::size_t i = 0; i < state.radars(); ++i) {
+    maps_.push_back(std::make_unique<TargetMap>());
+  }
+  clear();
+}
+
+void PositionFusion::clear() {
+  for (const auto& map : maps_) {
+    map->clear();
+  }
+  nodes_.clear();
+}
+
+void PositionFusion::use(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us) {
+  if (state_.is_witness(radar)) {
+    return;
+  }
+  const double age_s = seconds_between(stamp_us, state_.time_us());
+  select_static(state_, radar, age_s, targets, static_targets_);
+  counters_[radar].moving += targets.size() - static_targets_.size();
+  if (static_targets_.size() < static_cast<std::size_t>(state_.options().min_targets)) {
+    faults_.add_too_few_targets(radar, stamp_us);
+    return;
+  }
+  match(radar, age_s);
+  extend_map(radar, stamp_us, age_s);
+}
+
+bool PositionFusion::confirm_state(std::size_t radar, const TargetSet& targets, double age_s) {
+  if (state_.is_witness(radar)) {
+    return false;
+  }
+  TargetMap& map = *maps_[radar];
+  map.place(MapMeasurement{state_, map, radar, age_s}.now_from_node());
+  const auto match = registration_.solve(targets, map, state_.mount(radar));
+  return match && match->matched >= kMinConfirmedShare * static_cast<double>(targets.size()) &&
+         std::abs(match->correction.x()) <= kMaxConfirmedM;
+}
+
+void PositionFusion::match(std::size_t radar, double age_s) {
+  TargetMap& map = *maps_[radar];
+  const MapMeasurement from_map{state_, map, radar, age_s};
+  map.place(from_map.now_from_node());
+  const auto match = registration_.solve(static_targets_, map, state_.mount(radar));
+  const auto possible = static_cast<double>(static_targets_.size());
+  MapCounters& counters = counters_[radar];
+  counters.at_rest += map.scans() > 0 ? static_targets_.size() : 0;
+  counters.found += match ? static_cast<std::uint64_t>(std::lround(match->matched)) : 0;
+  if (!match || match->matched < state_.options().min_matched_share * possible) {
+    return;
+  }
+  RadarTrust& trust = consensus_[radar];
+  const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
+  if (has_x && match->matched >= kMinConfirmedShare * possible) {
+    compare_speed(radar, *match);
+  }
+  LinearMeasurement measurement = from_map.linearise(*match, has_x);
+  measurement.noise *= trust.position_noise.value();
+  const Innovation innovation = state_.gaussian.innovate(measurement);
+  trust.lateral.add(state_.time_us(), innovation.nis_of_numbers.y());
+  trust.yaw.add(state_.time_us(), innovation.nis_of_numbers.z());
+  trust.position_noise.add(0.5 * innovation.nis);
+  if (innovation.nis <= state_.options().max_position_nis) {
+    state_.update(innovation, true);
+  }
+}
+
+/// Tells the speed by positions: that of the state, corrected by how much further they moved.
+void PositionFusion::compare_speed(std::size_t radar, const MapMatch& match) {
+  double since_s = 0.0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    since_s += match.by_node[i](0, 0) * seconds_between(nodes_.stamp_us(i), state_.time_us());
+  }
+  if (!condition_.is_speed_unknown() && since_s > 0.0) {
+    faults_.add_speed_by_positions(
+        radar, state_.time_us(),
+        state_.radar_velocity(radar).x() + match.correction.x() / (match.x_share * since_s),
+        since_s, match.covariance(0, 0) / squared(match.x_share));
+  }
+}
+
+/// Adds the scan to the newest node, if that has no scan of the radar yet.
+void PositionFusion::extend_map(std::size_t radar, std::int64_t stamp_us, double age_s) {
+  if (nodes_.add_if_due(stamp_us, age_s)) {
+    for (const auto& map : maps_) {
+      map->drop(nodes_.newest());
+    }
+  }
+  const std::size_t node = nodes_.newest();
+  if (!maps_[radar]->has(node)) {
+    maps_[radar]->insert(node, static_targets_, state_.mount(radar),
+                         relative_pose(state_.node_pose(node), state_.pose_before(age_s)));
+  }
+}
+
+}  // namespace cremed

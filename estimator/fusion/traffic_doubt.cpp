@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/traffic_doubt.hpp"
+
+#include <cmath>
+
+#include "cremed/estimator/scan/gate.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+
+namespace cremed {
+
+using namespace state_layout;
+
+TrafficDoubt::TrafficDoubt(OdometryState& state, const RadarConsensus& consensus,
+                           const FilterCondition& condition)
+    : parked(state), state_(state), consensus_(consensus), condition_(condition) {
+  for (const Pose2& mount : state.mounts()) {
+    two_worlds_.emplace_back(mount);
+  }
+}
+
+TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targets,
+                                       const DopplerVelocity& velocity, std::int64_t stamp_us,
+                                       double possible_change_mps) {
+  using Verdict = ParkedVehicle::Verdict;
+  const Verdict verdict = judge_parked(radar, targets, velocity, stamp_us);
+  if (verdict == Verdict::two_worlds ||
+      sees_two_worlds(radar, targets, velocity, possible_change_mps)) {
+    return Seen::traffic;
+  }
+  return verdict == Verdict::undecided ? Seen::undecided : Seen::road;
+}
+
+/// The way that the vehicle seemed to go before two worlds showed, or before it seemed to rest
+/// again, remains as uncertainty.
+ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const TargetSet& targets,
+                                                  const DopplerVelocity& velocity,
+                                                  std::int64_t stamp_us) {
+  using Verdict = ParkedVehicle::Verdict;
+  const Verdict before = parked.verdict();
+  if (!parked.is_parked() || !consensus_[radar].is_trusted || consensus_.is_left_out(radar)) {
+    return before;
+  }
+  const Verdict of_scan = parked.judge(radar, targets, velocity, stamp_us);
+  const Verdict now = parked.verdict();
+  if (now == Verdict::two_worlds && before != Verdict::two_worlds) {
+    rest();
+  } else if (now == Verdict::rests && before == Verdict::undecided) {
+    add_way();
+  }
+  return of_scan;
+}
+
+/// The vehicle is taken to rest, with the speed that it seemed to have as uncertainty.
+void TrafficDoubt::rest() {
+  const GaussianState& state = state_.gaussian;
+  const Eigen::Vector2d variance(squared(state.mean(kSpeed)) + squared(state.std(kSpeed)),
+                                 squared(state.mean(kYawRate)) + squared(state.std(kYawRate)));
+  state_.start_motion(Eigen::Vector2d::Zero(), variance.asDiagonal());
+  add_way();
+}
+
+void TrafficDoubt::add_way() {
+  const Eigen::Vector3d way = parked.way();
+  for (const int i : {kX, kY, kYaw}) {
+    state_.gaussian.add_variance(i, squared(way[i]));
+  }
+}
+
+/// By the scan's Doppler and the speeds that the vehicle can reach from the state.
+bool TrafficDoubt::sees_two_worlds(std::size_t radar, const TargetSet& targets,
+                                   const DopplerVelocity& velocity, double possible_change_mps) {
+  const Pose2& mount = state_.mount(radar);
+  const double w = state_.gaussian.mean(kYawRate);
+  const Eigen::Vector2d& sensor_mps = velocity.velocity_mps;
+  const Eigen::Vector3d of_vehicle(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m,
+                                   w);
+  const double std_mps = std::sqrt(velocity.covariance(0, 0));
+  const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
+  return two_worlds_[radar].check(
+      targets, of_vehicle, kGateSigmas * std_mps, is_start, [&](double speed_mps) {
+        return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= possible_change_mps;
+      });
+}
+
+}  // namespace cremed

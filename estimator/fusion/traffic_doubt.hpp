@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cremed/estimator/doubt/scan/two_worlds.hpp"
+#include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
+#include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+#include "cremed/estimator/fusion/measurement/radar_track.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Whether a scan's Doppler shows the road or traffic: what departs beside a parked vehicle
+/// (ParkedVehicle), what moves along with a driving one (TwoWorlds).
+class TrafficDoubt {
+ public:
+  enum class Seen : std::uint8_t {
+    road,
+    undecided,  ///< The vehicle is parked and something departs: it, or what it sees.
+    traffic,    ///< Perhaps.
+  };
+
+  /// The arguments must outlive this object.
+  TrafficDoubt(OdometryState& state, const RadarConsensus& consensus,
+               const FilterCondition& condition);
+
+  /// A parked vehicle that is found to rest is reset to rest. `possible_change_mps`: of the speed,
+  /// since the last scan that was used.
+  Seen judge(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
+             std::int64_t stamp_us, double possible_change_mps);
+
+  ParkedVehicle parked;
+
+ private:
+  ParkedVehicle::Verdict judge_parked(std::size_t radar, const TargetSet& targets,
+                                      const DopplerVelocity& velocity, std::int64_t stamp_us);
+  bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
+                       double possible_change_mps);
+  void rest();
+  void add_way();
+
+  OdometryState& state_;
+  const RadarConsensus& consensus_;
+  const FilterCondition& condition_;
+  std::vector<TwoWorlds> two_worlds_;  // By radar.
+};
+
+}  // namespace cremed

@@ -98,14 +98,17 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   }
 }
 
-/// Widens or withdraws what the radar itself or the odometry does not believe.
+/// Widens or withdraws what the radar itself or the odometry does not believe. The odometry judges
+/// the motion before it is widened: a wider one, of a radar that looks sideways, would contradict
+/// nothing.
 void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
   radar.self_check.add(motion, radar.estimator.targets());
+  const bool is_contradicted = odometry() && contradicts(*odometry(), motion);
   motion.covariance *= radar.self_check.covariance_factor();
   if (OdometryFilter* filter = odometry_.filter()) {
     filter->compare(radar.index, motion, radar.self_check.is_trusted());
   }
-  if (odometry() && contradicts(*odometry(), motion)) {
+  if (is_contradicted) {
     motion = withdrawn(motion);
   }
 }

@@ -21,12 +21,14 @@ namespace {
 constexpr const char* kMotionChannel = "CREMED_EGO_MOTION";
 constexpr const char* kStatusChannel = "CREMED_STATUS";
 
-void reserve(radar_scan_t& scan) {
-  scan.id.reserve(kMaxDetections);
-  scan.validity.reserve(kMaxDetections);
+/// Applies `change` to the array of each field of the targets.
+template <typename Change>
+void for_each_field(radar_scan_t& scan, const Change& change) {
+  change(scan.id);
+  change(scan.validity);
   for (auto* values : {&scan.range_m, &scan.azimuth_rad, &scan.doppler_mps, &scan.range_std_m,
                        &scan.azimuth_std_rad, &scan.doppler_std_mps, &scan.rcs_dbm2}) {
-    values->reserve(kMaxDetections);
+    change(*values);
   }
 }
 
@@ -34,15 +36,6 @@ void fill_mount(const Pose2& vehicle_from_radar, radar_scan_t& scan) {
   scan.mount_x_in_vehicle_frame_m = vehicle_from_radar.x_m;
   scan.mount_y_in_vehicle_frame_m = vehicle_from_radar.y_m;
   scan.mount_yaw_in_vehicle_frame_rad = vehicle_from_radar.yaw_rad;
-}
-
-void clear(radar_scan_t& scan) {
-  scan.id.clear();
-  scan.validity.clear();
-  for (auto* values : {&scan.range_m, &scan.azimuth_rad, &scan.doppler_mps, &scan.range_std_m,
-                       &scan.azimuth_std_rad, &scan.doppler_std_mps, &scan.rcs_dbm2}) {
-    values->clear();
-  }
 }
 
 void append(const Detection& detection, radar_scan_t& scan) {
@@ -258,7 +251,7 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     messages.scan_channel = channel_of("CREMED_SCAN", name);
     messages.status_channel = channel_of(kStatusChannel, name);
     fill_mount(configuration.radars[i].ego_motion.vehicle_from_radar, messages.scan);
-    reserve(messages.scan);
+    for_each_field(messages.scan, [](auto& values) { values.reserve(kMaxDetections); });
   }
 }
 
@@ -360,7 +353,7 @@ void LcmPublisher::on_scan(std::size_t radar, const RadarScan& scan) {
   message.counter = scan.counter;
   message.num_announced = scan.announced;
   message.num_detections = scan.count;
-  clear(message);
+  for_each_field(message, [](auto& values) { values.clear(); });
   for (std::size_t i = 0; i < scan.count; ++i) {
     append(scan.detections[i], message);
   }

@@ -8,10 +8,10 @@
 """
 from .ego_motion_t import ego_motion_t
 from .fields import fields_of, names_of
-from .listener import DamagedLog, Heard, Listener, decoded, read_events, read_log
+from .listener import DamagedLog, Heard, Listener, decoded, events_in, read_events, read_log
 from .odometry_t import odometry_t
 from .radar_scan_t import radar_scan_t
 from .status_t import status_t
 
-__all__ = ["DamagedLog", "Heard", "Listener", "decoded", "ego_motion_t", "fields_of", "names_of",
+__all__ = ["DamagedLog", "Heard", "Listener", "decoded", "ego_motion_t", "events_in", "fields_of", "names_of",
            "odometry_t", "radar_scan_t", "read_events", "read_log", "status_t"]

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A message's values and the names of its constants."""
+import functools
+
 # Members of status_t that grow: their places have the names of these constants.
 LISTS = {"counters": "COUNTER_", "figures": "FIGURE_"}
 
@@ -11,13 +13,18 @@ def names_of(kind, prefix):
             for name in dir(kind) if name.startswith(prefix)}
 
 
+@functools.cache
+def _named_places(kind, prefix):
+    return sorted(names_of(kind, prefix).items())
+
+
 def fields_of(message):
     """{name: value}, with each counter and figure of a status_t under its own name."""
     values = {}
     for name in message.__slots__:
         value = getattr(message, name)
         if name in LISTS:
-            values |= {one: value[place] for place, one in sorted(names_of(type(message), LISTS[name]).items())}
+            values |= {one: value[place] for place, one in _named_places(type(message), LISTS[name])}
         else:
             values[name] = value
     return values

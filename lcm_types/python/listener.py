@@ -91,20 +91,25 @@ class DamagedLog(ValueError):
 def read_events(path):
     """Iterates over all of such a log as (channel, received_us, payload), not decoded. Raises DamagedLog
     after what comes before the damage."""
-    at = 0
     with open(path, "rb") as log:
-        while header := log.read(28):
-            if not MAGIC_EVENT.startswith(header[:4]):
-                raise DamagedLog(f"{path}: damaged at byte {at}: no message begins there" if at else
-                                 f"{path}: is no LCM log")
-            _, received_us, channel_length, length = struct.unpack(">qqII", header[4:].ljust(24, b"\0"))
-            if channel_length > LONGEST_CHANNEL or length > LONGEST_PAYLOAD:
-                raise DamagedLog(f"{path}: damaged at byte {at}: the message there has impossible lengths")
-            event = log.read(channel_length + length)
-            if len(header) + len(event) < 28 + channel_length + length:
-                raise DamagedLog(f"{path}: ends inside a message, which begins at byte {at}")
-            at += len(header) + len(event)
-            yield event[:channel_length].decode(errors="replace"), received_us, event[channel_length:]
+        yield from events_in(log)
+
+
+def events_in(log):
+    """The same of an open file, which stands behind the payload."""
+    at, path = 0, log.name
+    while header := log.read(28):
+        if not MAGIC_EVENT.startswith(header[:4]):
+            raise DamagedLog(f"{path}: damaged at byte {at}: no message begins there" if at else
+                             f"{path}: is no LCM log")
+        _, received_us, channel_length, length = struct.unpack(">qqII", header[4:].ljust(24, b"\0"))
+        if channel_length > LONGEST_CHANNEL or length > LONGEST_PAYLOAD:
+            raise DamagedLog(f"{path}: damaged at byte {at}: the message there has impossible lengths")
+        event = log.read(channel_length + length)
+        if len(header) + len(event) < 28 + channel_length + length:
+            raise DamagedLog(f"{path}: ends inside a message, which begins at byte {at}")
+        at += len(header) + len(event)
+        yield event[:channel_length].decode(errors="replace"), received_us, event[channel_length:]
 
 
 def read_log(path):

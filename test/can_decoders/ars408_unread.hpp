@@ -8,9 +8,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "cremed/can_decoders/ars408_decoded.hpp"
 #include "cremed/can_decoders/ars408_layout.hpp"
-#include "cremed/can_decoders/ars408_messages.hpp"
-#include "cremed/can_decoders/bit_field.hpp"
 
 namespace cremed {
 namespace ars408_layout {
@@ -97,75 +96,55 @@ struct Ars408RegionState {
   std::uint8_t object_count = 0;
 };
 
-/// The payload of a message; nothing if it is too short.
-inline std::optional<PayloadBits> bits_of_unread(Ars408Message message, Ars408Bytes bytes) {
-  for (const Ars408MessageRow& row : kArs408Messages) {
-    if (row.message == message && bytes.size() >= row.length) {
-      return PayloadBits::big_endian(bytes);
-    }
-  }
-  return std::nullopt;
-}
-
 inline std::optional<Ars408ObjectExtended> decode_ars408_object_extended(Ars408Bytes bytes) {
   using namespace ars408_layout::extended;
-  const auto bits = bits_of_unread(Ars408Message::object_extended, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408ObjectExtended{.id = bits->get8(ars408_layout::kId),
-                              .ax_mps2 = kAxScale(bits->get(kAx)),
-                              .ay_mps2 = kAyScale(bits->get(kAy)),
-                              .object_class = bits->get8(kClass),
-                              .orientation_rad = kOrientationScale(bits->get(kOrientation)),
-                              .length_m = kSizeScale(bits->get(kLength)),
-                              .width_m = kSizeScale(bits->get(kWidth))};
+  return decoded(Ars408Message::object_extended, bytes, [](PayloadBits bits) {
+    return Ars408ObjectExtended{.id = bits.get8(ars408_layout::kId),
+                                .ax_mps2 = kAxScale(bits.get(kAx)),
+                                .ay_mps2 = kAyScale(bits.get(kAy)),
+                                .object_class = bits.get8(kClass),
+                                .orientation_rad = kOrientationScale(bits.get(kOrientation)),
+                                .length_m = kSizeScale(bits.get(kLength)),
+                                .width_m = kSizeScale(bits.get(kWidth))};
+  });
 }
 
 inline std::optional<Ars408ObjectWarning> decode_ars408_object_warning(Ars408Bytes bytes) {
-  const auto bits = bits_of_unread(Ars408Message::object_warning, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408ObjectWarning{.id = bits->get8(ars408_layout::kId),
-                             .regions = bits->get8(ars408_layout::warning::kRegions)};
+  return decoded(Ars408Message::object_warning, bytes, [](PayloadBits bits) {
+    return Ars408ObjectWarning{.id = bits.get8(ars408_layout::kId),
+                               .regions = bits.get8(ars408_layout::warning::kRegions)};
+  });
 }
 
 inline std::optional<Ars408FilterHeader> decode_ars408_filter_header(Ars408Bytes bytes) {
-  const auto bits = bits_of_unread(Ars408Message::filter_header, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408FilterHeader{
-      .cluster_filters = bits->get8(ars408_layout::filter_header::kClusterFilters),
-      .object_filters = bits->get8(ars408_layout::filter_header::kObjectFilters)};
+  return decoded(Ars408Message::filter_header, bytes, [](PayloadBits bits) {
+    return Ars408FilterHeader{
+        .cluster_filters = bits.get8(ars408_layout::filter_header::kClusterFilters),
+        .object_filters = bits.get8(ars408_layout::filter_header::kObjectFilters)};
+  });
 }
 
 inline std::optional<Ars408CollisionState> decode_ars408_collision_state(Ars408Bytes bytes) {
   using namespace ars408_layout::collision;
-  const auto bits = bits_of_unread(Ars408Message::collision_state, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408CollisionState{.active = bits->flag(kActive),
-                              .regions = bits->get8(kRegions),
-                              .min_detection_time_s = kTimeScale(bits->get(kMinDetectionTime)),
-                              .counter = bits->get16(kCounter)};
+  return decoded(Ars408Message::collision_state, bytes, [](PayloadBits bits) {
+    return Ars408CollisionState{.active = bits.flag(kActive),
+                                .regions = bits.get8(kRegions),
+                                .min_detection_time_s = kTimeScale(bits.get(kMinDetectionTime)),
+                                .counter = bits.get16(kCounter)};
+  });
 }
 
 inline std::optional<Ars408RegionState> decode_ars408_region_state(Ars408Bytes bytes) {
   using namespace ars408_layout::collision;
-  const auto bits = bits_of_unread(Ars408Message::region_state, bytes);
-  if (!bits) {
-    return std::nullopt;
-  }
-  return Ars408RegionState{.region_id = bits->get8(kRegionId),
-                           .warning_level = bits->get8(kWarningLevel),
-                           .x1_m = ars408_layout::general::kXScale(bits->get(kX1)),
-                           .y1_m = ars408_layout::general::kObjectYScale(bits->get(kY1)),
-                           .x2_m = ars408_layout::general::kXScale(bits->get(kX2)),
-                           .y2_m = ars408_layout::general::kObjectYScale(bits->get(kY2)),
-                           .object_count = bits->get8(kObjectCount)};
+  return decoded(Ars408Message::region_state, bytes, [](PayloadBits bits) {
+    return Ars408RegionState{.region_id = bits.get8(kRegionId),
+                             .warning_level = bits.get8(kWarningLevel),
+                             .x1_m = ars408_layout::general::kXScale(bits.get(kX1)),
+                             .y1_m = ars408_layout::general::kObjectYScale(bits.get(kY1)),
+                             .x2_m = ars408_layout::general::kXScale(bits.get(kX2)),
+                             .y2_m = ars408_layout::general::kObjectYScale(bits.get(kY2)),
+                             .object_count = bits.get8(kObjectCount)};
+  });
 }
 
 }  // namespace cremed

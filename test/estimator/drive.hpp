@@ -12,6 +12,12 @@
 
 namespace cremed::simulation {
 
+inline EgoMotionOptions options_at(const Pose2& mount) {
+  EgoMotionOptions options;
+  options.vehicle_from_radar = mount;
+  return options;
+}
+
 /// A radar that drives at constant velocity, or straight on at constant acceleration, through
 /// static points.
 class Drive {

@@ -138,6 +138,15 @@ inline RegistrationOptions paper_options() {
   return options;
 }
 
+inline RegistrationOptions paper_options(int degrees_of_freedom, bool has_doppler,
+                                         Likelihood model = Likelihood::exclusive) {
+  RegistrationOptions options = paper_options();
+  options.likelihood = model;
+  options.degrees_of_freedom = degrees_of_freedom;
+  options.doppler.enabled = has_doppler;
+  return options;
+}
+
 /// The paper's cost of two scans, with the standard deviations of the current scan times `scale`.
 inline std::unique_ptr<MixtureCost> mixture_cost(const RegistrationOptions& options,
                                                  const Pose2& mount, const TargetSet& previous,

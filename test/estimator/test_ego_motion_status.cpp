@@ -17,15 +17,10 @@ namespace {
 
 using numeric::radians;
 using simulation::Drive;
+using simulation::options_at;
 
 constexpr double kPeriod = 0.1;
 const Pose2 kFront{3.4, 0.0, 0.0};
-
-EgoMotionOptions options_at(const Pose2& mount) {
-  EgoMotionOptions options;
-  options.vehicle_from_radar = mount;
-  return options;
-}
 
 /// The motion that the estimator returns for the second of two scans.
 EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {

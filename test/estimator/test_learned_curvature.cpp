@@ -45,6 +45,8 @@ double distance_after(const Problem& problem, int steps, bool is_learning) {
   return (at - kMinimum).norm();
 }
 
+const Eigen::Matrix3d kComplete = Eigen::Matrix3d::Identity();
+
 TEST_CASE("three steps tell the curvature of three states: the fourth ends at the minimum") {
   const Problem problem;
   CHECK(distance_after(problem, 4, true) < 1e-9);
@@ -53,41 +55,37 @@ TEST_CASE("three steps tell the curvature of three states: the fourth ends at th
 
 TEST_CASE("steps are at most five times as long as those by the complete information") {
   LearnedCurvature curvature(3);
-  const Eigen::Matrix3d complete = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d step(1.0, 0.0, 0.0);
-  curvature.add(step, 0.25 * step, complete);
-  CHECK(curvature.of(complete)(0, 0) == Approx(0.25));
-  curvature.add(step, 0.15 * step, complete);
-  CHECK(curvature.of(complete) == complete);
+  curvature.add(step, 0.25 * step, kComplete);
+  CHECK(curvature.of(kComplete)(0, 0) == Approx(0.25));
+  curvature.add(step, 0.15 * step, kComplete);
+  CHECK(curvature.of(kComplete) == kComplete);
 }
 
 TEST_CASE("a gradient that changes more than expected teaches nothing") {
   LearnedCurvature curvature(3);
-  const Eigen::Matrix3d complete = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d step(0.0, 0.5, 0.1);
-  curvature.add(step, 1.5 * step, complete);
-  CHECK(curvature.of(complete) == complete);
+  curvature.add(step, 1.5 * step, kComplete);
+  CHECK(curvature.of(kComplete) == kComplete);
 }
 
 TEST_CASE("stopped, it forgets and learns no more") {
   LearnedCurvature curvature(3);
-  const Eigen::Matrix3d complete = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d step(1.0, 0.0, 0.0);
-  curvature.add(step, 0.5 * step, complete);
-  REQUIRE(curvature.of(complete)(0, 0) == Approx(0.5));
+  curvature.add(step, 0.5 * step, kComplete);
+  REQUIRE(curvature.of(kComplete)(0, 0) == Approx(0.5));
   curvature.stop();
-  CHECK(curvature.of(complete) == complete);
-  curvature.add(step, 0.5 * step, complete);
-  CHECK(curvature.of(complete) == complete);
+  CHECK(curvature.of(kComplete) == kComplete);
+  curvature.add(step, 0.5 * step, kComplete);
+  CHECK(curvature.of(kComplete) == kComplete);
 }
 
 TEST_CASE("in two degrees of freedom the gradient by y is not learned") {
   LearnedCurvature curvature(2);
-  const Eigen::Matrix3d complete = Eigen::Matrix3d::Identity();
-  curvature.add({1.0, 0.0, 0.0}, {0.5, 7.0, 0.0}, complete);
-  Eigen::Matrix3d expected = complete;
+  curvature.add({1.0, 0.0, 0.0}, {0.5, 7.0, 0.0}, kComplete);
+  Eigen::Matrix3d expected = kComplete;
   expected(0, 0) = 0.5;
-  CHECK(curvature.of(complete).isApprox(expected));
+  CHECK(curvature.of(kComplete).isApprox(expected));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace {
 using numeric::radians;
 using simulation::Detections;
 using simulation::Noise;
+using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
 using simulation::uniform;
@@ -26,15 +27,6 @@ using simulation::uniform;
 constexpr double kDt = 0.2;
 
 constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
-
-RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               Likelihood model = Likelihood::exclusive) {
-  RegistrationOptions options = simulation::paper_options();
-  options.likelihood = model;
-  options.degrees_of_freedom = degrees_of_freedom;
-  options.doppler.enabled = has_doppler;
-  return options;
-}
 
 RegistrationResult solve(const RegistrationOptions& options, const Pose2& mount,
                          const Detections& previous, const Detections& current) {
@@ -128,7 +120,7 @@ void for_all_regimes(const Check& check) {
             if (degrees_of_freedom == 3 && model == Likelihood::exclusive) {
               set_doppler(current, half_way(regime.motion) / kDt, mount);
             }
-            check(options_of(degrees_of_freedom, has_doppler, model), mount, previous, current,
+            check(paper_options(degrees_of_freedom, has_doppler, model), mount, previous, current,
                   regime.motion);
           }
         }
@@ -192,7 +184,7 @@ TEST_CASE("targets far apart have the covariance of known correspondences") {
   }
   const Eigen::Matrix3d expected = information.inverse();
   for (const Likelihood model : kModels) {
-    RegistrationOptions options = options_of(3, false, model);
+    RegistrationOptions options = paper_options(3, false, model);
     options.outlier_ray.weight = 0.0;
     const Eigen::Matrix3d actual = solve(options, {}, scan, scan).covariance;
     CHECK((actual - expected).norm() < 1e-6 * expected.norm());
@@ -215,7 +207,7 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
         const Eigen::Vector3d at{uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5),
                                  uniform(random, -0.1, 0.1)};
         for (const double scale : {1.0, 5.0}) {
-          const auto cost = simulation::mixture_cost(options_of(3, has_doppler), mount, previous,
+          const auto cost = simulation::mixture_cost(paper_options(3, has_doppler), mount, previous,
                                                      current, kDt, scale);
           const Eigen::Vector3d expected = numeric::central_differences(
               at, 1e-6, [&](const Eigen::Vector3d& m) { return cost->linearise({m}).cost; });
@@ -230,7 +222,7 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
 
 TEST_CASE("the scale of the first stage widens the current scan only") {
   const Points points = {{10.0, 3.0}, {30.0, -8.0}, {18.0, 15.0}};
-  RegistrationOptions options = options_of(3, false);
+  RegistrationOptions options = paper_options(3, false);
   options.outlier_ray.weight = 0.0;
   const Detections scan =
       isotropic(simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, {}), 0.1);
@@ -256,7 +248,7 @@ TEST_CASE("swapped scans give the inverse motion") {
     simulation::perturb(a, random);
     simulation::perturb(b, random);
     for (const Likelihood model : kModels) {
-      const RegistrationOptions options = options_of(3, false, model);
+      const RegistrationOptions options = paper_options(3, false, model);
       const RegistrationResult there = solve(options, mount, a, b);
       const RegistrationResult back = solve(options, mount, b, a);
       const Eigen::Vector3d error = simulation::inverse(back.motion) - there.motion;

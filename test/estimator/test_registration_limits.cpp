@@ -19,6 +19,7 @@ using numeric::kInfinity;
 using numeric::kNan;
 using numeric::radians;
 using simulation::Detections;
+using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
 using simulation::uniform;
@@ -26,15 +27,6 @@ using simulation::uniform;
 constexpr double kDt = 0.2;
 
 constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
-
-RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               Likelihood model = Likelihood::exclusive) {
-  RegistrationOptions options = simulation::paper_options();
-  options.likelihood = model;
-  options.degrees_of_freedom = degrees_of_freedom;
-  options.doppler.enabled = has_doppler;
-  return options;
-}
 
 RegistrationResult solve(const RegistrationOptions& options, const Detections& previous,
                          const Detections& current, double dt_s = kDt) {
@@ -56,7 +48,7 @@ TEST_CASE("targets in one place do not observe three states") {
     const Points many(static_cast<std::size_t>(1 + i % 20), one[0]);
     for (const double weight : {0.0, 0.2}) {
       for (const Likelihood model : kModels) {
-        RegistrationOptions options = options_of(3, i % 2 == 0, model);
+        RegistrationOptions options = paper_options(3, i % 2 == 0, model);
         options.outlier_ray.weight = weight;
         const RegistrationResult result =
             solve(options, see(many, kStill), see(many, {0.1, 0.0, 0.01}));
@@ -74,7 +66,7 @@ TEST_CASE("without targets nothing is observable") {
   const Points some = {{10.0, 1.0}, {20.0, -4.0}};
   for (const Likelihood model : kModels) {
     for (const int degrees_of_freedom : {2, 3}) {
-      RegistrationOptions options = options_of(degrees_of_freedom, true, model);
+      RegistrationOptions options = paper_options(degrees_of_freedom, true, model);
       CHECK(solve(options, see(some, kStill), {}).status == RegistrationStatus::degenerate);
       // Not evaluated: no_convergence is also correct.
       options.max_iterations = 0;
@@ -109,7 +101,7 @@ TEST_CASE("few targets and targets in a line are solved within their covariance"
       simulation::perturb(previous, random);
       simulation::perturb(current, random);
       const RegistrationResult result =
-          solve(options_of(row.degrees_of_freedom, true), previous, current);
+          solve(paper_options(row.degrees_of_freedom, true), previous, current);
       REQUIRE(result.status == RegistrationStatus::converged);
       const double limit = row.degrees_of_freedom == 2 ? 9.21 : 11.34;  // 99 %
       inside += numeric::normalised_error(result.motion - motion, result.covariance,
@@ -148,7 +140,7 @@ TEST_CASE("converged means that the next step is within the tolerance") {
   for (const Likelihood model : kModels) {
     for (const double weight : {0.0, 0.2}) {
       Random random(5);
-      RegistrationOptions options = options_of(2, false, model);
+      RegistrationOptions options = paper_options(2, false, model);
       options.outlier_ray.weight = weight;
       double largest = 0.0;
       for (int i = 0; i < 200; ++i) {
@@ -178,8 +170,8 @@ int count_unseen(Likelihood model, bool is_previous) {
   const Detections current = see(points, {0.2, 0.0, 0.02});
   const auto is_seen = [&](const Detections& broken) {
     const RegistrationResult result = is_previous
-                                          ? solve(options_of(2, true, model), broken, current)
-                                          : solve(options_of(2, true, model), previous, broken);
+                                          ? solve(paper_options(2, true, model), broken, current)
+                                          : solve(paper_options(2, true, model), previous, broken);
     return result.status == RegistrationStatus::non_finite;
   };
   int unseen = 0;
@@ -214,7 +206,7 @@ TEST_CASE("a NaN time ends as non_finite") {
   const Points points = simulation::scatter(random, 12, 5.0, 30.0, radians(40.0), 3.0);
   for (const Likelihood model : kModels) {
     for (const double dt_s : {kNan, kInfinity}) {
-      CHECK(solve(options_of(2, true, model), see(points, kStill), see(points, {0.2, 0.0, 0.02}),
+      CHECK(solve(paper_options(2, true, model), see(points, kStill), see(points, {0.2, 0.0, 0.02}),
                   dt_s)
                 .status == RegistrationStatus::non_finite);
     }
@@ -226,7 +218,7 @@ TEST_CASE("reaching the limit on steps is no convergence; steps count over both 
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 3.0);
   const Detections previous = see(points, kStill);
   const Detections current = see(points, {0.4, 0.0, radians(10.0)});
-  RegistrationOptions options = options_of(2, true);
+  RegistrationOptions options = paper_options(2, true);
   options.max_iterations = 1;
   options.step_tolerance = 1e-12;
   const RegistrationResult stopped = solve(options, previous, current);
@@ -236,7 +228,7 @@ TEST_CASE("reaching the limit on steps is no convergence; steps count over both 
   CHECK(stopped.covariance(0, 0) > 0.0);
   options.start_scale = 1.0;
   CHECK(solve(options, previous, current).iterations == 1);
-  const RegistrationResult free = solve(options_of(2, true), previous, current);
+  const RegistrationResult free = solve(paper_options(2, true), previous, current);
   CHECK(free.status == RegistrationStatus::converged);
   CHECK(free.iterations > 2);
 }
@@ -246,7 +238,7 @@ TEST_CASE("of several starts the one with the lowest cost is used, in any order"
   const Points points = simulation::scatter(random, 40, 5.0, 60.0, radians(50.0), 1.0);
   const Eigen::Vector3d motion(8.0, 0.0, 0.02);
   const TargetSet current = simulation::targets(see(points, motion), {});
-  Registration registration(options_of(2, true), {});
+  Registration registration(paper_options(2, true), {});
   registration.set_previous(simulation::targets(see(points, kStill), {}));
   const auto is_found = [&](const RegistrationResult& result) {
     return result.status == RegistrationStatus::converged && (result.motion - motion).norm() < 0.01;
@@ -266,7 +258,7 @@ TEST_CASE("a prediction in the right basin needs no first stage") {
   const Points points = simulation::scatter(random, 40, 5.0, 60.0, radians(50.0), 1.0);
   const Eigen::Vector3d motion(0.8, 0.0, 0.02);
   const TargetSet current = simulation::targets(see(points, motion), {});
-  Registration registration(options_of(2, true), {});
+  Registration registration(paper_options(2, true), {});
   registration.set_previous(simulation::targets(see(points, kStill), {}));
   const std::array starts{kStill};
   const Eigen::Vector3d limits(0.1, 0.1, 0.05);
@@ -303,7 +295,7 @@ TEST_CASE("few matches are searched for from other yaw angles, unless the motion
   after.insert(after.end(), seen_twice.begin(), seen_twice.end());
   const Eigen::Vector3d motion(0.8, 0.0, 0.02);
   const TargetSet current = simulation::targets(see(after, motion), {});
-  Registration registration(options_of(2, true), {});
+  Registration registration(paper_options(2, true), {});
   registration.set_previous(simulation::targets(see(before, kStill), {}));
   const std::array starts{kStill};
   const Eigen::Vector3d limits(0.1, 0.1, 0.05);
@@ -319,7 +311,7 @@ TEST_CASE("an exact start takes no step") {
   const Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 6.0);
   const TargetSet targets = simulation::targets(see(points, kStill), {});
   for (const double start_scale : {1.0, 6.0}) {
-    RegistrationOptions options = options_of(3, true);
+    RegistrationOptions options = paper_options(3, true);
     options.start_scale = start_scale;
     options.start_doppler_scale = 2.0;
     Registration registration(options, {});

@@ -15,20 +15,12 @@ namespace {
 
 using numeric::radians;
 using simulation::Detections;
+using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
 using simulation::uniform;
 
 constexpr double kDt = 0.2;
-
-RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler,
-                               Likelihood model = Likelihood::exclusive) {
-  RegistrationOptions options = simulation::paper_options();
-  options.likelihood = model;
-  options.degrees_of_freedom = degrees_of_freedom;
-  options.doppler.enabled = has_doppler;
-  return options;
-}
 
 RegistrationResult solve(const RegistrationOptions& options, const Detections& previous,
                          const Detections& current) {
@@ -58,7 +50,7 @@ TEST_CASE("with max_sum_mixture Doppler gives the speed without a common place")
   for (int i = 0; i < 50; ++i) {
     const Strangers scans(random);
     const Eigen::Vector3d motion(uniform(random, -1.0, 1.0), 0.0, radians(4.0));
-    const RegistrationResult result = solve(options_of(2, true, Likelihood::max_sum_mixture),
+    const RegistrationResult result = solve(paper_options(2, true, Likelihood::max_sum_mixture),
                                             see(scans.near, kStill), see(scans.far, motion));
     const double sigma_m = std::sqrt(result.covariance(0, 0));
     CHECK(sigma_m < 0.05);
@@ -73,7 +65,7 @@ TEST_CASE("without a common place there is no motion, even with Doppler") {
     const Eigen::Vector3d motion(uniform(random, -1.0, 1.0), 0.0, radians(4.0));
     for (const bool has_doppler : {false, true}) {
       const RegistrationResult result =
-          solve(options_of(2, has_doppler), see(scans.near, kStill), see(scans.far, motion));
+          solve(paper_options(2, has_doppler), see(scans.near, kStill), see(scans.far, motion));
       CAPTURE(i, has_doppler);
       // Without Doppler the first stage may jump to the other place.
       const bool is_honest = result.status == RegistrationStatus::degenerate ||
@@ -88,7 +80,7 @@ TEST_CASE("the first stage widens Doppler by both scales") {
   const Strangers scans(random);
   const Eigen::Vector3d motion(1.4, 0.0, 0.0);
   const auto is_found = [&](double start_doppler_scale) {
-    RegistrationOptions options = options_of(2, true, Likelihood::max_sum_mixture);
+    RegistrationOptions options = paper_options(2, true, Likelihood::max_sum_mixture);
     options.start_doppler_scale = start_doppler_scale;
     const RegistrationResult result =
         solve(options, see(scans.near, kStill), see(scans.far, motion));
@@ -120,7 +112,7 @@ TEST_CASE("scans of different places do not give a confident turn") {
       const Points here = simulation::scatter(random, 20, 2.5, 37.5, radians(40.0), 0.0);
       const Points there = simulation::scatter(random, 20, 2.5, 37.5, radians(40.0), 0.0);
       const Eigen::Vector3d motion(0.2, 0.0, radians(uniform(random, -3.0, 3.0)));
-      RegistrationOptions options = options_of(row.degrees_of_freedom, row.has_doppler);
+      RegistrationOptions options = paper_options(row.degrees_of_freedom, row.has_doppler);
       options.outlier_ray.weight = row.weight;
       const RegistrationResult result = solve(options, see(here, kStill), see(there, motion));
       const double sigma_rad = std::sqrt(result.covariance(2, 2));

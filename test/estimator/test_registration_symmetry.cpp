@@ -40,13 +40,6 @@ ScanPair random_pair(Random& random, double bound_m) {
   return pair;
 }
 
-RegistrationOptions options_of(int degrees_of_freedom, bool has_doppler) {
-  RegistrationOptions options = simulation::paper_options();
-  options.degrees_of_freedom = degrees_of_freedom;
-  options.doppler.enabled = has_doppler;
-  return options;
-}
-
 std::unique_ptr<Registration> prepare(const RegistrationOptions& options, const Pose2& mount,
                                       const Detections& previous) {
   auto registration = std::make_unique<Registration>(options, mount);
@@ -77,7 +70,7 @@ TEST_CASE("the motion of another point of the vehicle follows from the mount") {
     const ScanPair pair = random_pair(random, 0.3);
     const Pose2 mount{uniform(random, -1.0, 4.0), uniform(random, -1.0, 1.0),
                       uniform(random, -3.1, 3.1)};
-    const RegistrationOptions options = options_of(3, false);
+    const RegistrationOptions options = simulation::paper_options(3, false);
     const RegistrationResult at_radar = solve(options, {}, pair);
     const RegistrationResult at_vehicle = solve(options, mount, pair);
     // T m T^-1, m being the radar's motion and T the mount.
@@ -96,8 +89,9 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
   for (int i = 0; i < 20; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
     const double turn_rad = uniform(random, -3.1, 3.1);
-    const RegistrationResult straight = solve(options_of(3, true), {}, pair);
-    const RegistrationResult turned = solve(options_of(3, true), {0.0, 0.0, turn_rad}, pair);
+    const RegistrationResult straight = solve(simulation::paper_options(3, true), {}, pair);
+    const RegistrationResult turned =
+        solve(simulation::paper_options(3, true), {0.0, 0.0, turn_rad}, pair);
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     CHECK((turned.motion - rotation * straight.motion).norm() < 1e-9);
@@ -119,7 +113,7 @@ TEST_CASE("mirrored scans give the mirrored motion") {
   };
   const Eigen::Vector3d sign(1.0, -1.0, -1.0);
   for (const int degrees_of_freedom : {2, 3}) {
-    const RegistrationOptions options = options_of(degrees_of_freedom, true);
+    const RegistrationOptions options = simulation::paper_options(degrees_of_freedom, true);
     for (int i = 0; i < 10; ++i) {
       const ScanPair pair = random_pair(random, 0.3);
       const RegistrationResult direct = solve(options, {3.0, 0.7, 0.4}, pair);
@@ -136,10 +130,10 @@ TEST_CASE("the order of the targets changes rounding only") {
   Random random(4);
   for (int i = 0; i < 10; ++i) {
     ScanPair pair = random_pair(random, 0.3);
-    const RegistrationResult before = solve(options_of(3, true), {}, pair);
+    const RegistrationResult before = solve(simulation::paper_options(3, true), {}, pair);
     std::shuffle(pair.previous.begin(), pair.previous.end(), random);
     std::shuffle(pair.current.begin(), pair.current.end(), random);
-    const RegistrationResult after = solve(options_of(3, true), {}, pair);
+    const RegistrationResult after = solve(simulation::paper_options(3, true), {}, pair);
     CHECK((after.motion - before.motion).norm() < 1e-9);
     CHECK((after.covariance - before.covariance).norm() < 1e-9 * before.covariance.norm());
   }
@@ -152,10 +146,10 @@ TEST_CASE("the same input gives bit-identical results, independent of earlier ca
     ScanPair other = random_pair(random, 0.5);
     other.previous.insert(other.previous.end(), pair.current.begin(), pair.current.end());
     const TargetSet current = simulation::targets(pair.current, {});
-    const auto used = prepare(options_of(2, true), {}, pair.previous);
+    const auto used = prepare(simulation::paper_options(2, true), {}, pair.previous);
     const RegistrationResult first = used->solve(current, kDt);
     CHECK(is_identical(first, used->solve(current, kDt)));
-    CHECK(is_identical(first, solve(options_of(2, true), {}, pair)));
+    CHECK(is_identical(first, solve(simulation::paper_options(2, true), {}, pair)));
 
     Detections broken = other.current;
     broken[0].range_m = numeric::kNan;
@@ -173,7 +167,7 @@ TEST_CASE("the solution on a mixture is a minimum of linearise") {
   for (int i = 0; i < 20; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
     const TargetSet current = simulation::targets(pair.current, {});
-    RegistrationOptions options = options_of(3, true);
+    RegistrationOptions options = simulation::paper_options(3, true);
     options.likelihood = Likelihood::max_sum_mixture;
     const auto registration = prepare(options, {}, pair.previous);
     const RegistrationResult result = registration->solve(current, kDt);

@@ -13,15 +13,10 @@ namespace cremed {
 namespace {
 
 using simulation::Drive;
+using simulation::options_at;
 
 constexpr double kPeriod = 0.1;
 const Pose2 kFront{3.4, 0.0, 0.0};
-
-EgoMotionOptions options_at(const Pose2& mount) {
-  EgoMotionOptions options;
-  options.vehicle_from_radar = mount;
-  return options;
-}
 
 /// One radar that sees the targets of two drives.
 RadarScan both(RadarScan scan, const RadarScan& other) {

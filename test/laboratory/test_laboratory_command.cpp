@@ -111,11 +111,7 @@ TEST_CASE("cremed-eval says what is wrong") {
       Refusal{"pairs PAIRS --profile sim --plot /no/such/folder/a.png", 1, "cannot write"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
-  std::string arguments = row.arguments;
-  if (const auto place = arguments.find("PAIRS"); place != std::string::npos) {
-    arguments.replace(place, 5, write_pairs(folder));
-  }
-  check(run(folder, arguments), row);
+  check(run(folder, with_file(row.arguments, "PAIRS", write_pairs(folder))), row);
 }
 
 TEST_CASE("cremed-eval pairs hands no name's commands on to the terminal") {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -23,9 +22,14 @@ std::string write_configuration(const TemporaryFolder& folder, const std::string
   return folder.file(name);
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream input(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+/// The log of a simulated drive with bends.
+std::string write_log(const TemporaryFolder& folder, const std::string& config, int duration_s) {
+  const std::string log = folder.file("drive.log");
+  REQUIRE(run_tool("cremed-simulate", folder,
+                   "--scenario bends --duration " + std::to_string(duration_s) + " --config " +
+                       config + " --output " + log)
+              .status == 0);
+  return log;
 }
 
 TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
@@ -35,10 +39,7 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   const std::string wrong = write_configuration(
       folder, "wrong.toml",
       "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 }\ncalibration.doppler_std_factor = 0.5");
-  const std::string log = folder.file("drive.log");
-  REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration 30 --config " + right + " --output " + log)
-              .status == 0);
+  const std::string log = write_log(folder, right, 30);
   const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
@@ -48,14 +49,14 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
         "azimuth scale ", "in the frame of the configured ones"}) {
     CHECK_THAT(result.error, Catch::Contains(words));
   }
-  const std::string before = text_of(wrong);
+  const std::string before = content(wrong);
   for (const std::string& pasted : {before + result.output, result.output + before}) {
     const RadarConfiguration found = parse_configuration(pasted, "calibrated").radars.at(0);
     CHECK(found.ego_motion.vehicle_from_radar.x_m == 3.4);
     CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.1).margin(0.008));
     CHECK(found.ego_motion.correction.doppler_std_factor == Approx(1.0).margin(0.15));
   }
-  CHECK(text_of(wrong) == before);
+  CHECK(content(wrong) == before);
 }
 
 TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") {
@@ -64,34 +65,28 @@ TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") 
       write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
   const std::string mount = "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 } # by tape\n";
   const std::string file = write_configuration(folder, "c.toml", mount);
-  const std::string log = folder.file("drive.log");
-  REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration 15 --config " + right + " --output " + log)
-              .status == 0);
+  const std::string log = write_log(folder, right, 15);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
-  CHECK_THAT(text_of(file),
+  CHECK_THAT(content(file),
              Catch::StartsWith(kHead + "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = "));
-  CHECK_THAT(text_of(file), Catch::Contains(" } # by tape\n"));
+  CHECK_THAT(content(file), Catch::Contains(" } # by tape\n"));
   CHECK_THAT(result.error, Catch::Contains("checked on each fifth of the drive"));
   const auto yaw_rad = [](const std::string& text) {
     return parse_configuration(text, "c").radars.at(0).ego_motion.vehicle_from_radar.yaw_rad;
   };
-  CHECK(yaw_rad(text_of(file)) == yaw_rad(kHead + mount + result.output));
-  CHECK(yaw_rad(text_of(file)) == Approx(0.1).margin(0.01));
+  CHECK(yaw_rad(content(file)) == yaw_rad(kHead + mount + result.output));
+  CHECK(yaw_rad(content(file)) == Approx(0.1).margin(0.01));
 }
 
 TEST_CASE("cremed-eval calibrate refuses what fits the rest of the drive no better") {
   const TemporaryFolder folder;
   const std::string file =
       write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
-  const std::string log = folder.file("drive.log");
-  REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration 15 --config " + file + " --output " + log)
-              .status == 0);
-  const std::string before = text_of(file);
+  const std::string log = write_log(folder, file, 15);
+  const std::string before = content(file);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
   CAPTURE(result.error, result.output);
@@ -100,7 +95,7 @@ TEST_CASE("cremed-eval calibrate refuses what fits the rest of the drive no bett
   CHECK_THAT(result.error,
              Catch::Contains("scans: what was found fits other parts of the drive no better\n"));
   CHECK_THAT(result.error, Catch::Contains(" kept 5.73\n"));
-  CHECK(text_of(file) == before);
+  CHECK(content(file) == before);
 }
 
 TEST_CASE("cremed-eval calibrate finds the same yaw, however often its angle went around") {
@@ -109,15 +104,12 @@ TEST_CASE("cremed-eval calibrate finds the same yaw, however often its angle wen
       write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.03 }");
   const std::string around = write_configuration(
       folder, "around.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 6.283 }");
-  const std::string log = folder.file("drive.log");
-  REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration 15 --config " + right + " --output " + log)
-              .status == 0);
+  const std::string log = write_log(folder, right, 15);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + around);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
-  for (const std::string& text : {text_of(around), text_of(right) + result.output}) {
+  for (const std::string& text : {content(around), content(right) + result.output}) {
     const RadarConfiguration found = parse_configuration(text, "calibrated").radars.at(0);
     CHECK(found.ego_motion.vehicle_from_radar.yaw_rad == Approx(0.03).margin(0.01));
   }
@@ -134,13 +126,9 @@ TEST_CASE("cremed-eval calibrate says what is wrong") {
       Refusal{"calibrate /dev/null --config CONFIG --truth /no/such.csv", 1, "/no/such.csv"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
-  std::string arguments = row.arguments;
-  if (const auto place = arguments.find("CONFIG"); place != std::string::npos) {
-    arguments.replace(
-        place, 6,
-        write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }"));
-  }
-  check(run_tool("cremed-eval", folder, arguments), row);
+  const std::string file =
+      write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
+  check(run_tool("cremed-eval", folder, with_file(row.arguments, "CONFIG", file)), row);
 }
 
 }  // namespace

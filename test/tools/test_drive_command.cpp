@@ -266,11 +266,7 @@ TEST_CASE("cremed-eval drive says what is wrong") {
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   write_drive(folder, {"front"});
-  std::string arguments = row.arguments;
-  for (std::size_t place = 0; (place = arguments.find("TRUTH")) != std::string::npos;) {
-    arguments.replace(place, 5, folder.file("truth.csv"));
-  }
-  check(run(folder, "drive " + arguments), row);
+  check(run(folder, "drive " + with_file(row.arguments, "TRUTH", folder.file("truth.csv"))), row);
 }
 
 TEST_CASE(

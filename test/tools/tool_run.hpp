@@ -61,6 +61,16 @@ struct Refusal {
   std::string message;
 };
 
+/// `text` with a file's name at each place of its stand-in.
+inline std::string with_file(std::string text, const std::string& stand_in,
+                             const std::string& file) {
+  for (std::size_t place = 0; (place = text.find(stand_in, place)) != std::string::npos;
+       place += file.size()) {
+    text.replace(place, stand_in.size(), file);
+  }
+  return text;
+}
+
 inline void check(const ToolRun& run, const Refusal& refusal) {
   CAPTURE(run.error);
   CHECK(run.status == refusal.status);

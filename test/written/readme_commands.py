@@ -86,7 +86,8 @@ def other_lines():
 
 def vehicle_steps():
     """The numbered steps only: examples follow them."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    section = text.split("## On your vehicle\n")[1].split("\n\n")[0]
-    return [command for command in commands_in("README.md", "On your vehicle", section)
+    document, heading = "systemd/README.md", "On your vehicle"
+    text = (ROOT / document).read_text(encoding="utf-8")
+    section = text.split(f"## {heading}\n")[1].split("\n\n")[0]
+    return [command for command in commands_in(document, heading, section)
             if not command.options_only]

@@ -63,19 +63,13 @@ void select(const std::string& wanted, Configuration& configuration) {
   }
 }
 
-std::unique_ptr<RecordWriter> make_writer(const Arguments& arguments) {
-  const RecordOptions options{!arguments.without_targets, is_pipe(arguments.log)};
-  if (arguments.is_json) {
-    return std::make_unique<JsonRecords>(std::cout, options);
-  }
-  return std::make_unique<TextRecords>(std::cout, options);
-}
-
 /// Reads the log once; without a configuration, its head tells the radars.
 class Dump {
  public:
   explicit Dump(const Arguments& arguments)
-      : arguments_(arguments), writer_(make_writer(arguments)) {
+      : arguments_(arguments),
+        writer_(make_record_writer(
+            std::cout, {arguments.is_json, !arguments.without_targets, is_pipe(arguments.log)})) {
     if (const auto configuration = configuration_of(arguments)) {
       begin(*configuration);
     }

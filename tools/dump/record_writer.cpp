@@ -96,6 +96,86 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+class TextRecords final : public RecordWriter {
+ public:
+  using RecordWriter::RecordWriter;
+
+  void scan(const std::string& interface, const std::string& radar,
+            const RadarScan& scan) override {
+    TextLine line = line_at(scan.stamp_us, printable(interface));
+    line.text(radar).text(" scan ").integer(scan.counter).text(" ").text(name(scan.status));
+    line.text(", ").integer(scan.count).text(" of ").integer(scan.announced).text(" targets");
+    out() << line.view();
+    for (std::size_t i = 0; with_targets() && i < scan.count; ++i) {
+      TextLine target;
+      add_target(target, scan.detections[i]);
+      out() << '\n' << target.view();
+    }
+    end_record();
+  }
+
+  void reading(const std::string& interface, std::uint32_t id,
+               const VehicleReading& reading) override {
+    TextLine line = line_at(reading.stamp_us, printable(interface));
+    line.text(hexadecimal(id));
+    if (reading.signal == VehicleSignal::speed) {
+      line.text(" speed ").fixed(reading.value, 2).text(" m/s");
+    } else {
+      line.text(" yaw rate ").fixed(kDegPerRad * reading.value, 2).text(" deg/s");
+    }
+    out() << line.view();
+    end_record();
+  }
+
+  void lost(const std::string& interface, std::uint64_t frames) override {
+    out() << printable(interface) << " lost " << counted(frames, "frame");
+    end_record();
+  }
+};
+
+class JsonRecords final : public RecordWriter {
+ public:
+  using RecordWriter::RecordWriter;
+
+  void scan(const std::string& interface, const std::string& radar,
+            const RadarScan& scan) override {
+    TextLine line;
+    line.text("{\"type\":\"scan\",\"utime\":").integer(scan.stamp_us);
+    add_name(line, "radar", radar);
+    line.text(",\"interface\":").text(quoted(interface));
+    line.text(",\"counter\":").integer(scan.counter);
+    add_name(line, "status", name(scan.status));
+    line.text(",\"announced\":").integer(scan.announced).text(",\"count\":").integer(scan.count);
+    out() << line.view();
+    if (with_targets()) {
+      out() << ",\"targets\":[";
+      for (std::size_t i = 0; i < scan.count; ++i) {
+        out() << (i == 0 ? "" : ",") << target_json(scan.detections[i]).view();
+      }
+      out() << ']';
+    }
+    out() << '}';
+    end_record();
+  }
+
+  void reading(const std::string& interface, std::uint32_t id,
+               const VehicleReading& reading) override {
+    TextLine line;
+    line.text("{\"type\":\"vehicle\",\"utime\":").integer(reading.stamp_us);
+    line.text(",\"interface\":").text(quoted(interface)).text(",\"id\":").integer(id);
+    add_key(line, reading.signal == VehicleSignal::speed ? "speed_mps" : "yaw_rate_radps",
+            reading.value, 6);
+    out() << line.view() << '}';
+    end_record();
+  }
+
+  void lost(const std::string& interface, std::uint64_t frames) override {
+    out() << R"({"type":"lost","interface":)" << quoted(interface) << ",\"frames\":" << frames
+          << '}';
+    end_record();
+  }
+};
+
 }  // namespace
 
 void RecordWriter::end_record() {
@@ -105,73 +185,11 @@ void RecordWriter::end_record() {
   }
 }
 
-void TextRecords::scan(const std::string& interface, const std::string& radar,
-                       const RadarScan& scan) {
-  TextLine line = line_at(scan.stamp_us, printable(interface));
-  line.text(radar).text(" scan ").integer(scan.counter).text(" ").text(name(scan.status));
-  line.text(", ").integer(scan.count).text(" of ").integer(scan.announced).text(" targets");
-  out() << line.view();
-  for (std::size_t i = 0; with_targets() && i < scan.count; ++i) {
-    TextLine target;
-    add_target(target, scan.detections[i]);
-    out() << '\n' << target.view();
+std::unique_ptr<RecordWriter> make_record_writer(std::ostream& out, const RecordOptions& options) {
+  if (options.is_json) {
+    return std::make_unique<JsonRecords>(out, options);
   }
-  end_record();
-}
-
-void TextRecords::reading(const std::string& interface, std::uint32_t id,
-                          const VehicleReading& reading) {
-  TextLine line = line_at(reading.stamp_us, printable(interface));
-  line.text(hexadecimal(id));
-  if (reading.signal == VehicleSignal::speed) {
-    line.text(" speed ").fixed(reading.value, 2).text(" m/s");
-  } else {
-    line.text(" yaw rate ").fixed(kDegPerRad * reading.value, 2).text(" deg/s");
-  }
-  out() << line.view();
-  end_record();
-}
-
-void TextRecords::lost(const std::string& interface, std::uint64_t frames) {
-  out() << printable(interface) << " lost " << counted(frames, "frame");
-  end_record();
-}
-
-void JsonRecords::scan(const std::string& interface, const std::string& radar,
-                       const RadarScan& scan) {
-  TextLine line;
-  line.text("{\"type\":\"scan\",\"utime\":").integer(scan.stamp_us);
-  add_name(line, "radar", radar);
-  line.text(",\"interface\":").text(quoted(interface));
-  line.text(",\"counter\":").integer(scan.counter);
-  add_name(line, "status", name(scan.status));
-  line.text(",\"announced\":").integer(scan.announced).text(",\"count\":").integer(scan.count);
-  out() << line.view();
-  if (with_targets()) {
-    out() << ",\"targets\":[";
-    for (std::size_t i = 0; i < scan.count; ++i) {
-      out() << (i == 0 ? "" : ",") << target_json(scan.detections[i]).view();
-    }
-    out() << ']';
-  }
-  out() << '}';
-  end_record();
-}
-
-void JsonRecords::reading(const std::string& interface, std::uint32_t id,
-                          const VehicleReading& reading) {
-  TextLine line;
-  line.text("{\"type\":\"vehicle\",\"utime\":").integer(reading.stamp_us);
-  line.text(",\"interface\":").text(quoted(interface)).text(",\"id\":").integer(id);
-  add_key(line, reading.signal == VehicleSignal::speed ? "speed_mps" : "yaw_rate_radps",
-          reading.value, 6);
-  out() << line.view() << '}';
-  end_record();
-}
-
-void JsonRecords::lost(const std::string& interface, std::uint64_t frames) {
-  out() << R"({"type":"lost","interface":)" << quoted(interface) << ",\"frames\":" << frames << '}';
-  end_record();
+  return std::make_unique<TextRecords>(out, options);
 }
 
 }  // namespace cremed

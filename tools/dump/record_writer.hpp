@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <ostream>
 #include <string>
 
@@ -12,6 +13,7 @@
 namespace cremed {
 
 struct RecordOptions {
+  bool is_json = false;  ///< An object a line. SI units, radians, microseconds.
   bool with_targets = true;
   bool is_live = false;  ///< Someone waits for each record.
 };
@@ -41,24 +43,7 @@ class RecordWriter {
   RecordOptions options_;
 };
 
-/// A line a record, and one a target below it; stamps as candump writes them.
-class TextRecords final : public RecordWriter {
- public:
-  using RecordWriter::RecordWriter;
-  void scan(const std::string& interface, const std::string& radar, const RadarScan& scan) override;
-  void reading(const std::string& interface, std::uint32_t id,
-               const VehicleReading& reading) override;
-  void lost(const std::string& interface, std::uint64_t frames) override;
-};
-
-/// A JSON object a line. SI units, radians, microseconds.
-class JsonRecords final : public RecordWriter {
- public:
-  using RecordWriter::RecordWriter;
-  void scan(const std::string& interface, const std::string& radar, const RadarScan& scan) override;
-  void reading(const std::string& interface, std::uint32_t id,
-               const VehicleReading& reading) override;
-  void lost(const std::string& interface, std::uint64_t frames) override;
-};
+/// As text: a line a record, and one a target below it; stamps as candump writes them.
+std::unique_ptr<RecordWriter> make_record_writer(std::ostream& out, const RecordOptions& options);
 
 }  // namespace cremed

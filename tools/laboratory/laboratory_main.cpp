@@ -122,13 +122,13 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       "Folder with drives from cremed-convert nuscenes: the paper's real problems in place of the "
       "simulated ones, with a simulated mobile robot");
   cremed::add_truth_std(*command, arguments.truth_noise)->needs(real);
-  CLI::Option* drives = command->add_option(
-      "--drives", arguments.drives,
-      "Folder with the project's recorded drives: the READMEs' tables of them, from the odometry "
-      "with the configurations in config/; run in the project's folder");
+  CLI::Option* drives =
+      command->add_option("--drives", arguments.drives,
+                          "Folder with the project's recorded drives: the tables of them in "
+                          "tools/eval/README.md, from the odometry "
+                          "with the configurations in config/; run in the project's folder");
   drives->excludes(real);
-  command->add_flag("--write", arguments.write, "Write these tables into the READMEs")
-      ->needs(drives);
+  command->add_flag("--write", arguments.write, "Write these tables there")->needs(drives);
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
       ->excludes(drives)
       ->excludes(real)

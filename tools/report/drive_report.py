@@ -5,7 +5,9 @@ import bisect
 import collections
 import math
 
+import availability
 import cremed
+from findings import GOOD
 from thinning import extremes, rounded, runs
 
 DEG_PER_RAD = 180 / math.pi
@@ -14,8 +16,11 @@ ODOMETRY_STATUSES = cremed.names_of(cremed.odometry_t, "STATUS_")
 DOUBTS = cremed.names_of(cremed.status_t, "DOUBT_")
 FAULTS = cremed.names_of(cremed.status_t, "FAULT_")
 CAUSES = cremed.names_of(cremed.status_t, "CAUSE_")
+SILENT = "silent"  # Among the statuses over time.
 # Of status_t, by time. 0: nothing to compare yet.
 NIS = ("nis_doppler", "nis_next", "odometry_nis_doppler", "odometry_nis_lateral", "odometry_nis_yaw")
+# A shorter one is a lost scan or two.
+LONG_SILENCE_US = 500_000
 COUNTERS = tuple(cremed.names_of(cremed.status_t, "COUNTER_").values())
 
 
@@ -39,6 +44,8 @@ class DriveReport:
                 "rates": {name: self.rate(name, factor) for name, factor in
                           (("vx", 1), ("yaw_rate", DEG_PER_RAD))},
                 "statuses": self.status_runs(),
+                "silences": {source: self.spans(self.silences(times))
+                             for source, (times, _) in drive.motions.items()},
                 "doubts": {radar: self.doubt_runs(messages)
                            for radar, messages in drive.statuses.items()},
                 "radars": {radar: self.radar_series(messages)
@@ -47,6 +54,27 @@ class DriveReport:
 
     def seconds(self, utimes):
         return [round((utime - self.drive.begin_us) * 1e-6, 4) for utime in utimes]
+
+    def spans(self, utimes):
+        return [tuple(self.seconds(span)) for span in utimes]
+
+    def availability_percent(self, times, statuses, names):
+        """In the time from the first to the last row of all such, as cremed-eval has them in a file."""
+        begin, end = self.rows_span(times)
+        usable = [names.get(status) in GOOD for status in statuses]
+        percent = availability.percent(availability.without(times, usable, begin, end), begin, end)
+        return None if percent is None else round(percent, 3)
+
+    def rows_span(self, times):
+        if times is self.drive.odometry["utime"]:
+            return times[0], times[-1]
+        columns = [column for column, _ in self.drive.motions.values()]
+        return min(map(min, columns)), max(map(max, columns))
+
+    def silences(self, times):
+        """[(begin, end)] without a row, in microseconds."""
+        spans = availability.without(times, [True] * len(times), self.drive.begin_us, self.drive.end_us)
+        return [(begin, end) for begin, end in spans if end - begin >= LONG_SILENCE_US]
 
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
@@ -58,6 +86,8 @@ class DriveReport:
                 "maximum_speed_mps": round(max(odometry["vx"], default=0), 3),
                 "odometry": self.odometry_figures(),
                 "sources": {source: {"motions": len(times),
+                                     "availability_percent":
+                                         self.availability_percent(times, statuses, MOTION_STATUSES),
                                      "statuses": counted(statuses, MOTION_STATUSES)}
                             for source, (times, statuses) in drive.motions.items()},
                 "radars": {radar: self.radar_figures(messages)
@@ -69,6 +99,8 @@ class DriveReport:
             return None
         last = {name: column[-1] for name, column in columns.items()}
         return {"messages": len(columns["utime"]),
+                "availability_percent":
+                    self.availability_percent(columns["utime"], columns["status"], ODOMETRY_STATUSES),
                 "statuses": counted(map(int, columns["status"]), ODOMETRY_STATUSES),
                 "end": {"x_m": round(last["x"], 3), "y_m": round(last["y"], 3),
                         "yaw_deg": round(last["yaw"] * DEG_PER_RAD, 3),
@@ -111,12 +143,20 @@ class DriveReport:
         odometry = self.drive.odometry
         result = {}
         if odometry["utime"]:
-            result["odometry"] = [(time, ODOMETRY_STATUSES.get(int(status), "unknown")) for time, status
-                                  in runs(self.seconds(odometry["utime"]), odometry["status"])]
+            result["odometry"] = self.changes(odometry["utime"], odometry["status"], ODOMETRY_STATUSES)
         for source, (times, statuses) in self.drive.motions.items():
-            result[source] = [(time, MOTION_STATUSES.get(status, "unknown"))
-                              for time, status in runs(self.seconds(times), statuses)]
+            result[source] = self.changes(times, statuses, MOTION_STATUSES)
         return result
+
+    def changes(self, times, statuses, names):
+        """[(time, name)] where the status changes, or nothing comes any more, or something again."""
+        changes = [(time, names.get(int(status), "unknown")) for time, status in runs(self.seconds(times), statuses)]
+        for begin, end in self.spans(self.silences(times)):
+            after = [name for time, name in changes if time <= end][-1:]
+            changes = [*(change for change in changes if change[0] < begin), (begin, SILENT),
+                       *((end, name) for name in after if end < self.seconds([self.drive.end_us])[0]),
+                       *(change for change in changes if change[0] > end)]
+        return changes
 
     def doubt_runs(self, messages):
         changes = runs(self.seconds(m.utime for m in messages), [m.doubts for m in messages])

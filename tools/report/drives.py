@@ -79,6 +79,8 @@ def measure(drive, programs, told):
                 found.append(missing)
             lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, config, folder,
                                                        lambda part: told(REPLAY_PART * part))
+            if found:  # That configuration is nobody's.
+                drive.troubles = [trouble.replace(f"--config {config} ", "") for trouble in drive.troubles]
         heard = heard_of(lcm_log, drive, lambda part: told(begun + 0.9 * (1 - begun) * part))
         data = {"logs": [os.path.basename(log) for log in drive.logs],
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
@@ -95,8 +97,9 @@ def findings_of(drive, programs, data, found, config):
     of_drive = findings.of_the_drive(data)
     if found:  # Without a configuration all else follows from that.
         return found
-    if config and len(drive.logs) == 1 and (data["warnings"] or of_drive):
-        found += findings.of_the_doctor(programs / "cremed-doctor", drive.logs, config)
+    if config and len(drive.logs) == 1 and data["warnings"]:
+        of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, config)
+        found += findings.without_what_is_told(of_doctor, of_drive)
     elif not config:
         found += [findings.finding("error", trouble) for trouble in drive.troubles]
         found += [findings.of_messages()] if of_drive else []

@@ -5,7 +5,9 @@ import json
 import subprocess
 
 GOOD = ("ok", "standing_still")
+TOLD_APART = (*GOOD, "silent")  # of_silences() names the radars.
 SEVERITIES = ("error", "warning", "note")  # As the doctor's, the worst first.
+NO_SCAN = ": no scan "
 MOST_SPANS = 3  # That are named.
 LONG_START_S = 5.0  # An odometry begins within two seconds of driving.
 
@@ -49,6 +51,28 @@ def told(times):
     return text + (f", {sum(end - begin for begin, end in times):.1f} s in all" if len(times) > 1 else "")
 
 
+def common(spans_of):
+    """[(begin, end)] that all the lists share."""
+    shared = spans_of[0] if spans_of else []
+    for others in spans_of[1:]:
+        shared = [(max(a, c), min(b, d)) for a, b in shared for c, d in others if max(a, c) < min(b, d)]
+    return shared
+
+
+def of_silences(silences, radars):
+    """`silences`: [(begin, end)] of each source. What all radars share is told once."""
+    of_radars = {radar: [tuple(span) for span in silences.get(radar, [])] for radar in radars}
+    shared = common(list(of_radars.values())) if len(of_radars) > 1 else []
+    found = [finding("warning", f"all radars were silent {told(shared)}",
+                     "what recorded the buses paused, or their common supply did")] if shared else []
+    for radar, times in of_radars.items():
+        own = [(begin, end) for begin, end in times if not any(begin < b and a < end for a, b in shared)]
+        if own:
+            found.append(finding("warning", f"{radar}{NO_SCAN}{told(own)}",
+                                 "check its supply and plug for loose contacts; it may have restarted"))
+    return found
+
+
 def of_the_odometry(changes, end):
     """Until it was good for the first time it was starting, whatever it said."""
     begin = next((time for time, name in changes if name in GOOD), end) if changes else 0.0
@@ -56,7 +80,7 @@ def of_the_odometry(changes, end):
     if begin > LONG_START_S:
         found.append(finding("warning", f"the odometry began {begin:.1f} s after the drive",
                              "a drive begins with a second of driving or of standing still"))
-    for name in sorted({name for time, name in changes if time > begin} - {*GOOD}):
+    for name in sorted({name for time, name in changes if time > begin} - {*TOLD_APART}):
         times = spans([change for change in changes if change[0] >= begin], end, lambda other, name=name: other == name)
         found.append(finding("warning", f"the odometry was {name} {told(times)}"))
     return found
@@ -80,9 +104,16 @@ def of_the_drive(data):
     found = [] if data["figures"]["odometry"] else [
         finding("error", "there is no odometry in this drive: the page shows each radar by itself")]
     found += of_the_odometry(data["statuses"].get("odometry", []), end)
+    found += of_silences(data["silences"], data["figures"]["radars"])
     for radar, changes in data["doubts"].items():
         found += of_the_radar(radar, changes, data["figures"]["radars"][radar], end)
     return found
+
+
+def without_what_is_told(of_doctor, of_drive):
+    """The doctor names the longest silence of a radar, the findings of the drive all of them."""
+    told_silences = any(NO_SCAN in one["what"] or "were silent" in one["what"] for one in of_drive)
+    return [one for one in of_doctor if not (told_silences and f"{NO_SCAN}from" in one["what"])]
 
 
 def in_order(found):

@@ -31,7 +31,7 @@ class HeardDrive:
         self.odometry = {name: array("d") for name in ODOMETRY_COLUMNS}
         self.motions = {}   # Source: (times, statuses).
         self.statuses = {}  # Radar: the fields of its messages, one a second.
-        self.scan_times, self.targets = {}, 0
+        self.scan_places, self.targets = {}, 0  # Channel: (times, begins of the payloads, ends).
         self.damage = None
         self._read()
         self.begin_us, self.end_us = self._span()
@@ -39,26 +39,27 @@ class HeardDrive:
     def _read(self):
         takers = {"CREMED_ODOMETRY": self._take_odometry, "CREMED_EGO_MOTION": self._take_motion,
                   "CREMED_STATUS": self._take_status}
-        for channel, payload in self._events():
-            if channel in takers:
-                heard = cremed.decoded(channel, 0, payload)
-                # A status from before the first frame has no time.
-                if heard is not None and heard.message.utime != 0:
-                    takers[channel](heard.message)
-            elif channel.startswith("CREMED_SCAN_"):
-                self.scan_times.setdefault(channel, array("q")).append(scan_time(payload))
-                self.targets += len(payload) // 31  # Bytes of a target.
+        with open(self.path, "rb") as log:
+            try:
+                for number, (channel, _, payload) in enumerate(cremed.events_in(log)):
+                    if number % 4096 == 0:
+                        self.told(log.tell() / self.size)
+                    if channel in takers:
+                        heard = cremed.decoded(channel, 0, payload)
+                        # A status from before the first frame has no time.
+                        if heard is not None and heard.message.utime != 0:
+                            takers[channel](heard.message)
+                    elif channel.startswith("CREMED_SCAN_"):
+                        self._note_scan(channel, payload, log.tell())
+            except cremed.DamagedLog as damage:
+                self.damage = damage
 
-    def _events(self):
-        done = 0
-        try:
-            for number, (channel, _, payload) in enumerate(cremed.read_events(self.path)):
-                done += 28 + len(channel) + len(payload)
-                if number % 4096 == 0:
-                    self.told(done / self.size)
-                yield channel, payload
-        except cremed.DamagedLog as damage:
-            self.damage = damage
+    def _note_scan(self, channel, payload, end):
+        times, begins, ends = self.scan_places.setdefault(channel, (array("q"), array("q"), array("q")))
+        times.append(scan_time(payload))
+        begins.append(end - len(payload))
+        ends.append(end)
+        self.targets += len(payload) // 31  # Bytes of a target.
 
     def troubles(self):
         """What keeps the report from being whole."""
@@ -83,20 +84,23 @@ class HeardDrive:
     def _span(self):
         columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]
         ends = [time for column in columns if column for time in (column[0], column[-1])]
+        # Of a drive in which all radars were silent there are statuses.
+        ends = ends or [message.utime for messages in self.statuses.values() for message in messages]
         if not ends:
-            raise self.damage or ValueError(f"{self.path}: has none of cremed's motions; record with lcm-logger, or give "
+            raise self.damage or ValueError(f"{self.path}: has none of cremed's messages; record with lcm-logger, or give "
                              "the candump log")
         return int(min(ends)), int(max(ends))
 
     def scans(self):
         """[radar_scan_t], as many as a report holds."""
-        count = max((len(times) for times in self.scan_times.values()), default=0)
+        count = max((len(times) for times, _, _ in self.scan_places.values()), default=0)
         count = max(count * min(1, TARGETS / max(self.targets, 1)), 1)
-        wanted = {(channel, times[i]) for channel, times in self.scan_times.items()
-                  for i in evenly(times, self.begin_us, self.end_us, int(count))}
-        for channel, payload in self._events() if wanted else ():
-            if channel.startswith("CREMED_SCAN_") and (channel, scan_time(payload)) in wanted:
-                heard = cremed.decoded(channel, 0, payload)
+        wanted = sorted((begins[i], ends[i]) for times, begins, ends in self.scan_places.values()
+                        for i in evenly(times, self.begin_us, self.end_us, int(count)))
+        with open(self.path, "rb") as log:
+            for begin, end in wanted:
+                log.seek(begin)
+                heard = cremed.decoded("", 0, log.read(end - begin))
                 if heard is not None:
                     yield heard.message
 

@@ -5,7 +5,7 @@ import html
 import os
 from dataclasses import dataclass
 
-COLUMNS = ("drive", "errors", "warnings", "duration [s]", "path [m]", "odometry ok [%]", "seconds in doubt",
+COLUMNS = ("drive", "errors", "warnings", "duration [s]", "path [m]", "odometry usable [% of the time]", "seconds in doubt",
            "position after 10 s [% of the path]", "yaw [\u00b0]", "what is wrong first")
 # A click on a column's name sorts by it, another the other way round. What is not known comes last.
 SORT = """
@@ -21,11 +21,6 @@ document.querySelectorAll("th").forEach((head, column) => head.addEventListener(
   }));
 }));
 """
-
-
-def share_ok(odometry):
-    good = sum(odometry["statuses"].get(status, 0) for status in ("ok", "standing_still"))
-    return 100 * good / odometry["messages"]
 
 
 def after_10_s(figures):
@@ -58,7 +53,7 @@ class Row:
         doubts = max((sum(radar["statuses_with_doubt"].values()) for radar in figures["radars"].values()), default=0)
         odometry = figures["odometry"]
         numbers = (figures["duration_s"], figures["path_length_m"] if odometry else None,
-                   share_ok(odometry) if odometry else None, doubts, *after_10_s(drive.truth_figures))
+                   odometry["availability_percent"] if odometry else None, doubts, *after_10_s(drive.truth_figures))
         count = {name: sum(one["severity"] == name for one in found) for name in ("error", "warning")}
         return cls(drive.logs[0], "", os.path.basename(drive.page), numbers, count["error"], count["warning"],
                    found[0]["what"] if found else "")

@@ -11,6 +11,9 @@ const hueOf = hues(radars);
 const charts = new TimeCharts((time) => setTime(time));
 const DOUBT_COLOR = MOVING, NO_DOUBT = inScheme("#e6f2ea", "#1f3a2b");
 let now = 0;
+const hasTargets = data.scans.some(({targets}) => targets.length);
+const hasInnovations = Object.values(data.radars).some((series) => Object.entries(series).some(
+  ([name, values]) => name.includes("nis_") && values.some((value) => value !== null)));
 
 const byId = (id) => document.getElementById(id);
 const hueOfSource = (source) => hueOf[source] ?? (source === "fused" ? MUTED : INK);
@@ -50,11 +53,6 @@ function showFindings() {
   }
 }
 
-function share(statuses, wanted) {
-  const all = Object.values(statuses).reduce((sum, count) => sum + count, 0);
-  return 100 * wanted.reduce((sum, name) => sum + (statuses[name] ?? 0), 0) / all;
-}
-
 function showTiles() {
   const tile = (text, value) => {
     const made = element(byId("tiles"), "div", "", {className: "tile"});
@@ -65,14 +63,13 @@ function showTiles() {
   if (figures.odometry) {
     tile("path length", fixed(figures.path_length_m, 0, " m"));
     tile("maximum speed", fixed(figures.maximum_speed_mps, 1, " m/s"));
-    tile("odometry ok or standing still",
-         fixed(share(figures.odometry.statuses, ["ok", "standing_still"]), 1, " %"));
+    tile("of the time with usable odometry", fixed(figures.odometry.availability_percent, 1, " %"));
   } else {
     tile("odometry", "none");
   }
   const doubted = radars.filter(
     (radar) => Object.keys(figures.radars[radar]?.statuses_with_doubt ?? {}).length);
-  if (!data.mounts_unknown) tile("radars in doubt at some time", doubted.join(", ") || "none");
+  if (!data.mounts_unknown && hasInnovations) tile("radars in doubt at some time", doubted.join(", ") || "none");
   const odometry = truth?.figures.find(({source}) => source === "odometry");
   const late = odometry?.segments.find(({after}) => after === "10 s");
   if (late?.segments) tile("position error after 10 s, of the path", fixed(late.position_percent, 2, " %"));
@@ -353,8 +350,10 @@ showAbout();
 showFindings();
 showTiles();
 if (figures.odometry) showMotion(); else hide(".of-odometry");
+if (!hasTargets && !figures.odometry) hide(".of-scans");
+if (!hasInnovations) hide(".of-innovations");
 if (data.mounts_unknown) hide(".of-mounts");
-showStatuses();
+if (Object.keys(data.statuses).length) showStatuses(); else hide(".of-motions");
 if (truth) showTruth();
 showRadars();
 if (figures.radars[radars[0]]) showCounters();

@@ -22,7 +22,7 @@ const STATUS_COLORS = {
   ok: "#3a9d5d", standing_still: "#9bd3ae", no_reference: "#cdd6de", initialising: "#8fa3b5",
   predicted: "#f2cf63", gap_too_long: "#b9a27c", incomplete_scan: "#5f7f95",
   too_few_targets: "#c9a0dc", ambiguous: "#e07b00", degenerate: "#8e5bb0", no_convergence: "#4b2a7b",
-  implausible: "#a23b5c", non_finite: "#4a0d18", lost: "#d0021b",
+  silent: "#e3e3e3", implausible: "#a23b5c", non_finite: "#4a0d18", lost: "#d0021b",
 };
 const NINETY_FIVE_PERCENT = 5.991;  // Of chi-square with two degrees of freedom.
 const USABLE = 0, FLAGGED_MOVING = 3;  // radar_scan_t.DETECTION_*

@@ -38,11 +38,36 @@ void plot_drive(const std::vector<SourceEvaluation>& sources, const TrueTrajecto
   draw_plot("plot_drive", write_tables(folder.file(""), sources, truth), picture);
 }
 
-void say_what_is_missing(const std::vector<SourceEvaluation>& sources) {
+/// Shorter ones are a scan or two.
+constexpr std::int64_t kLongSpanUs = 500'000;
+constexpr std::size_t kMostSpans = 3;
+
+/// ", nothing from 20.1 s to 22.0 s and 2 times more", in truth's time, as the tables have it.
+std::string told(const std::vector<TimeSpan>& without, std::int64_t begin_us) {
+  const auto seconds = [&](std::int64_t utime_us) {
+    return tenths(static_cast<double>(utime_us - begin_us) * 1e-6) + " s";
+  };
+  std::string text;
+  std::size_t count = 0;
+  for (const TimeSpan& span : without) {
+    if (span.end_us - span.begin_us >= kLongSpanUs && ++count <= kMostSpans) {
+      text += concat({count == 1 ? ", nothing from " : ", from ", seconds(span.begin_us), " to ",
+                      seconds(span.end_us)});
+    }
+  }
+  return count <= kMostSpans
+             ? text
+             : concat({text, " and ", counted(count - kMostSpans, "time"), " more"});
+}
+
+void say_what_is_missing(const std::vector<SourceEvaluation>& sources,
+                         const TrueTrajectory& truth) {
   for (const SourceEvaluation& source : sources) {
-    if (source.without_estimate + source.outside_truth != 0) {
-      std::fprintf(stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time\n",
-                   source.source.c_str(), source.without_estimate, source.outside_truth);
+    const std::string spans = told(source.availability.without, truth.utime_us().front());
+    if (source.without_estimate + source.outside_truth != 0 || !spans.empty()) {
+      std::fprintf(
+          stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time%s\n",
+          source.source.c_str(), source.without_estimate, source.outside_truth, spans.c_str());
     }
   }
 }
@@ -144,7 +169,7 @@ void run_drive(const DriveFiles& files) {
   add_others(files, reference, sources);
   const auto print = files.as_json ? print_json : print_tables;
   print(stdout, sources, reference, compare_references(reference));
-  say_what_is_missing(sources);
+  say_what_is_missing(sources, reference.truth);
   if (!files.truth_tum.empty()) {
     write_truth_tum(files.truth_tum, sources);
   }

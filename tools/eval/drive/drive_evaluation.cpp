@@ -59,6 +59,7 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveRe
   result.source = odometry.source;
   result.degrees_of_freedom = degrees_of_freedom(odometry);
   result.credibility = Credibility(result.degrees_of_freedom);
+  result.availability = odometry.availability;
   result.without_estimate = odometry.without_estimate;
   compare_estimates(odometry.estimates, reference, result);
   result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);

@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/laboratory/figures_json.hpp"
-
 namespace cremed {
 namespace {
 
@@ -87,7 +85,8 @@ Json rows_json(const std::vector<Row>& rows) {
 Json to_json(const SourceEvaluation& source) {
   Json json{{"source", source.source}, {"degrees_of_freedom", source.degrees_of_freedom}};
   json.update(credibility_json(source.credibility));
-  json.update({{"without_estimate", source.without_estimate},
+  json.update({{"availability_percent", source.availability.percent},
+               {"without_estimate", source.without_estimate},
                {"outside_truth", source.outside_truth},
                {"gaps", source.path.empty() ? 0 : source.path.back().gaps},
                {"drift", rows_json(source.drift)},

@@ -67,6 +67,10 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
   for (const SourceEvaluation& source : sources) {
     std::fprintf(file, "%-16s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
   }
+  for (const SourceEvaluation& source : sources) {
+    std::fprintf(file, "# %-15s a usable estimate for %s %% of the drive\n", source.source.c_str(),
+                 text(source.availability.percent, 1).c_str());
+  }
   std::fprintf(file,
                "# drift over segments of the true path, mean of all segments (KITTI)\n# %-24s", "");
   for (const double length_m : kDriftLengthsM) {
@@ -91,7 +95,8 @@ void write_truth_csv(const std::string& path, const TrueTrajectory& truth) {
 void write_sources_csv(const std::string& path, const std::vector<SourceEvaluation>& sources) {
   ReportFile file(path);
   std::fprintf(file.stream(),
-               "source,dof,estimates,without_estimate,gaps,rmse_m,rmse_deg,anees,anees_low,"
+               "source,dof,estimates,without_estimate,availability_percent,gaps,rmse_m,rmse_deg,"
+               "anees,anees_low,"
                "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw,segments,across_gaps,"
                "translation_percent,rotation_deg_per_m,windows_10s,yaw_deg_10s,percent_10s,"
                "anees_10s\n");
@@ -102,8 +107,8 @@ void write_sources_csv(const std::string& path, const std::vector<SourceEvaluati
     const Interval nees = anees_interval(1, dof, 0.95);
     const PathDrift drift = mean_drift(source.drift);
     std::FILE* const out = file.stream();
-    std::fprintf(out, "%s,%d,%zu,%zu,%zu,", source.source.c_str(), dof, c.count(),
-                 source.without_estimate, gaps(source));
+    std::fprintf(out, "%s,%d,%zu,%zu,%.3f,%zu,", source.source.c_str(), dof, c.count(),
+                 source.without_estimate, source.availability.percent, gaps(source));
     std::fprintf(out, "%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,", c.rmse_m(), c.rmse_deg(), c.anees(),
                  anees.low, anees.high, nees.low, nees.high);
     std::fprintf(out, "%.4f,%.4f,%.4f,", 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3),

@@ -3,6 +3,7 @@
 #include "tools/eval/drive/recorded_odometry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "tools/eval/csv_matrix.hpp"
 
@@ -15,29 +16,54 @@ RecordedEstimate read_estimate(const CsvTable& table, std::size_t row) {
           read_symmetric(table, row, kPoseCovarianceColumns)};
 }
 
-RecordedOdometry& odometry_of(std::vector<RecordedOdometry>& sources, const std::string& name) {
+/// A source's rows.
+struct SourceRows {
+  RecordedOdometry odometry;
+  std::vector<RowTime> times;
+};
+
+SourceRows& rows_of(std::vector<SourceRows>& sources, const std::string& name) {
   const auto found = std::find_if(sources.begin(), sources.end(),
-                                  [&](const RecordedOdometry& s) { return s.source == name; });
-  return found != sources.end() ? *found : sources.emplace_back(RecordedOdometry{name, {}, 0});
+                                  [&](const SourceRows& s) { return s.odometry.source == name; });
+  return found != sources.end() ? *found : sources.emplace_back(SourceRows{{name, {}, 0}, {}});
 }
 
 }  // namespace
 
 bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
 
+TimeSpan time_of(const CsvTable& table) {
+  const std::size_t utime = table.column("utime");
+  TimeSpan span;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::int64_t utime_us = table.integer(row, utime);
+    span = row == 0 ? TimeSpan{utime_us, utime_us}
+                    : TimeSpan{std::min(span.begin_us, utime_us), std::max(span.end_us, utime_us)};
+  }
+  return span;
+}
+
 std::vector<RecordedOdometry> read_odometry(const CsvTable& table) {
   const std::size_t source = table.column("source");
   const std::size_t status = table.column("status");
-  std::vector<RecordedOdometry> sources;
+  const std::size_t utime = table.column("utime");
+  std::vector<SourceRows> sources;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    RecordedOdometry& odometry = odometry_of(sources, table.text(row, source));
-    if (is_estimate(table.text(row, status))) {
+    auto& [odometry, times] = rows_of(sources, table.text(row, source));
+    times.push_back({table.integer(row, utime), is_estimate(table.text(row, status))});
+    if (times.back().is_usable) {
       odometry.estimates.push_back(read_estimate(table, row));
     } else {
       ++odometry.without_estimate;
     }
   }
-  return sources;
+  const TimeSpan drive = time_of(table);
+  std::vector<RecordedOdometry> result;
+  for (auto& [odometry, times] : sources) {
+    odometry.availability = availability(times, drive);
+    result.push_back(std::move(odometry));
+  }
+  return result;
 }
 
 int degrees_of_freedom(const RecordedOdometry& odometry) {

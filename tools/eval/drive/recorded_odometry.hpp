@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "tools/eval/csv_table.hpp"
+#include "tools/eval/drive/availability.hpp"
 
 namespace cremed {
 
@@ -29,6 +30,7 @@ struct RecordedOdometry {
   /// From each pose since the start to the next, without covariance. Only if the estimates are
   /// relative to anchors: otherwise they are steps themselves.
   std::vector<RecordedEstimate> steps_since_start{};
+  Availability availability{};  ///< Of rows that cremed wrote.
 
   [[nodiscard]] const std::vector<RecordedEstimate>& steps() const {
     return steps_since_start.empty() ? estimates : steps_since_start;
@@ -37,6 +39,9 @@ struct RecordedOdometry {
 
 /// Whether rows with that status have an estimate.
 bool is_estimate(const std::string& status);
+
+/// From the first to the last row of all sources.
+TimeSpan time_of(const CsvTable& table);
 
 /// Odometry CSV as cremed writes it; sources in order of appearance. Throws std::runtime_error.
 std::vector<RecordedOdometry> read_odometry(const CsvTable& table);

@@ -61,17 +61,21 @@ RecordedStates read_states(const CsvTable& table) {
   const std::size_t yaw = table.column("odom_yaw_rad");
   RecordedStates result;
   StepRecorder steps(result.steps);
+  std::vector<RowTime> times;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    times.push_back(
+        {table.integer(row, table.column("utime")), is_estimate(table.text(row, status))});
     const Pose2 pose{table.number(row, x), table.number(row, y), table.number(row, yaw)};
     if (has_pose_since_start(table.text(row, status), pose)) {
-      steps.add(table.integer(row, table.column("utime")), pose);
+      steps.add(times.back().utime_us, pose);
     }
-    if (is_estimate(table.text(row, status))) {
+    if (times.back().is_usable) {
       result.states.push_back(read_state(table, row));
     } else {
       ++result.without_estimate;
     }
   }
+  result.availability = availability(times, time_of(table));
   return result;
 }
 
@@ -96,7 +100,8 @@ RecordedStates recorded_states(const std::vector<Odometry>& outputs) {
 }
 
 RecordedOdometry motions_since_anchors(const RecordedStates& states) {
-  RecordedOdometry result{"odometry", {}, states.without_estimate, states.steps};
+  RecordedOdometry result{
+      "odometry", {}, states.without_estimate, states.steps, states.availability};
   for (const RecordedState& state : states.states) {
     if (state.utime_us > state.anchor_us) {
       result.estimates.push_back({state.anchor_us, state.utime_us, state.pose, state.covariance});

@@ -30,6 +30,7 @@ struct RecordedStates {
   /// From each pose since the start to the next, in all rows that have one and are no longer
   /// initialising.
   std::vector<RecordedEstimate> steps;
+  Availability availability{};
 };
 
 /// Whether the table's header is that of the vehicle's state.

@@ -71,7 +71,6 @@ void add_odometry(const RecordedOdometry& odometry, const TrueTrajectory& truth,
     const SegmentErrors& errors = after_time(segments, time_s);
     figures[to_text(errors.length)] = pose_figures(errors);
   }
-  figures["anees"] = {figures["1 s"].back(), figures["10 s"].back()};
 }
 
 void add_front_alone(Configuration configuration, const std::string& log,

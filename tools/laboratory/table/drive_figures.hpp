@@ -20,7 +20,6 @@ struct TabledDrive {
 /// noise not considered.
 ///
 /// "1 s", "5 s", "10 s", "30 s": yaw RMS in degrees, position error in per cent of the path, ANEES;
-/// "anees": ANEES after 1 s and 10 s;
 /// "front alone": as "10 s", with the radar named "front" as the only one, if there is one;
 /// "kellner", "submap", "submap_80": as "10 s", on the same windows (baselines).
 ///

@@ -54,11 +54,6 @@ constexpr std::string_view kPose = "2 / 2 / 2";
 
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> kLayouts{
-      {"overview",
-       {{"odometry after 10 s", "10 s", "2 deg, 2 %"},
-        {"ANEES after 1 s, 10 s", "anees", "2, 2"},
-        {"front radar alone: odometry after 10 s, ANEES", "front alone", "2 deg, 2 %, 2"},
-        {"front radar from scan to scan, ANEES", "front", "4 m, 3 deg, 2"}}},
       {"times",
        {{"after 1 s", "1 s", kPose},
         {"5 s", "5 s", kPose},

@@ -53,16 +53,14 @@ void run_drive_table(const DriveTableOptions& options, bool write) {
     }
     return;
   }
-  for (const std::string& name : kReadmesWithTables) {
-    const std::string path = std::filesystem::path(options.project) / name;
-    std::string text = with_input(path, [](std::istream& input) {
-      return std::string(std::istreambuf_iterator<char>(input), {});
-    });
-    for (const ReadmeTable& table : tables) {
-      text = with_table(text, table);
-    }
-    replace_file(path, text);
+  const std::string path = std::filesystem::path(options.project) / kReadmeWithTables;
+  std::string text = with_input(path, [](std::istream& input) {
+    return std::string(std::istreambuf_iterator<char>(input), {});
+  });
+  for (const ReadmeTable& table : tables) {
+    text = with_table(text, table);
   }
+  replace_file(path, text);
 }
 
 }  // namespace cremed

@@ -91,6 +91,10 @@ std::ostream& operator<<(std::ostream& out, const OrnsteinUhlenbeck& noise) {
   return out << std << ' ' << time_s;
 }
 
+std::ostream& operator<<(std::ostream& out, const ErrorProcess& error) {
+  return out << OrnsteinUhlenbeck{error.std, error.time_s};
+}
+
 std::string text_of(const OdometryConfiguration& odometry) {
   std::ostringstream out;
   out.precision(17);

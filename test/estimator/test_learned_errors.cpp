@@ -143,8 +143,9 @@ TEST_CASE("Over many restarts no prior counts twice: common errors stay as uncer
     OdometryDrive drive = a_drive(seed, learned);
     drive.drive(8.0);
     learned = drive.filter().learned();
-    const std::vector<int> states{state_layout::radar(0), state_layout::radar(1),
-                                  state_layout::radar(2)};
+    const std::vector<int> states{state_layout::radar(0) + state_layout::kMountYaw,
+                                  state_layout::radar(1) + state_layout::kMountYaw,
+                                  state_layout::radar(2) + state_layout::kMountYaw};
     const Eigen::Matrix3d covariance = drive.filter().state().covariance()(states, states);
     const double common_std_rad = std::sqrt(covariance.sum()) / 3.0;
     first_std_rad = seed == 21 ? common_std_rad : first_std_rad;

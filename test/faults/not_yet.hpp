@@ -26,7 +26,6 @@ inline constexpr const char* kMajority =
     "a radar among targets that move together contradicts its positions or the others";
 
 inline constexpr auto kNotYet = std::to_array<NotYet>({
-    {"healthy 105 unflagged", "AI", "", "a side radar or the speed check, for seconds"},
     {"scale 0.90", "", "B", "0.4 s until it is named, of 20 s"},
     {"upside down", "U", "", kNoWitness},
     {"mount 2 m ahead", "U", "", kNoWitness},

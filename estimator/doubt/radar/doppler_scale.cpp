@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/doubt/radar/fixed_places.hpp"
 #include "cremed/estimator/doubt/radar/side_gate.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
@@ -33,11 +34,8 @@ constexpr double kRangeStdM = 0.15;
 constexpr double kMinWidth = 0.02;
 /// Votes farther away than this count by less than 1e-5.
 constexpr double kMaxWidths = 5.0;
-/// Of targets nearer to each other than this only one votes: those of one object vote for all
-/// differences of their positions.
+/// Of targets nearer to each other than this only one votes.
 constexpr double kSpacingM = 0.5;
-/// Four standard deviations of an ARS408's Doppler.
-constexpr double kMaxResidualMps = 0.5;
 /// Smaller r are a healthy radar's.
 constexpr double kMaxShare = 0.03;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
@@ -124,26 +122,12 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   }
 }
 
-/// The static targets, one a place.
-void DopplerScale::take(const TargetSet& targets, Scan& to) const {
-  to.size = 0;
-  for (const Target& target : targets) {
-    const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps_.x() +
-                                target.sin_bearing * velocity_mps_.y();
-    if (std::abs(residual_mps) > kMaxResidualMps) {
-      continue;
-    }
-    const Eigen::Vector2d m(target.x_m - mount_.x_m, target.y_m - mount_.y_m);
-    const Point* points = to.points.data();
-    const bool is_near = std::any_of(points, points + to.size, [&](const Point& other) {
-      return (other.m - m).cwiseAbs().maxCoeff() < kSpacingM;
-    });
-    if (!is_near) {
-      to.points[to.size++] = {m, target.covariance_m2.yy};
-    }
-    if (to.size == kMaxTargets) {
-      return;
-    }
+void DopplerScale::take(const TargetSet& targets, Scan& to) {
+  take_fixed_places(targets, velocity_mps_, kSpacingM, fixed_);
+  to.size = std::min(fixed_.size(), kMaxTargets);
+  for (std::size_t i = 0; i < to.size; ++i) {
+    const Target& target = fixed_[i];
+    to.points[i] = {{target.x_m - mount_.x_m, target.y_m - mount_.y_m}, target.covariance_m2.yy};
   }
 }
 

@@ -63,12 +63,13 @@ class DopplerScale {
 
   [[nodiscard]] Scan& scan(std::size_t age) { return scans_[(newest_ + kScans - age) % kScans]; }
   void advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_radps, std::int64_t stamp_us);
-  void take(const TargetSet& targets, Scan& to) const;
+  void take(const TargetSet& targets, Scan& to);
   void vote(const Scan& from, const Scan& to, const Eigen::Vector2d& way_m);
   void judge(double way_m);
 
   Pose2 mount_;
   DopplerVelocityEstimator doppler_;
+  TargetSet fixed_;
   Eigen::Vector2d velocity_mps_ = Eigen::Vector2d::Zero();
   std::array<Scan, kScans> scans_;
   Votes votes_{};     // For ways (1 + r) times that by Doppler,

@@ -15,10 +15,12 @@ namespace cremed {
 /// stuck or over ground instead of relative to the sensor, and stamps that do not run at the rate
 /// of time.
 ///
-/// Compares every 0.2 s. A contradiction is another speed, more than 2 m/s from Doppler's, that has
-/// more votes by 2.25 sigma: none in 3457 comparisons on the healthy drives of test_faults and
-/// nuScenes, about 2 % on RadarScenes 105. Contradictions count up, agreements count down; the
-/// doubt begins at kMaxContradictions and ends at 0. Detection takes 1 s of driving.
+/// Compares every 0.2 s, with the targets that are at rest by Doppler. A contradiction is a speed,
+/// more than 2 m/s from Doppler's, that has clearly more votes. On RadarScenes 105 and nuScenes, in
+/// 3445 comparisons, Doppler's speed has at least 0.71 of the most votes; stuck Doppler has 0.3 to
+/// 0.6. The difference in standard deviations of the numbers tells less: where targets are dense
+/// chance votes are not independent. Contradictions count up, agreements count down; the doubt
+/// begins at kMaxContradictions and ends at 0. Detection takes 1 s of driving.
 class SpeedCheck {
  public:
   /// Adds the targets of the next scan.
@@ -34,12 +36,12 @@ class SpeedCheck {
   static constexpr int kMaxContradictions = 2;
   static constexpr double kVerdictValidS = 5.0;
 
-  [[nodiscard]] std::optional<double> doppler_mps(const TargetSet& targets);
+  [[nodiscard]] std::optional<double> take(const TargetSet& targets);
   void judge(const SpeedSupport& support, double doppler_mps);
 
   PositionSpeed positions_;
   DopplerVelocityEstimator doppler_;
-  TargetSet current_;    // One target a place.
+  TargetSet current_;    // Fixed places.
   TargetSet reference_;  // The same of an earlier scan.
   std::int64_t reference_us_ = 0;
   double reference_mps_ = 0.0;

@@ -27,7 +27,7 @@ void GaussianState::set(int i, double value, double variance) {
   covariance_(i, i) = variance;
 }
 
-void GaussianState::forget(int i, double factor, double noise_variance) {
+void GaussianState::decay(int i, double factor, double noise_variance) {
   mean_(i) *= factor;
   covariance_.row(i) *= factor;
   covariance_.col(i) *= factor;

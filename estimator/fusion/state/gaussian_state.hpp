@@ -52,7 +52,7 @@ class GaussianState {
   void add_variance(int i, double variance) { covariance_(i, i) += variance; }
   void add_covariance(int i, int j, double covariance) { covariance_(i, j) += covariance; }
   /// x_i becomes factor x_i + noise.
-  void forget(int i, double factor, double noise_variance);
+  void decay(int i, double factor, double noise_variance);
 
   /// Replaces the first states by a function of them with value `mean` and derivative `jacobian`,
   /// plus noise.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 #include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 
@@ -19,6 +21,19 @@ struct OrnsteinUhlenbeck {
 inline OrnsteinUhlenbeck bounded_walk(double std, double walk) {
   return {std, walk > 0.0 ? 2.0 * std * std / (walk * walk) : 1e9};
 }
+
+/// An error of the state with a prior of mean 0: a constant, or an Ornstein-Uhlenbeck process. Its
+/// standard deviation may grow: by `per_yaw_rate` for each rad/s of a turn, and for a radar that
+/// looks sideways by `per_speed_across` for each m/s, and `if_across`.
+struct ErrorProcess {
+  double std = 0.0;                                         ///< Of the prior, and stationary.
+  double time_s = std::numeric_limits<double>::infinity();  ///< Correlation time.
+  double per_yaw_rate = 0.0;
+  double per_speed_across = 0.0;
+  double if_across = 0.0;
+  double walk = 0.0;          ///< Per sqrt(s), of a constant that walks without bound.
+  bool only_driving = false;  ///< Its time stands still with the vehicle.
+};
 
 /// Errors of one signal of the vehicle's bus.
 struct VehicleSignalOptions {
@@ -89,21 +104,19 @@ struct OdometryOptions {
   /// Common to all radars: the effect of the elevation of targets on Doppler differs between
   /// drives.
   double common_scale_std = 0.003;
-  /// Scale of azimuths of one radar, which scales the velocity across the radar's axis; and the
-  /// part of the speed across that is added to doppler_x. Radars that look sideways measure 1 to 3
-  /// % too little, with 0.2 to 0.4 m/s RMS at 8 m/s.
+  /// Scale of azimuths of one radar, which scales the velocity across the radar's axis.
   double azimuth_scale_std = 0.02;
-  double doppler_x_across_share = 0.03;
-  OrnsteinUhlenbeck doppler_x{0.035, 0.3};  ///< m/s: velocity by Doppler along x,
-  OrnsteinUhlenbeck doppler_y{0.08, 1.0};   ///< m/s: along y,
-  double doppler_y_per_yaw_rate_m = 0.1;    ///< and added to it for each rad/s.
-  OrnsteinUhlenbeck offset{0.03, 2.0};      ///< m/s: all Doppler of the radar,
-  double offset_per_yaw_rate_m = 0.03;      ///< and added to it for each rad/s.
-  /// Added for radars that look sideways, m/s: an ARS408 quantises velocities to 0.25 m/s, and all
-  /// targets share the error of 0.25 / sqrt(12) while the speed along its axis is constant.
-  double offset_across_mps = 0.07;
-  OrnsteinUhlenbeck common_offset{0.01, 1.0};  ///< Common to all radars.
-  double common_offset_per_yaw_rate_m = 0.1;
+  /// m/s: velocity by Doppler along x. Radars that look sideways measure 1 to 3 % too little, with
+  /// 0.2 to 0.4 m/s RMS at 8 m/s.
+  ErrorProcess doppler_x{.std = 0.035, .time_s = 0.3, .per_speed_across = 0.03};
+  /// m/s: along y.
+  ErrorProcess doppler_y{.std = 0.08, .time_s = 1.0, .per_yaw_rate = 0.1};
+  /// m/s: all Doppler of the radar. An ARS408 quantises velocities to 0.25 m/s; if it looks
+  /// sideways all targets share the error of 0.25 / sqrt(12) while the speed along its axis is
+  /// constant.
+  ErrorProcess offset{.std = 0.03, .time_s = 2.0, .per_yaw_rate = 0.03, .if_across = 0.07};
+  /// Common to all radars.
+  ErrorProcess common_offset{.std = 0.01, .time_s = 1.0, .per_yaw_rate = 0.1};
   /// Scale of azimuths in positions: of one radar, and common to all. Not estimated: in a turn it
   /// cannot be separated from the turn, and on a straight not from drifting targets.
   double position_azimuth_scale_std = 0.005;
@@ -113,9 +126,9 @@ struct OdometryOptions {
   /// third of that variance lasts for a second, and each radar has a mean of 0.0001 rad/m in a
   /// drive, up to 0.0007 for 15 s. The latter is considered, not estimated: Doppler tells the yaw
   /// rate less well. With 0.0004 for one radar and none in common yaw errs by a fifth more.
-  OrnsteinUhlenbeck yaw_per_metre{0.0002, 1.5};
+  ErrorProcess yaw_per_metre{0.0002, 1.5};
   double common_yaw_per_metre_std = 0.0002;
-  OrnsteinUhlenbeck lateral_per_metre{0.02, 5.0};
+  ErrorProcess lateral_per_metre{0.02, 5.0};
 
   // Doppler.
   /// Of one target: initial value, adapted to the residuals.

@@ -22,16 +22,6 @@ int size_of(std::size_t radars, const OdometryOptions& options) {
 
 int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
 
-/// Part of the forward velocity across a radar's axis, where it is measured by azimuths.
-double across_share(const Pose2& mount) { return squared(std::sin(mount.yaw_rad)); }
-
-/// Propagates an Ornstein-Uhlenbeck process by dt, with a standard deviation larger by `more`.
-void forget(GaussianState& state, int which, const OrnsteinUhlenbeck& noise, double more,
-            double dt_s) {
-  const double left = std::exp(-dt_s / noise.time_s);
-  state.forget(which, left, squared(noise.std + more) * (1.0 - left * left));
-}
-
 std::vector<LearnedError> unlearned_of(const OdometryOptions& options,
                                        const std::vector<Pose2>& mounts,
                                        LearnedError LearnedErrors::*which) {
@@ -67,59 +57,55 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
-      considered_{{kCommonAzimuthScale}, {kCommonYawPerMetre}, {kSlipPerAcceleration}} {
+      common_errors_(cremed::common_errors(options)) {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
-      considered_.push_back({error(i, which)});
-    }
-  }
-  considered_but_by_x_ = considered_;
-  const auto consider_but_by_x = [&](int scale) {
-    considered_.push_back({scale});
-    considered_but_by_x_.push_back({scale, 1});
-  };
-  consider_but_by_x(kCommonScale);
-  if (mounts_.size() == 1) {
-    consider_but_by_x(error(0, kDopplerScale));
+    radar_errors_.push_back(
+        cremed::radar_errors(options, mounts_[i], first_of(i), mounts_.size() == 1));
   }
   if (options.vehicle.is_used()) {
-    considered_but_by_x_.push_back({vehicle_error(kYawRateGain)});
+    for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+      signal_errors_.push_back(
+          cremed::signal_errors(options.vehicle, signal, first_of(mounts_.size())));
+    }
   }
-  considered_at_rest_ = considered_;
-  // A single radar's are not separable from slip and speed, and not learned.
-  for (std::size_t i = 0; mounts_.size() > 1 && i < mounts_.size(); ++i) {
-    considered_at_rest_.push_back({error(i, kMountYaw)});
-    considered_at_rest_.push_back({error(i, kDopplerScale)});
+  for_each_error([&](const StateError& error) {
+    if ((error.considered_by & StateError::kVelocities) != 0) {
+      considered_.by_velocities.push_back({error.state});
+    }
+    if ((error.considered_by & StateError::kYAndYaw) != 0) {
+      considered_.by_positions.push_back(
+          {error.state, (error.considered_by & StateError::kX) != 0 ? 0 : 1});
+    }
+    if ((error.considered_by & StateError::kAtRest) != 0) {
+      considered_.at_rest.push_back({error.state});
+    }
+  });
+}
+
+template <typename Visit>
+void OdometryState::for_each_error(Visit visit) const {
+  std::for_each(common_errors_.begin(), common_errors_.end(), visit);
+  for (const auto* groups : {&radar_errors_, &signal_errors_}) {
+    for (const std::vector<StateError>& errors : *groups) {
+      std::for_each(errors.begin(), errors.end(), visit);
+    }
   }
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
-  const ConsideredStates& driving = is_of_positions ? considered_but_by_x_ : considered_;
-  gaussian.update(innovation, is_at_rest ? considered_at_rest_ : driving);
+  const auto& driving = is_of_positions ? considered_.by_positions : considered_.by_velocities;
+  gaussian.update(innovation, is_at_rest ? considered_.at_rest : driving);
 }
 
 void OdometryState::start(std::int64_t time_us) {
   for (int i = 0; i < gaussian.size(); ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
-  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
-  gaussian.set(kSlipPerAcceleration, options_.slip_per_lateral_acceleration,
-               squared(options_.slip_per_lateral_acceleration_std));
-  gaussian.set(kCommonScale, 0.0, squared(options_.common_scale_std));
-  gaussian.set(kCommonAzimuthScale, 0.0, squared(options_.common_azimuth_scale_std));
-  gaussian.set(kCommonYawPerMetre, 0.0, squared(options_.common_yaw_per_metre_std));
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    for (const int which : {kAzimuthScale, kLeverX, kLeverY}) {
-      gaussian.set(error(i, which), 0.0, squared(prior_std(i, which)));
-    }
-  }
+  for_each_error([&](const StateError& error) { start(error); });
+  gaussian.set_mean(kSlipPerAcceleration, options_.slip_per_lateral_acceleration);
   start_shared(kMountYaw, mount_yaw_);
   start_shared(kDopplerScale, doppler_scale_);
-  if (options_.vehicle.is_used()) {
-    start_signal(VehicleSignal::speed);
-    start_signal(VehicleSignal::yaw_rate);
-  }
   restart(time_us);
 }
 
@@ -134,11 +120,16 @@ void OdometryState::restart(std::int64_t time_us) {
   start_motion(Eigen::Vector2d::Zero(), Eigen::Vector2d(squared(options_.start_speed_std_mps),
                                                         squared(options_.start_yaw_rate_std_radps))
                                             .asDiagonal());
-  gaussian.set(kBodyVelocity, 0.0, squared(options_.body_velocity.std));
-  gaussian.set(kCommonOffset, 0.0, squared(options_.common_offset.std));
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    start_passing(i);
-  }
+  for_each_error([&](const StateError& error) {
+    if (error.reset == StateError::Reset::scene) {
+      start(error);
+    }
+  });
+}
+
+/// Sets an error to its prior.
+void OdometryState::start(const StateError& error) {
+  gaussian.set(error.state, 0.0, squared(error.std_at(0.0, 0.0)));
 }
 
 void OdometryState::start_shared(int which, const SharedPrior& prior) {
@@ -163,39 +154,14 @@ void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matr
   gaussian.add_covariance(kYawRate, kSpeed, covariance(1, 0));
 }
 
-/// Of an error that lasts for the whole drive.
-double OdometryState::prior_std(std::size_t radar, int lasting_error) const {
-  switch (lasting_error) {
-    case kMountYaw:
-      return unlearned_errors(options_, mounts_[radar]).mount_yaw_rad.std;
-    case kDopplerScale:
-      return unlearned_errors(options_, mounts_[radar]).doppler_scale.std;
-    case kAzimuthScale:
-      return options_.position_azimuth_scale_std;
-    default:
-      return options_.lever_std_m;
-  }
-}
-
 void OdometryState::widen_errors(std::size_t radar) {
-  for (const int which : {kMountYaw, kDopplerScale, kLeverX, kLeverY}) {
-    const int i = error(radar, which);
-    gaussian.set(i, gaussian.mean(i), squared(prior_std(radar, which)));
+  for (const StateError& error : radar_errors_[radar]) {
+    if (error.reset == StateError::Reset::doubt) {
+      gaussian.set(error.state, gaussian.mean(error.state), squared(error.process.std));
+    } else if (error.reset == StateError::Reset::scene) {
+      start(error);
+    }
   }
-  start_passing(radar);
-}
-
-/// Resets the errors of a radar that pass within seconds.
-void OdometryState::start_passing(std::size_t radar) {
-  const double across = across_share(mounts_[radar]);
-  const auto set = [&](int which, double std, double more = 0.0) {
-    gaussian.set(error(radar, which), 0.0, squared(std + more));
-  };
-  set(kDopplerX, options_.doppler_x.std);
-  set(kDopplerY, options_.doppler_y.std);
-  set(kOffset, options_.offset.std, across * options_.offset_across_mps);
-  set(kYawPerMetre, options_.yaw_per_metre.std);
-  set(kLateralPerMetre, options_.lateral_per_metre.std);
 }
 
 void OdometryState::advance_to(std::int64_t time_us) {
@@ -204,9 +170,11 @@ void OdometryState::advance_to(std::int64_t time_us) {
     const double step_s = std::min(left_s, kMaxMotionStepS);
     const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
-    const double turning = std::abs(gaussian.mean(kYawRate));
-    forget(gaussian, kCommonOffset, options_.common_offset,
-           options_.common_offset_per_yaw_rate_m * turning, step_s);
+    for (const StateError& error : common_errors_) {
+      if (error.state >= kMotionStates) {
+        advance(error, step_s);
+      }
+    }
   }
   time_us_ = std::max(time_us_, time_us);
 }
@@ -217,45 +185,34 @@ VehicleEstimate OdometryState::vehicle() const {
 }
 
 void OdometryState::advance_errors(std::size_t radar, double dt_s) {
-  const int first = first_of(radar);
-  const double turning = std::abs(gaussian.mean(kYawRate));
-  const double across = across_share(mounts_[radar]);
-  const double across_mps = across * std::abs(gaussian.mean(kSpeed));
-  forget(gaussian, first + kDopplerX, options_.doppler_x,
-         options_.doppler_x_across_share * across_mps, dt_s);
-  forget(gaussian, first + kDopplerY, options_.doppler_y,
-         options_.doppler_y_per_yaw_rate_m * turning, dt_s);
-  forget(gaussian, first + kOffset, options_.offset,
-         options_.offset_per_yaw_rate_m * turning + options_.offset_across_mps * across, dt_s);
-  forget(gaussian, first + kYawPerMetre, options_.yaw_per_metre, 0.0, dt_s);
-  forget(gaussian, first + kLateralPerMetre, options_.lateral_per_metre, 0.0, dt_s);
-  forget(gaussian, first + kDopplerScale,
-         {prior_std(radar, kDopplerScale), options_.doppler_scale_time_s}, 0.0, dt_s);
-  // At rest nothing turns the mount, and nothing observes it.
-  const double driving = std::min(1.0, std::abs(gaussian.mean(kSpeed)) / kDrivingMps);
-  forget(gaussian, first + kMountYaw,
-         bounded_walk(prior_std(radar, kMountYaw), options_.mount_yaw_walk), 0.0, driving * dt_s);
+  for (const StateError& error : radar_errors_[radar]) {
+    advance(error, dt_s);
+  }
+}
+
+void OdometryState::advance(const StateError& error, double dt_s) {
+  const ErrorProcess& process = error.process;
+  if (std::isinf(process.time_s)) {
+    gaussian.add_variance(error.state, squared(process.walk) * dt_s);
+    return;
+  }
+  const double speed_mps = gaussian.mean(kSpeed);
+  const double driving =
+      process.only_driving ? std::min(1.0, std::abs(speed_mps) / kDrivingMps) : 1.0;
+  const double left = std::exp(-(driving * dt_s) / process.time_s);
+  const double std = error.std_at(speed_mps, gaussian.mean(kYawRate));
+  gaussian.decay(error.state, left, squared(std) * (1.0 - left * left));
 }
 
 void OdometryState::start_signal(VehicleSignal signal) {
-  const VehicleOptions& options = options_.vehicle;
-  const double scale_variance = squared(options.of(signal).scale_std);
-  if (signal == VehicleSignal::speed) {
-    gaussian.set(vehicle_error(kSpeedScale), 0.0, scale_variance);
-  } else {
-    gaussian.set(vehicle_error(kYawRateGain), 0.0, scale_variance);
-    gaussian.set(vehicle_error(kYawRateBias), 0.0, squared(options.yaw_rate_bias_std_radps));
+  for (const StateError& error : signal_errors(signal)) {
+    start(error);
   }
 }
 
 void OdometryState::advance_signal(VehicleSignal signal, double dt_s) {
-  const VehicleOptions& options = options_.vehicle;
-  const OrnsteinUhlenbeck scale{options.of(signal).scale_std, options.scale_time_s};
-  if (signal == VehicleSignal::speed) {
-    forget(gaussian, vehicle_error(kSpeedScale), scale, 0.0, dt_s);
-  } else {
-    forget(gaussian, vehicle_error(kYawRateGain), scale, 0.0, dt_s);
-    gaussian.add_variance(vehicle_error(kYawRateBias), squared(options.yaw_rate_bias_walk) * dt_s);
+  for (const StateError& error : signal_errors(signal)) {
+    advance(error, dt_s);
   }
 }
 

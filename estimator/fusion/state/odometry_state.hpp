@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/state/error_table.hpp"
 #include "cremed/estimator/fusion/state/gaussian_state.hpp"
 #include "cremed/estimator/fusion/state/learned_errors.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
@@ -50,16 +51,8 @@ class OdometryState {
   /// Propagates them.
   void advance_signal(VehicleSignal signal, double dt_s);
 
-  /// Kalman update with an innovation of `gaussian`. Scales of azimuths, lever arms and what
-  /// positions turn by in common are consider parameters: they are hardly observable, but seem so
-  /// where each scan is linearised at another speed or yaw rate. As estimated states, scales of
-  /// azimuths ran to -20 % in turns, and lever arms of 0.1 m to 3.4 m in an hour straight on. So is
-  /// the common Doppler scale (with one radar, its own too), which only x by positions
-  /// (`is_of_positions`, the first number) changes: by Doppler alone the speed drifted by 1 % in 15
-  /// minutes of a simulated town at a sigma of 0.2 %, and by y and yaw of positions too it became
-  /// 0.3 % too small. At rest so are mount yaws and Doppler scales of several radars: nothing
-  /// observes them, and all scans have the same map, whose noise they would learn: 0.4 degrees in
-  /// three minutes.
+  /// Kalman update with an innovation of `gaussian`, which does not change the mean of errors that
+  /// are considered only (StateError::considered_by).
   void update(const Innovation& innovation, bool is_of_positions = false);
 
   /// Pose at a scan that is `age_s` older than the state.
@@ -98,8 +91,13 @@ class OdometryState {
   GaussianState gaussian;
 
  private:
-  void start_passing(std::size_t radar);
-  [[nodiscard]] double prior_std(std::size_t radar, int lasting_error) const;
+  template <typename Visit>
+  void for_each_error(Visit visit) const;
+  void start(const StateError& error);
+  void advance(const StateError& error, double dt_s);
+  [[nodiscard]] const std::vector<StateError>& signal_errors(VehicleSignal signal) const {
+    return signal_errors_[static_cast<std::size_t>(signal)];
+  }
   void start_shared(int which, const SharedPrior& prior);
 
   OdometryOptions options_;
@@ -108,10 +106,16 @@ class OdometryState {
   bool has_forward_radar_;
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;
-  using ConsideredStates = std::vector<GaussianState::Considered>;
-  ConsideredStates considered_;
-  ConsideredStates considered_but_by_x_;
-  ConsideredStates considered_at_rest_;
+  // The table of errors.
+  std::vector<StateError> common_errors_;
+  std::vector<std::vector<StateError>> radar_errors_;
+  std::vector<std::vector<StateError>> signal_errors_;  // None if no signal is used.
+  /// States that updates consider only: those by Doppler or signals, by positions, at rest.
+  struct {
+    std::vector<GaussianState::Considered> by_velocities;
+    std::vector<GaussianState::Considered> by_positions;
+    std::vector<GaussianState::Considered> at_rest;
+  } considered_;
 };
 
 }  // namespace cremed

@@ -34,18 +34,20 @@ inline constexpr int kFirstNode = kOutput + kPose;
 inline constexpr int kNodes = 12;
 inline constexpr int kFirstRadar = kFirstNode + kNodes * kPose;
 
-// Of one radar, relative to radar(index).
-inline constexpr int kMountYaw = 0;         ///< rad
-inline constexpr int kDopplerScale = 1;     ///< 1
-inline constexpr int kDopplerX = 2;         ///< m/s
-inline constexpr int kDopplerY = 3;         ///< m/s
-inline constexpr int kOffset = 4;           ///< m/s
-inline constexpr int kAzimuthScale = 5;     ///< 1
-inline constexpr int kYawPerMetre = 6;      ///< rad/m
-inline constexpr int kLateralPerMetre = 7;  ///< 1
-inline constexpr int kLeverX = 8;           ///< m
-inline constexpr int kLeverY = 9;           ///< m
-inline constexpr int kErrorStates = 10;
+// Of one radar, relative to radar(index), in the order of the table of errors (error_table.cpp).
+enum RadarError : int {
+  kDopplerX,         ///< m/s
+  kDopplerY,         ///< m/s
+  kOffset,           ///< m/s
+  kYawPerMetre,      ///< rad/m
+  kLateralPerMetre,  ///< 1
+  kDopplerScale,     ///< 1
+  kMountYaw,         ///< rad
+  kAzimuthScale,     ///< 1
+  kLeverX,           ///< m
+  kLeverY,           ///< m
+  kErrorStates,
+};
 
 inline constexpr int node(std::size_t index) {
   return kFirstNode + static_cast<int>(index) * kPose;

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// The targets at rest by their Doppler, with the velocity of the sensor over ground. Of those
+/// nearer than `spacing_m` to each other along both axes only the first: those of one object vote
+/// for all differences of their positions.
+void take_fixed_places(const TargetSet& targets, const Eigen::Vector2d& velocity_mps,
+                       double spacing_m, TargetSet& result);
+
+}  // namespace cremed

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cremed/can_decoders/vehicle_reading.hpp"
+#include "cremed/estimator/fusion/state/odometry_options.hpp"
+#include "cremed/estimator/scan/pose2.hpp"
+
+namespace cremed {
+
+/// An error in the state of the odometry filter: a row of the table of errors. Start, propagation
+/// and updates know no more of an error than its row, so that a new one takes an index
+/// (state_layout), a row, and its coefficients in the measurements.
+struct StateError {
+  /// What resets it.
+  enum class Reset {
+    never,
+    doubt,  ///< Doubt about its radar: to the variance of its prior, around the estimate.
+    scene,  ///< That and a restart: to its prior. It passes within seconds.
+  };
+  /// Measurements as bits.
+  enum Measurements : unsigned {
+    kNone = 0,
+    kVelocities = 1U << 0U,  ///< By Doppler, or of the vehicle's bus.
+    kX = 1U << 1U,           ///< By positions,
+    kYAndYaw = 1U << 2U,     ///< likewise.
+    kAtRest = 1U << 3U,      ///< All of a vehicle that stands.
+    kPositions = kX | kYAndYaw,
+    kAllButX = kVelocities | kYAndYaw | kAtRest,
+    kAll = kAllButX | kX,
+  };
+
+  std::string_view name;
+  int state;  ///< Index.
+  ErrorProcess process;
+  Reset reset;
+  /// Measurements that do not change its mean: for them it is a consider parameter
+  /// (Schmidt-Kalman).
+  Measurements considered_by = kNone;
+  /// Share of the forward velocity across the axis of its radar, where azimuths measure it.
+  double across = 0.0;
+
+  /// Standard deviation of the process at this motion; at rest that of the prior.
+  [[nodiscard]] double std_at(double speed_mps, double yaw_rate_radps) const;
+};
+
+/// The rows of the vehicle's errors, which MotionStep moves, and of those common to all radars.
+std::vector<StateError> common_errors(const OdometryOptions& options);
+/// The rows of one radar, whose states begin at `first`. `is_single`: it is the only one.
+std::vector<StateError> radar_errors(const OdometryOptions& options, const Pose2& mount, int first,
+                                     bool is_single);
+/// The rows of a signal of the vehicle's bus; the states of both signals begin at `first`.
+std::vector<StateError> signal_errors(const VehicleOptions& options, VehicleSignal signal,
+                                      int first);
+
+}  // namespace cremed

@@ -100,9 +100,14 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
 
 /// Widens or withdraws what the radar itself or the odometry does not believe.
 void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
-  radar.self_check.add(motion, radar.estimator.targets());
+  OdometryFilter* filter = odometry_.filter();
+  if (filter != nullptr && filter->is_start_in_doubt()) {
+    radar.self_check.forget();
+  } else {
+    radar.self_check.add(motion, radar.estimator.targets());
+  }
   motion.covariance *= radar.self_check.covariance_factor();
-  if (OdometryFilter* filter = odometry_.filter()) {
+  if (filter != nullptr) {
     filter->compare(radar.index, motion, radar.self_check.is_trusted());
   }
   if (odometry() && contradicts(*odometry(), motion)) {

@@ -102,10 +102,15 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
 /// the motion before it is widened: a wider one, of a radar that looks sideways, would contradict
 /// nothing.
 void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
-  radar.self_check.add(motion, radar.estimator.targets());
+  OdometryFilter* filter = odometry_.filter();
+  if (filter != nullptr && filter->is_start_in_doubt()) {
+    radar.self_check.forget();
+  } else {
+    radar.self_check.add(motion, radar.estimator.targets());
+  }
   const bool is_contradicted = odometry() && contradicts(*odometry(), motion);
   motion.covariance *= radar.self_check.covariance_factor();
-  if (OdometryFilter* filter = odometry_.filter()) {
+  if (filter != nullptr) {
     filter->compare(radar.index, motion, radar.self_check.is_trusted());
   }
   if (is_contradicted) {

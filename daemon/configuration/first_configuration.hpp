@@ -6,9 +6,10 @@
 
 namespace cremed {
 
-/// How one who has a log and no configuration gets a first one; for messages.
+/// How one who has no configuration gets a first one; for messages.
 inline constexpr std::string_view kWriteFirst =
-    "`cremed-doctor --replay LOG --suggest-config > my.toml` writes a first one";
+    "`cremed-doctor --suggest-config > my.toml` writes a first one from the buses, and with "
+    "`--replay LOG` from a log";
 
 /// The same up to the odometry; last lines of --help, in columns for the manual page.
 inline constexpr const char* kFirstSteps =

@@ -83,6 +83,8 @@ class OdometryFilter {
   void forget();
 
   /// Radars contradict each other, or their own positions, and it is not known which are wrong.
+  /// Something departs beside a parked vehicle, or the vehicle does: scans tell nothing of radars.
+  [[nodiscard]] bool is_start_in_doubt() const { return parked_.is_in_doubt(); }
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;
   [[nodiscard]] VehicleSignalReport report(VehicleSignal signal) const {

@@ -236,7 +236,7 @@ TEST_CASE("keys of the other radar type are refused as such") {
 TEST_CASE("what is missing is named") {
   check_refused({
       {"", 1, "radar", "is missing",
-       "one or more [[radar]] tables: `cremed-doctor --replay LOG --suggest-config > my.toml` "},
+       "one or more [[radar]] tables: `cremed-doctor --suggest-config > my.toml` "},
       {"# nothing\n[output]\n", 1, "radar", "is missing", "one or more [[radar]] tables"},
       {"radar = []\n", 1, "radar", "is a list", "one or more [[radar]] tables"},
       {"\n[[radar]]\ntype = \"ars408\"\ninterface = \"a\"\nmount = {x_m=1,y_m=1,yaw_rad=1}\n", 2,

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/doubt/scan/two_worlds.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/drive.hpp"
 
@@ -58,6 +60,33 @@ TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion de
     CHECK(motion.status == MotionStatus::ok);
     CHECK(motion.motion.x() == Approx(row.road.x() * kPeriod).margin(0.03));
   }
+}
+
+TEST_CASE("at the start a speed that more places contradict is in doubt, whatever began before") {
+  TargetSet targets;
+  const auto add = [&](int places, double speed_mps, double azimuth_rad) {
+    for (int i = 0; i < places; ++i) {
+      Detection detection;
+      detection.range_m = 8.0 + 4.0 * i;
+      detection.azimuth_rad = azimuth_rad;
+      detection.doppler_mps = -speed_mps * std::cos(azimuth_rad);
+      detection.range_std_m = 0.15;
+      detection.azimuth_std_rad = 0.008;
+      detection.doppler_std_mps = 0.1;
+      targets.add(detection, Pose2{});
+    }
+  };
+  add(10, 0.0, 0.2);
+  const auto is_slow = [](double speed_mps) { return std::abs(speed_mps) < 1.0; };
+  const auto is_in_doubt = [&](bool is_start) {
+    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d::Zero(), 0.0, is_start, is_slow);
+  };
+  CHECK_FALSE(is_in_doubt(true));
+  add(9, 16.0, -0.2);
+  CHECK_FALSE(is_in_doubt(true));
+  add(9, 16.0, -0.5);
+  CHECK(is_in_doubt(true));
+  CHECK_FALSE(is_in_doubt(false));
 }
 
 }  // namespace

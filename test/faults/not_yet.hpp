@@ -22,8 +22,6 @@ inline constexpr const char* kNoWitness = "a lever, or left for right, in turns 
 inline constexpr const char* kAllDoubted =
     "verified anew after its end, by positions of half a second";
 inline constexpr const char* kTime = "noticed when braking or turning only";
-inline constexpr const char* kMajority =
-    "a radar among targets that move together contradicts its positions or the others";
 
 inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"scale 0.90", "", "B", "0.4 s until it is named, of 20 s"},
@@ -34,9 +32,6 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"all zero for 5 s", "R", "", kAllDoubted},
     {"late 500 ms", "", "U", kTime},
     {"learned mounts wrong", "I", "", "a side radar is left out instead of learned anew"},
-    {"train", "", "I", kMajority},
-    {"convoy", "", "I", kMajority},
-    {"jam-starts", "", "I", kMajority},
 });
 
 }  // namespace cremed::test

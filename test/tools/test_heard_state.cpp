@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -241,4 +243,16 @@ TEST_CASE("A URL that cannot be heard at is said to be so") {
   HeardState state;
   CHECK_THROWS_WITH(LcmListener("udpm://1.2.3.4:7667", state),
                     Catch::Contains("is no IPv4 multicast address"));
+}
+
+TEST_CASE("After the end of a log nothing grows old") {
+  HeardState state;
+  state.take(odometry(0));
+  CHECK(json_of(state)["has_ended"] == false);
+  state.end();
+  const auto at_end = json_of(state);
+  CHECK(at_end["has_ended"] == true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(json_of(state)["silent_s"] == at_end["silent_s"]);
+  CHECK(json_of(state)["pose"]["silent_s"] == at_end["pose"]["silent_s"]);
 }

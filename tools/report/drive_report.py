@@ -113,6 +113,7 @@ class DriveReport:
                                      for name in names_in(message.doubts, DOUBTS))
         return {"counters": {name: getattr(last, name) for name in COUNTERS},
                 "statuses_with_doubt": dict(doubts), "statuses": len(messages),
+                "statuses_in_doubt": sum(message.doubts != 0 for message in messages),
                 "faults": names_in(last.radar_faults, FAULTS),
                 "statuses_left_out": counted((m.odometry_fault for m in messages if m.odometry_leaves_out),
                                              CAUSES),

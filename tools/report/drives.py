@@ -79,9 +79,10 @@ def measure(drive, programs, told):
                 found.append(missing)
             lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, config, folder,
                                                        lambda part: told(REPLAY_PART * part))
-            if found:  # That configuration is nobody's.
-                drive.troubles = [trouble.replace(f"--config {config} ", "") for trouble in drive.troubles]
         heard = heard_of(lcm_log, drive, lambda part: told(begun + 0.9 * (1 - begun) * part))
+        if found:  # From which all else follows. That configuration is nobody's.
+            warnings = [line.replace(f"--config {config} ", "") for line in warnings]
+            drive.troubles = [f"{drive.logs[0]}: {found[0]['what']}; {found[0]['remedy']}"]
         data = {"logs": [os.path.basename(log) for log in drive.logs],
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)

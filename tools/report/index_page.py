@@ -50,7 +50,7 @@ class Row:
     @classmethod
     def of(cls, drive):
         figures, found = drive.figures, drive.findings
-        doubts = max((sum(radar["statuses_with_doubt"].values()) for radar in figures["radars"].values()), default=0)
+        doubts = max((radar["statuses_in_doubt"] for radar in figures["radars"].values()), default=0)
         odometry = figures["odometry"]
         numbers = (figures["duration_s"], figures["path_length_m"] if odometry else None,
                    odometry["availability_percent"] if odometry else None, doubts, *after_10_s(drive.truth_figures))

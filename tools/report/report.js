@@ -67,8 +67,7 @@ function showTiles() {
   } else {
     tile("odometry", "none");
   }
-  const doubted = radars.filter(
-    (radar) => Object.keys(figures.radars[radar]?.statuses_with_doubt ?? {}).length);
+  const doubted = radars.filter((radar) => figures.radars[radar]?.statuses_in_doubt);
   if (!data.mounts_unknown && hasInnovations) tile("radars in doubt at some time", doubted.join(", ") || "none");
   const odometry = truth?.figures.find(({source}) => source === "odometry");
   const late = odometry?.segments.find(({after}) => after === "10 s");

@@ -102,7 +102,9 @@ ScreenLine heading(const Json& state, const std::string& source) {
     return {begin + "no odometry yet", Mood::careful};
   }
   const bool is_replay = std::abs(pose["behind_s"].get<double>()) > kReplayS;
-  return {begin + (is_replay ? "replay of " : "live, ") + date_of(pose["utime"]), Mood::plain};
+  return {begin + (is_replay ? "replay of " : "live, ") + date_of(pose["utime"]) +
+              (state["has_ended"].get<bool>() ? ", where the log ends" : ""),
+          Mood::plain};
 }
 
 Mood mood_of(const Json& status) {

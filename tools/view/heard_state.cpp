@@ -85,11 +85,9 @@ Json status_json(const status_t& m) {
 
 long hundredths(float value) { return std::isfinite(value) ? std::lround(100.0F * value) : 0; }
 
-Json silent_s(const std::optional<std::chrono::steady_clock::time_point>& heard) {
-  return heard
-             ? Json(
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - *heard).count())
-             : Json();
+Json silent_s(const std::optional<std::chrono::steady_clock::time_point>& heard,
+              std::chrono::steady_clock::time_point now) {
+  return heard ? Json(std::chrono::duration<double>(now - *heard).count()) : Json();
 }
 
 double behind_s(std::int64_t utime_us) {
@@ -162,6 +160,11 @@ void HeardState::take(const odometry_t& message) {
   behind_s_ = behind_s(message.utime);
   path_.add({message.x_in_odom_frame_m, message.y_in_odom_frame_m});
   keep_motion(message);
+}
+
+void HeardState::end() {
+  const std::scoped_lock lock(mutex_);
+  ended_ = std::chrono::steady_clock::now();
 }
 
 void HeardState::begin_anew() {
@@ -250,12 +253,12 @@ nlohmann::json HeardState::scans_json() const {
   return scans;
 }
 
-nlohmann::json HeardState::radar_json(const Radar& radar) {
+nlohmann::json HeardState::radar_json(const Radar& radar, Time now) {
   Json json{{"name", radar.name},
             {"motion", Json()},
             {"targets", 0},
             {"scan_rate_hz", rate_hz(radar.scans_us)},
-            {"silent_s", silent_s(radar.motion_heard)},
+            {"silent_s", silent_s(radar.motion_heard, now)},
             {"status", radar.status ? status_json(*radar.status) : Json()}};
   if (radar.motion) {
     json["motion"] = status_name<MotionStatus>(radar.motion->status, kMotionStatusCount);
@@ -266,19 +269,24 @@ nlohmann::json HeardState::radar_json(const Radar& radar) {
 
 nlohmann::json HeardState::snapshot() const {
   const std::scoped_lock lock(mutex_);
+  const Time now = ended_.value_or(std::chrono::steady_clock::now());
   Json radars = Json::array();
   for (const Radar& radar : radars_) {
-    radars.push_back(radar_json(radar));
+    radars.push_back(radar_json(radar, now));
   }
   Json pose;
   if (odometry_) {
     pose = pose_json(*odometry_);
-    pose["silent_s"] = silent_s(odometry_heard_);
+    pose["silent_s"] = silent_s(odometry_heard_, now);
     pose["behind_s"] = behind_s_;
   }
-  return {{"messages", messages_},   {"silent_s", silent_s(heard_)},
-          {"pose", std::move(pose)}, {"path", path_json(path_.points())},
-          {"rates", motions_json()}, {"radars", std::move(radars)},
+  return {{"messages", messages_},
+          {"silent_s", silent_s(heard_, now)},
+          {"has_ended", ended_.has_value()},
+          {"pose", std::move(pose)},
+          {"path", path_json(path_.points())},
+          {"rates", motions_json()},
+          {"radars", std::move(radars)},
           {"scans", scans_json()}};
 }
 

@@ -29,6 +29,8 @@ class HeardState {
   void take(const ego_motion_t& message);
   void take(const status_t& message);
   void take(const radar_scan_t& message);
+  /// The log has ended: nothing more comes, and nothing grows old.
+  void end();
 
   /// One JSON object, as view.js and cremed-top read it. What is not known is null.
   [[nodiscard]] nlohmann::json snapshot() const;
@@ -43,7 +45,8 @@ class HeardState {
     double yaw_rate_radps = 0.0;
     double yaw_rate_std_radps = 0.0;
   };
-  using HeardAt = std::optional<std::chrono::steady_clock::time_point>;
+  using Time = std::chrono::steady_clock::time_point;
+  using HeardAt = std::optional<Time>;
   struct Radar {
     std::string name;
     std::optional<ego_motion_t> motion;
@@ -57,13 +60,14 @@ class HeardState {
   void note_message();
   void begin_anew();
   void keep_motion(const odometry_t& message);
-  [[nodiscard]] static nlohmann::json radar_json(const Radar& radar);
+  [[nodiscard]] static nlohmann::json radar_json(const Radar& radar, Time now);
   [[nodiscard]] nlohmann::json motions_json() const;
   [[nodiscard]] nlohmann::json scans_json() const;
 
   mutable std::mutex mutex_;
   std::int64_t messages_ = 0;
   HeardAt heard_;
+  HeardAt ended_;
   std::optional<odometry_t> odometry_;
   HeardAt odometry_heard_;
   double behind_s_ = 0.0;  // This computer's clock after the stamp of the odometry.

@@ -123,6 +123,7 @@ bool LcmListener::play() {
   if (logged_ == nullptr) {
     logged_ = log_->next();
     if (logged_ == nullptr) {
+      state_.end();
       return false;
     }
     const double step_us =

@@ -119,13 +119,13 @@ function showStatus({pose}) {
   byId("status").style.color = isSilent ? OUTLIER : STATUS_COLORS[pose?.status] ?? OUTLIER;
 }
 
-function ageOf({messages: heard, silent_s: silent, pose}) {
+function ageOf({messages: heard, silent_s: silent, pose, has_ended: hasEnded}) {
   if (!heard) return "no message from cremed yet";
   if (silent >= SILENT_S) return `silent for ${silent.toFixed(0)} s`;
   if (!pose) return "no odometry yet";
   if (pose.silent_s >= SILENT_S) return `no odometry for ${pose.silent_s.toFixed(0)} s, last ${pose.status.replaceAll("_", " ")}`;
   const kind = Math.abs(pose.behind_s) > REPLAY_S ? "replay of" : "live,";
-  return `${kind} ${new Date(pose.utime / 1000).toISOString()}`;
+  return `${kind} ${new Date(pose.utime / 1000).toISOString()}${hasEnded ? ", where the log ends" : ""}`;
 }
 
 function showAge() {

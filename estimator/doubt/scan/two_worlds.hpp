@@ -13,8 +13,8 @@ namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
 /// along, which cannot be distinguished. The previous motion decides if it can continue at only one
-/// of the two speeds. Without a previous motion, the estimated speed needs more places than a truck
-/// has if at least two places contradict it. The doubt ends after ten scans without a rival; a
+/// of the two speeds. Without a previous motion, if at least two places contradict the estimated
+/// speed, it needs more places than they are and than a truck has. The doubt ends after ten scans without a rival; a
 /// smaller rival maintains it.
 class TwoWorlds {
  public:
@@ -28,7 +28,8 @@ class TwoWorlds {
              bool is_start, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_open =
-        (is_start && votes.own + votes.abeam < kMinRoadPlaces && votes.rival >= kMinRivalPlaces) ||
+        (is_start && votes.rival >= kMinRivalPlaces &&
+         (votes.own + votes.abeam < kMinRoadPlaces || votes.rival > votes.own)) ||
         (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     return is_in_doubt();

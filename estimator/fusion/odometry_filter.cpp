@@ -288,9 +288,12 @@ bool OdometryFilter::sees_two_worlds(std::size_t radar, const TargetSet& targets
   const Eigen::Vector3d velocity(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m, w);
   const double std_mps = std::sqrt(scan.velocity.covariance(0, 0));
   const double max_difference_mps = possible_speed_change_mps(stamp_us);
-  const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
+  using Before = TwoWorlds::Before;
+  const Before before = condition_.is_settled() && !condition_.is_speed_unknown() ? Before::motion
+                        : faults_.needs_positions()                               ? Before::fault
+                                                                                  : Before::nothing;
   return two_worlds_[radar].check(
-      targets, velocity, kMaxSpeedSigmas * std_mps, is_start, [&](double speed_mps) {
+      targets, velocity, kMaxSpeedSigmas * std_mps, before, [&](double speed_mps) {
         return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= max_difference_mps;
       });
 }

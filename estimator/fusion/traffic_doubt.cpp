@@ -12,8 +12,8 @@ namespace cremed {
 using namespace state_layout;
 
 TrafficDoubt::TrafficDoubt(OdometryState& state, const RadarConsensus& consensus,
-                           const FilterCondition& condition)
-    : parked(state), state_(state), consensus_(consensus), condition_(condition) {
+                           const FaultHypotheses& faults, const FilterCondition& condition)
+    : parked(state), state_(state), consensus_(consensus), faults_(faults), condition_(condition) {
   for (const Pose2& mount : state.mounts()) {
     two_worlds_.emplace_back(mount);
   }
@@ -76,9 +76,12 @@ bool TrafficDoubt::sees_two_worlds(std::size_t radar, const TargetSet& targets,
   const Eigen::Vector3d of_vehicle(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m,
                                    w);
   const double std_mps = std::sqrt(velocity.covariance(0, 0));
-  const bool is_start = !condition_.is_settled() || condition_.is_speed_unknown();
+  using Before = TwoWorlds::Before;
+  const Before before = condition_.is_settled() && !condition_.is_speed_unknown() ? Before::motion
+                        : faults_.needs_positions()                               ? Before::fault
+                                                                                  : Before::nothing;
   return two_worlds_[radar].check(
-      targets, of_vehicle, kGateSigmas * std_mps, is_start, [&](double speed_mps) {
+      targets, of_vehicle, kGateSigmas * std_mps, before, [&](double speed_mps) {
         return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= possible_change_mps;
       });
 }

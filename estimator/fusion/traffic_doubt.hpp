@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cremed/estimator/doubt/scan/two_worlds.hpp"
+#include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 #include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
@@ -27,7 +28,7 @@ class TrafficDoubt {
   };
 
   /// The arguments must outlive this object.
-  TrafficDoubt(OdometryState& state, const RadarConsensus& consensus,
+  TrafficDoubt(OdometryState& state, const RadarConsensus& consensus, const FaultHypotheses& faults,
                const FilterCondition& condition);
 
   /// A parked vehicle that is found to rest is reset to rest. `possible_change_mps`: of the speed,
@@ -47,6 +48,7 @@ class TrafficDoubt {
 
   OdometryState& state_;
   const RadarConsensus& consensus_;
+  const FaultHypotheses& faults_;
   const FilterCondition& condition_;
   std::vector<TwoWorlds> two_worlds_;  // By radar.
 };

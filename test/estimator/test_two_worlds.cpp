@@ -78,15 +78,17 @@ TEST_CASE("at the start a speed that more places contradict is in doubt, whateve
   };
   add(10, 0.0, 0.2);
   const auto is_slow = [](double speed_mps) { return std::abs(speed_mps) < 1.0; };
-  const auto is_in_doubt = [&](bool is_start) {
-    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d::Zero(), 0.0, is_start, is_slow);
+  using Before = TwoWorlds::Before;
+  const auto is_in_doubt = [&](Before before) {
+    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d::Zero(), 0.0, before, is_slow);
   };
-  CHECK_FALSE(is_in_doubt(true));
+  CHECK_FALSE(is_in_doubt(Before::nothing));
   add(9, 16.0, -0.2);
-  CHECK_FALSE(is_in_doubt(true));
+  CHECK_FALSE(is_in_doubt(Before::nothing));
   add(9, 16.0, -0.5);
-  CHECK(is_in_doubt(true));
-  CHECK_FALSE(is_in_doubt(false));
+  CHECK(is_in_doubt(Before::nothing));
+  CHECK_FALSE(is_in_doubt(Before::fault));
+  CHECK_FALSE(is_in_doubt(Before::motion));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -14,22 +15,29 @@ namespace cremed {
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
 /// along, which cannot be distinguished. The previous motion decides if it can continue at only one
 /// of the two speeds. Without a previous motion, if at least two places contradict the estimated
-/// speed, it needs more places than they are and than a truck has. The doubt ends after ten scans without a rival; a
+/// speed, it needs more places than a truck has, and at the first start more than they are. The doubt ends after ten scans without a rival; a
 /// smaller rival maintains it.
 class TwoWorlds {
  public:
+  /// What is known of the motion before a scan.
+  enum class Before : std::uint8_t {
+    nothing,  ///< The first scans.
+    fault,    ///< The odometry was lost: positions have to confirm what comes.
+    motion,
+  };
+
   explicit TwoWorlds(const Pose2& vehicle_from_radar) : rival_speed_(vehicle_from_radar) {}
 
   /// Checks a scan; true if in doubt. `velocity`, `change_mps`: see RivalSpeed::count.
   /// `continues(speed_mps)`: whether the vehicle can have this speed after its previous motion.
-  /// `is_start`: there is no previous motion.
   template <typename Continues>
   bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
-             bool is_start, Continues continues) {
+             Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_open =
-        (is_start && votes.rival >= kMinRivalPlaces &&
-         (votes.own + votes.abeam < kMinRoadPlaces || votes.rival > votes.own)) ||
+        (before != Before::motion && votes.rival >= kMinRivalPlaces &&
+         votes.own + votes.abeam < kMinRoadPlaces) ||
+        (before == Before::nothing && votes.rival >= kMinRivalPlaces && votes.rival > votes.own) ||
         (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     return is_in_doubt();

@@ -70,6 +70,8 @@ class FaultHypotheses {
   [[nodiscard]] bool is_verified() const {
     return is_verified_ || (!needs_positions_ && !std::has_single_bit(judged_) && !is_unknown());
   }
+  /// The odometry was lost since the beginning: see require_positions().
+  [[nodiscard]] bool needs_positions() const { return needs_positions_; }
   /// The radars in use were found wrong by those that were not: the state is theirs. Once.
   bool take_reversal() { return std::exchange(is_reversed_, false); }
   /// (v, w, slip) by those that are believed, if a radar was found at fault since the last call:

@@ -62,6 +62,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   if (believed) {
     add_error_by_radar(*believed);
   }
+  if (const auto scale = faults_.take_scale_in_dispute()) {
+    allow_for_scale(*scale);
+  }
   // 2. A start, after a gap or a loss.
   start_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
@@ -160,6 +163,17 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
     trust.doppler_noise.clear();
   }
   trust.is_trusted = is_trusted;
+}
+
+/// Of the Doppler of each radar that is judged, and of the way since the anchor.
+void OdometryFilter::allow_for_scale(double scale) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if ((faults_.judged() >> i & 1U) != 0) {
+      state_.widen_scale(i, scale);
+    }
+  }
+  const double way_m = scale * state_.gaussian.mean(kSpeed) * output_.anchor_age_s();
+  state_.gaussian.add_variance(kX, squared(way_m));
 }
 
 /// The state has the error of a radar that was found at fault, and so has the pose since the

@@ -82,9 +82,9 @@ class OdometryFilter {
   /// To be called when the clock of the stamps was set: restarts all but the pose since the start.
   void forget();
 
-  /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   /// Something departs beside a parked vehicle, or the vehicle does: scans tell nothing of radars.
-  [[nodiscard]] bool is_start_in_doubt() const { return parked_.is_in_doubt(); }
+  [[nodiscard]] bool is_start_in_doubt() const { return traffic_.parked.is_in_doubt(); }
+  /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;
   [[nodiscard]] VehicleSignalReport report(VehicleSignal signal) const {
@@ -100,6 +100,7 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
+  void allow_for_scale(double scale);
   void add_error_by_radar(const Eigen::Vector3d& believed);
   [[nodiscard]] std::uint32_t left_out() const;
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);

@@ -31,6 +31,7 @@ class OdometryDrive {
     /// motion.
     double world_mps = 0.0;
     bool is_silent = false;
+    double doppler_scale = 1.0;
   };
 
   OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t seed,
@@ -99,6 +100,9 @@ class OdometryDrive {
       }
     }
     perturb(detections, random_);
+    for (Detection& detection : detections) {
+      detection.doppler_mps *= radar.doppler_scale;
+    }
     return targets(detections, radar.configured);
   }
 

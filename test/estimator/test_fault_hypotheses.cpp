@@ -213,6 +213,24 @@ TEST_CASE("of two radars only positions tell which is at fault; without them it 
   }
 }
 
+TEST_CASE("a scale of a few percent between two radars is in dispute once, then allowed for") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(5.0);
+  CHECK_FALSE(comparison.faults().take_scale_in_dispute());
+  comparison.drive(3.0, scaled(guilty, 0.96), false);
+  CHECK_FALSE(comparison.faults().is_unknown());
+  const auto scale = comparison.faults().take_scale_in_dispute();
+  REQUIRE(scale);
+  CHECK(*scale == Approx(0.04).margin(0.008));
+  comparison.drive(10.0, scaled(guilty, 0.96), false);
+  CHECK_FALSE(comparison.faults().take_scale_in_dispute());
+  CHECK(comparison.faults().at_fault() == 0U);
+  // More than that is not known.
+  comparison.drive(3.0, scaled(guilty, 0.8), false);
+  CHECK(comparison.faults().is_unknown());
+}
+
 TEST_CASE("what all radars share is refuted by their positions") {
   const double factor = GENERATE(-1.0, 0.0, 0.8);
   Comparison comparison(kFive);

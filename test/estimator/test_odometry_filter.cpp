@@ -320,6 +320,34 @@ TEST_CASE("targets that move are left out of the map and counted, the others are
   CHECK(counters.found < counters.at_rest);
 }
 
+TEST_CASE(
+    "two radars with scales of Doppler 2 % apart go on, less sure of the way until it is learned") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  const double scale = GENERATE(0.98, 1.02);
+  const double wrong_from_s = GENERATE(0.0, 3.0);
+  CAPTURE(guilty, scale, wrong_from_s);
+  OdometryDrive drive({kFront, kRearLeft}, 12);
+  drive.set_motion(20.0, 0.05);
+  drive.drive(wrong_from_s);
+  drive.radar(guilty).doppler_scale = scale;
+  int scans = 0;
+  int usable = 0;
+  for (; scans < 200; ++scans) {
+    const Odometry odometry = drive.next();
+    usable += odometry.status == OdometryStatus::ok ? 1 : 0;
+    if (odometry.status == OdometryStatus::ok) {
+      const double error_mps = odometry.twist.x() - drive.speed_mps();
+      CHECK(std::abs(error_mps) <= 5.0 * std::sqrt(odometry.twist_covariance(0, 0)));
+    }
+  }
+  CHECK(usable >= 0.95 * scans);
+  // The other radar's error is the difference of both: which of them is wrong, positions tell.
+  const RadarReport report = drive.filter().report(guilty);
+  const RadarReport other = drive.filter().report(1 - guilty);
+  CHECK(report.doppler_scale - other.doppler_scale == Approx(scale - 1.0).margin(0.008));
+  CHECK(std::abs(drive.filter().state().mean(state_layout::kSpeed) - 20.0) < 0.2);
+}
+
 TEST_CASE("the yaw error of a mount is learned") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
   drive.radar(0).mount.yaw_rad += 0.015;

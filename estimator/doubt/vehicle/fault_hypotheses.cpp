@@ -56,6 +56,9 @@ constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
 /// Bound of the difference of two speeds. False-alarm rate: 1 in 16000.
 constexpr double kMaxSpeedSigmas = 4.0;
+/// Scale of Doppler that the filter learns by positions if two radars dispute it. Larger ones are
+/// told by each radar's own positions (DopplerScale).
+constexpr double kMaxDisputedScale = 0.05;
 /// Decrease of chi-square by which one hypothesis is better than another.
 constexpr double kClearlyBetter = 4.0;
 /// First and longest time for which a radar stays at fault without new evidence: a mirrored mount
@@ -110,6 +113,7 @@ void FaultHypotheses::clear() {
   newest_us_ = std::numeric_limits<std::int64_t>::min();
   count_ = 0;
   unknown_epochs_ = 0;
+  disputed_scale_ = 0.0;
 }
 
 std::uint32_t FaultHypotheses::at_fault() const {
@@ -201,9 +205,8 @@ FaultHypotheses::Sums FaultHypotheses::by_doppler(std::size_t radar,
                  squared(options.common_scale_std * speed_mps) + squared(kBetweenScansMps);
   noise(1, 1) +=
       squared(options.doppler_y.std) + squared(kBetweenScansMps) + squared(mount_std * speed_mps);
-  if (is_witness) {
-    noise(0, 0) += squared(kWitnessMps + kWitnessShare * speed_mps);
-  }
+  noise(0, 0) +=
+      squared(is_witness ? kWitnessMps + kWitnessShare * speed_mps : disputed_scale_ * speed_mps);
   Eigen::Matrix<double, 2, kUnknowns> by;
   by << 1.0, -mount.y_m, 0.0, 0.0, mount.x_m, velocity.mps.x();
   const Eigen::Matrix2d weight = noise.inverse();
@@ -522,6 +525,10 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   const bool is_known =
       judged_ == 0 || (best.set != 0 && best.rivals == 0 && !contradict_positions());
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
+  if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
+    allow_for_scale();
+    return;
+  }
   const bool is_supported = is_known && this->is_supported(best.set, time_us) &&
                             !(needs_positions_ && is_refuted(best.set, time_us));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
@@ -544,6 +551,25 @@ void FaultHypotheses::judge(std::int64_t time_us) {
   }
   if (is_known) {
     search_causes(best.set & ~at_fault(), time_us);
+  }
+}
+
+/// If the only two radars differ by a few percent of the speed they are used as if each scale was
+/// as uncertain as that, and judged anew.
+void FaultHypotheses::allow_for_scale() {
+  const Set present = this->present();
+  if (disputed_scale_ > 0.0 || std::popcount(present) != 2 || (present & at_fault()) != 0) {
+    return;
+  }
+  const Set one = present & ~(present - 1U);
+  const double a_mps = sum(one, newest_epoch()).solution().x();
+  const double b_mps = sum(present & ~one, newest_epoch()).solution().x();
+  const double scale = std::abs(2.0 * (a_mps - b_mps) / (a_mps + b_mps));
+  if (scale <= kMaxDisputedScale) {
+    disputed_scale_ = scale;
+    is_newly_disputed_ = true;
+    count_ = 0;
+    unknown_epochs_ = 0;
   }
 }
 

@@ -77,6 +77,11 @@ class FaultHypotheses {
   /// (v, w, slip) by those that are believed, if a radar was found at fault since the last call:
   /// what was told with it may be wrong.
   std::optional<Eigen::Vector3d> take_correction();
+  /// Two radars, each right by its own, differ by this share of the speed, and none tells which is
+  /// wrong: both may be by that much. Once.
+  std::optional<double> take_scale_in_dispute() {
+    return std::exchange(is_newly_disputed_, false) ? std::optional(disputed_scale_) : std::nullopt;
+  }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
   /// positions must confirm them.
   void require_positions() {
@@ -176,6 +181,7 @@ class FaultHypotheses {
   [[nodiscard]] Sums sum(Set set, const Epoch& epoch) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
   void search_causes(Set believed, std::int64_t time_us);
+  void allow_for_scale();
 
   const OdometryState& state_;
   Set judged_ = 0;  // The radars that do not look sideways.
@@ -193,6 +199,8 @@ class FaultHypotheses {
   bool is_verified_ = false;
   bool is_reversed_ = false;
   bool is_newly_convicted_ = false;
+  double disputed_scale_ = 0.0;
+  bool is_newly_disputed_ = false;
 };
 
 }  // namespace cremed

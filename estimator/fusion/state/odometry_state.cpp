@@ -164,6 +164,11 @@ void OdometryState::widen_errors(std::size_t radar) {
   }
 }
 
+void OdometryState::widen_scale(std::size_t radar, double std) {
+  gaussian.add_variance(error(radar, kDopplerScale), squared(std));
+  gaussian.add_variance(kSpeed, squared(std * gaussian.mean(kSpeed)));
+}
+
 void OdometryState::advance_to(std::int64_t time_us) {
   for (double left_s = seconds_between(time_us_, time_us); left_s > 0.0;
        left_s -= kMaxMotionStepS) {

@@ -12,7 +12,7 @@ namespace cremed {
 
 using namespace state_layout;
 using enum StateError::Reset;
-using enum StateError::Measurements;
+using S = StateError;
 
 double StateError::std_at(double speed_mps, double yaw_rate_radps) const {
   return process.std +
@@ -34,12 +34,12 @@ std::vector<StateError> common_errors(const OdometryOptions& o) {
   return {
       // Name, state, process, reset by, considered by.
       {"s slip, rad", kSlip, {slip.std, slip.time_s}, never},
-      {"k slip per m/s^2, rad", kSlipPerAcceleration, {slip_per_acceleration_std}, never, kAll},
+      {"k slip per m/s^2, rad", kSlipPerAcceleration, {slip_per_acceleration_std}, never, S::kAll},
       {"m body, m/s", kBodyVelocity, {o.body_velocity.std, o.body_velocity.time_s}, scene},
       {"o_c offset, m/s", kCommonOffset, o.common_offset, scene},
-      {"b_c Doppler scale", kCommonScale, {o.common_scale_std}, never, kAllButX},
-      {"g_c azimuth scale", kCommonAzimuthScale, {o.common_azimuth_scale_std}, never, kAll},
-      {"r_c yaw, rad/m", kCommonYawPerMetre, {o.common_yaw_per_metre_std}, never, kAll},
+      {"b_c Doppler scale", kCommonScale, {o.common_scale_std}, never, S::kAllButX},
+      {"g_c azimuth scale", kCommonAzimuthScale, {o.common_azimuth_scale_std}, never, S::kAll},
+      {"r_c yaw, rad/m", kCommonYawPerMetre, {o.common_yaw_per_metre_std}, never, S::kAll},
   };
 }
 
@@ -56,11 +56,11 @@ std::vector<StateError> radar_errors(const OdometryOptions& o, const Pose2& moun
       {"o offset, m/s", kOffset, o.offset, scene},
       {"r yaw, rad/m", kYawPerMetre, o.yaw_per_metre, scene},
       {"q lateral, m/m", kLateralPerMetre, o.lateral_per_metre, scene},
-      {"b Doppler scale", kDopplerScale, scale, doubt, is_single ? kAllButX : kAtRest},
-      {"d mount yaw, rad", kMountYaw, yaw, doubt, is_single ? kNone : kAtRest},
-      {"g azimuth scale", kAzimuthScale, {o.position_azimuth_scale_std}, never, kAll},
-      {"e_x mount, m", kLeverX, {o.lever_std_m}, doubt, kAll},
-      {"e_y mount, m", kLeverY, {o.lever_std_m}, doubt, kAll},
+      {"b Doppler scale", kDopplerScale, scale, doubt, is_single ? S::kAllButX : S::kAtRest},
+      {"d mount yaw, rad", kMountYaw, yaw, doubt, is_single ? S::kNone : S::kAtRest},
+      {"g azimuth scale", kAzimuthScale, {o.position_azimuth_scale_std}, never, S::kAll},
+      {"e_x mount, m", kLeverX, {o.lever_std_m}, doubt, S::kAll},
+      {"e_y mount, m", kLeverY, {o.lever_std_m}, doubt, S::kAll},
   };
   for (StateError& error : errors) {
     error.state += first;
@@ -75,7 +75,7 @@ std::vector<StateError> signal_errors(const VehicleOptions& o, VehicleSignal sig
   }
   const ErrorProcess scale{o.yaw_rate.scale_std, o.scale_time_s};
   const ErrorProcess bias{.std = o.yaw_rate_bias_std_radps, .walk = o.yaw_rate_bias_walk};
-  return {{"g_w yaw rate scale", first + kYawRateGain, scale, never, kPositions},
+  return {{"g_w yaw rate scale", first + kYawRateGain, scale, never, S::kPositions},
           {"h yaw rate bias, rad/s", first + kYawRateBias, bias, never}};
 }
 

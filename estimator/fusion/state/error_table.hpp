@@ -22,16 +22,14 @@ struct StateError {
     scene,  ///< That and a restart: to its prior. It passes within seconds.
   };
   /// Measurements as bits.
-  enum Measurements : unsigned {
-    kNone = 0,
-    kVelocities = 1U << 0U,  ///< By Doppler, or of the vehicle's bus.
-    kX = 1U << 1U,           ///< By positions,
-    kYAndYaw = 1U << 2U,     ///< likewise.
-    kAtRest = 1U << 3U,      ///< All of a vehicle that stands.
-    kPositions = kX | kYAndYaw,
-    kAllButX = kVelocities | kYAndYaw | kAtRest,
-    kAll = kAllButX | kX,
-  };
+  static constexpr unsigned kNone = 0;
+  static constexpr unsigned kVelocities = 1U << 0U;  ///< By Doppler, or of the vehicle's bus.
+  static constexpr unsigned kX = 1U << 1U;           ///< By positions,
+  static constexpr unsigned kYAndYaw = 1U << 2U;     ///< likewise.
+  static constexpr unsigned kAtRest = 1U << 3U;      ///< All of a vehicle that stands.
+  static constexpr unsigned kPositions = kX | kYAndYaw;
+  static constexpr unsigned kAllButX = kVelocities | kYAndYaw | kAtRest;
+  static constexpr unsigned kAll = kAllButX | kX;
 
   std::string_view name;
   int state;  ///< Index.
@@ -39,7 +37,7 @@ struct StateError {
   Reset reset;
   /// Measurements that do not change its mean: for them it is a consider parameter
   /// (Schmidt-Kalman).
-  Measurements considered_by = kNone;
+  unsigned considered_by = kNone;
   /// Share of the forward velocity across the axis of its radar, where azimuths measure it.
   double across = 0.0;
 

@@ -35,19 +35,17 @@ inline constexpr int kNodes = 12;
 inline constexpr int kFirstRadar = kFirstNode + kNodes * kPose;
 
 // Of one radar, relative to radar(index), in the order of the table of errors (error_table.cpp).
-enum RadarError : int {
-  kDopplerX,         ///< m/s
-  kDopplerY,         ///< m/s
-  kOffset,           ///< m/s
-  kYawPerMetre,      ///< rad/m
-  kLateralPerMetre,  ///< 1
-  kDopplerScale,     ///< 1
-  kMountYaw,         ///< rad
-  kAzimuthScale,     ///< 1
-  kLeverX,           ///< m
-  kLeverY,           ///< m
-  kErrorStates,
-};
+inline constexpr int kDopplerX = 0;         ///< m/s
+inline constexpr int kDopplerY = 1;         ///< m/s
+inline constexpr int kOffset = 2;           ///< m/s
+inline constexpr int kYawPerMetre = 3;      ///< rad/m
+inline constexpr int kLateralPerMetre = 4;  ///< 1
+inline constexpr int kDopplerScale = 5;     ///< 1
+inline constexpr int kMountYaw = 6;         ///< rad
+inline constexpr int kAzimuthScale = 7;     ///< 1
+inline constexpr int kLeverX = 8;           ///< m
+inline constexpr int kLeverY = 9;           ///< m
+inline constexpr int kErrorStates = 10;
 
 inline constexpr int node(std::size_t index) {
   return kFirstNode + static_cast<int>(index) * kPose;

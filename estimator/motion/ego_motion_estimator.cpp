@@ -153,13 +153,12 @@ bool EgoMotionEstimator::continues(const RegistrationResult& result, double dt_s
 bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, double dt_s) {
   const double noise_mps = std::sqrt(result.covariance(0, 0)) / dt_s;
   RegistrationResult other = result;
-  return two_worlds_.check(targets_, result.motion / dt_s,
-                           0.5 * kMaxAccelerationMps2 * dt_s + kMaxSigmas * noise_mps,
-                           has_started_ ? TwoWorlds::Before::motion : TwoWorlds::Before::nothing,
-                           [&](double speed_mps) {
-                             other.motion.x() = speed_mps * dt_s;
-                             return continues(other, dt_s);
-                           });
+  return two_worlds_.check(
+      targets_, result.motion / dt_s, 0.5 * kMaxAccelerationMps2 * dt_s + kMaxSigmas * noise_mps,
+      has_started_ ? TwoWorlds::Before::motion : TwoWorlds::Before::nothing, [&](double speed_mps) {
+        other.motion.x() = speed_mps * dt_s;
+        return continues(other, dt_s);
+      });
 }
 
 /// Doppler alone is not sufficient: a radar that looks sideways, or is in the centre of a turn,

@@ -15,8 +15,8 @@ namespace cremed {
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
 /// along, which cannot be distinguished. The previous motion decides if it can continue at only one
 /// of the two speeds. Without a previous motion, if at least two places contradict the estimated
-/// speed, it needs more places than a truck has, and at the first start more than they are. The doubt ends after ten scans without a rival; a
-/// smaller rival maintains it.
+/// speed, it needs more places than a truck has, and at the first start more than they are. The
+/// doubt ends after ten scans without a rival; a smaller rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.

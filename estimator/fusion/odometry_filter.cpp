@@ -81,7 +81,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   // 6. The output. Its condition is from before a renewal of the anchor, which ends what may be the
   // way of a wrong radar.
   Odometry odometry = output_.at_scan();
-  const Odometry result = with_condition(odometry);
+  Odometry result = with_condition(odometry);
   odometry.status = result.status;
   traffic_.parked.add_output(odometry);
   if (condition_.settle() || believed) {

@@ -19,11 +19,12 @@ void take_fixed_places(const TargetSet& targets, const Eigen::Vector2d& velocity
   for (const Target& target : targets) {
     const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps.x() +
                                 target.sin_bearing * velocity_mps.y();
-    const bool is_near = std::any_of(result.begin(), result.end(), [&](const Target& other) {
+    const auto is_near = [&](const Target& other) {
       return std::abs(other.x_m - target.x_m) < spacing_m &&
              std::abs(other.y_m - target.y_m) < spacing_m;
-    });
-    if (std::abs(residual_mps) <= kMaxResidualMps && !is_near) {
+    };
+    if (std::abs(residual_mps) <= kMaxResidualMps &&
+        std::none_of(result.begin(), result.end(), is_near)) {
       result.add(target);
     }
   }

@@ -34,7 +34,8 @@ class SelfCheck {
 
   /// A motion, and the targets of the scan at its end.
   void add(const EgoMotion& motion, const TargetSet& targets);
-  /// To be called when the clock of the stamps was set.
+  /// To be called when the clock of the stamps was set, and instead of add() for a scan that tells
+  /// nothing of the radar.
   void forget();
 
   /// NIS of positions against Doppler (EgoMotion::doppler_nis).

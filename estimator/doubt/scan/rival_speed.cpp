@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/median.hpp"
 
 namespace cremed {
 namespace {
 
-/// Gate of a vote for a speed, in its standard deviations. It rejects 1 in 370 true votes.
-constexpr double kMaxVoteSigmas = 3.0;
 /// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
 constexpr float kPlaceRadiusM = 3.0F;
 
@@ -67,7 +66,7 @@ RivalSpeed::Votes RivalSpeed::collect(const TargetSet& targets, const Eigen::Vec
 double RivalSpeed::median_near(Votes votes, double speed_mps, double change_mps) {
   auto last = near_mps_.begin();
   for (const Vote& vote : votes) {
-    if (std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps + change_mps) {
+    if (std::abs(vote.speed_mps - speed_mps) <= kGateSigmas * vote.std_mps + change_mps) {
       *last++ = vote.speed_mps;
     }
   }
@@ -80,7 +79,7 @@ RivalSpeed::Votes RivalSpeed::largest_group(Votes votes) {
   Votes largest;
   std::size_t end = 0;
   for (std::size_t begin = 0; begin < votes.size(); ++begin) {
-    const double width_mps = 2.0 * kMaxVoteSigmas * votes[begin].std_mps;
+    const double width_mps = 2.0 * kGateSigmas * votes[begin].std_mps;
     while (end < votes.size() && votes[end].speed_mps - votes[begin].speed_mps <= width_mps) {
       ++end;
     }
@@ -96,7 +95,7 @@ SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& ve
   const Votes votes = collect(targets, velocity);
   const double speed_mps = median_near(votes, velocity.x(), change_mps);
   const auto first_other = std::partition(votes.begin(), votes.end(), [&](const Vote& vote) {
-    return std::abs(vote.speed_mps - speed_mps) <= kMaxVoteSigmas * vote.std_mps;
+    return std::abs(vote.speed_mps - speed_mps) <= kGateSigmas * vote.std_mps;
   });
   const Votes rival = largest_group({first_other, votes.end()});
   const double rival_mps =

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -16,13 +17,10 @@ using namespace state_layout;
 constexpr double kUnknownSpeedStdMps = 1.0;
 /// Longer than kScanVerdictValidS: no scan in doubt yet.
 constexpr std::int64_t kLongAgoUs = 1'000'000;
-/// Bound of a yaw rate that counts as zero. False-alarm rate: 1 in 370.
-constexpr double kStandstillSigmas = 3.0;
-
 bool stands(const Odometry& odometry, double standstill_mps) {
   const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };
   return std::abs(odometry.twist.x()) <= standstill_mps && std(0) <= standstill_mps &&
-         std::abs(odometry.twist.z()) <= kStandstillSigmas * std(2);
+         std::abs(odometry.twist.z()) <= kGateSigmas * std(2);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -15,9 +16,8 @@ namespace {
 constexpr double kMemoryS = 0.5;
 /// A radar whose last scan is older does not count.
 constexpr double kRecentS = 0.5;
-/// Bound of a velocity that counts as zero (false-alarm rate: 1 in 370), and what it errs by
-/// besides noise: offsets of all Doppler at rest are 0.01 to 0.03 m/s.
-constexpr double kMaxSigmas = 3.0;
+/// What a velocity that counts as zero errs by besides noise: offsets of all Doppler at rest are
+/// 0.01 to 0.03 m/s.
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
 /// Limits of q / (1 - q): beyond the first there are two worlds, below the second one, with errors
@@ -63,7 +63,7 @@ void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velo
   sum_mps = kept * sum_mps + velocity.velocity_mps;
   sum_variance = kept * sum_variance + velocity.covariance.diagonal();
   scans += 1.0;
-  const double margin_mps = kMaxSigmas * std::sqrt(noise);
+  const double margin_mps = kGateSigmas * std::sqrt(noise);
   for (const Target& target : seen) {
     if (std::abs(target.y_m) < kHalfLaneM) {
       continue;
@@ -94,7 +94,7 @@ void ParkedVehicle::Look::learn_noise(const TargetSet& seen) {
 
 bool ParkedVehicle::Look::departs() const {
   const Eigen::Array2d floor(squared(kFloorXMps), squared(kFloorYMps));
-  const Eigen::Array2d bound = kMaxSigmas * (std_mps().square() + floor).sqrt();
+  const Eigen::Array2d bound = kGateSigmas * (std_mps().square() + floor).sqrt();
   return (mean_mps().array().abs() > bound).any();
 }
 
@@ -238,7 +238,7 @@ bool ParkedVehicle::is_sideways(std::size_t radar) const {
   const Eigen::Vector2d mps = look.mean_mps();
   const double per_speed = std::abs(state_.mount(radar).x_m) / kMinRadiusM;
   const double std_mps = std::hypot(kFloorYMps, look.std_mps().y());
-  return std::abs(mps.y()) > per_speed * std::abs(mps.x()) + kMaxSigmas * std_mps;
+  return std::abs(mps.y()) > per_speed * std::abs(mps.x()) + kGateSigmas * std_mps;
 }
 
 }  // namespace cremed

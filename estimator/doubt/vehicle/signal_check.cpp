@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -36,8 +37,6 @@ constexpr double kRadarDelayStdS = 0.02;
 constexpr double kOutlierSigmas = 3.0;
 /// Scans of several radars at one time count as this far apart.
 constexpr double kShortestIntervalS = 0.01;
-/// Bound of the errors: by chance one in 370 is larger.
-constexpr double kMaxSignalSigmas = 3.0;
 
 const OrnsteinUhlenbeck& radar_error(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? kSpeedError : kYawRateError;
@@ -140,7 +139,7 @@ SignalFault SignalCheck::fault() const {
   const Eigen::Vector3d sigmas =
       found.value.cwiseAbs2().cwiseQuotient(found.variance + tolerance_.cwiseAbs2());
   Eigen::Index largest = 0;
-  if (sigmas.maxCoeff(&largest) <= squared(kMaxSignalSigmas)) {
+  if (sigmas.maxCoeff(&largest) <= squared(kGateSigmas)) {
     return SignalFault::none;
   }
   constexpr std::array<SignalFault, 3> kFaults{SignalFault::offset, SignalFault::scale,

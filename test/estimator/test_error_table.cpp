@@ -148,6 +148,7 @@ std::string text(const StateError& error) {
     }
   };
   grows(process.per_yaw_rate, " per rad/s");
+  grows(process.per_lateral_acceleration, " per m/s^2");
   grows(process.per_speed_across, " per m/s across");
   grows(process.if_across, " across");
   out << " | " << kResets[static_cast<int>(error.reset)] << " | ";

@@ -344,7 +344,8 @@ TEST_CASE("process noise does not depend on the step length") {
     CHECK(noise(i, i) == Approx(whole.noise(i, i)).epsilon(1e-9));
   }
   CHECK(rate_variance(options.acceleration, 0.1) == Approx(whole.noise(kSpeed, kSpeed)));
-  CHECK(rate_variance(options.yaw_acceleration, 0.1) == Approx(whole.noise(kYawRate, kYawRate)));
+  CHECK(rate_variance(yaw_acceleration_at(8.0, options), 0.1) ==
+        Approx(whole.noise(kYawRate, kYawRate)));
 }
 
 TEST_CASE("the covariance of a pose stays definite if the speed is unknown and its mean 0") {

@@ -68,8 +68,8 @@ void DopplerMeasurement::add_lateness(LinearMeasurement& measurement) const {
   const double left = std::exp(-2.0 * late_s / options.body_velocity.time_s);
   measurement.noise(0, 0) += rate_variance(options.acceleration, late_s) +
                              squared(options.body_velocity.std) * (1.0 - left);
-  measurement.noise.topLeftCorner<2, 2>() +=
-      rate_variance(options.yaw_acceleration, late_s) * lever * lever.transpose();
+  const OrnsteinUhlenbeck yaw = yaw_acceleration_at(state.gaussian.mean(kSpeed), options);
+  measurement.noise.topLeftCorner<2, 2>() += rate_variance(yaw, late_s) * lever * lever.transpose();
 }
 
 }  // namespace cremed

@@ -39,7 +39,8 @@ double VehicleMeasurement::variance(double value) const {
   const OdometryOptions& options = state.options();
   const VehicleOptions& vehicle = options.vehicle;
   const OrnsteinUhlenbeck& error = vehicle.of(signal).error;
-  const OrnsteinUhlenbeck& process = is_speed ? options.acceleration : options.yaw_acceleration;
+  const OrnsteinUhlenbeck& process =
+      is_speed ? options.acceleration : yaw_acceleration_at(state.gaussian.mean(kSpeed), options);
   const double step = is_speed ? kVehicleSpeedStepMps : kVehicleYawRateStepDegps * kRadPerDeg;
   const double change = state.gaussian.mean((is_speed ? kSpeed : kYawRate) + 1);
   const double late_s = std::max(age_s, 0.0);

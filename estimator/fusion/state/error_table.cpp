@@ -17,6 +17,7 @@ using S = StateError;
 double StateError::std_at(double speed_mps, double yaw_rate_radps) const {
   return process.std +
          (process.per_yaw_rate * std::abs(yaw_rate_radps) +
+          process.per_lateral_acceleration * std::abs(speed_mps * yaw_rate_radps) +
           process.per_speed_across * (across * std::abs(speed_mps)) + process.if_across * across);
 }
 

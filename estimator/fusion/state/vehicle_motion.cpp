@@ -87,15 +87,22 @@ void move_process(int which, const OrnsteinUhlenbeck& process, double dt_s, Moti
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options) {
   MotionStep step{state, MotionStep::Matrix::Identity(), MotionStep::Matrix::Zero()};
   const Decay a = decay(options.acceleration, dt_s);
-  const Decay c = decay(options.yaw_acceleration, dt_s);
+  const OrnsteinUhlenbeck yaw_acceleration = yaw_acceleration_at(state(kSpeed), options);
+  const Decay c = decay(yaw_acceleration, dt_s);
   move_pose(state, dt_s, a, c, step);
   move_rate(kSpeed, a, step);
   move_rate(kYawRate, c, step);
   add_rate_noise(options.acceleration, dt_s, kSpeed, step.noise);
-  add_rate_noise(options.yaw_acceleration, dt_s, kYawRate, step.noise);
+  add_rate_noise(yaw_acceleration, dt_s, kYawRate, step.noise);
   move_process(kSlip, bounded_walk(options.slip_std_rad, options.slip_walk), dt_s, step);
   move_process(kBodyVelocity, options.body_velocity, dt_s, step);
   return step;
+}
+
+OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options) {
+  OrnsteinUhlenbeck process = options.yaw_acceleration;
+  process.std /= std::sqrt(1.0 + squared(speed_mps * process.std / options.lateral_jerk_std_mps3));
+  return process;
 }
 
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s) {

@@ -31,6 +31,9 @@ struct MotionStep {
 /// If `dt_s` is negative, the state at an earlier time with constant accelerations.
 MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options);
 
+/// The process of the yaw acceleration at a speed v: std / sqrt(1 + (v std / lateral jerk)^2).
+OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options);
+
 /// Variance of a rate after `dt_s`, by the noise of its derivative since.
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s);
 

@@ -220,8 +220,9 @@ TEST_CASE("a short gap in time is bridged, a long one restarts the filter") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
-TEST_CASE("the pose since the start is constant over a gap, and its covariance grows") {
-  OdometryDrive drive({kFront}, 9);
+TEST_CASE("the pose since the start moves on for max_gap_s of a gap, and its covariance grows") {
+  const OdometryOptions options;
+  OdometryDrive drive({kFront}, 9, options);
   const Odometry before = drive.drive(3.0);
   const bool is_set = GENERATE(false, true);
   if (is_set) {
@@ -232,7 +233,8 @@ TEST_CASE("the pose since the start is constant over a gap, and its covariance g
   }
   drive.next();
   const Odometry after = drive.next();
-  CHECK((after.odom_pose - before.odom_pose).norm() < 1.0);
+  const double bridged_m = is_set ? 0.0 : drive.speed_mps() * options.max_gap_s;
+  CHECK((after.odom_pose - before.odom_pose).norm() == Approx(bridged_m).margin(1.5));
   const Eigen::Vector3d error = after.odom_pose - drive.pose();
   CHECK(std::abs(error.x()) > 10.0);
   CHECK(error.cwiseAbs2().cwiseQuotient(after.odom_covariance.diagonal()).maxCoeff() < 9.0);

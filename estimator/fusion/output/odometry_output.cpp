@@ -53,12 +53,27 @@ void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
   anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
   anchor_.covariance.diagonal() +=
       Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
-  odom_pose_ = gap_s > 0.0 && predicted_us_ > state_.time_us() ? predicted_odom_pose_ : odom_pose_;
+  if (gap_s > 0.0) {
+    odom_pose_ = predicted_odom_pose(time_us);
+  }
   anchor_.pose = odom_pose_;
   anchor_.utime_us = output_us_ = time_us;
   next_anchor_us_.reset();
   predicted_us_ = std::max(predicted_us_, time_us);
   state_.restart(time_us);
+}
+
+/// Pose since the start at a time, or max_gap_s after the state if that is earlier; not before what
+/// was published.
+Eigen::Vector3d OdometryOutput::predicted_odom_pose(std::int64_t time_us) const {
+  const OdometryOptions& options = state_.options();
+  const bool has_prediction = predicted_us_ > state_.time_us();
+  const std::int64_t from_us = has_prediction ? predicted_us_ : state_.time_us();
+  const double left_s = options.max_gap_s - seconds_between(state_.time_us(), from_us);
+  const double blind_s = std::min(seconds_between(from_us, time_us), left_s);
+  const VehicleEstimate ahead = state_.vehicle().at_origin().predicted(blind_s, options);
+  return composed_pose(has_prediction ? predicted_odom_pose_ : odom_pose_,
+                       ahead.mean.head<kPose>());
 }
 
 void OdometryOutput::leave_clock() {

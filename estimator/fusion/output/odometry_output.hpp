@@ -30,7 +30,8 @@ class OdometryOutput {
   explicit OdometryOutput(OdometryState& state);
 
   /// Restarts the state, with an anchor there. The pose since the start goes on from its last
-  /// published value; its covariance grows by the unknown motion in `gap_s`.
+  /// published value, moved for max_gap_s at most as the vehicle did before; its covariance grows
+  /// by the unknown motion in `gap_s`.
   void restart(std::int64_t time_us, double gap_s);
   /// To be called when the clock of the stamps was set, before a restart at its new time: what was
   /// published at later times of the old one does not count. The gap is at most max_gap_s.
@@ -65,6 +66,7 @@ class OdometryOutput {
                                          std::int64_t utime_us);
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
+  [[nodiscard]] Eigen::Vector3d predicted_odom_pose(std::int64_t time_us) const;
 
   OdometryState& state_;
   Anchor anchor_;

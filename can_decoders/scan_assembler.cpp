@@ -22,15 +22,10 @@ constexpr std::uint32_t kLargerSteps = 16;
 /// Bits 0 to message - 1.
 constexpr unsigned before(unsigned message) { return (1U << message) - 1U; }
 
-/// Stamps are external input: their difference and sum may overflow a signed number.
+/// Stamps are external input: their difference may overflow a signed number.
 std::uint64_t distance(std::int64_t a, std::int64_t b) {
   const auto [low, high] = std::minmax(a, b);
   return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
-}
-
-std::int64_t shifted(std::int64_t stamp_us, std::int64_t offset_us) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_us) +
-                                   static_cast<std::uint64_t>(offset_us));
 }
 
 }  // namespace
@@ -70,10 +65,6 @@ void ScanAssembler::expire(std::int64_t now_us) {
 bool ScanAssembler::is_overdue(std::int64_t now_us) const {
   // A clock set back does not show how long the scan has been waiting.
   return is_open_ && now_us > open_.last_part_us && !in_time(now_us, open_.last_part_us);
-}
-
-std::optional<std::int64_t> ScanAssembler::deadline_us() const {
-  return is_open_ ? std::optional(shifted(open_.last_part_us, timeout_us_)) : std::nullopt;
 }
 
 std::optional<std::int64_t> ScanAssembler::open_stamp_us() const {

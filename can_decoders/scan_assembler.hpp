@@ -77,7 +77,9 @@ class ScanAssembler {
   /// Whether expire() would close a scan.
   [[nodiscard]] bool is_overdue(std::int64_t now_us) const;
   /// When the open scan times out if no further part comes; nothing if no scan is open.
-  [[nodiscard]] std::optional<std::int64_t> deadline_us() const;
+  [[nodiscard]] std::optional<std::int64_t> deadline_us() const {
+    return is_open_ ? std::optional(shifted(open_.last_part_us, timeout_us_)) : std::nullopt;
+  }
 
   /// Stamp of the open scan; nothing if no scan is open.
   [[nodiscard]] std::optional<std::int64_t> open_stamp_us() const;
@@ -116,6 +118,11 @@ class ScanAssembler {
     std::array<std::uint8_t, kMaxDetections> messages{};
   };
 
+  /// Stamps are external input: their sum may overflow a signed number.
+  static std::int64_t shifted(std::int64_t stamp_us, std::int64_t offset_us) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_us) +
+                                     static_cast<std::uint64_t>(offset_us));
+  }
   void note_stamp(std::int64_t stamp_us);
   [[nodiscard]] std::uint32_t step_to(std::uint16_t counter, std::uint16_t from) const;
   [[nodiscard]] bool in_time(std::int64_t stamp_us, std::int64_t last_part_us) const;

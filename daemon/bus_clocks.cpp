@@ -17,7 +17,7 @@ void BusClocks::note(const CanFrame& frame) {
     std::uint32_t& followed = clocks_[frame.interface].followed;
     followed = (followed & ~before) | (agree ? before : 0U);
   }
-  last_ = frame;
+  last_ = {frame.interface, frame.stamp_us};
 }
 
 bool BusClocks::is_set_back(const CanFrame& frame) {

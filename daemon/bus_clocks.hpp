@@ -60,7 +60,11 @@ class BusClocks {
   static constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
   std::array<Clock, kMaxBuses> clocks_{};
-  std::optional<CanFrame> last_;
+  struct Last {
+    std::uint8_t interface;
+    std::int64_t stamp_us;
+  };
+  std::optional<Last> last_;  // Frame.
 };
 
 /// The stamps of one radar's scans compared with its cycle counter: shows that the clock was set

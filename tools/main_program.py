@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all programs do, as daemon/process and tools/program.cpp for those in C++: streams, signals,
 errors, outputs that are inputs."""
+import argparse
 import contextlib
 import os
 import signal
@@ -14,6 +15,24 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 class UsageError(Exception):
     """The command line is wrong."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Of a program whose help is written out, in the form of those in C++."""
+
+    def __init__(self, help_text, version=None):
+        super().__init__(add_help=False, allow_abbrev=False)
+        self.help_text = help_text
+        self.add_argument("-h", "--help", action="help")
+        if version:
+            self.add_argument("--version", action="version", version=version)
+
+    def error(self, message):
+        usage = self.help_text.splitlines()[1].removeprefix("Usage: ")
+        raise UsageError(f"{message}; must be called as: {usage}; --help tells more")
+
+    def format_help(self):
+        return self.help_text
 
 
 class Stopped(BaseException):

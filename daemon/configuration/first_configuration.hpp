@@ -13,8 +13,9 @@ inline constexpr std::string_view kWriteFirst =
 
 /// The same up to the odometry; last lines of --help, in columns for the manual page.
 inline constexpr const char* kFirstSteps =
-    "Example, from a log of `candump -l any` to its odometry:\n"
-    "  cremed-doctor --replay LOG --suggest-config > my.toml       # then fill in the mounts\n"
-    "  cremed --config my.toml --replay LOG --output-csv odo.csv   # the motion at each scan";
+    "Example, from a log to its odometry; this one is installed, `candump -l any` records yours:\n"
+    "  LOG=/usr/share/cremed/examples/town.log\n"
+    "  cremed-doctor --replay $LOG --suggest-config > my.toml       # then fill in the mounts\n"
+    "  cremed --config my.toml --replay $LOG --output-csv odo.csv   # the motion at each scan";
 
 }  // namespace cremed

@@ -58,7 +58,8 @@ LineReader::Status LineReader::next(std::string_view& line) {
   while (true) {
     const char* const first = buffer_.data() + begin_;
     const char* const last = buffer_.data() + end_;
-    const char* const feed = std::find(first, last, '\n');
+    const void* const found = std::memchr(first, '\n', end_ - begin_);
+    const char* const feed = found == nullptr ? last : static_cast<const char*>(found);
     const bool unfinished_last = feed == last && at_end_ && first != last;
     if (feed != last || unfinished_last) {
       begin_ += static_cast<std::size_t>(feed - first) + (unfinished_last ? 0U : 1U);

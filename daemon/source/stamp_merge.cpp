@@ -2,16 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/source/stamp_merge.hpp"
 
-#include <limits>
-
 namespace cremed {
 
 StampMerge::StampMerge(std::size_t lanes, std::size_t capacity)
-    : capacity_(capacity), lanes_(lanes), frames_(lanes * capacity) {
-  for (Lane& lane : lanes_) {
-    lane.read_until_us = std::numeric_limits<std::int64_t>::min();
-  }
-}
+    : capacity_(capacity), lanes_(lanes), frames_(lanes * capacity) {}
 
 std::size_t StampMerge::place(std::size_t lane, std::size_t offset) const {
   const std::size_t at = lanes_[lane].begin + offset;
@@ -19,6 +13,9 @@ std::size_t StampMerge::place(std::size_t lane, std::size_t offset) const {
 }
 
 void StampMerge::push(std::size_t lane, const ReceivedFrame& frame) {
+  if (!has_frames(lane)) {
+    lanes_[lane].first_us = frame.received_us;
+  }
   frames_[place(lane, lanes_[lane].count++)] = frame;
   ++size_;
 }
@@ -28,13 +25,12 @@ void StampMerge::set_read_until(std::size_t lane, std::int64_t stamp_us) {
 }
 
 std::optional<std::size_t> StampMerge::oldest() const {
-  std::optional<std::size_t> best;
-  std::int64_t best_us = 0;
-  for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    if (has_frames(i) && (!best || stamp_us(i) < best_us)) {
-      best = i;
-      best_us = stamp_us(i);
-    }
+  if (size_ == 0) {
+    return std::nullopt;
+  }
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < lanes_.size(); ++i) {
+    best = lanes_[i].first_us < lanes_[best].first_us ? i : best;
   }
   return best;
 }
@@ -54,22 +50,20 @@ std::optional<std::size_t> StampMerge::awaited() const {
   return std::nullopt;
 }
 
-std::int64_t StampMerge::stamp_us(std::size_t lane) const {
-  return frames_[place(lane, 0)].received_us;
-}
-
 ReceivedFrame& StampMerge::front(std::size_t lane) { return frames_[place(lane, 0)]; }
 
 void StampMerge::pop(std::size_t lane) {
   lanes_[lane].begin = place(lane, 1) - lane * capacity_;
   --lanes_[lane].count;
   --size_;
+  lanes_[lane].first_us = has_frames(lane) ? front(lane).received_us : kNone;
 }
 
 std::size_t StampMerge::clear(std::size_t lane) {
   const std::size_t dropped = lanes_[lane].count;
   size_ -= dropped;
   lanes_[lane].count = 0;
+  lanes_[lane].first_us = kNone;
   return dropped;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,7 +37,7 @@ class StampMerge {
   [[nodiscard]] std::optional<std::size_t> awaited() const;
 
   /// Stamp of the lane's first frame; the lane must not be empty.
-  [[nodiscard]] std::int64_t stamp_us(std::size_t lane) const;
+  [[nodiscard]] std::int64_t stamp_us(std::size_t lane) const { return lanes_[lane].first_us; }
   [[nodiscard]] ReceivedFrame& front(std::size_t lane);
   void pop(std::size_t lane);
   /// Drops the frames of a lane; returns their number.
@@ -48,10 +49,14 @@ class StampMerge {
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
+  /// After any stamp.
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  /// Small, so that few lines of the cache hold all: they are compared for every frame.
   struct Lane {
     std::size_t begin = 0;  // In its ring.
     std::size_t count = 0;
-    std::int64_t read_until_us = 0;
+    std::int64_t first_us = kNone;  // Stamp of the first frame.
+    std::int64_t read_until_us = std::numeric_limits<std::int64_t>::min();
   };
   [[nodiscard]] std::size_t place(std::size_t lane, std::size_t offset) const;
 

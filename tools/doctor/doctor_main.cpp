@@ -127,8 +127,7 @@ void print(const Finding& finding) {
 
 /// A pipe cannot be read twice.
 bool finds_radars(const Arguments& arguments) {
-  return !arguments.replay.empty() && !is_pipe(arguments.replay) &&
-         is_unconfigured(arguments.config);
+  return !is_pipe(arguments.replay) && is_unconfigured(arguments.config);
 }
 
 Observation observe(const Arguments& arguments, const Configuration& configuration,
@@ -147,16 +146,16 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   return observation;
 }
 
-/// Without a configuration: the radars that are in the log, which is read twice.
-LocatedRadars locate_unconfigured(const std::string& log) {
-  return {examined_radars(observe_log(without_radars(), log)),
-          {{Severity::note, "there is no configuration, so each radar in the log is examined alone",
-            std::string(kWriteFirst)}}};
+/// Whatever is on the buses (empty `log`), or in the log.
+Observation observe_anything(const std::string& log, double seconds,
+                             const volatile std::sig_atomic_t* stop) {
+  return log.empty() ? observe_live(without_radars(), seconds, stop)
+                     : observe_log(without_radars(), log);
 }
 
 LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_t* stop) {
   if (finds_radars(arguments)) {
-    return locate_unconfigured(arguments.replay);
+    return found_radars(observe_anything(arguments.replay, arguments.seconds, stop));
   }
   const Configuration asked = load_configuration(configuration_path(arguments.config));
   return stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
@@ -201,8 +200,7 @@ std::string suggested_log(const Arguments& arguments) {
 int run_suggestion(const Arguments& arguments) {
   const std::string log = suggested_log(arguments);
   const Observation observation =
-      log.empty() ? observe_live(without_radars(), arguments.seconds, handle_stop_signals())
-                  : observe_log(without_radars(), log);
+      observe_anything(log, arguments.seconds, log.empty() ? handle_stop_signals() : nullptr);
   const std::string suggestion = suggested_configuration(observation);
   if (suggestion.empty()) {
     std::cerr << "cremed-doctor: " << no_suggestion(observation) << '\n';

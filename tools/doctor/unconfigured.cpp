@@ -7,9 +7,26 @@
 #include <system_error>
 
 #include "daemon/configuration/configuration_path.hpp"
+#include "daemon/configuration/first_configuration.hpp"
+#include "daemon/process/message_text.hpp"
+#include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/suggestion.hpp"
 
 namespace cremed {
+namespace {
+
+/// Notes: whether a radar should be on a bus is not known.
+void add_silent_buses(const Observation& observation, std::vector<Finding>& findings) {
+  for (const BusObservation& bus : observation.buses) {
+    if (is_silent(bus)) {
+      Finding why = bus_findings(bus, observation).front();
+      why.severity = Severity::note;
+      findings.push_back(std::move(why));
+    }
+  }
+}
+
+}  // namespace
 
 Configuration without_radars() {
   Configuration nothing;
@@ -30,6 +47,21 @@ Configuration examined_radars(const Observation& observation) {
     throw std::runtime_error(no_suggestion(observation));
   }
   return configuration;
+}
+
+LocatedRadars found_radars(const Observation& observation) {
+  LocatedRadars found{examined_radars(observation), {}};
+  std::string radars;
+  for (const RadarConfiguration& radar : found.configuration.radars) {
+    radars += concat({radars.empty() ? "" : ", ", radar.name, ": ", radar.decoder.describe(),
+                      " on ", radar.interface});
+  }
+  found.findings.push_back(
+      {Severity::note,
+       concat({"there is no configuration, so each radar is examined alone (", radars, ")"}),
+       std::string(kWriteFirst)});
+  add_silent_buses(observation, found.findings);
+  return found;
 }
 
 }  // namespace cremed

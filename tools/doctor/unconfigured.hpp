@@ -5,9 +5,10 @@
 #include <string>
 
 #include "daemon/configuration/configuration.hpp"
+#include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/observation.hpp"
 
-// For one who has a log and no configuration yet.
+// For one who has a log, or buses, and no configuration yet.
 namespace cremed {
 
 /// To observe buses without knowing what is on them.
@@ -22,5 +23,9 @@ bool is_pipe(const std::string& log);
 /// The radars observed, to examine each alone (examined_configuration). Throws std::runtime_error
 /// with the traffic and advice if there are none.
 Configuration examined_radars(const Observation& observation);
+
+/// The same, with findings that tell what they are, which buses are silent and how to write a
+/// configuration.
+LocatedRadars found_radars(const Observation& observation);
 
 }  // namespace cremed

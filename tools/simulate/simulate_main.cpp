@@ -22,7 +22,7 @@
 
 namespace {
 
-using cremed::UsageError;
+using namespace cremed;
 
 struct Arguments {
   std::string scenario;
@@ -30,7 +30,7 @@ struct Arguments {
   std::string truth;
   std::string config;
   std::int64_t start_s = 1'700'000'000;
-  cremed::SimulationOptions options;
+  SimulationOptions options;
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -50,87 +50,78 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
       ->capture_default_str();
-  app.add_option(
-         "--body-velocity-std", arguments.options.body_velocity_std_mps,
-         "Standard deviation in m/s of the velocity of all radars relative to the rear axle "
-         "while driving (pitch, suspension)")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
-  app.add_option(
-         "--doppler-offset-std", arguments.options.doppler_offset_std_mps,
-         "Standard deviation in m/s of an unreported offset of all Doppler of a radar while "
-         "driving")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
-  app.add_option("--doppler-scale-std", arguments.options.doppler_scale_std,
-                 "Standard deviation of the factor on all Doppler of a radar, drawn once per drive")
-      ->check(CLI::Range(0.0, 0.1))
-      ->capture_default_str();
-  app.add_option(
-         "--mount-yaw-std", arguments.options.mount_yaw_std_rad,
-         "Standard deviation in rad of a radar's yaw from the configured one, drawn once per "
-         "drive")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  app.add_option("--mount-position-std", arguments.options.mount_position_std_m,
-                 "The same for x and y of its mount, in m")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  const auto add_std = [&](const char* name, double& value, double max, const char* description) {
+    app.add_option(name, value, std::string("Standard deviation ") + description)
+        ->check(CLI::Range(0.0, max))
+        ->capture_default_str();
+  };
+  SimulationOptions& options = arguments.options;
+  add_std("--body-velocity-std", options.body_velocity_std_mps, 5.0,
+          "in m/s of the velocity of all radars relative to the rear axle while driving (pitch, "
+          "suspension)");
+  add_std("--doppler-offset-std", options.doppler_offset_std_mps, 5.0,
+          "in m/s of an unreported offset of all Doppler of a radar while driving");
+  add_std("--doppler-scale-std", options.doppler_scale_std, 0.1,
+          "of the factor on all Doppler of a radar, drawn once per drive");
+  add_std("--mount-yaw-std", options.mount_yaw_std_rad, 0.5,
+          "in rad of a radar's yaw from the configured one, drawn once per drive");
+  add_std("--mount-position-std", options.mount_position_std_m, 1.0,
+          "in m of x and y of its mount, drawn once per drive");
   app.add_flag("!--not-told", arguments.options.is_told_motion,
                "ARS408s do not receive the vehicle's speed and yaw rate: they take static targets "
                "for moving, report radial velocities only and do not extrapolate positions");
 }
 
 void list_scenarios() {
-  for (const cremed::Scenario& scenario : cremed::scenarios()) {
+  for (const Scenario& scenario : scenarios()) {
     std::cout << std::left << std::setw(12) << scenario.name << ' ' << scenario.description << " ("
               << scenario.duration_s << " s)\n";
   }
 }
 
-const cremed::Scenario& asked_scenario(const std::string& name) {
-  if (const cremed::Scenario* scenario = cremed::find_scenario(name)) return *scenario;
+const Scenario& asked_scenario(const std::string& name) {
+  if (const Scenario* scenario = find_scenario(name)) return *scenario;
   throw UsageError("--scenario: unknown scenario '" + name + "'; '--scenario list' prints all");
 }
 
-void write_log(cremed::Simulation& simulation, cremed::LineStream& log) {
-  std::array<char, cremed::kMaxCandumpLine> line{};
+void write_log(Simulation& simulation, LineStream& log) {
+  std::array<char, kMaxCandumpLine> line{};
   while (const auto frame = simulation.next()) {
     const std::string& interface = simulation.interfaces()[frame->interface];
-    const std::size_t length = cremed::format_candump_line(*frame, interface, line);
+    const std::size_t length = format_candump_line(*frame, interface, line);
     if (!log.stream().write(line.data(), static_cast<std::streamsize>(length))) break;
   }
   log.finish();
 }
 
-void write_truth(const cremed::Simulation& simulation, const std::string& path) {
-  cremed::LineStream file(path);
+void write_truth(const Simulation& simulation, const std::string& path) {
+  LineStream file(path);
   simulation.write_truth(file.stream());
   file.finish();
 }
 
-cremed::Configuration configuration_of(const std::string& path) {
-  cremed::Configuration configuration;
+Configuration configuration_of(const std::string& path) {
+  Configuration configuration;
   if (path.empty()) {
-    configuration.radars = cremed::default_radars();
+    configuration.radars = default_radars();
   } else {
-    configuration = cremed::load_configuration(path);
-    cremed::require_interface_names(configuration);
+    configuration = load_configuration(path);
+    require_interface_names(configuration);
   }
   return configuration;
 }
 
 void simulate(Arguments& arguments) {
-  const cremed::Scenario& scenario = asked_scenario(arguments.scenario);
+  const Scenario& scenario = asked_scenario(arguments.scenario);
   if (arguments.output.empty()) throw UsageError("--output is required, a file or '-'");
-  const cremed::Configuration configuration = configuration_of(arguments.config);
+  const Configuration configuration = configuration_of(arguments.config);
   arguments.options.vehicle = configuration.vehicle;
-  cremed::refuse_aliases({{"--config", arguments.config}},
-                         {{"--output", arguments.output}, {"--truth", arguments.truth}});
+  refuse_aliases({{"--config", arguments.config}},
+                 {{"--output", arguments.output}, {"--truth", arguments.truth}});
   arguments.options.start_us = arguments.start_s * 1'000'000;
-  cremed::Simulation simulation(scenario, configuration.radars, arguments.options);
+  Simulation simulation(scenario, configuration.radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
-  cremed::LineStream log(arguments.output);
+  LineStream log(arguments.output);
   write_log(simulation, log);
 }
 

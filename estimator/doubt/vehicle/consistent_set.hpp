@@ -23,8 +23,8 @@ struct ConsistentSet {
 /// one that is at fault already. A single radar is compared with its own positions.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
-/// All radars if they are consistent, else those of before; else the largest sets that are, with one
-/// or two radars less or of one radar.
+/// All radars if they are consistent, else those of before; else the largest sets that are, with
+/// one or two radars less or of one radar.
 ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault);
 
 }  // namespace cremed

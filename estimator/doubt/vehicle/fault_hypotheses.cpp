@@ -57,8 +57,8 @@ void FaultHypotheses::require_positions() {
 
 void FaultHypotheses::judge() {
   const ConsistentSet best = find_consistent_set(evidence_, at_fault());
-  const bool is_known = judged() == 0 || (best.radars != 0 && best.rivals == 0 &&
-                                          !evidence_.contradicts_positions());
+  const bool is_known =
+      judged() == 0 || (best.radars != 0 && best.rivals == 0 && !evidence_.contradicts_positions());
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
     allow_for_scale();

@@ -231,11 +231,11 @@ bool MotionEvidence::contradicts_positions() const {
   for_each(present(), [&](std::size_t i) {
     const auto& speed = tracks_[i].speed;
     const Velocity& velocity = tracks_[i].velocities[1];
-    refuted += speed && speed->stamp_us == velocity.stamp_us &&
-                       squared(velocity.mps.x() - speed->mps) >
-                           squared(kMaxSpeedSigmas) * speed->variance
-                   ? 1
-                   : 0;
+    refuted +=
+        speed && speed->stamp_us == velocity.stamp_us &&
+                squared(velocity.mps.x() - speed->mps) > squared(kMaxSpeedSigmas) * speed->variance
+            ? 1
+            : 0;
   });
   return refuted > 1 && 2 * refuted > std::popcount(present());
 }

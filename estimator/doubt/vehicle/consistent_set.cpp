@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <optional>
 
 namespace cremed {
 namespace {
@@ -14,11 +15,12 @@ constexpr double kMaxDecreaseToReturn = 4.0;
 constexpr double kClearlyBetter = 4.0;
 
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, double chi_square_of_set,
-                   RadarSet at_fault) {
+                   RadarSet at_fault, std::optional<MotionEvidence::Pair> pair = std::nullopt) {
   return !any_of(set, [&](std::size_t radar) {
     const RadarSet without = set & ~set_of(radar);
     const double limit = contains(at_fault, radar) ? kMaxDecreaseToReturn : kMaxDecrease;
-    return chi_square_of_set - (without == 0 ? 0.0 : evidence.fit(without).chi_square()) > limit;
+    const double rest = without == 0 ? 0.0 : evidence.fit(without, pair).chi_square();
+    return chi_square_of_set - rest > limit;
   });
 }
 
@@ -35,16 +37,23 @@ class Search {
     // That of before is kept while it explains the measurements.
     try_set(present);
     if (best_.radars == 0) {
-      try_set(present & ~at_fault_);
-    }
-    if (best_.radars == 0 || (best_.radars != present && do_witnesses_contradict())) {
-      try_all(present);
+      try_less(present);
     }
     best_.radars |= best_.radars != 0 ? evidence_.judged() & ~present & ~at_fault_ : 0U;
     return best_;
   }
 
  private:
+  void try_less(RadarSet present) {
+    try_set(present & ~at_fault_);
+    if (best_.radars == 0 || do_witnesses_contradict()) {
+      try_all(present);
+    }
+    if (std::popcount(present) > 2) {
+      try_exchanged(present);
+    }
+  }
+
   void try_all(RadarSet present) {
     best_ = {};
     const auto each = [&](auto use) {
@@ -70,8 +79,41 @@ class Search {
     }
   }
 
+  /// Everything fits if two radars have each other's mount. A set without one radar that fits
+  /// leaves as little to chance: if another one drove backwards that may be its sign; then the
+  /// witnesses tell. Positions of the two do not count: they were found at the wrong mount.
+  void try_exchanged(RadarSet present) {
+    ConsistentSet exchanged;
+    double of_witnesses = 0.0;
+    for_each(present, [&](std::size_t one) {
+      for_each(present & ~(2U * set_of(one) - 1U), [&](std::size_t other) {
+        const MotionEvidence::Pair pair{one, other, true};
+        const auto fit = evidence_.fit(present, pair);
+        const auto own = evidence_.fit(present, MotionEvidence::Pair{one, other, false});
+        if (fit.of_witnesses < kMaxWitness && own.of_set - fit.of_set > kMaxDecrease &&
+            is_consistent(evidence_, present, fit.chi_square(), 0U, pair)) {
+          exchanged = {present & ~set_of(one) & ~set_of(other), fit.chi_square(),
+                       exchanged.radars == 0 ? 0 : exchanged.rivals + 1};
+          of_witnesses = fit.of_witnesses;
+        }
+      });
+    });
+    if (exchanged.radars == 0 || exchanged.rivals > 0) {
+      return;
+    }
+    const bool is_as_simple = std::popcount(best_.radars) + 1 == std::popcount(present);
+    const double gain =
+        is_as_simple ? evidence_.fit(best_.radars).of_witnesses - of_witnesses : kMaxWitness;
+    if (gain > kClearlyBetter) {
+      best_ = exchanged;
+    } else {
+      best_.is_exchange_possible = gain > -kClearlyBetter && evidence_.witnesses() != 0;
+    }
+  }
+
+  /// More than one of them, which may see a passing vehicle.
   [[nodiscard]] bool do_witnesses_contradict() const {
-    return evidence_.fit(best_.radars).of_witnesses > kMaxDecrease;
+    return evidence_.fit(best_.radars).of_witnesses > kMaxWitness;
   }
 
   void try_set(RadarSet set) {
@@ -102,7 +144,7 @@ class Search {
     }
     const MotionEvidence::Fit fit = evidence_.fit(set);
     const double gain =
-        evidence_.fit(best_.radars).of_witnesses - fit.of_witnesses - kMaxDecrease * fewer;
+        evidence_.fit(best_.radars).of_witnesses - fit.of_witnesses - kMaxWitness * fewer;
     if (gain <= 0.0 || !is_consistent(evidence_, set, fit.chi_square(), at_fault_)) {
       return;
     }

@@ -17,13 +17,16 @@ struct ConsistentSet {
   RadarSet radars = 0;  ///< None: no set is consistent.
   double chi_square = 0.0;
   int rivals = 0;  ///< Consistent sets of the same size that fit as well.
+  /// Two radars with each other's mounts would explain all as well.
+  bool is_exchange_possible = false;
 };
 
 /// Leaving out none of the set lowers its chi-square by more than kMaxDecrease, half of that for
 /// one that is at fault already. A single radar is compared with its own positions.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
-/// All radars if they are consistent, else those of before; else the largest sets that are, with
+/// All radars if they are consistent, else those that are not two with each other's mounts, if that
+/// alone explains all; else those of before; else the largest sets that are, with
 /// one or two radars less or of one radar.
 ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault);
 

@@ -68,7 +68,8 @@ class FaultHypotheses {
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
   /// The radars in use are consistent, a single one by its positions, if it has targets for that.
   [[nodiscard]] bool is_verified() const {
-    return is_verified_ || (!needs_positions_ && !std::has_single_bit(judged()) && !is_unknown());
+    return is_verified_ || (!needs_positions_ && !is_start_open_ &&
+                            !std::has_single_bit(judged()) && !is_unknown());
   }
   /// The odometry was lost since the beginning: see require_positions().
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }
@@ -98,6 +99,7 @@ class FaultHypotheses {
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
   void allow_for_scale();
   void search_causes(RadarSet believed);
+  void convict_by_cause();
 
   const OdometryState& state_;
   MotionEvidence evidence_;
@@ -107,6 +109,7 @@ class FaultHypotheses {
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;
   bool is_verified_ = false;
+  bool is_start_open_ = false;  // One has another sign, or two are exchanged.
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
 };

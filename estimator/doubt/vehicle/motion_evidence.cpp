@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "cremed/estimator/motion/vehicle_limits.hpp"
@@ -19,8 +20,6 @@ namespace {
 constexpr double kEpochS = 0.15;
 /// Two missing scans. Between scans further apart the velocity is not interpolated.
 constexpr double kMaxScanPeriodS = 0.3;
-/// Largest part of chi-square by a radar that looks sideways: it sees passing vehicles.
-constexpr double kMaxWitness = 9.0;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.
 constexpr double kMaxNoiseMps = 0.75;
 /// Largest standard deviation of a speed by positions that confirms the Doppler. With it 10 % are 3
@@ -50,7 +49,7 @@ constexpr double kMaxSpeedSigmas = 4.0;
 }  // namespace
 
 MotionEvidence::MotionEvidence(const OdometryState& state)
-    : state_(state), tracks_(state.radars()), velocities_(state.radars()) {
+    : state_(state), tracks_(state.radars()) {
   epochs_.fill(Epoch(state.radars()));
   for (std::size_t i = 0; i < state.radars(); ++i) {
     judged_ |= looks_across(state.mount(i)) ? 0U : set_of(i);
@@ -117,8 +116,8 @@ void MotionEvidence::observe(std::int64_t time_us) {
   time_us_ = time_us;
   Epoch& epoch = epochs_[count_++ % kEpochs];
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    velocities_[i] = velocity_at(i, time_us);
-    epoch[i] = velocities_[i] ? measurements(i, *velocities_[i]) : MotionSums();
+    const auto velocity = velocity_at(i, time_us);
+    epoch[i] = {velocity, velocity ? measurements(i, *velocity) : MotionSums()};
   }
 }
 
@@ -144,9 +143,9 @@ std::optional<MotionEvidence::Velocity> MotionEvidence::velocity_at(std::size_t 
                   a.covariance + std::clamp(part, 0.0, 1.0) * (b.covariance - a.covariance)};
 }
 
-MotionSums MotionEvidence::by_doppler(std::size_t radar, const Velocity& velocity) const {
+MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velocity) const {
   const OdometryOptions& options = state_.options();
-  const Pose2& mount = state_.mount(radar);
+  const Pose2& mount = state_.mount(mount_of);
   const bool is_witness = looks_across(mount);
   const double speed_mps = velocity.mps.norm();
   const double mount_std = options.mount_yaw_std_rad + kMoreMountYawStdRad +
@@ -198,21 +197,40 @@ MotionSums MotionEvidence::prior() const {
   return prior;
 }
 
-MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch) const {
+MotionSums MotionEvidence::by_doppler_at(std::size_t radar, std::size_t mount,
+                                         const std::optional<Velocity>& velocity) const {
+  if (!velocity) {
+    return {};
+  }
+  const Eigen::Matrix2d turn =
+      Eigen::Rotation2Dd(state_.mount(mount).yaw_rad - state_.mount(radar).yaw_rad)
+          .toRotationMatrix();
+  return by_doppler(mount, {velocity->stamp_us, turn * velocity->mps,
+                            turn * velocity->covariance * turn.transpose()});
+}
+
+MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const {
   MotionSums sum = prior();
-  for_each(set, [&](std::size_t i) { sum.add(epoch[i]); });
+  for_each(set, [&](std::size_t i) {
+    if (pair && (i == pair->one || i == pair->other)) {
+      const std::size_t partner = i == pair->one ? pair->other : pair->one;
+      sum.add(by_doppler_at(i, pair->is_exchanged ? partner : i, epoch[i].velocity));
+    } else {
+      sum.add(epoch[i].all);
+    }
+  });
   return sum;
 }
 
-MotionEvidence::Fit MotionEvidence::fit(RadarSet set) const {
+MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) const {
   Fit sum;
   for (std::size_t k = 0; k < epochs(); ++k) {
-    const MotionSums joint = this->sum(set, epochs_[k]);
+    const MotionSums joint = this->sum(set, epochs_[k], pair);
     const double of_set = joint.chi_square();
     sum.of_set += of_set;
     for_each(witnesses(), [&](std::size_t i) {
       MotionSums with = joint;
-      with.add(epochs_[k][i]);
+      with.add(epochs_[k][i].all);
       sum.of_witnesses += std::min(kMaxWitness, with.chi_square() - of_set);
     });
   }
@@ -222,7 +240,7 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set) const {
 
 RadarSet MotionEvidence::present() const {
   RadarSet present = 0;
-  for_each(judged_, [&](std::size_t i) { present |= velocities_[i] ? set_of(i) : 0U; });
+  for_each(judged_, [&](std::size_t i) { present |= velocity(i) ? set_of(i) : 0U; });
   return present;
 }
 

@@ -19,6 +19,9 @@
 
 namespace cremed {
 
+/// Largest part of chi-square by a radar that looks sideways: it sees passing vehicles.
+inline constexpr double kMaxWitness = 9.0;
+
 /// What the radars measure of the vehicle's motion, in epochs: seven times a second, at a common
 /// time, each radar's
 ///
@@ -75,19 +78,25 @@ class MotionEvidence {
 
     [[nodiscard]] double chi_square() const { return of_set + of_witnesses; }
   };
-  [[nodiscard]] Fit fit(RadarSet set) const;
+  /// Two radars of which only Doppler counts, at their own mounts or at each other's.
+  struct Pair {
+    std::size_t one;
+    std::size_t other;
+    bool is_exchanged;
+  };
+  [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
 
   // In the newest epoch:
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
   [[nodiscard]] RadarSet present() const;  ///< Those that are judged.
   [[nodiscard]] const std::optional<Velocity>& velocity(std::size_t radar) const {
-    return velocities_[radar];
+    return newest_epoch()[radar].velocity;
   }
   /// All measurements of the radars in the set, with the prior.
-  [[nodiscard]] MotionSums sum(RadarSet set) const { return sum(set, newest_epoch()); }
+  [[nodiscard]] MotionSums sum(RadarSet set) const { return sum(set, newest_epoch(), {}); }
   /// Doppler of a radar that is present.
   [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
-    return by_doppler(radar, *velocities_[radar]);
+    return by_doppler(radar, *velocity(radar));
   }
   /// The speeds of two radars or more, and of most, contradict their own positions: a fault that
   /// all may share.
@@ -101,7 +110,11 @@ class MotionEvidence {
 
  private:
   static constexpr std::size_t kEpochs = 7;
-  using Epoch = std::vector<MotionSums>;  // By radar.
+  struct Measured {
+    std::optional<Velocity> velocity;
+    MotionSums all;
+  };
+  using Epoch = std::vector<Measured>;  // By radar.
 
   struct YawRate {
     std::int64_t start_us = 0;
@@ -129,18 +142,19 @@ class MotionEvidence {
   void observe(std::int64_t time_us);
   [[nodiscard]] bool is_fresh(std::int64_t stamp_us) const;
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
-  [[nodiscard]] MotionSums by_doppler(std::size_t radar, const Velocity& velocity) const;
+  [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
   [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity) const;
   [[nodiscard]] MotionSums prior() const;
-  [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch) const;
+  [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
+                                         const std::optional<Velocity>& velocity) const;
+  [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
 
   const OdometryState& state_;
   RadarSet judged_ = 0;
   std::vector<Track> tracks_;
   std::array<Epoch, kEpochs> epochs_;
-  std::vector<std::optional<Velocity>> velocities_;  // Of the newest epoch.
-  std::size_t count_ = 0;                            // Of epochs.
+  std::size_t count_ = 0;  // Of epochs.
   std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t time_us_ = 0;
   double disputed_scale_ = 0.0;

@@ -118,7 +118,7 @@ TEST_CASE("a mount that is further ahead than configured is found in turns") {
 }
 
 TEST_CASE("upside down is found at each mount that turns tell from another yaw") {
-  for (const std::size_t radar : {0, 1, 3}) {
+  for (const std::size_t radar : {0U, 1U, 3U}) {
     CHECK(found(radar, town, 10.0, upside_down).kind == FaultKind::upside_down);
   }
   CHECK(found(1, straight, 10.0, upside_down).kind != FaultKind::upside_down);

@@ -244,7 +244,9 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   const Innovation innovation = state_.gaussian.innovate(measurement);
   const bool is_expected = innovation.nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * innovation.nis);
-  trust.judge(stamp_us, scan.velocity, is_expected);
+  if (trust.judge(stamp_us, scan.velocity, is_expected) && state_.is_witness(radar)) {
+    state_.widen_errors(radar);
+  }
   const bool is_used = !consensus_.is_left_out(radar) && trust.is_trusted;
   if (is_used) {
     trust.doppler_noise.add(0.5 * innovation.nis);

@@ -117,12 +117,28 @@ TEST_CASE("a mount that is further ahead than configured is found in turns") {
   }
 }
 
-TEST_CASE("upside down is found at a mount that turns tell from another yaw") {
-  for (const std::size_t radar : {0, 3}) {
+TEST_CASE("upside down is found at each mount that turns tell from another yaw") {
+  for (const std::size_t radar : {0U, 1U, 3U}) {
     CHECK(found(radar, town, 10.0, upside_down).kind == FaultKind::upside_down);
   }
-  // At the rear axle it moves across too little.
-  CHECK(found(1, town, 10.0, upside_down).kind == FaultKind::unknown);
+  CHECK(found(1, straight, 10.0, upside_down).kind != FaultKind::upside_down);
+}
+
+TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the cause is clear") {
+  const auto gain = [](const Drive& drive, const Fault& fault) {
+    FaultCauseSearch search(kMounts, 0);
+    for (double time_s = 1000.0; time_s < 1004.0; time_s += 0.15) {
+      const Motion motion = drive(time_s);
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0});
+      search.add_velocity(fault(drive, time_s, kMounts[0]));
+    }
+    return search.find();
+  };
+  const auto braking = [](double time_s) { return Motion{8.0 - 0.6 * (time_s - 1000.0), 0.0}; };
+  CHECK(gain(town, scaled(1.0)).gain < 1.0);
+  CHECK(gain(braking, late(0.3)).gain > 25.0);
+  CHECK_FALSE(gain(braking, late(0.3)).is_clear);
+  CHECK(gain(town, late(0.3)).is_clear);
 }
 
 TEST_CASE("data of a radar at another mount are found with its number") {

@@ -31,7 +31,10 @@ class Comparison {
   using Fault = std::function<void(std::size_t radar, Measured&)>;
 
   explicit Comparison(const std::vector<Pose2>& mounts)
-      : mounts_(mounts), state_(OdometryOptions(), mounts), faults_(state_) {}
+      : mounts_(mounts),
+        state_(OdometryOptions(), mounts),
+        faults_(state_),
+        delays_s_(mounts.size()) {}
 
   /// Radars scan in turn, each every 75 ms.
   void drive(double duration_s, const Fault& fault = {}, bool has_positions = true) {
@@ -42,6 +45,8 @@ class Comparison {
       }
     }
   }
+  /// Of the stamps of a radar.
+  void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
   void lose() { faults_.require_positions(); }
   void set_clock(double by_s) {
@@ -54,8 +59,9 @@ class Comparison {
  private:
   void scan(std::size_t radar, const Fault& fault, bool has_positions) {
     const auto stamp_us = static_cast<std::int64_t>(std::llround(time_s_ * 1e6));
-    const double w = 0.2 * std::sin(0.5 * time_s_);
-    const double v = 8.0 + std::sin(0.3 * time_s_);
+    const double time_s = time_s_ - delays_s_[radar];
+    const double w = 0.2 * std::sin(0.5 * time_s);
+    const double v = 8.0 + std::sin(0.3 * time_s);
     const Pose2& mount = mounts_[radar];
     const double forward = v - w * mount.y_m;
     Measured measured{{forward + 0.03 * normal_(random_), w * mount.x_m + 0.1 * normal_(random_)},
@@ -86,6 +92,7 @@ class Comparison {
   std::vector<Pose2> mounts_;
   OdometryState state_;
   FaultHypotheses faults_;
+  std::vector<double> delays_s_;
   std::mt19937_64 random_{1};
   std::normal_distribution<double> normal_;
   double time_s_ = 1000.0;
@@ -130,6 +137,26 @@ TEST_CASE("the radar that differs from the others is at fault, and no other") {
   comparison.drive(10.0, fault);
   CHECK(comparison.faults().at_fault() == 1U << guilty);
   CHECK_FALSE(comparison.faults().is_unknown());
+}
+
+TEST_CASE("a radar that is late is at fault, with what corrects it, and no other") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  Comparison comparison(kFive);
+  comparison.delay(guilty, 0.4);
+  comparison.drive(15.0);
+  CHECK(comparison.faults().at_fault() == 1U << guilty);
+  const FaultCause cause = comparison.faults().cause(guilty);
+  CHECK(cause.kind == FaultKind::late);
+  CHECK(cause.value == Approx(0.4).margin(0.1));
+}
+
+TEST_CASE("two radars that look aside with each other's mounts are at fault") {
+  Comparison comparison(kFive);
+  comparison.drive(5.0, [](std::size_t radar, Comparison::Measured& measured) {
+    measured.velocity_mps *= radar >= 3 ? -1.0 : 1.0;
+  });
+  CHECK(comparison.faults().at_fault() == 0b11000U);
+  CHECK(comparison.faults().cause(3).kind == FaultKind::exchanged);
 }
 
 TEST_CASE("two radars with each other's mounts are at fault, confirmed by those that look aside") {

@@ -196,7 +196,7 @@ class SystematicFaults {
 
   void add_clocks() {
     for (const std::size_t radar : {front(), second()}) {
-      for (const std::int64_t late_ms : {300, 500}) {
+      for (const std::int64_t late_ms : {100, 200, 300, 500}) {
         FaultCase& late =
             add("late " + std::to_string(late_ms) + " ms", radar, always(), FaultKind::late);
         late.may_be_learned = late_ms <= 300;

@@ -23,7 +23,7 @@ bool RadarTrust::votes(std::int64_t time_us) const {
   return has_verdict && is_trusted && seconds_between(verdict_us, time_us) <= kScanVerdictValidS;
 }
 
-void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {
+bool RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected) {
   has_verdict = true;
   verdict_us = stamp_us;
   velocity = measured;
@@ -33,6 +33,9 @@ void RadarTrust::judge(std::int64_t stamp_us, const DopplerVelocity& measured, b
     left_out_us = is_left_out ? left_out_us : stamp_us;
     is_left_out = contradictions != 0;
   }
+  const bool was_doubted = is_doubted;
+  is_doubted = is_left_out && seconds_between(left_out_us, stamp_us) >= kDoubtedS;
+  return is_doubted && !was_doubted;
 }
 
 void RadarTrust::forgive() {

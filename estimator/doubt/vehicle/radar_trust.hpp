@@ -35,7 +35,9 @@ struct RadarTrust {
   /// Contradicting minus agreeing scans at which a radar is left out that looks sideways
   /// (FaultHypotheses judges the others): 0.4 s of an ARS408.
   static constexpr int kMaxContradictions = 5;
-  /// Time after which that is a fault: a passing vehicle takes less.
+  /// Time after which what was learned of it is doubted: a passing vehicle takes 2 s at most;
+  static constexpr double kDoubtedS = 2.4;
+  /// and after which that is a fault.
   static constexpr double kFaultyS = 3.0;
 
   NisMean doppler;  ///< NIS of the last minute.
@@ -46,6 +48,7 @@ struct RadarTrust {
   int contradictions = 0;
   bool is_left_out = false;
   std::int64_t left_out_us = 0;  ///< Since when.
+  bool is_doubted = false;       ///< For kDoubtedS.
   bool is_trusted = true;        ///< By its self-check: it may vote.
   // Its last scan:
   bool has_verdict = false;
@@ -59,8 +62,9 @@ struct RadarTrust {
   [[nodiscard]] bool votes(std::int64_t time_us) const;
   /// Whether its last scan agreed, at any age.
   [[nodiscard]] bool has_agreed() const { return has_verdict && agrees; }
-  /// Records whether a scan's velocity is as the filter expects.
-  void judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected);
+  /// Records whether a scan's velocity is as the filter expects. True if from now on what was
+  /// learned of the radar is doubted.
+  bool judge(std::int64_t stamp_us, const DopplerVelocity& measured, bool is_expected);
   /// Clears its contradictions: the filter was wrong.
   void forgive();
 };

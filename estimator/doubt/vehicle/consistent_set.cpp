@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/vehicle/consistent_set.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <optional>
+
+namespace cremed {
+namespace {
+
+constexpr double kMaxDecreaseToReturn = 4.0;
+/// Decrease of chi-square by which one set is better than another.
+constexpr double kClearlyBetter = 4.0;
+
+bool is_consistent(const MotionEvidence& evidence, RadarSet set, double chi_square_of_set,
+                   RadarSet at_fault, std::optional<MotionEvidence::Pair> pair = std::nullopt) {
+  return !any_of(set, [&](std::size_t radar) {
+    const RadarSet without = set & ~set_of(radar);
+    const double limit = contains(at_fault, radar) ? kMaxDecreaseToReturn : kMaxDecrease;
+    const double rest = without == 0 ? 0.0 : evidence.fit(without, pair).chi_square();
+    return chi_square_of_set - rest > limit;
+  });
+}
+
+class Search {
+ public:
+  Search(const MotionEvidence& evidence, RadarSet at_fault)
+      : evidence_(evidence), at_fault_(at_fault) {}
+
+  [[nodiscard]] ConsistentSet find() {
+    const RadarSet present = evidence_.present();
+    if (present == 0) {
+      return {evidence_.judged()};
+    }
+    // That of before is kept while it explains the measurements.
+    try_set(present);
+    if (best_.radars == 0) {
+      try_less(present);
+    }
+    best_.radars |= best_.radars != 0 ? evidence_.judged() & ~present & ~at_fault_ : 0U;
+    return best_;
+  }
+
+ private:
+  void try_less(RadarSet present) {
+    try_set(present & ~at_fault_);
+    if (best_.radars == 0 || do_witnesses_contradict()) {
+      try_all(present);
+    }
+    if (std::popcount(present) > 2) {
+      try_exchanged(present);
+    }
+  }
+
+  void try_all(RadarSet present) {
+    best_ = {};
+    const auto each = [&](auto use) {
+      for_each(present, [&](std::size_t one) { use(set_of(one)); });
+    };
+    const auto each_pair_less = [&](auto use) {
+      each([&](RadarSet one) {
+        each([&](RadarSet other) { use(other > one ? present & ~one & ~other : 0U); });
+      });
+    };
+    const auto try_set = [this](RadarSet set) { this->try_set(set); };
+    each([&](RadarSet one) { try_set(present & ~one); });
+    if (best_.radars == 0) {
+      each_pair_less(try_set);
+    }
+    if (best_.radars == 0) {
+      each(try_set);
+    }
+    if (best_.radars != 0 && do_witnesses_contradict()) {
+      const auto try_smaller = [this](RadarSet set) { this->try_smaller(set); };
+      each_pair_less(try_smaller);
+      each(try_smaller);
+    }
+  }
+
+  /// Everything fits if two radars have each other's mount. A set without one radar that fits
+  /// leaves as little to chance: if another one drove backwards that may be its sign; then the
+  /// witnesses tell. Positions of the two do not count: they were found at the wrong mount.
+  void try_exchanged(RadarSet present) {
+    ConsistentSet exchanged;
+    double of_witnesses = 0.0;
+    for_each(present, [&](std::size_t one) {
+      for_each(present & ~(2U * set_of(one) - 1U), [&](std::size_t other) {
+        const MotionEvidence::Pair pair{one, other, true};
+        const auto fit = evidence_.fit(present, pair);
+        const auto own = evidence_.fit(present, MotionEvidence::Pair{one, other, false});
+        if (fit.of_witnesses < kMaxWitness && own.of_set - fit.of_set > kMaxDecrease &&
+            is_consistent(evidence_, present, fit.chi_square(), 0U, pair)) {
+          exchanged = {present & ~set_of(one) & ~set_of(other), fit.chi_square(),
+                       exchanged.radars == 0 ? 0 : exchanged.rivals + 1};
+          of_witnesses = fit.of_witnesses;
+        }
+      });
+    });
+    if (exchanged.radars == 0 || exchanged.rivals > 0) {
+      return;
+    }
+    const bool is_as_simple = std::popcount(best_.radars) + 1 == std::popcount(present);
+    const double gain =
+        is_as_simple ? evidence_.fit(best_.radars).of_witnesses - of_witnesses : kMaxWitness;
+    if (gain > kClearlyBetter) {
+      best_ = exchanged;
+    } else {
+      best_.is_exchange_possible = gain > -kClearlyBetter && evidence_.witnesses() != 0;
+    }
+  }
+
+  /// More than one of them, which may see a passing vehicle.
+  [[nodiscard]] bool do_witnesses_contradict() const {
+    return evidence_.fit(best_.radars).of_witnesses > kMaxWitness;
+  }
+
+  void try_set(RadarSet set) {
+    if (set == 0) {
+      return;
+    }
+    const double fit = evidence_.fit(set).chi_square();
+    if (!is_consistent(evidence_, set, fit, at_fault_)) {
+      return;
+    }
+    // Of two single radars that are each right by their own none is better.
+    const double clearly_better =
+        std::has_single_bit(set) ? std::numeric_limits<double>::infinity() : kClearlyBetter;
+    if (best_.radars == 0 || fit < best_.chi_square - clearly_better) {
+      best_ = {set, fit, 0};
+    } else if (fit <= best_.chi_square + clearly_better) {
+      best_ = {fit < best_.chi_square ? set : best_.radars, std::min(fit, best_.chi_square),
+               best_.rivals + 1};
+    }
+  }
+
+  /// The witnesses contradict the best set by more than a radar may, and not this smaller one: two
+  /// exchanged radars, one ahead and one behind, agree that the vehicle drives backwards.
+  void try_smaller(RadarSet set) {
+    const int fewer = std::popcount(best_.radars) - std::popcount(set);
+    if (set == 0 || fewer <= 0) {
+      return;
+    }
+    const MotionEvidence::Fit fit = evidence_.fit(set);
+    const double gain =
+        evidence_.fit(best_.radars).of_witnesses - fit.of_witnesses - kMaxWitness * fewer;
+    if (gain <= 0.0 || !is_consistent(evidence_, set, fit.chi_square(), at_fault_)) {
+      return;
+    }
+    if (gain > kClearlyBetter) {
+      best_ = {set, fit.chi_square(), 0};
+    } else {
+      ++best_.rivals;
+    }
+  }
+
+  const MotionEvidence& evidence_;
+  RadarSet at_fault_;
+  ConsistentSet best_;
+};
+
+}  // namespace
+
+bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault) {
+  return is_consistent(evidence, set, evidence.fit(set).chi_square(), at_fault);
+}
+
+ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault) {
+  return Search(evidence, at_fault).find();
+}
+
+}  // namespace cremed

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/vehicle/convictions.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace cremed {
+namespace {
+
+/// First and longest time for which a radar stays at fault without new evidence.
+constexpr std::int64_t kFirstHoldUs = 5'000'000;
+constexpr std::int64_t kLongestHoldUs = 640'000'000;
+/// The first of radars that found themselves wrong, if they are most.
+constexpr std::int64_t kFirstSharedHoldUs = 500'000;
+
+}  // namespace
+
+void Convictions::leave_clock() {
+  for (Verdict& verdict : verdicts_) {
+    verdict.until_us.reset();
+  }
+}
+
+void Convictions::convict(std::size_t radar, std::int64_t time_us) {
+  Verdict& verdict = verdicts_[radar];
+  if (!contains(at_fault_, radar)) {
+    verdict.hold_us = std::clamp(2 * verdict.hold_us, kFirstHoldUs, kLongestHoldUs);
+    verdict.shared_hold_us =
+        std::clamp(2 * verdict.shared_hold_us, kFirstSharedHoldUs, kLongestHoldUs);
+    is_new_ = true;
+  }
+  at_fault_ |= set_of(radar);
+  verdict.until_us = time_us + verdict.hold_us;
+}
+
+void Convictions::accuse(std::size_t radar, std::int64_t time_us) {
+  convict(radar, time_us);
+  accused_ |= set_of(radar);
+  if (2 * std::popcount(at_fault_ & judged_) > std::popcount(judged_)) {
+    verdicts_[radar].until_us = time_us + verdicts_[radar].shared_hold_us;
+  }
+}
+
+void Convictions::acquit(RadarSet set) { at_fault_ &= ~set; }
+
+void Convictions::release(RadarSet set, std::int64_t time_us) {
+  for_each(set, [&](std::size_t radar) {
+    Verdict& verdict = verdicts_[radar];
+    verdict.until_us = verdict.until_us.value_or(time_us + verdict.hold_us);
+    if (time_us > *verdict.until_us) {
+      at_fault_ &= ~set_of(radar);
+      accused_ &= ~set_of(radar);
+    }
+  });
+}
+
+}  // namespace cremed

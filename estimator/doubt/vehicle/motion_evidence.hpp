@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
+#include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/motion/ego_motion_estimator.hpp"
+
+namespace cremed {
+
+/// Largest part of chi-square by a radar that looks sideways: it sees passing vehicles.
+inline constexpr double kMaxWitness = 9.0;
+
+/// What the radars measure of the vehicle's motion, in epochs: seven times a second, at a common
+/// time, each radar's
+///
+///     velocity by Doppler        V = (v - w l_y, w l_x + s v)
+///     speed and yaw rate by its own positions
+///
+/// with the errors that radars have anyway (OdometryOptions). v, w and slip s are unknown.
+class MotionEvidence {
+ public:
+  /// Of a radar, in the axes of the vehicle.
+  struct Velocity {
+    std::int64_t stamp_us = 0;
+    Eigen::Vector2d mps = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  };
+
+  /// Uses options and mounts of `state`, which must outlive this object.
+  explicit MotionEvidence(const OdometryState& state);
+
+  /// To be called when the clock of the stamps was set.
+  void clear();
+  /// See FaultHypotheses.
+  void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,
+                              double since_s, double variance_m2);
+  void add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {
+    tracks_[radar].too_few_targets_us = stamp_us;
+  }
+  void add_accusation(std::size_t radar, std::int64_t time_us) {
+    tracks_[radar].accused_us = time_us;
+  }
+  void add_motion(std::size_t radar, const EgoMotion& motion);
+  /// True if this completes an epoch.
+  bool add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
+  /// From now on the scales of the radars that are judged may be off by that much.
+  void allow_for_scale(double share) {
+    disputed_scale_ = share;
+    count_ = 0;
+  }
+
+  [[nodiscard]] const OdometryState& state() const { return state_; }
+  /// The radars that do not look sideways,
+  [[nodiscard]] RadarSet judged() const { return judged_; }
+  /// and those that do: witnesses.
+  [[nodiscard]] RadarSet witnesses() const { return set_of(tracks_.size()) - 1U - judged_; }
+  [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
+
+  /// Of the last second, since which nothing was missing.
+  [[nodiscard]] std::size_t epochs() const { return std::min(count_, kEpochs); }
+  /// Means over these: of the chi-square of the radars in a set with each other, and of the
+  /// witnesses with them.
+  struct Fit {
+    double of_set = 0.0;
+    double of_witnesses = 0.0;
+
+    [[nodiscard]] double chi_square() const { return of_set + of_witnesses; }
+  };
+  /// Two radars of which only Doppler counts, at their own mounts or at each other's.
+  struct Pair {
+    std::size_t one;
+    std::size_t other;
+    bool is_exchanged;
+  };
+  [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
+
+  // In the newest epoch:
+  [[nodiscard]] std::int64_t time_us() const { return time_us_; }
+  [[nodiscard]] RadarSet present() const;  ///< Those that are judged.
+  [[nodiscard]] const std::optional<Velocity>& velocity(std::size_t radar) const {
+    return newest_epoch()[radar].velocity;
+  }
+  /// All measurements of the radars in the set, with the prior.
+  [[nodiscard]] MotionSums sum(RadarSet set) const { return sum(set, newest_epoch(), {}); }
+  /// Doppler of a radar that is present.
+  [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
+    return by_doppler(radar, *velocity(radar));
+  }
+  /// The speeds of two radars or more, and of most, contradict their own positions: a fault that
+  /// all may share.
+  [[nodiscard]] bool contradicts_positions() const;
+  /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
+  [[nodiscard]] bool is_supported(RadarSet set) const;
+  /// A radar's own check found it wrong, and not too long ago.
+  [[nodiscard]] bool is_accused(std::size_t radar) const {
+    return tracks_[radar].accused_us && is_fresh(*tracks_[radar].accused_us);
+  }
+
+ private:
+  static constexpr std::size_t kEpochs = 7;
+  struct Measured {
+    std::optional<Velocity> velocity;
+    MotionSums all;
+  };
+  using Epoch = std::vector<Measured>;  // By radar.
+
+  struct YawRate {
+    std::int64_t start_us = 0;
+    std::int64_t end_us = 0;
+    double radps = 0.0;
+    double variance = 0.0;
+  };
+  struct Speed {
+    std::int64_t stamp_us = 0;
+    double mps = 0.0;
+    double variance = 0.0;
+    double variance_of_method = 0.0;  // Without the noise of the targets.
+  };
+  /// The newest scans of one radar.
+  struct Track {
+    std::array<Velocity, 2> velocities;  // The older first.
+    std::array<YawRate, 2> yaw_rates;
+    std::optional<Speed> speed;
+    std::optional<std::int64_t> too_few_targets_us;
+    std::optional<std::int64_t> accused_us;
+    int count = 0;  // Of velocities.
+  };
+
+  [[nodiscard]] std::optional<std::int64_t> common_time() const;
+  void observe(std::int64_t time_us);
+  [[nodiscard]] bool is_fresh(std::int64_t stamp_us) const;
+  [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
+  [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
+  [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity) const;
+  [[nodiscard]] MotionSums prior() const;
+  [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
+                                         const std::optional<Velocity>& velocity) const;
+  [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
+  [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
+
+  const OdometryState& state_;
+  RadarSet judged_ = 0;
+  std::vector<Track> tracks_;
+  std::array<Epoch, kEpochs> epochs_;
+  std::size_t count_ = 0;  // Of epochs.
+  std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t time_us_ = 0;
+  double disputed_scale_ = 0.0;
+};
+
+}  // namespace cremed

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace cremed {
+
+/// Radars, a bit each.
+using RadarSet = std::uint32_t;
+
+constexpr RadarSet set_of(std::size_t radar) { return 1U << radar; }
+constexpr bool contains(RadarSet set, std::size_t radar) { return (set >> radar & 1U) != 0; }
+
+template <typename Use>
+void for_each(RadarSet set, Use use) {
+  for (; set != 0; set &= set - 1U) {
+    use(static_cast<std::size_t>(std::countr_zero(set)));
+  }
+}
+
+template <typename Test>
+bool any_of(RadarSet set, Test test) {
+  bool is_any = false;
+  for_each(set, [&](std::size_t radar) { is_any = is_any || test(radar); });
+  return is_any;
+}
+
+}  // namespace cremed

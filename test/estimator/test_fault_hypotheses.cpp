@@ -295,7 +295,7 @@ TEST_CASE(
   double last_s = 0.0;
   for (int time = 0; time < 4; ++time) {
     for (int i = 0; i < 20; ++i) {
-      for (const std::size_t radar : {0, 1, 2}) {
+      for (const std::size_t radar : {0U, 1U, 2U}) {
         comparison.accuse(radar);
       }
       comparison.drive(0.15);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/gate.hpp"
@@ -167,11 +168,7 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
 
 /// Of the Doppler of each radar that is judged, and of the way since the anchor.
 void OdometryFilter::allow_for_scale(double scale) {
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if ((faults_.judged() >> i & 1U) != 0) {
-      state_.widen_scale(i, scale);
-    }
-  }
+  for_each(faults_.judged(), [&](std::size_t i) { state_.widen_scale(i, scale); });
   const double way_m = scale * state_.gaussian.mean(kSpeed) * output_.anchor_age_s();
   state_.gaussian.add_variance(kX, squared(way_m));
 }
@@ -307,7 +304,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const int mount_yaw = state_.error(radar, kMountYaw);
   const int doppler_scale = state_.error(radar, kDopplerScale);
-  const bool is_left_out = (left_out() >> radar & 1U) != 0;
+  const bool is_left_out = contains(left_out(), radar);
   return {is_left_out,
           faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause(),
           trust.doppler.mean(),

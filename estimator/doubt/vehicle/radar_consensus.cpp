@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -82,7 +83,7 @@ std::uint32_t RadarConsensus::at_fault() const {
   for (std::size_t i = 0; i < trusts_.size(); ++i) {
     const RadarTrust& trust = trusts_[i];
     const bool lasts = seconds_between(trust.left_out_us, trust.verdict_us) >= RadarTrust::kFaultyS;
-    radars |= is_left_out(i) && lasts ? 1U << i : 0U;
+    radars |= is_left_out(i) && lasts ? set_of(i) : 0U;
   }
   return radars;
 }

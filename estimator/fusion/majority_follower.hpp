@@ -31,6 +31,7 @@ class MajorityFollower {
   /// All radars stepped, no scan was used since, and this velocity of a radar is nearer to where
   /// they stepped to than to the state. That one's sigma grows: without this a step from 5 m/s to 0
   /// was followed half a second later.
+  [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
   [[nodiscard]] bool is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const;
 
  private:
@@ -39,8 +40,6 @@ class MajorityFollower {
     std::int64_t used_us = 0;  // Of the last scan used before.
     double mps = 0.0;
   };
-
-  [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
 
   OdometryState& state_;
   RadarConsensus& consensus_;

@@ -126,10 +126,10 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
   const bool is_lost = (condition_.is_lost() && is_trusted && !traffic_.parked.is_in_doubt() &&
                         gap_s > -state_.options().max_lateness_s) ||
-                       faults_.take_reversal();
+                       faults_.take_reversal() || faults_.take_step_back();
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
-      faults_.require_positions();
+      faults_.require_positions(majority_.has_stepped());
     }
     restart(stamp_us, seconds_between(condition_.used_us(), stamp_us));
   } else if (!has_started_) {

@@ -22,16 +22,19 @@ inline TruthNoise nuscenes_truth_noise() {
 /// 0.02 m/s and 0.15 degrees a second (0.1 to 0.2, by scene).
 inline WheelStd nuscenes_wheel_std() { return {0.02, 0.0026}; }
 
-/// A drive in a folder of the recorded data, without its frames after `duration_s`.
+/// A drive in a folder of the recorded data: `duration_s` of its frames from `from_s` on.
 inline FaultDrive recorded_fault_drive(const std::string& name, const std::string& folder,
                                        const Configuration& configuration, const TruthNoise& noise,
-                                       double duration_s = 1e9) {
+                                       double duration_s = 1e9, double from_s = 0.0) {
   std::istringstream truth(read_shared(folder + "/truth.csv"));
   FaultDrive drive{name, configuration.radars,
                    read_frames(read_shared(folder + "/can.log.xz"), configuration),
                    TrueTrajectory(truth), noise};
-  const std::int64_t end_us = drive.start_us() + std::llround(duration_s * 1e6);
-  std::erase_if(drive.frames, [&](const CanFrame& frame) { return frame.stamp_us > end_us; });
+  const std::int64_t from_us = drive.start_us() + std::llround(from_s * 1e6);
+  const std::int64_t end_us = from_us + std::llround(duration_s * 1e6);
+  std::erase_if(drive.frames, [&](const CanFrame& frame) {
+    return frame.stamp_us < from_us || frame.stamp_us > end_us;
+  });
   return drive;
 }
 
@@ -50,12 +53,13 @@ inline FaultDrive nuscenes_fault_drive(const std::string& scene) {
 
 /// Of RadarScenes: sequence 105. `are_flags_used`: whether the sensors' own judgement of what moves
 /// is believed.
-inline FaultDrive radarscenes_fault_drive(bool are_flags_used, double duration_s = 1e9) {
+inline FaultDrive radarscenes_fault_drive(bool are_flags_used, double duration_s = 1e9,
+                                          double from_s = 0.0) {
   const std::string folder = "data/radarscenes/sequence-105";
   const std::string file = are_flags_used ? "/radarscenes.toml" : "/radarscenes-unflagged.toml";
   return recorded_fault_drive(are_flags_used ? "105" : "105 unflagged", folder,
                               load_configuration(shared_path(folder + file)), TruthNoise(),
-                              duration_s);
+                              duration_s, from_s);
 }
 
 }  // namespace cremed::test

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
@@ -68,6 +70,21 @@ class DriveJudge {
       : drive_(drive), fault_(fault), record_(record) {
     for (std::size_t i = 0; i < record.sink.odometries.size(); ++i) {
       rows_.push_back(row(i));
+    }
+  }
+
+  /// A line for each row of the odometry: time in s, status, largest error in sigma, velocity
+  /// (m/s, degrees per s) with its standard deviation, bits of the radars used and left out.
+  void print_rows() const {
+    for (const Row& row : rows_) {
+      const Odometry& odometry = *row.odometry;
+      std::printf("%8.3f %-14s %7.1f | v %6.2f w %6.2f std %5.2f %5.1f | used %2x left out %2x\n",
+                  static_cast<double>(row.us - drive_.start_us()) / kUsPerS,
+                  std::string(to_string(odometry.status)).c_str(), row.sigmas.value_or(0.0),
+                  odometry.twist.x(), kDegPerRad * odometry.twist.z(),
+                  std::sqrt(odometry.twist_covariance(0, 0)),
+                  kDegPerRad * std::sqrt(odometry.twist_covariance(2, 2)), odometry.radars,
+                  odometry.left_out);
     }
   }
 

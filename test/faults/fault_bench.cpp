@@ -37,7 +37,9 @@ Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenar
 cremed-simulate (bends), what departs beside a parked vehicle: train, convoy, jam-starts, or a start
 of the vehicle itself: own-start.
 CREMED_SHARED names the folder with the recorded data.
-  --seconds S  only the beginning of 105 and of simulated drives (default 40)
+  --seconds S  only so much of 105 and of simulated drives (default 40)
+  --from S     105 from then on
+  --rows       each row of the odometry
   --case TEXT  only cases whose name and radar contain it
   --seeds N    so many of the latter two (default 20)
   --seed N     only this one
@@ -46,6 +48,8 @@ CREMED_SHARED names the folder with the recorded data.
 
 struct Options {
   double seconds = 40.0;
+  double from_s = 0.0;
+  bool are_rows_printed = false;
   std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
   std::string filter;
@@ -62,6 +66,10 @@ Options options_of(int argc, char** argv) {
       options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--seed" && i + 1 < argc) {
       options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
+    } else if (argument == "--from" && i + 1 < argc) {
+      options.from_s = std::atof(argv[++i]);
+    } else if (argument == "--rows") {
+      options.are_rows_printed = true;
     } else if (argument == "--case" && i + 1 < argc) {
       options.filter = argv[++i];
     } else if (argument.starts_with("-")) {
@@ -74,10 +82,13 @@ Options options_of(int argc, char** argv) {
   return options;
 }
 
-FaultDrive drive_of(const std::string& name, double seconds) {
-  if (name.starts_with("105")) return radarscenes_fault_drive(name == "105", seconds);
+FaultDrive drive_of(const std::string& name, const Options& options) {
+  if (name.starts_with("105")) {
+    return radarscenes_fault_drive(name == "105", options.seconds, options.from_s);
+  }
   if (find_scenario(name) != nullptr) {
-    return simulated_fault_drive(name, seconds, configuration_of_car("nuscenes-singapore").radars);
+    return simulated_fault_drive(name, options.seconds,
+                                 configuration_of_car("nuscenes-singapore").radars);
   }
   return nuscenes_fault_drive(name);
 }
@@ -124,10 +135,19 @@ void run_seeds(const std::function<FaultDrive(std::uint64_t)>& drive_of, std::ui
   run_all(jobs);
 }
 
-void run_faults(const FaultDrive& drive, const std::string& filter) {
+void print_rows(const FaultDrive& drive, const FaultCase& fault) {
+  const FaultRecord result = record(drive, fault);
+  std::printf("%s %s\n", fault.kind.c_str(), fault.of.c_str());
+  DriveJudge(drive, fault, result).print_rows();
+}
+
+void run_faults(const FaultDrive& drive, const std::string& filter, bool are_rows_printed) {
   std::vector<Job> jobs;
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
-    if ((fault.kind + " " + fault.of).find(filter) != std::string::npos) {
+    if ((fault.kind + " " + fault.of).find(filter) == std::string::npos) continue;
+    if (are_rows_printed) {
+      print_rows(drive, fault);
+    } else {
       jobs.emplace_back(
           [&drive, fault] { return figures_line(drive, fault, judged(drive, fault)); });
     }
@@ -153,7 +173,7 @@ int main(int argc, char** argv) {
       } else if (name == "own-start") {
         run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options.seed, options.seeds);
       } else {
-        run_faults(drive_of(name, options.seconds), options.filter);
+        run_faults(drive_of(name, options), options.filter, options.are_rows_printed);
       }
     }
   } catch (const std::exception& error) {

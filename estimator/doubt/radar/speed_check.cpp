@@ -39,14 +39,21 @@ void SpeedCheck::forget() {
 
 void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   const double dt_s = seconds_between(reference_us_, stamp_us);
-  if (has_reference_ && dt_s >= 0.0 && dt_s < PositionSpeed::kMinIntervalS) {
+  const bool is_early = has_reference_ && dt_s >= 0.0 && dt_s < PositionSpeed::kMinIntervalS;
+  if (is_early && !is_contradicted_) {
     return;
   }
   has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = take(targets);
-  if (is_contradicted_ && speed_mps && has_reference_ &&
-      std::abs(*speed_mps - reference_mps_) > kMaxAccelerationMps2 * std::abs(dt_s) + kMaxStepMps) {
+  if (is_contradicted_ && speed_mps && is_step(*speed_mps, stamp_us)) {
     forget();  // A fault that ends: what was found of the Doppler before tells nothing of this one.
+  }
+  if (speed_mps) {
+    last_us_ = stamp_us;
+    last_mps_ = *speed_mps;
+  }
+  if (is_early && has_reference_) {
+    return;
   }
   if (speed_mps && has_reference_ && dt_s > 0.0 && dt_s <= PositionSpeed::kMaxIntervalS) {
     const double mean_mps = 0.5 * (reference_mps_ + *speed_mps);
@@ -65,6 +72,11 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
     reference_us_ = stamp_us;
     reference_mps_ = *speed_mps;
   }
+}
+
+bool SpeedCheck::is_step(double speed_mps, std::int64_t stamp_us) const {
+  const double dt_s = std::abs(seconds_between(last_us_, stamp_us));
+  return std::abs(speed_mps - last_mps_) > kMaxAccelerationMps2 * dt_s + kMaxStepMps;
 }
 
 /// The speed by Doppler, and the places that are at rest with it.

@@ -37,6 +37,7 @@ class SpeedCheck {
   static constexpr int kMaxContradictions = 2;
   static constexpr double kVerdictValidS = 5.0;
 
+  [[nodiscard]] bool is_step(double speed_mps, std::int64_t stamp_us) const;
   [[nodiscard]] std::optional<double> take(const TargetSet& targets);
   void judge(const SpeedSupport& support, double doppler_mps);
 
@@ -46,6 +47,8 @@ class SpeedCheck {
   TargetSet reference_;  // The same of an earlier scan.
   std::int64_t reference_us_ = 0;
   double reference_mps_ = 0.0;
+  std::int64_t last_us_ = 0;  // Of the newest speed by Doppler.
+  double last_mps_ = 0.0;
   std::int64_t verdict_us_ = 0;
   int contradictions_ = 0;
   bool has_reference_ = false;

@@ -71,7 +71,18 @@ std::optional<Eigen::Vector3d> FaultHypotheses::take_correction() {
   return believed == 0 ? std::nullopt : std::optional(evidence_.sum(believed).solution());
 }
 
-void FaultHypotheses::require_positions() {
+bool FaultHypotheses::take_step_back() {
+  const bool has_stepped_back = evidence_.take_step_back();
+  if (has_stepped_back) {
+    convictions_.acquit(convictions_.accused());
+  }
+  return has_stepped_back;
+}
+
+void FaultHypotheses::require_positions(bool is_after_step) {
+  if (is_after_step) {
+    evidence_.add_step();
+  }
   needs_positions_ = true;
   is_verified_ = false;
   supported_epochs_ = 0;
@@ -108,9 +119,17 @@ void FaultHypotheses::judge() {
 
 void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
   const bool is_supported = is_known && evidence_.is_supported(best.radars) &&
-                            !(needs_positions_ && is_refuted(best.radars));
+                            !(needs_positions_ && is_refuted(best.radars)) &&
+                            !(evidence_.is_after_step(best.radars) && is_at_rest(best.radars));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
+  if (is_verified_) {
+    evidence_.end_step();
+  }
+}
+
+bool FaultHypotheses::is_at_rest(RadarSet set) const {
+  return std::abs(evidence_.sum(set).solution().x()) < state_.options().standstill_mps;
 }
 
 /// `believed`: none if it is not known which are right.

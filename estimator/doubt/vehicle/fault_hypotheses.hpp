@@ -75,6 +75,8 @@ class FaultHypotheses {
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }
   /// The radars in use were found wrong by those that were not: the state is theirs. Once.
   bool take_reversal() { return std::exchange(is_reversed_, false); }
+  /// After a step of all radars (require_positions()) all stepped back: a fault's end. Once.
+  bool take_step_back();
   /// (v, w, slip) by those that are believed, if a radar was found at fault since the last call:
   /// what was told with it may be wrong.
   std::optional<Eigen::Vector3d> take_correction();
@@ -85,8 +87,9 @@ class FaultHypotheses {
                                                     : std::nullopt;
   }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
-  /// positions must confirm them.
-  void require_positions();
+  /// positions must confirm them. `is_after_step`: their speed stepped (MajorityFollower). Then not
+  /// at rest, where a map of what does not move fits any targets, until it steps back.
+  void require_positions(bool is_after_step);
 
  private:
   /// So that one scan decides nothing.
@@ -97,6 +100,7 @@ class FaultHypotheses {
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
+  [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
   void search_causes(RadarSet believed);
   void convict_by_cause();

@@ -88,6 +88,10 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   track.velocities[0] = track.velocities[1];
   track.velocities[1] = {stamp_us, velocity.velocity_mps, velocity.covariance};
   track.count = std::min(track.count + 1, 2);
+  if (track.is_after_step && is_step(radar)) {
+    track.is_after_step = false;
+    has_stepped_back_ = !is_after_step(judged_);
+  }
   newest_us_ = std::max(newest_us_, stamp_us);
   const auto time_us = common_time();
   const bool is_due = time_us && (count_ == 0 || seconds_between(time_us_, *time_us) >= kEpochS);
@@ -95,6 +99,27 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
     observe(*time_us);
   }
   return is_due;
+}
+
+void MotionEvidence::set_after_step(bool value) {
+  for (Track& track : tracks_) {
+    track.is_after_step = value;
+  }
+}
+
+bool MotionEvidence::is_after_step(RadarSet set) const {
+  return any_of(set, [&](std::size_t i) { return tracks_[i].is_after_step; });
+}
+
+/// The velocity changed by more than the vehicle's can between the two newest scans.
+bool MotionEvidence::is_step(std::size_t radar) const {
+  const auto& [a, b] = tracks_[radar].velocities;
+  const double period_s = seconds_between(a.stamp_us, b.stamp_us);
+  const Eigen::Vector2d possible_mps(
+      kMaxAccelerationMps2 * period_s + kMaxNoiseMps,
+      kMaxYawAccelerationRadps2 * std::abs(state_.mount(radar).x_m) * period_s + kMaxNoiseMps);
+  return tracks_[radar].count == 2 &&
+         ((b.mps - a.mps).cwiseAbs().array() > possible_mps.array()).any();
 }
 
 /// The latest time at which every radar that has scans can be interpolated.
@@ -130,11 +155,7 @@ std::optional<MotionEvidence::Velocity> MotionEvidence::velocity_at(std::size_t 
   const Track& track = tracks_[radar];
   const auto& [a, b] = track.velocities;
   const double period_s = seconds_between(a.stamp_us, b.stamp_us);
-  const Eigen::Vector2d possible_mps(
-      kMaxAccelerationMps2 * period_s + kMaxNoiseMps,
-      kMaxYawAccelerationRadps2 * std::abs(state_.mount(radar).x_m) * period_s + kMaxNoiseMps);
-  const bool is_step = ((b.mps - a.mps).cwiseAbs().array() > possible_mps.array()).any();
-  if (track.count < 2 || is_step || !(period_s > 0.0) || period_s > kMaxScanPeriodS ||
+  if (track.count < 2 || is_step(radar) || !(period_s > 0.0) || period_s > kMaxScanPeriodS ||
       !is_fresh(b.stamp_us)) {
     return std::nullopt;
   }

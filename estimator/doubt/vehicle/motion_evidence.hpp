@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -53,6 +54,13 @@ class MotionEvidence {
     tracks_[radar].accused_us = time_us;
   }
   void add_motion(std::size_t radar, const EgoMotion& motion);
+  /// The speed of all radars changed more than a vehicle's can. That of a radar is believed to be
+  /// wrong until it steps again,
+  void add_step() { set_after_step(true); }
+  /// or until positions confirm it.
+  void end_step() { set_after_step(false); }
+  /// All radars stepped again. Once.
+  bool take_step_back() { return std::exchange(has_stepped_back_, false); }
   /// True if this completes an epoch.
   bool add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
   /// From now on the scales of the radars that are judged may be off by that much.
@@ -103,6 +111,8 @@ class MotionEvidence {
   [[nodiscard]] bool contradicts_positions() const;
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
+  /// Since a step of all radars (add_step()) that of a radar in the set had no other.
+  [[nodiscard]] bool is_after_step(RadarSet set) const;
   /// A radar's own check found it wrong, and not too long ago.
   [[nodiscard]] bool is_accused(std::size_t radar) const {
     return tracks_[radar].accused_us && is_fresh(*tracks_[radar].accused_us);
@@ -135,9 +145,12 @@ class MotionEvidence {
     std::optional<Speed> speed;
     std::optional<std::int64_t> too_few_targets_us;
     std::optional<std::int64_t> accused_us;
+    bool is_after_step = false;
     int count = 0;  // Of velocities.
   };
 
+  void set_after_step(bool value);
+  [[nodiscard]] bool is_step(std::size_t radar) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);
   [[nodiscard]] bool is_fresh(std::int64_t stamp_us) const;
@@ -158,6 +171,7 @@ class MotionEvidence {
   std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t time_us_ = 0;
   double disputed_scale_ = 0.0;
+  bool has_stepped_back_ = false;
 };
 
 }  // namespace cremed

@@ -9,6 +9,9 @@
 namespace cremed {
 namespace {
 
+/// What a scan measures that repeats the one before.
+const TargetSet kNoTargets;
+
 std::vector<OdometryRadar> odometry_radars(
     const Configuration& configuration, const std::vector<std::optional<LearnedErrors>>& learned) {
   std::vector<OdometryRadar> radars;
@@ -108,7 +111,8 @@ bool OdometryStage::is_trusted(const RadarChannel& radar) const {
 void OdometryStage::use(const ScanQueue::Scan& scan) {
   predict_to(scan.stamp_us);
   const RadarChannel& radar = *radars_[scan.radar];
-  const TargetSet& targets = radar.estimator.targets();
+  const TargetSet& targets =
+      radar.self_check.is_repeated() ? kNoTargets : radar.estimator.targets();
   const std::int64_t begin_us = clock_.now_us();
   const Odometry odometry = filter_->update(radar.index, targets, scan.stamp_us, is_trusted(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;

@@ -92,7 +92,6 @@ inline Frames with_repeated_scan(const Frames& frames, FaultTime time) {
     std::vector<CanFrame> last;  // The one before: header, clusters and their quality.
     bool hangs = false;
   };
-  constexpr std::int64_t kFrameUs = 250;
   std::array<Bus, 256> buses;
   Arrivals arrivals;
   for (const CanFrame& frame : frames) {
@@ -108,13 +107,14 @@ inline Frames with_repeated_scan(const Frames& frames, FaultTime time) {
       if (is_of_list) bus.open.push_back(frame);
       arrivals.add(frame.stamp_us, frame);
     } else if (is_header) {
-      std::int64_t stamp_us = frame.stamp_us;
+      const std::int64_t later_us = frame.stamp_us - bus.last.front().stamp_us;
       for (CanFrame repeated : bus.last) {
         // The header's counter.
-        if (stamp_us == frame.stamp_us) std::copy_n(&frame.data[2], 2, &repeated.data[2]);
-        repeated.stamp_us = stamp_us;
-        arrivals.add(stamp_us, repeated);
-        stamp_us += kFrameUs;
+        if (is_message(repeated, Ars408Message::cluster_status)) {
+          std::copy_n(&frame.data[2], 2, &repeated.data[2]);
+        }
+        repeated.stamp_us += later_us;
+        arrivals.add(repeated.stamp_us, repeated);
       }
     }
   }

@@ -49,6 +49,9 @@ class SelfCheck {
   /// Check of the scale of Doppler by positions.
   [[nodiscard]] const DopplerScale& scale() const { return scale_; }
 
+  /// The last scan repeats the one before: it is no measurement.
+  [[nodiscard]] bool is_repeated() const { return repeated_.is_repeated(); }
+
   /// Factor on the covariance of a radar that looks sideways, by these NIS. It registers
   /// the reflections of passed objects, which move along: ANEES of such radars is 2 to 30 on
   /// nuScenes, half of that in a tenth of their motions. 1 for others, which are doubted instead.

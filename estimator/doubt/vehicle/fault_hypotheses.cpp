@@ -52,6 +52,7 @@ void FaultHypotheses::clear() {
 }
 
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
+  begin_search(radar);
   evidence_.add_accusation(radar, time_us);
   convictions_.accuse(radar, time_us);
 }
@@ -105,12 +106,7 @@ void FaultHypotheses::judge() {
   verify(best, is_known);
   const RadarSet before = at_fault();
   convict_others(is_known ? best.radars : 0U);
-  for_each(before ^ at_fault(), [&](std::size_t i) {
-    // What was measured before tells nothing of this fault.
-    if (contains(before, i) || causes_[i].find().gain < kMinGain) {
-      causes_[i].clear();
-    }
-  });
+  for_each(before & ~at_fault(), [&](std::size_t i) { causes_[i].clear(); });
   if (is_known) {
     search_causes(best.radars & ~at_fault());
     convict_by_cause();
@@ -144,7 +140,10 @@ void FaultHypotheses::convict_others(RadarSet believed) {
   }
   // Radars that all found themselves wrong may agree: with the same fault.
   const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
-  for_each(others, [&](std::size_t i) { convictions_.convict(i, evidence_.time_us()); });
+  for_each(others, [&](std::size_t i) {
+    begin_search(i);
+    convictions_.convict(i, evidence_.time_us());
+  });
   convictions_.release(set_of(state_.radars()) - 1U, evidence_.time_us());
 }
 
@@ -183,6 +182,13 @@ void FaultHypotheses::allow_for_scale() {
     evidence_.allow_for_scale(scale);
     is_newly_disputed_ = true;
     unknown_epochs_ = 0;
+  }
+}
+
+/// What was measured before a radar is found at fault tells nothing of it, unless that shows it.
+void FaultHypotheses::begin_search(std::size_t radar) {
+  if (!is_at_fault(radar) && causes_[radar].find().gain < kMinGain) {
+    causes_[radar].clear();
   }
 }
 

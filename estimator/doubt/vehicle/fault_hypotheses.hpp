@@ -102,6 +102,7 @@ class FaultHypotheses {
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
   [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
+  void begin_search(std::size_t radar);
   void search_causes(RadarSet believed);
   void convict_by_cause();
 

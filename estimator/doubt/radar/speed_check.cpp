@@ -17,11 +17,10 @@ namespace {
 constexpr double kMaxSpeedStdMps = 0.3;
 /// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
-/// Bound of a difference between two numbers of votes (Poisson), and the lower one for a speed that
-/// has less than this share of the most votes: figures in SpeedCheck.
-constexpr double kMinSigmas = 2.25;
-constexpr double kMinSigmasOfSmallShare = 2.0;
-constexpr double kSmallShare = 0.6;
+/// Of the votes of the best speed, those of Doppler's: figures in SpeedCheck.
+constexpr double kMaxShare = 0.6;
+/// Bound of the difference between two numbers of votes (Poisson).
+constexpr double kMinSigmas = 2.0;
 /// Of the targets nearer than this to each other only one votes. Without it 980 of 1778 comparisons
 /// on RadarScenes 105, with 200 targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;
@@ -93,10 +92,9 @@ std::optional<double> SpeedCheck::take(const TargetSet& targets) {
 void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
   const bool is_other = std::abs(support.best_mps - doppler_mps) > kMinDifferenceMps;
   const double excess = support.best_votes - support.given_votes;
-  const bool is_small = support.given_votes < kSmallShare * support.best_votes;
-  const double min_sigmas = is_small ? kMinSigmasOfSmallShare : kMinSigmas;
   const bool contradicts =
-      is_other && excess > min_sigmas * std::sqrt(support.best_votes + support.given_votes);
+      is_other && support.given_votes < kMaxShare * support.best_votes &&
+      excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes);
   const bool agrees = !contradicts && (!is_other || support.given_votes > support.max_chance_votes);
   contradictions_ =
       std::clamp(contradictions_ + (contradicts ? 1 : 0) - (agrees ? 1 : 0), 0, kMaxContradictions);

@@ -13,6 +13,8 @@ namespace {
 
 /// See prior_after().
 constexpr double kMinStdShare = 0.25;
+/// The file may be another vehicle's, or the radar mounted anew: the error is then the value.
+constexpr double kSigmasIfWrong = 4.0;
 
 }  // namespace
 
@@ -68,9 +70,10 @@ SharedPrior prior_after(const std::vector<std::optional<LearnedError>>& learned,
   for (std::size_t i = 0; i < learned.size(); ++i) {
     if (is_taken(i)) {
       const double std = unlearned[i].std;
-      const double own_std = std::hypot(learned[i]->std, restart_std);
+      const double value = learned[i]->value - sum / weights;
+      const double own_std = std::min(std::hypot(learned[i]->std, restart_std), std);
       prior.own[i] = {
-          {learned[i]->value - sum / weights, std::clamp(own_std, kMinStdShare * std, std)}, true};
+          {value, std::max({own_std, kMinStdShare * std, std::abs(value) / kSigmasIfWrong})}, true};
     }
   }
   prior.common_variance = 1.0 / weights;

@@ -58,9 +58,8 @@ std::vector<LearnedError> differences(const Eigen::VectorXd& mean,
 /// mean under the unlearned priors. A single radar starts from the unlearned prior.
 ///
 /// The standard deviation is the root sum of squares of the learned one and `restart_std` (change
-/// by load, temperature and work on the vehicle). It is at least a quarter of the unlearned one, so
-/// that a value wrong by 5 sigma is only 1.25 unlearned sigma off and is soon corrected, and at
-/// most the unlearned one.
+/// by load, temperature and work on the vehicle), at most the unlearned one, but at least a quarter
+/// of it and of the value, which may be wrong altogether.
 SharedPrior prior_after(const std::vector<std::optional<LearnedError>>& learned,
                         const std::vector<LearnedError>& unlearned, double restart_std);
 

@@ -189,6 +189,24 @@ void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
       kY, squared(believed.x() * since_s) * (squared(slip_rad) + squared(0.5 * turn_rad)));
   state.add_variance(kYaw, squared(turn_rad));
   state.add_variance(kSlip, squared(slip_rad));
+  const OdometryOptions& options = state_.options();
+  if (std::abs(v - believed.x()) > options.settled_speed_std_mps ||
+      std::abs(w - believed.y()) > options.settled_yaw_rate_std_radps) {
+    follow(believed);
+  }
+}
+
+/// The state followed a radar at fault, and so did the errors of the others and the maps.
+void OdometryFilter::follow(const Eigen::Vector3d& believed) {
+  const OdometryOptions& options = state_.options();
+  for (std::size_t i = 0; i < state_.radars(); ++i) {
+    state_.widen_errors(i);
+  }
+  state_.start_motion(believed.head<2>(), Eigen::Vector2d(squared(options.settled_speed_std_mps),
+                                                          squared(options.settled_yaw_rate_std_radps))
+                                              .asDiagonal());
+  vehicle_.restart_errors();
+  positions_.clear();
 }
 
 /// Left-out radars as a bit set: all that are judged if it is not known which is at fault.

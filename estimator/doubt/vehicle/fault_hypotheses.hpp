@@ -66,10 +66,12 @@ class FaultHypotheses {
   [[nodiscard]] RadarSet judged() const { return evidence_.judged(); }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
-  /// The radars in use are consistent, a single one by its positions, if it has targets for that.
+  /// The radars in use were compared and are consistent, a single one with its positions, if it has
+  /// targets for that.
   [[nodiscard]] bool is_verified() const {
-    return is_verified_ || (!needs_positions_ && !is_start_open_ &&
-                            !std::has_single_bit(judged()) && !is_unknown());
+    return is_verified_ ||
+           (!needs_positions_ && !is_start_open_ && !std::has_single_bit(judged()) &&
+            !is_unknown() && evidence_.epochs() >= kMinEpochs);
   }
   /// The odometry was lost since the beginning: see require_positions().
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }

@@ -62,6 +62,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   const auto believed = faults_.take_correction();
   if (believed) {
     add_error_by_radar(*believed);
+    follow_if_far(*believed, possible_speed_change_mps(stamp_us));
   }
   if (const auto scale = faults_.take_scale_in_dispute()) {
     allow_for_scale(*scale);
@@ -189,16 +190,19 @@ void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
       kY, squared(believed.x() * since_s) * (squared(slip_rad) + squared(0.5 * turn_rad)));
   state.add_variance(kYaw, squared(turn_rad));
   state.add_variance(kSlip, squared(slip_rad));
-  const OdometryOptions& options = state_.options();
-  if (std::abs(v - believed.x()) > options.settled_speed_std_mps ||
-      std::abs(w - believed.y()) > options.settled_yaw_rate_std_radps) {
-    follow(believed);
-  }
 }
 
-/// The state followed a radar at fault, and so did the errors of the others and the maps.
-void OdometryFilter::follow(const Eigen::Vector3d& believed) {
+/// The state followed a radar at fault if it is far from `believed`, and so did the errors of the
+/// others and the maps. Not after a step: then those that are believed may be wrong as well.
+void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps) {
   const OdometryOptions& options = state_.options();
+  const double change_mps = std::abs(state_.gaussian.mean(kSpeed) - believed.x());
+  const double change_radps = std::abs(state_.gaussian.mean(kYawRate) - believed.y());
+  const bool is_far = change_mps > options.settled_speed_std_mps ||
+                      change_radps > options.settled_yaw_rate_std_radps;
+  if (!is_far || majority_.has_stepped() || change_mps > possible_change_mps) {
+    return;
+  }
   for (std::size_t i = 0; i < state_.radars(); ++i) {
     state_.widen_errors(i);
   }

@@ -102,7 +102,7 @@ class OdometryFilter {
   void set_trusted(std::size_t radar, bool is_trusted);
   void allow_for_scale(double scale);
   void add_error_by_radar(const Eigen::Vector3d& believed);
-  void follow(const Eigen::Vector3d& believed);
+  void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);
   [[nodiscard]] std::uint32_t left_out() const;
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,

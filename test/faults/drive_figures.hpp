@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -245,7 +246,7 @@ class DriveJudge {
       }
     };
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if ((rows_[i].odometry->left_out >> index & 1U) != 0) {
+      if ((rows_[i].odometry->left_out >> index & 1U) != 0 && !is_dispute(*rows_[i].odometry)) {
         const std::int64_t next_us = i + 1 < rows_.size() ? rows_[i + 1].us : end_us();
         name(rows_[i].us, std::min(next_us, rows_[i].us + kRowUs), figures.left_out);
       }
@@ -259,7 +260,9 @@ class DriveJudge {
         ++figures.causes.at(static_cast<std::size_t>(cause.kind));
         figures.cause = cause;
       }
-      if (statuses[i].belief.doubts != 0) {
+      if (statuses[i].belief.doubts != 0 &&
+          !(statuses[i].belief.doubts == other_radars_contradict &&
+            is_dispute_at(statuses[i].utime_us))) {
         name(statuses[i].utime_us, i + 1 < statuses.size() ? statuses[i + 1].utime_us : end_us(),
              figures.doubted);
       }
@@ -274,6 +277,22 @@ class DriveJudge {
       until_us = std::max(until_us, to_us);
     }
     return figures;
+  }
+
+  /// The only two radars that can tell contradict each other: which is wrong is not known, and
+  /// neither is named.
+  [[nodiscard]] bool is_dispute(const Odometry& odometry) const {
+    std::uint32_t judged = 0;
+    for (std::size_t i = 0; i < drive_.radars.size(); ++i) {
+      judged |= drive_.is_side(i) ? 0U : 1U << i;
+    }
+    return std::popcount(judged) == 2 && (odometry.left_out & judged) == judged;
+  }
+  [[nodiscard]] bool is_dispute_at(std::int64_t us) const {
+    const auto next = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
+      return row.odometry->utime_us > us;
+    });
+    return next != rows_.begin() && is_dispute(*std::prev(next)->odometry);
   }
 
   [[nodiscard]] std::optional<double> recovery() const {

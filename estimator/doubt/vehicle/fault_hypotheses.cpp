@@ -224,8 +224,10 @@ void FaultHypotheses::convict_by_cause() {
       next = std::max(next, found.gain);
     }
   });
-  // Of two radars one may be too fast, or the other too slow.
-  const bool is_told = std::popcount(evidence_.present() & ~at_fault()) > 2;
+  // Of two radars one may be too fast, or the other too slow. But none is early: a frame is not
+  // received before it was measured.
+  const int believed = std::popcount(evidence_.present() & ~at_fault());
+  const bool is_told = believed > 2 || (believed == 2 && best.cause.kind == FaultKind::late);
   if (best.gain > 2.0 * next && is_grave(best.cause) && is_told) {
     convictions_.convict(guilty, evidence_.time_us());
   }

@@ -24,6 +24,7 @@ struct CircleDrive {
   double doppler_factor = 1.0;  ///< Factor on Doppler: 0 if stuck.
   double pace = 1.0;            ///< Rate of the stamps over time.
   int things = 2000;            ///< Objects on kWorldM x kWorldM.
+  double post_spacing_m = 0.0;  ///< Of guard rails on both sides of the x axis; 0: none.
   double kept = 0.8;            ///< Share of objects seen in a scan.
   Pose2 mount{3.4, 0.0, 0.0};
 };
@@ -34,7 +35,11 @@ class CircleView {
   /// Calls `add(targets, yaw_rate_radps, stamp_us)` for each scan.
   template <typename Add>
   void go_on(const CircleDrive& drive, double duration_s, const Add& add) {
-    const std::vector<Eigen::Vector2d> world = things(drive.things);
+    std::vector<Eigen::Vector2d> world = things(drive.things);
+    for (double x_m = 0.0; drive.post_spacing_m > 0.0 && x_m < kWorldM;
+         x_m += drive.post_spacing_m) {
+      world.insert(world.end(), {{x_m, 5.0}, {x_m, -5.0}});
+    }
     for (double t_s = 0.0; t_s < duration_s; t_s += kPeriodS) {
       yaw_ += drive.yaw_rate_radps * kPeriodS;
       place_ += drive.speed_mps * kPeriodS * Eigen::Vector2d(std::cos(yaw_), std::sin(yaw_));

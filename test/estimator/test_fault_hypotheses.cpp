@@ -48,7 +48,7 @@ class Comparison {
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
-  void lose() { faults_.require_positions(); }
+  void lose(bool is_after_step = false) { faults_.require_positions(is_after_step); }
   void set_clock(double by_s) {
     time_s_ += by_s;
     faults_.clear();
@@ -148,6 +148,15 @@ TEST_CASE("a radar that is late is at fault, with what corrects it, and no other
   const FaultCause cause = comparison.faults().cause(guilty);
   CHECK(cause.kind == FaultKind::late);
   CHECK(cause.value == Approx(0.4).margin(0.1));
+}
+
+TEST_CASE("of two radars the late one is at fault: none is early") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  Comparison comparison({kFront, kRearLeft});
+  comparison.delay(guilty, 0.4);
+  comparison.drive(25.0);
+  CHECK(comparison.faults().at_fault() == 1U << guilty);
+  CHECK(comparison.faults().cause(guilty).kind == FaultKind::late);
 }
 
 TEST_CASE("two radars that look aside with each other's mounts are at fault") {
@@ -379,6 +388,25 @@ TEST_CASE("positions do not verify a rest that a radar's own check denies") {
     }
   }
   CHECK(comparison.faults().is_verified() == !is_accused);
+}
+
+TEST_CASE("after a step of all radars a rest is not verified, a step back is told once") {
+  const bool is_step = GENERATE(false, true);
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(5.0);
+  const auto rest = [](std::size_t /*radar*/, Comparison::Measured& measured) {
+    measured = {Eigen::Vector2d::Zero(), 0.0, 0.0};
+  };
+  comparison.drive(1.0, rest);
+  comparison.lose(is_step);
+  comparison.drive(30.0, rest);
+  CHECK(comparison.faults().is_verified() == !is_step);
+  CHECK_FALSE(comparison.faults().take_step_back());
+  comparison.drive(0.15);
+  CHECK(comparison.faults().take_step_back() == is_step);
+  CHECK_FALSE(comparison.faults().take_step_back());
+  comparison.drive(1.0);
+  CHECK(comparison.faults().is_verified());
 }
 
 TEST_CASE("positions do not verify what agrees with a radar that is wrong by itself") {

@@ -94,6 +94,14 @@ TEST_CASE("A sigma taken over includes the learned one and the change between dr
   CHECK(prior.own[0].std <= 0.01);
 }
 
+TEST_CASE("A value taken over may be wrong altogether") {
+  const double value = GENERATE(0.002, 0.02, 0.05);
+  const SharedPrior prior = prior_after({LearnedError{value, 1e-5}, LearnedError{-value, 1e-5}},
+                                        {{0.0, 0.01}, {0.0, 0.01}}, 0.0);
+  CHECK(prior.own[0].value == Approx(value));
+  CHECK(prior.own[0].std == Approx(std::max(0.0025, 0.25 * value)));
+}
+
 TEST_CASE("A single radar's errors cannot be separated from slip and speed") {
   const SharedPrior prior = prior_after({LearnedError{0.004, 0.001}}, {{0.0, 0.01}}, 0.001);
   CHECK_FALSE(prior.own[0].is_learned);

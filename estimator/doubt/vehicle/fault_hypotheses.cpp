@@ -16,6 +16,10 @@ constexpr double kMaxDisputedScale = 0.05;
 /// lateness; 0.3 s late gives 34 after 2.6 s of gentle braking.
 constexpr double kMinGain = 25.0;
 
+/// Of one of two radars: a second, in which a seeming delay changes by a second.
+constexpr std::size_t kEpochsOfLateness = 7;
+constexpr double kMaxChangeOfDelayS = 0.05;
+
 /// Larger than those of healthy radars, and than what is learned.
 bool is_grave(const FaultCause& cause) {
   switch (cause.kind) {
@@ -205,6 +209,18 @@ void FaultHypotheses::search_causes(RadarSet believed) {
   }
 }
 
+/// Of two radars one may be too fast, or the other too slow. But none is early: a frame is not
+/// received before it was measured. After a scale that has just changed one seems to be late by
+/// more and more.
+bool FaultHypotheses::is_told(std::size_t radar, const FaultCauseSearch::Finding& finding) {
+  const double change_s = std::abs(finding.cause.value - lateness_.delay_s);
+  const bool is_late = finding.is_clear && finding.cause.kind == FaultKind::late;
+  const bool is_same = is_late && radar == lateness_.radar && change_s < kMaxChangeOfDelayS;
+  lateness_ = {radar, finding.cause.value, is_same ? lateness_.epochs + 1 : 0};
+  return std::popcount(evidence_.present() & ~at_fault()) > 2 ||
+         lateness_.epochs >= kEpochsOfLateness;
+}
+
 /// One error explains what a radar measures, and none as much what another does.
 void FaultHypotheses::convict_by_cause() {
   std::size_t guilty = 0;
@@ -224,11 +240,7 @@ void FaultHypotheses::convict_by_cause() {
       next = std::max(next, found.gain);
     }
   });
-  // Of two radars one may be too fast, or the other too slow. But none is early: a frame is not
-  // received before it was measured.
-  const int believed = std::popcount(evidence_.present() & ~at_fault());
-  const bool is_told = believed > 2 || (believed == 2 && best.cause.kind == FaultKind::late);
-  if (best.gain > 2.0 * next && is_grave(best.cause) && is_told) {
+  if (best.gain > 2.0 * next && is_grave(best.cause) && is_told(guilty, best)) {
     convictions_.convict(guilty, evidence_.time_us());
   }
   const RadarSet aside = evidence_.witnesses();

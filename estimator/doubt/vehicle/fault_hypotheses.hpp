@@ -107,11 +107,19 @@ class FaultHypotheses {
   void begin_search(std::size_t radar);
   void search_causes(RadarSet believed);
   void convict_by_cause();
+  bool is_told(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;
   MotionEvidence evidence_;
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
+  /// The radar that seems to be late, by how much, and for how long by the same.
+  struct Lateness {
+    std::size_t radar = 0;
+    double delay_s = 0.0;
+    std::size_t epochs = 0;
+  };
+  Lateness lateness_;
   std::size_t unknown_epochs_ = 0;
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;

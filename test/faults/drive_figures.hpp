@@ -262,7 +262,7 @@ class DriveJudge {
       }
       if (statuses[i].belief.doubts != 0 &&
           !(statuses[i].belief.doubts == other_radars_contradict &&
-            is_dispute_at(statuses[i].utime_us))) {
+            is_dispute_near(statuses[i].utime_us))) {
         name(statuses[i].utime_us, i + 1 < statuses.size() ? statuses[i + 1].utime_us : end_us(),
              figures.doubted);
       }
@@ -288,11 +288,11 @@ class DriveJudge {
     }
     return std::popcount(judged) == 2 && (odometry.left_out & judged) == judged;
   }
-  [[nodiscard]] bool is_dispute_at(std::int64_t us) const {
-    const auto next = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
-      return row.odometry->utime_us > us;
+  /// A status may be told some scans before or after the row that it belongs to.
+  [[nodiscard]] bool is_dispute_near(std::int64_t us) const {
+    return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
+      return std::abs(row.odometry->utime_us - us) < kRowUs && is_dispute(*row.odometry);
     });
-    return next != rows_.begin() && is_dispute(*std::prev(next)->odometry);
   }
 
   [[nodiscard]] std::optional<double> recovery() const {

@@ -240,8 +240,12 @@ class SystematicFaults {
     }
     cases_.push_back({"learned mounts wrong", "", always()});
     cases_.back().learned = mounts;
+    cases_.back().guilty = all_bits();
+    cases_.back().cause = FaultKind::mount_yaw;
     cases_.push_back({"learned scales wrong", "", always()});
     cases_.back().learned = scales;
+    cases_.back().guilty = all_bits();
+    cases_.back().cause = FaultKind::scale;
   }
 
   void add_truck() {

@@ -176,10 +176,9 @@ inline constexpr LinearScale kYawRateScale{32768.0, 100.0 * kDegPerRad};
 /// What the signals of `message` take from a payload; nothing if that is too short.
 template <typename Content>
 std::optional<Content> decoded(Ars408Message message, Ars408Bytes bytes) {
-  const bool is_whole =
-      std::any_of(kArs408Messages.begin(), kArs408Messages.end(), [&](const Ars408MessageRow& row) {
-        return row.message == message && bytes.size() >= row.length;
-      });
+  const bool is_whole = std::ranges::any_of(kArs408Messages, [&](const Ars408MessageRow& row) {
+    return row.message == message && bytes.size() >= row.length;
+  });
   if (!is_whole) {
     return std::nullopt;
   }

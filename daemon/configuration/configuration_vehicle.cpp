@@ -103,7 +103,7 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
   check_id(reader, "speed", speed, configuration);
   check_id(reader, "yaw_rate", yaw_rate, configuration);
   const auto& radars = configuration.radars;
-  const auto told = std::find_if(radars.begin(), radars.end(), has_feedback);
+  const auto told = std::ranges::find_if(radars, has_feedback);
   if (told != radars.end()) {
     reader.report(
         "interface",

@@ -139,8 +139,7 @@ void LinkWatch::note(const NamedLink& link, bool is_there) {
 }
 
 Link LinkWatch::link(std::string_view name) const {
-  const auto found = std::find_if(links_.begin(), links_.end(),
-                                  [&](const NamedLink& link) { return link.name == name; });
+  const auto found = std::ranges::find(links_, name, &NamedLink::name);
   return found == links_.end() ? Link{0, false, error_} : found->link;
 }
 

@@ -47,9 +47,7 @@ std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t m
 void RadarSearch::follow(const LinkWatch& links) {
   for (const std::string& name : links.up_can_names()) {
     const unsigned index = links.link(name).index;
-    const bool is_heard =
-        std::any_of(listeners_.begin(), listeners_.end(),
-                    [&](const Listener& listener) { return listener.index == index; });
+    const bool is_heard = std::ranges::count(listeners_, index, &Listener::index) != 0;
     if (is_heard || listeners_.size() >= kMaxListeners) {
       continue;
     }

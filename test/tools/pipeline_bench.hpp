@@ -96,9 +96,8 @@ inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
 }
 
 inline std::size_t count_status(const std::vector<EgoMotion>& motions, MotionStatus status) {
-  return static_cast<std::size_t>(
-      std::count_if(motions.begin(), motions.end(),
-                    [&](const EgoMotion& motion) { return motion.status == status; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      motions, [&](const EgoMotion& motion) { return motion.status == status; }));
 }
 
 }  // namespace cremed::test

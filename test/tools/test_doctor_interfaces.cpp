@@ -14,5 +14,5 @@ TEST_CASE("An interface of another kind is told from one that is not there") {
   CHECK(state_of("cremed-absent") == InterfaceState::absent);
   CHECK(state_of("a name that is longer than any interface's") == InterfaceState::absent);
   const auto names = can_interfaces();
-  CHECK(std::find(names.begin(), names.end(), "lo") == names.end());
+  CHECK(std::ranges::find(names, "lo") == names.end());
 }

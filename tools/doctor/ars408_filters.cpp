@@ -142,8 +142,7 @@ void tell_written(std::span<const Ars408FilterState> written, std::ostream& out)
 std::optional<Ars408FilterState> parse_ars408_filter(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
-  const auto row =
-      std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.name == name; });
+  const auto row = std::ranges::find(kRows, name, &Row::name);
   if (row == kRows.end() || equals == std::string_view::npos) {
     return std::nullopt;
   }

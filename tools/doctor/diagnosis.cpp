@@ -53,8 +53,8 @@ void add_buses(const Configuration& configuration, const Observation& observatio
 void add_radar(const Configuration& configuration, const Observation& observation,
                std::size_t radar, Findings& findings) {
   const RadarConfiguration& wanted = configuration.radars[radar];
-  const auto bus = std::find_if(observation.buses.begin(), observation.buses.end(),
-                                [&](const auto& b) { return b.interface == wanted.interface; });
+  const auto bus =
+      std::ranges::find(observation.buses, wanted.interface, &BusObservation::interface);
   Findings own = is_silent(*bus) ? find_elsewhere(configuration, observation, radar)
                                  : diagnose_radar(configuration, observation, radar);
   for (Finding& finding : own) {
@@ -101,8 +101,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   if (!observation.lcm_problem.empty()) {
     findings.push_back({Severity::error, "LCM cannot send", observation.lcm_problem});
   }
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
+  std::ranges::stable_sort(findings, {}, &Finding::severity);
   return findings;
 }
 
@@ -111,8 +110,8 @@ const char* severity_name(Severity severity) {
 }
 
 bool is_well(const Findings& findings) {
-  return std::all_of(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.severity == Severity::note; });
+  return std::ranges::all_of(
+      findings, [](const Finding& finding) { return finding.severity == Severity::note; });
 }
 
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,

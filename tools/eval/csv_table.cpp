@@ -50,7 +50,7 @@ CsvTable::CsvTable(std::istream& input) {
 }
 
 std::size_t CsvTable::column(std::string_view name) const {
-  const auto found = std::find(header_.begin(), header_.end(), name);
+  const auto found = std::ranges::find(header_, name);
   if (found == header_.end()) {
     throw std::runtime_error("no column " + std::string(name));
   }
@@ -58,7 +58,7 @@ std::size_t CsvTable::column(std::string_view name) const {
 }
 
 bool CsvTable::has_column(std::string_view name) const {
-  return std::find(header_.begin(), header_.end(), name) != header_.end();
+  return std::ranges::find(header_, name) != header_.end();
 }
 
 template <typename Number>

@@ -95,8 +95,7 @@ bool RadarModel::same_cell(const RadarView& a, const RadarView& b) const {
 
 /// The stronger of two unresolved targets hides the weaker, so every detection has one true place.
 void RadarModel::merge_unresolved() {
-  std::stable_sort(echoes_.begin(), echoes_.end(),
-                   [](const Echo& a, const Echo& b) { return a.rcs_dbm2 > b.rcs_dbm2; });
+  std::ranges::stable_sort(echoes_, std::ranges::greater{}, &Echo::rcs_dbm2);
   std::size_t kept = 0;
   for (const Echo& echo : echoes_) {
     const auto hides = [&](const Echo& other) { return same_cell(other.view, echo.view); };

@@ -154,7 +154,7 @@ void Simulation::attach(const std::vector<RadarConfiguration>& radars, const Sen
 }
 
 CanBus& Simulation::bus_of(const std::string& interface) {
-  const auto found = std::find(interfaces_.begin(), interfaces_.end(), interface);
+  const auto found = std::ranges::find(interfaces_, interface);
   if (found != interfaces_.end()) {
     return buses_[static_cast<std::size_t>(found - interfaces_.begin())];
   }
@@ -201,9 +201,7 @@ void Simulation::attach_state(CanBus& bus, std::size_t radar, std::vector<CanFra
 
 std::optional<CanFrame> Simulation::next() {
   while (true) {
-    const auto earliest = std::min_element(
-        buses_.begin(), buses_.end(),
-        [](const CanBus& a, const CanBus& b) { return a.next_stamp_us() < b.next_stamp_us(); });
+    const auto earliest = std::ranges::min_element(buses_, {}, &CanBus::next_stamp_us);
     if (earliest == buses_.end() || earliest->next_stamp_us() == FrameRequest::kNeverUs) {
       return std::nullopt;
     }

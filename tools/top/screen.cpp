@@ -36,14 +36,14 @@ constexpr std::array<std::string_view, 8> kCauseNames{
 
 /// A message may hold anything.
 std::string ascii(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
 std::string words(const Json& name) {
   std::string text = name.is_string() ? ascii(name.get<std::string>()) : "-";
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 

@@ -65,7 +65,7 @@ std::vector<CalibratedValue> changed_vehicle_values(const OdometryOptions& befor
 
 bool has_values(const Radar& radar, const Radar& before,
                 const std::vector<CalibratedValue>& values) {
-  return std::all_of(kKeys.begin(), kKeys.end(), [&](const CalibratedKey& key) {
+  return std::ranges::all_of(kKeys, [&](const CalibratedKey& key) {
     const auto changed = std::find_if(values.begin(), values.end(),
                                       [&](const auto& value) { return value.key == &key; });
     const double wanted =

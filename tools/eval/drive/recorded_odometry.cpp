@@ -23,8 +23,8 @@ struct SourceRows {
 };
 
 SourceRows& rows_of(std::vector<SourceRows>& sources, const std::string& name) {
-  const auto found = std::find_if(sources.begin(), sources.end(),
-                                  [&](const SourceRows& s) { return s.odometry.source == name; });
+  const auto found =
+      std::ranges::find_if(sources, [&](const SourceRows& s) { return s.odometry.source == name; });
   return found != sources.end() ? *found : sources.emplace_back(SourceRows{{name, {}, 0}, {}});
 }
 
@@ -67,9 +67,8 @@ std::vector<RecordedOdometry> read_odometry(const CsvTable& table) {
 }
 
 int degrees_of_freedom(const RecordedOdometry& odometry) {
-  const bool two_dof =
-      std::all_of(odometry.estimates.begin(), odometry.estimates.end(),
-                  [](const RecordedEstimate& e) { return e.covariance(1, 1) == 0.0; });
+  const bool two_dof = std::ranges::all_of(
+      odometry.estimates, [](const RecordedEstimate& e) { return e.covariance(1, 1) == 0.0; });
   return two_dof ? 2 : 3;
 }
 

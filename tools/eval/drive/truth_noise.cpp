@@ -18,9 +18,7 @@ RelativePoseStd between(const RelativePoseStd& a, const RelativePoseStd& b, doub
 }
 
 RelativePoseStd at(const std::vector<RelativePoseStd>& stds, double interval_s) {
-  const auto after = std::find_if(stds.begin(), stds.end(), [&](const RelativePoseStd& std) {
-    return std.interval_s > interval_s;
-  });
+  const auto after = std::ranges::upper_bound(stds, interval_s, {}, &RelativePoseStd::interval_s);
   if (after == stds.begin()) {
     return stds.front();
   }
@@ -30,10 +28,7 @@ RelativePoseStd at(const std::vector<RelativePoseStd>& stds, double interval_s) 
 }  // namespace
 
 TruthNoise::TruthNoise(std::vector<RelativePoseStd> stds) : stds_(std::move(stds)) {
-  std::stable_sort(stds_.begin(), stds_.end(),
-                   [](const RelativePoseStd& a, const RelativePoseStd& b) {
-                     return a.interval_s < b.interval_s;
-                   });
+  std::ranges::stable_sort(stds_, {}, &RelativePoseStd::interval_s);
 }
 
 Eigen::Matrix3d TruthNoise::covariance(std::int64_t interval_us) const {

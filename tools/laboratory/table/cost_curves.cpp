@@ -62,9 +62,7 @@ double mixture_cost(Mixture& mixture, const TargetSet& current, double translati
 }
 
 void make_relative(std::vector<CostPoint>& points, double CostPoint::*member) {
-  const auto lowest = std::min_element(
-      points.begin(), points.end(),
-      [&](const CostPoint& a, const CostPoint& b) { return a.*member < b.*member; });
+  const auto lowest = std::ranges::min_element(points, {}, member);
   const double base = (*lowest).*member;
   for (CostPoint& point : points) {
     point.*member -= base;

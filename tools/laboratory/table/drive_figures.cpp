@@ -158,8 +158,8 @@ DriveFigures drive_figures(const TabledDrive& drive) {
 DriveFigures mean_figures(const std::vector<DriveFigures>& drives) {
   DriveFigures mean = drives.empty() ? DriveFigures{} : drives.front();
   std::erase_if(mean, [&](const auto& group) {
-    return !std::all_of(drives.begin(), drives.end(),
-                        [&](const DriveFigures& one) { return one.contains(group.first); });
+    return !std::ranges::all_of(drives,
+                                [&](const DriveFigures& one) { return one.contains(group.first); });
   });
   for (auto& [name, values] : mean) {
     for (std::size_t i = 0; i < values.size(); ++i) {

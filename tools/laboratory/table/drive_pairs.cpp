@@ -159,8 +159,7 @@ void add_paper(const DriveToPair& drive, std::string_view profile_name, const Tr
 
 std::size_t paired_radar(const Configuration& configuration) {
   const auto& radars = configuration.radars;
-  const auto front = std::find_if(radars.begin(), radars.end(),
-                                  [](const auto& radar) { return radar.name == "front"; });
+  const auto front = std::ranges::find(radars, "front", &RadarConfiguration::name);
   return front == radars.end() ? 0 : static_cast<std::size_t>(front - radars.begin());
 }
 

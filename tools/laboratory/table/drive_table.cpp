@@ -77,8 +77,7 @@ const std::vector<Layout>& layouts() {
 std::string cell(const DriveFigures& figures, const Column& column) {
   const auto found = figures.find(column.group);
   const auto is_number = [](double value) { return std::isfinite(value); };
-  if (found == figures.end() ||
-      !std::all_of(found->second.begin(), found->second.end(), is_number)) {
+  if (found == figures.end() || !std::ranges::all_of(found->second, is_number)) {
     return "–";
   }
   std::string text;
@@ -149,9 +148,8 @@ ReadmeTable table_of(const Layout& layout, const std::vector<NamedFigures>& driv
     table.header.emplace_back(column.title);
   }
   for (const NamedFigures& drive : drives) {
-    const bool has_any =
-        std::any_of(layout.columns.begin(), layout.columns.end(),
-                    [&](const Column& column) { return drive.figures.contains(column.group); });
+    const bool has_any = std::ranges::any_of(
+        layout.columns, [&](const Column& column) { return drive.figures.contains(column.group); });
     if (has_any) {
       std::vector<std::string>& row = table.rows.emplace_back();
       row.push_back(drive.name);

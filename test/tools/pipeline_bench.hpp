@@ -32,7 +32,6 @@ class RecordingSink final : public OdometrySink {
   void on_status(std::size_t radar, const RadarStatus& status) override {
     statuses[radar].push_back(status);
   }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<std::vector<EgoMotion>> motions;
   std::vector<Odometry> odometries;

@@ -33,14 +33,12 @@ TruthNoise nuscenes_truth_noise() {
 /// Keeps what the odometry puts out.
 class OutputSink final : public OdometrySink {
  public:
-  void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
   void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
   void on_fused(const EgoMotion& motion, std::int32_t) override {
     if (motion.has_estimate()) {
       fused.push_back(motion);
     }
   }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<Odometry> outputs;
   std::vector<EgoMotion> fused;

@@ -50,7 +50,6 @@ class PairingSink final : public OdometrySink {
     }
   }
   void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<UsableScan> scans;
   std::vector<EgoMotion> motions;

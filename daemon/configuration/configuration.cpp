@@ -7,10 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "daemon/configuration/configuration_estimator.hpp"
-#include "daemon/configuration/configuration_odometry.hpp"
 #include "daemon/configuration/configuration_radar.hpp"
-#include "daemon/configuration/configuration_vehicle.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/configuration/toml_document.hpp"

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "daemon/configuration/bus_options.hpp"
-#include "daemon/configuration/configuration_estimator.hpp"
-#include "daemon/configuration/configuration_odometry.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/plain_text.hpp"
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/configuration/configuration_vehicle.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
 
 #include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/message_text.hpp"
 

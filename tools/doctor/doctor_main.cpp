@@ -25,7 +25,6 @@
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/diagnosis.hpp"
-#include "tools/doctor/diagnosis_json.hpp"
 #include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"

@@ -10,7 +10,7 @@
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/source/radar_search.hpp"
-#include "tools/doctor/log_lines.hpp"
+#include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {

@@ -50,7 +50,6 @@ class RecordingSink final : public OdometrySink {
                : 0.0;
   }
 
-
   std::vector<RecordedRadar> take() { return std::move(radars_); }
 
  private:

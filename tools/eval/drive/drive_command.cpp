@@ -10,7 +10,6 @@
 #include "tools/eval/drive/baselines.hpp"
 #include "tools/eval/drive/drive_json.hpp"
 #include "tools/eval/drive/drive_report.hpp"
-#include "tools/eval/drive/drive_tables.hpp"
 #include "tools/eval/drive/other_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"

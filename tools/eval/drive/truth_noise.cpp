@@ -3,10 +3,10 @@
 #include "tools/eval/drive/truth_noise.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace cremed {
 namespace {
@@ -42,13 +42,10 @@ Eigen::Matrix3d TruthNoise::covariance(std::int64_t interval_us) const {
 std::string TruthNoise::note() const {
   std::string note;
   for (const RelativePoseStd& std : stds_) {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "%s%g, %g m, %g rad", note.empty() ? "" : "; ", std.x_m,
-                  std.y_m, std.yaw_rad);
-    note += text.data();
+    note += fmt::format("{}{:g}, {:g} m, {:g} rad", note.empty() ? "" : "; ", std.x_m, std.y_m,
+                        std.yaw_rad);
     if (stds_.size() > 1) {
-      std::snprintf(text.data(), text.size(), " over %g s", std.interval_s);
-      note += text.data();
+      note += fmt::format(" over {:g} s", std.interval_s);
     }
   }
   return note.empty() ? note : "truth's own std added to the covariance: " + note;

@@ -46,10 +46,10 @@ CorrespondenceCounts count_correspondences(const RegistrationPair& pair) {
 void write_correspondences_csv(const std::string& path,
                                const std::vector<RegistrationPair>& pairs) {
   ReportFile file(path);
-  std::fputs("pair,correspondences,outliers\n", file.stream());
+  file.print("pair,correspondences,outliers\n");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const CorrespondenceCounts counts = count_correspondences(pairs[i]);
-    std::fprintf(file.stream(), "%zu,%zu,%zu\n", i, counts.correspondences, counts.outliers);
+    file.print("{},{},{}\n", i, counts.correspondences, counts.outliers);
   }
   file.close();
 }

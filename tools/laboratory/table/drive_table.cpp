@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "daemon/output/text_line.hpp"
@@ -17,6 +18,38 @@
 
 namespace cremed {
 namespace {
+
+std::string comment(std::string_view name) {
+  return "<!-- cremed-eval table --drives: " + std::string(name) + " -->\n";
+}
+
+std::string line_of(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) {
+    line += " " + cell + " |";
+  }
+  return line + "\n";
+}
+
+/// Comment and table.
+struct Place {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::optional<Place> find(const std::string& readme, std::string_view name) {
+  const std::string title = comment(name);
+  const std::size_t begin = readme.find(title);
+  if (begin == std::string::npos) {
+    return std::nullopt;
+  }
+  Place place{begin, begin + title.size()};
+  while (place.end < readme.size() && readme[place.end] == '|') {
+    place.end = readme.find('\n', place.end);
+    place.end = place.end == std::string::npos ? readme.size() : place.end + 1;
+  }
+  return place;
+}
 
 struct KnownDrive {
   std::string_view name;
@@ -162,6 +195,24 @@ ReadmeTable table_of(const Layout& layout, const std::vector<NamedFigures>& driv
 }
 
 }  // namespace
+
+std::string to_markdown(const ReadmeTable& table) {
+  std::string text = comment(table.name) + line_of(table.header) + "|";
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    text += "---|";
+  }
+  text += "\n";
+  for (const auto& row : table.rows) {
+    text += line_of(row);
+  }
+  return text;
+}
+
+std::string with_table(const std::string& readme, const ReadmeTable& table) {
+  const auto place = find(readme, table.name);
+  return place ? readme.substr(0, place->begin) + to_markdown(table) + readme.substr(place->end)
+               : readme;
+}
 
 std::vector<ReadmeTable> drive_tables(const DriveTableOptions& options) {
   const auto drives = all_figures(options);

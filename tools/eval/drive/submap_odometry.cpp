@@ -35,6 +35,7 @@ std::vector<UncertainPoint> standing_points(const Sweep& sweep, const KellnerVel
 std::vector<UncertainPoint> placed(const std::vector<UncertainPoint>& points, const Pose2& pose) {
   const Eigen::Matrix2d turn = rotation_matrix(pose.yaw_rad);
   std::vector<UncertainPoint> result;
+  result.reserve(points.size());
   for (const UncertainPoint& point : points) {
     result.push_back({turn * point.position_m + Eigen::Vector2d(pose.x_m, pose.y_m),
                       turn * point.covariance_m2 * turn.transpose()});
@@ -161,8 +162,8 @@ SubmapOdometry::Result SubmapOdometry::update(const Sweep& sweep, const KellnerV
   const Match match = matched(map_, points, expectation(pose_, motion, dt_s));
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = rotation_matrix(-pose_.yaw_rad);
-  const Result result{motion_between(pose_, match.pose),
-                      turn * match.equations.information.inverse() * turn.transpose()};
+  Result result{motion_between(pose_, match.pose),
+                turn * match.equations.information.inverse() * turn.transpose()};
   pose_ = match.pose;
   add_to_map(placed(points, pose_));
   return result;

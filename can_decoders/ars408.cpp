@@ -150,9 +150,9 @@ const Ars408MessageRow* Ars408Decoder::find(const CanFrame& frame) const {
     return nullptr;
   }
   const std::uint32_t base = ars408_base_id(frame.id);
-  const auto* row = std::find_if(
-      kArs408Messages.begin(), kArs408Messages.end(),
-      [base](const Ars408MessageRow& r) { return static_cast<std::uint32_t>(r.message) == base; });
+  const auto* row = std::ranges::find_if(kArs408Messages, [base](const Ars408MessageRow& r) {
+    return static_cast<std::uint32_t>(r.message) == base;
+  });
   return row == kArs408Messages.end() ? nullptr : row;
 }
 

@@ -3,16 +3,13 @@
 #include "cremed/can_decoders/ars408_commands.hpp"
 
 #include <cmath>
-#include <cstddef>
 
-#include "cremed/can_decoders/ars408_layout.hpp"
-#include "cremed/can_decoders/ars408_messages.hpp"
-#include "cremed/can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 
 namespace cremed {
 namespace {
 
-namespace layout = ars408_layout;
+using namespace ars408_signals;
 
 constexpr std::uint32_t kCommandId = 0x200;
 constexpr std::uint32_t kFilterId = 0x202;
@@ -21,76 +18,57 @@ constexpr std::uint32_t kYawRateId = 0x301;
 
 PayloadBits empty_bits() { return PayloadBits::big_endian({}); }
 
-CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t length,
-               const PayloadBits& bits) {
-  CanFrame result;
-  result.id = ars408_id(base_id, sensor_id & 7U);
-  result.length = length;
-  for (std::size_t i = 0; i < length; ++i) {
-    result.data[i] = bits.byte(i);
-  }
-  return result;
-}
-
-/// Writes a signal and its valid bit if it has a value.
+/// Writes a signal and its valid bit if it has a value. The sensor ignores a signal whose valid bit
+/// is not set.
 template <typename Code>
 void put(PayloadBits& bits, std::uint8_t valid_bit, BitField field,
          const std::optional<Code>& code) {
   if (code) {
     bits.set({valid_bit, 1}, 1);
-    bits.set(field, std::uint32_t{*code});
+    bits.set(field, std::int64_t{*code});
   }
-}
-
-PayloadBits filter_bits(bool for_objects, Ars408Criterion criterion) {
-  PayloadBits bits = empty_bits();
-  bits.set({layout::filter::kForObjects, 1}, for_objects ? 1 : 0);
-  bits.set(layout::filter::kIndex, static_cast<std::uint32_t>(criterion));
-  return bits;
 }
 
 }  // namespace
 
 CanFrame encode_ars408_command(std::uint8_t sensor_id, const Ars408Command& command) {
-  using namespace layout::configuration;
   PayloadBits bits = empty_bits();
   if (command.max_distance_m) {
-    bits.set({kMaxDistanceValid, 1}, 1);
-    bits.set(kMaxDistance, kMaxDistanceScale.raw(*command.max_distance_m, kMaxDistance));
+    bits.set({0, 1}, 1);
+    const SignalWriter signal(bits);
+    signal({22, 10}, {0.0, 0.5}, *command.max_distance_m);
   }
-  put(bits, kSensorIdValid, kSensorId, command.sensor_id);
-  put(bits, kPowerValid, kPower, command.power_code);
-  put(bits, kOutputValid, kOutput, command.output_code);
-  put(bits, kSendsQualityValid, kSendsQuality, command.sends_quality);
-  put(bits, kSendsExtendedValid, kSendsExtended, command.sends_extended);
-  put(bits, kSortValid, kSort, command.sort_code);
-  put(bits, kStoreValid, kStore, command.store);
-  put(bits, kRelayControlValid, kRelayControl, command.relay_control);
-  put(bits, kRcsThresholdValid, kRcsThreshold, command.rcs_threshold_code);
+  put(bits, 1, {32, 3}, command.sensor_id);
+  put(bits, 2, {37, 3}, command.power_code);
+  put(bits, 3, {35, 2}, command.output_code);
+  put(bits, 4, {42, 1}, command.sends_quality);
+  put(bits, 5, {43, 1}, command.sends_extended);
+  put(bits, 6, {44, 3}, command.sort_code);
+  put(bits, 7, {47, 1}, command.store);
+  put(bits, 40, {41, 1}, command.relay_control);
+  put(bits, 48, {49, 3}, command.rcs_threshold_code);
   return frame(kCommandId, sensor_id, 8, bits);
 }
 
 CanFrame encode_ars408_filter(std::uint8_t sensor_id, const Ars408FilterState& filter) {
-  using namespace layout::filter;
-  const Limits& limits = kLimits[static_cast<std::size_t>(filter.criterion)];
-  const BitField min{kMin, limits.length};
-  const BitField max{kMax, limits.length};
-  PayloadBits bits = filter_bits(filter.for_objects, filter.criterion);
-  bits.set({kActive, 1}, filter.active ? 1 : 0);
-  bits.set({kValid, 1}, 1);
-  bits.set(min, limits.scale.raw(filter.min, min));
-  bits.set(max, limits.scale.raw(filter.max, max));
+  constexpr BitField kValid{1, 1};
+  PayloadBits bits = empty_bits();
+  Ars408FilterState content = filter;
+  signals(SignalWriter(bits), content);
+  bits.set(kValid, 1);
   return frame(kFilterId, sensor_id, 5, bits);
 }
 
 CanFrame encode_ars408_filter_query(std::uint8_t sensor_id, bool for_objects,
                                     Ars408Criterion criterion) {
-  return frame(kFilterId, sensor_id, 5, filter_bits(for_objects, criterion));
+  PayloadBits bits = empty_bits();
+  Ars408FilterState asked{.for_objects = for_objects, .criterion = criterion};
+  filter_signals(SignalWriter(bits), asked);
+  return frame(kFilterId, sensor_id, 5, bits);
 }
 
 CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {
-  using namespace layout::motion;
-  const std::uint32_t speed = kSpeedScale.raw(std::abs(speed_mps), kSpeed);
+  const std::int64_t speed = kSpeedScale.raw(std::abs(speed_mps), kSpeed);
   const std::uint8_t direction = speed == 0 ? kStandstill : speed_mps < 0.0 ? kBackward : kForward;
   PayloadBits bits = empty_bits();
   bits.set(kDirection, direction);
@@ -99,7 +77,6 @@ CanFrame encode_ars408_speed(std::uint8_t sensor_id, double speed_mps) {
 }
 
 CanFrame encode_ars408_yaw_rate(std::uint8_t sensor_id, double yaw_rate_radps) {
-  using namespace layout::motion;
   PayloadBits bits = empty_bits();
   bits.set(kYawRate, kYawRateScale.raw(yaw_rate_radps, kYawRate));
   return frame(kYawRateId, sensor_id, 2, bits);

@@ -15,6 +15,14 @@ namespace cremed {
 struct BitField {
   std::uint8_t start;
   std::uint8_t length;
+  bool is_signed = false;  ///< Two's complement.
+
+  [[nodiscard]] constexpr std::int64_t least() const {
+    return is_signed ? -(std::int64_t{1} << (length - 1)) : 0;
+  }
+  [[nodiscard]] constexpr std::int64_t greatest() const {
+    return least() + (std::int64_t{1} << length) - 1;
+  }
 };
 
 /// A payload of up to eight bytes as one word, from which signals are extracted. Missing bytes read
@@ -30,32 +38,20 @@ class PayloadBits {
     return PayloadBits(bytes, false);
   }
 
-  [[nodiscard]] constexpr std::uint32_t get(BitField field) const {
-    const std::uint64_t mask = (std::uint64_t{1} << field.length) - 1U;
-    return static_cast<std::uint32_t>((word_ >> shift(field)) & mask);
-  }
-  [[nodiscard]] constexpr std::uint8_t get8(BitField field) const {
-    return static_cast<std::uint8_t>(get(field));
-  }
-  [[nodiscard]] constexpr std::uint16_t get16(BitField field) const {
-    return static_cast<std::uint16_t>(get(field));
+  [[nodiscard]] constexpr std::int64_t get(BitField field) const {
+    const auto raw = static_cast<std::int64_t>((word_ >> shift(field)) & mask(field));
+    return raw > field.greatest() ? raw - (std::int64_t{1} << field.length) : raw;
   }
   [[nodiscard]] constexpr bool flag(std::uint8_t bit) const { return get({bit, 1}) != 0; }
 
   /// Sets the signal to the low bits of `value`.
-  constexpr void set(BitField field, std::uint32_t value) {
-    const std::uint64_t mask = (std::uint64_t{1} << field.length) - 1U;
-    word_ = (word_ & ~(mask << shift(field))) | ((value & mask) << shift(field));
+  constexpr void set(BitField field, std::int64_t value) {
+    const auto bits = static_cast<std::uint64_t>(value) & mask(field);
+    word_ = (word_ & ~(mask(field) << shift(field))) | (bits << shift(field));
   }
 
   [[nodiscard]] constexpr std::uint8_t byte(std::size_t index) const {
     return static_cast<std::uint8_t>(word_ >> (big_ ? 56U - 8U * index : 8U * index));
-  }
-
-  /// The same bits as two's complement.
-  [[nodiscard]] constexpr std::int32_t get_signed(BitField field) const {
-    const std::int64_t sign = std::int64_t{1} << (field.length - 1);
-    return static_cast<std::int32_t>((static_cast<std::int64_t>(get(field)) ^ sign) - sign);
   }
 
  private:
@@ -66,6 +62,9 @@ class PayloadBits {
     }
   }
 
+  static constexpr std::uint64_t mask(BitField field) {
+    return (std::uint64_t{1} << field.length) - 1U;
+  }
   [[nodiscard]] constexpr unsigned shift(BitField field) const {
     const unsigned byte = field.start / 8U;
     return big_ ? 56U - 8U * byte + field.start % 8U : field.start;
@@ -81,16 +80,59 @@ struct LinearScale {
   double zero;            ///< Raw number of the value 0; may be fractional.
   double steps_per_unit;  ///< 1 / factor.
 
-  [[nodiscard]] constexpr double operator()(double raw) const {
-    return (raw - zero) / steps_per_unit;
+  [[nodiscard]] constexpr double operator()(std::int64_t raw) const {
+    return (static_cast<double>(raw) - zero) / steps_per_unit;
   }
 
   /// The nearest raw number that `field` can hold; NaN becomes that of 0.
-  [[nodiscard]] std::uint32_t raw(double value, BitField field) const {
-    const double greatest = static_cast<double>((std::uint64_t{1} << field.length) - 1U);
+  [[nodiscard]] std::int64_t raw(double value, BitField field) const {
     const double nearest = std::round((std::isnan(value) ? 0.0 : value) * steps_per_unit + zero);
-    return static_cast<std::uint32_t>(std::clamp(nearest, 0.0, greatest));
+    return static_cast<std::int64_t>(std::clamp(nearest, static_cast<double>(field.least()),
+                                                static_cast<double>(field.greatest())));
   }
+};
+
+/// Reads the signals of a message. Each message has a function that names its signals once, for
+/// SignalReader and SignalWriter alike:
+///
+///     template <typename Signal>
+///     void signals(const Signal& signal, Message& m) {
+///       signal({8, 4}, m.code);                     // position, member: the raw number
+///       signal({16, 12}, {500.0, 10.0}, m.range_m);  // with its scale: the physical value
+///     }
+class SignalReader {
+ public:
+  explicit SignalReader(const PayloadBits& bits) : bits_(bits) {}
+
+  template <typename Code>
+  void operator()(BitField field, Code& code) const {
+    code = static_cast<Code>(bits_.get(field));
+  }
+  template <typename Number>
+  void operator()(BitField field, LinearScale scale, Number& value) const {
+    value = static_cast<Number>(scale(bits_.get(field)));
+  }
+
+ private:
+  const PayloadBits& bits_;
+};
+
+/// Writes the signals of a message; values beyond their field become its limits.
+class SignalWriter {
+ public:
+  explicit SignalWriter(PayloadBits& bits) : bits_(bits) {}
+
+  template <typename Code>
+  void operator()(BitField field, const Code& code) const {
+    bits_.set(field, static_cast<std::int64_t>(code));
+  }
+  template <typename Number>
+  void operator()(BitField field, LinearScale scale, const Number& value) const {
+    bits_.set(field, scale.raw(static_cast<double>(value), field));
+  }
+
+ private:
+  PayloadBits& bits_;
 };
 
 }  // namespace cremed

@@ -4,60 +4,19 @@
 
 #include <algorithm>
 
-#include "cremed/can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr std::size_t kLength = 8;  // All three messages.
+using namespace bosch_gpr_signals;
+
 constexpr double kMinRangeM = 0.01;
 
-// Common to all messages, Intel order.
-constexpr BitField kCounter{54, 2};
-constexpr std::size_t kCrcByte = 7;
-constexpr std::uint8_t kIsA = 0;
-constexpr BitField kId{1, 6};
-
-namespace target_a {
-constexpr BitField kRange{7, 12};
-constexpr BitField kRadialVelocity{19, 12};
-constexpr BitField kPower{31, 8};
-constexpr BitField kAzimuth{39, 14};
-constexpr std::uint8_t kMeasured = 53;
-}  // namespace target_a
-
-namespace target_b {
-constexpr BitField kAzimuthStd{7, 6};
-constexpr BitField kRadialVelocityStd{13, 6};
-constexpr BitField kRangeStd{19, 6};
-constexpr BitField kExistence{25, 5};
-constexpr BitField kAge{30, 13};
-}  // namespace target_b
-
-namespace info {
-constexpr BitField kSensorType{0, 3};
-constexpr BitField kTemperature{3, 8};
-constexpr int kTemperatureOffset = 50;
-constexpr std::uint8_t kBlind = 11;
-constexpr std::uint8_t kSoftwareFailure = 12;
-constexpr std::uint8_t kHardwareFailure = 13;
-constexpr std::uint8_t kCanFailure = 14;
-constexpr std::uint8_t kConfigurationFailure = 15;
-constexpr std::uint8_t kDiagnosticMode = 16;
-constexpr BitField kTroubleCode{17, 24};
-constexpr BitField kTroubleOrder{41, 8};
-constexpr std::uint8_t kNotSafe = 49;
-}  // namespace info
-
-constexpr LinearScale kSixteenths{0.0, 16.0};
-constexpr LinearScale kPowerScale{0.0, 2.0};
-constexpr LinearScale kAzimuthScale{0.0, 5000.0};
-constexpr LinearScale kAzimuthStdScale{0.0, 1000.0};
-constexpr LinearScale kExistenceScale{0.0, 32.0};
-constexpr LinearScale kAgeScale{0.0, 10000.0};
-
 /// Used where the sensor gives 0: half a step of the scale.
-double at_least_half_step(double std, LinearScale scale) { return std::max(std, scale(0.5)); }
+double at_least_half_step(double std, LinearScale scale) {
+  return std::max(std, 0.5 / scale.steps_per_unit);
+}
 
 Payload payload_of(const CanFrame& frame) {
   Payload payload;
@@ -65,59 +24,29 @@ Payload payload_of(const CanFrame& frame) {
   return payload;
 }
 
+template <typename Content>
+std::optional<Content> decoded(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kLength) {
+    return std::nullopt;
+  }
+  const PayloadBits bits = PayloadBits::little_endian(bytes);
+  Content content;
+  signals(SignalReader(bits), content);
+  return content;
+}
+
 }  // namespace
 
 std::optional<BoschGprTargetA> decode_bosch_gpr_target_a(std::span<const std::uint8_t> bytes) {
-  using namespace target_a;
-  if (bytes.size() < kLength) {
-    return std::nullopt;
-  }
-  const auto bits = PayloadBits::little_endian(bytes);
-  return BoschGprTargetA{.is_a = bits.flag(kIsA),
-                         .id = bits.get8(kId),
-                         .range_m = kSixteenths(bits.get(kRange)),
-                         .radial_velocity_mps = kSixteenths(bits.get_signed(kRadialVelocity)),
-                         .power_dbm2 = kPowerScale(bits.get_signed(kPower)),
-                         .azimuth_rad = kAzimuthScale(bits.get_signed(kAzimuth)),
-                         .measured = bits.flag(kMeasured),
-                         .counter = bits.get8(kCounter)};
+  return decoded<BoschGprTargetA>(bytes);
 }
 
 std::optional<BoschGprTargetB> decode_bosch_gpr_target_b(std::span<const std::uint8_t> bytes) {
-  using namespace target_b;
-  if (bytes.size() < kLength) {
-    return std::nullopt;
-  }
-  const auto bits = PayloadBits::little_endian(bytes);
-  return BoschGprTargetB{.is_a = bits.flag(kIsA),
-                         .id = bits.get8(kId),
-                         .azimuth_std_rad = kAzimuthStdScale(bits.get(kAzimuthStd)),
-                         .radial_velocity_std_mps = kSixteenths(bits.get(kRadialVelocityStd)),
-                         .range_std_m = kSixteenths(bits.get(kRangeStd)),
-                         .existence = kExistenceScale(bits.get(kExistence)),
-                         .age_s = kAgeScale(bits.get(kAge)),
-                         .counter = bits.get8(kCounter)};
+  return decoded<BoschGprTargetB>(bytes);
 }
 
 std::optional<BoschGprInfo> decode_bosch_gpr_info(std::span<const std::uint8_t> bytes) {
-  using namespace info;
-  if (bytes.size() < kLength) {
-    return std::nullopt;
-  }
-  const auto bits = PayloadBits::little_endian(bytes);
-  const int temperature_degc = bits.get_signed(kTemperature) + kTemperatureOffset;
-  return BoschGprInfo{.sensor_type = bits.get8(kSensorType),
-                      .temperature_degc = static_cast<std::int16_t>(temperature_degc),
-                      .blind = bits.flag(kBlind),
-                      .software_failure = bits.flag(kSoftwareFailure),
-                      .hardware_failure = bits.flag(kHardwareFailure),
-                      .can_failure = bits.flag(kCanFailure),
-                      .configuration_failure = bits.flag(kConfigurationFailure),
-                      .diagnostic_mode = bits.flag(kDiagnosticMode),
-                      .trouble_code = bits.get(kTroubleCode),
-                      .trouble_order = bits.get8(kTroubleOrder),
-                      .not_safe = bits.flag(kNotSafe),
-                      .counter = bits.get8(kCounter)};
+  return decoded<BoschGprInfo>(bytes);
 }
 
 std::uint8_t crc8_j1850(std::span<const std::uint8_t> bytes) {
@@ -157,8 +86,8 @@ bool BoschGprDecoder::check_crc(const Payload& payload) {
 bool BoschGprDecoder::check_slot(const Payload& payload, std::size_t index) {
   const auto bits = PayloadBits::little_endian(payload);
   const bool a_id = index % 2 == 0;
-  const std::size_t id = bits.get(kId);
-  const bool ours = bits.flag(kIsA) == a_id && id < kBoschGprSlots;
+  const auto id = static_cast<std::size_t>(bits.get(kId));
+  const bool ours = (bits.get(kIsA) != 0) == a_id && id < kBoschGprSlots;
   if (!ours || id != index / 2) {
     ++counters_.wrong_slot;
   }
@@ -203,7 +132,7 @@ ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
   if (!trust(payload, index)) {
     return {};
   }
-  const auto counter = PayloadBits::little_endian(payload).get8(kCounter);
+  const auto counter = static_cast<std::uint8_t>(PayloadBits::little_endian(payload).get(kCounter));
   check_counter(counter, index);
   if (index == kInfoIndex) {
     ++counters_.state_frames;

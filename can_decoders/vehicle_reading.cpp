@@ -4,18 +4,17 @@
 
 #include <span>
 
-#include "cremed/can_decoders/ars408_layout.hpp"
-#include "cremed/can_decoders/bit_field.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 
 namespace cremed {
 namespace {
 
-using namespace ars408_layout::motion;
+using namespace ars408_signals;
 
 constexpr std::uint8_t kMinLength = 2;
 
 std::optional<double> speed_of(const PayloadBits& bits) {
-  const std::uint32_t raw = bits.get(kSpeed);
+  const std::int64_t raw = bits.get(kSpeed);
   switch (bits.get(kDirection)) {
     case kStandstill:
       return raw == 0 ? std::optional(0.0) : std::nullopt;

@@ -28,7 +28,7 @@ double parse_speed(const std::string& text) {
 }
 
 void check(const CommandLine& c) {
-  const long standard_inputs = std::count(c.replay.begin(), c.replay.end(), "-");
+  const long standard_inputs = std::ranges::count(c.replay, "-");
   if (standard_inputs > 1) {
     throw CLI::ValidationError("--replay", "standard input (-) can be read only once");
   }

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/live_reporter.hpp"
 
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -18,7 +21,8 @@ namespace {
 /// Shorter pauses, such as one lost scan, are not reported.
 constexpr int kPatienceS = 3;
 
-enum BusCondition : int {
+/// In the order of kBusTexts.
+enum BusCondition : std::uint8_t {
   good,
   absent,
   down,
@@ -30,7 +34,7 @@ enum BusCondition : int {
   late,
 };
 
-int condition_of(const BusStatus& now, const BusStatus& before) {
+BusCondition condition_of(const BusStatus& now, const BusStatus& before) {
   switch (now.link) {
     case LinkState::absent:
       return absent;
@@ -58,50 +62,29 @@ int condition_of(const BusStatus& now, const BusStatus& before) {
   return now.frames_stale != before.frames_stale ? late : silent;
 }
 
-std::string text_of(int condition, const std::string& name, const BusStatus& status) {
-  switch (condition) {
-    case absent:
-      return "no such CAN interface; waiting for it (list them: `ip link show type can`)";
-    case down:
-      return concat({"is down; set it up: `ip link set ", name,
-                     " up type can bitrate 500000 restart-ms 100`"});
-    case no_socket:
-      return concat({"no raw CAN socket: ", std::strerror(status.error),
-                     "; if the kernel lacks CAN: `modprobe can-raw`"});
-    case bus_off:
-      return concat(
-          {"bus-off, the controller has left the bus; to let it return by itself: `ip "
-           "link set ",
-           name, " type can restart-ms 100`"});
-    case errors_only:
-      return concat(
-          {"error frames and no frame of a radar: is the bit rate right? `ip -details "
-           "link show ",
-           name, "`"});
-    case error_passive:
-      return "controller is error passive: check wiring, termination (120 ohm at both ends), bit "
-             "rate";
-    case silent:
-      return "silent: no frame of a configured radar; `cremed-doctor` finds the cause";
-    case late:
-      return "no frame is read in time: all are dropped as older than live.max_latency_s";
-    default:
-      return {};
-  }
-}
+/// What to say of a bus.
+struct BusText {
+  std::string_view state;   ///< After its name.
+  std::string_view remedy;  ///< With {name} of the interface and {error} of the socket.
+};
 
-const char* short_text(int condition) {
-  constexpr const char* kTexts[] = {"",
-                                    " is missing",
-                                    " is down",
-                                    " has no socket",
-                                    " is bus-off",
-                                    " has errors only",
-                                    " is error passive",
-                                    " is silent",
-                                    " is read too late"};
-  return kTexts[condition];
-}
+constexpr std::array<BusText, 9> kBusTexts{{
+    {"", ""},
+    {" is missing", "no such CAN interface; waiting for it (list them: `ip link show type can`)"},
+    {" is down",
+     "is down; set it up: `ip link set {name} up type can bitrate 500000 restart-ms 100`"},
+    {" has no socket", "no raw CAN socket: {error}; if the kernel lacks CAN: `modprobe can-raw`"},
+    {" is bus-off",
+     "bus-off, the controller has left the bus; to let it return by itself: `ip link set {name} "
+     "type can restart-ms 100`"},
+    {" has errors only",
+     "error frames and no frame of a radar: is the bit rate right? `ip -details link show {name}`"},
+    {" is error passive",
+     "controller is error passive: check wiring, termination (120 ohm at both ends), bit rate"},
+    {" is silent", "silent: no frame of a configured radar; `cremed-doctor` finds the cause"},
+    {" is read too late",
+     "no frame is read in time: all are dropped as older than live.max_latency_s"},
+}};
 
 /// All buses report the same computer clock.
 void report_clock(const BusStatus& now, const BusStatus& before) {
@@ -162,8 +145,11 @@ std::string LiveReporter::report() {
 void LiveReporter::report_bus(const BusConnection& interface, const BusStatus& now,
                               BusStatus& before) {
   const std::string& name = interface.name();
-  const int condition = condition_of(now, before);
-  log_.update(name, condition, [&] { return text_of(condition, name, now); });
+  const BusCondition condition = condition_of(now, before);
+  log_.update(name, condition, [&] {
+    return fmt::format(fmt::runtime(kBusTexts.at(condition).remedy), fmt::arg("name", name),
+                       fmt::arg("error", std::strerror(now.error)));
+  });
   if (now.interruptions != before.interruptions && now.link == LinkState::up) {
     spdlog::warn("{}: was down for a moment", name);
   }
@@ -211,11 +197,12 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   progress.estimates += estimates;
   has_scans_ = has_scans_ || scans != 0;
 
-  const int condition = condition_of(status.bus, buses_[channel.interface]);
+  const BusCondition condition = condition_of(status.bus, buses_[channel.interface]);
   if (condition != good && scans == 0) {
     // The bus is the cause; the radar's own timer starts when frames come again.
     progress.seconds_without_scan = progress.seconds_without_estimate = 0;
-    return concat({configuration.name, ": ", configuration.interface, short_text(condition)});
+    return concat(
+        {configuration.name, ": ", configuration.interface, kBusTexts.at(condition).state});
   }
   progress.seconds_without_scan = scans == 0 ? progress.seconds_without_scan + 1 : 0;
   progress.seconds_without_estimate = estimates == 0 ? progress.seconds_without_estimate + 1 : 0;

@@ -27,8 +27,7 @@ MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& b
 }
 
 bool MotionFeedback::is_needed() const {
-  return std::any_of(sensors_.begin(), sensors_.end(),
-                     [](const Sensor& sensor) { return sensor.wants_feedback; });
+  return std::ranges::any_of(sensors_, &Sensor::wants_feedback);
 }
 
 bool MotionFeedback::may_speak(const Sensor& sensor) {

@@ -27,9 +27,9 @@ std::vector<OdometryRadar> odometry_radars(
 OdometryOptions odometry_options(const Configuration& configuration) {
   constexpr double kSkidRad = 0.25;
   OdometryOptions options = configuration.odometry.filter;
-  const bool may_skid = std::any_of(
-      configuration.radars.begin(), configuration.radars.end(),
-      [](const auto& radar) { return radar.ego_motion.registration.degrees_of_freedom == 3; });
+  const bool may_skid = std::ranges::any_of(configuration.radars, [](const auto& radar) {
+    return radar.ego_motion.registration.degrees_of_freedom == 3;
+  });
   if (may_skid) {
     options.slip_std_rad = std::max(options.slip_std_rad, kSkidRad);
     options.slip_walk = std::max(options.slip_walk, kSkidRad);
@@ -95,7 +95,7 @@ void OdometryStage::forget() {
 /// Whether a scan that began before it is still open.
 bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
   const std::uint8_t interface = radars_[scan.radar]->interface;
-  return std::any_of(radars_.begin(), radars_.end(), [&](const auto& other) {
+  return std::ranges::any_of(radars_, [&](const auto& other) {
     const auto open_us = other->assembler.open_stamp_us();
     return open_us && *open_us < scan.stamp_us && clocks_.agree(other->interface, interface);
   });

@@ -77,8 +77,7 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
   const std::string others = other_interfaces(replay);
   const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
-    if (std::none_of(replay.logs().begin(), replay.logs().end(),
-                     [i](const auto& log) { return log->has_frames(i); })) {
+    if (std::ranges::none_of(replay.logs(), [i](const auto& log) { return log->has_frames(i); })) {
       spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
                     names[i], others);
     }
@@ -88,8 +87,8 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
 /// The command line that finds the cause, as for a shell.
 std::string doctor_command(const Replayed& replayed, std::size_t interface) {
   const auto& logs = replayed.replay.logs();
-  const auto own = std::find_if(logs.begin(), logs.end(),
-                                [&](const auto& log) { return log->has_frames(interface); });
+  const auto own =
+      std::ranges::find_if(logs, [&](const auto& log) { return log->has_frames(interface); });
   return concat({"`cremed-doctor --config ", in_shell(replayed.configuration_path), " --replay ",
                  in_shell((own != logs.end() ? *own : logs.front())->path()), "`"});
 }

@@ -7,10 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "daemon/configuration/configuration_estimator.hpp"
-#include "daemon/configuration/configuration_odometry.hpp"
 #include "daemon/configuration/configuration_radar.hpp"
-#include "daemon/configuration/configuration_vehicle.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/first_configuration.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/configuration/toml_document.hpp"
@@ -42,7 +40,7 @@ constexpr TextRule kSource = {
 bool is_free_channel(std::string_view text) {
   constexpr std::size_t kLongest = 63;
   return text.size() <= kLongest && !text.starts_with("CREMED_") &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
 }
 
 constexpr TextRule kChannel = {
@@ -58,8 +56,7 @@ bool is_source(std::string_view source, const Configuration& configuration) {
     return is_fused(configuration);
   }
   return source.empty() ||
-         std::any_of(configuration.radars.begin(), configuration.radars.end(),
-                     [&](const RadarConfiguration& radar) { return radar.name == source; });
+         std::ranges::count(configuration.radars, source, &RadarConfiguration::name) != 0;
 }
 
 void check_output(TomlReader& reader, const Configuration& configuration) {
@@ -184,8 +181,7 @@ bool is_fused(const Configuration& configuration) {
 std::optional<std::size_t> tum_radar(const Configuration& configuration) {
   const std::string& source = configuration.output.tum_source;
   const auto& radars = configuration.radars;
-  const auto found = std::find_if(radars.begin(), radars.end(),
-                                  [&](const auto& radar) { return radar.name == source; });
+  const auto found = std::ranges::find(radars, source, &RadarConfiguration::name);
   if (found != radars.end()) {
     return found - radars.begin();
   }

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/configuration/configuration_estimator.hpp"
-
 #include <array>
 #include <string_view>
 
 #include "cremed/can_decoders/radar_scan.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 
 namespace cremed {
 namespace {

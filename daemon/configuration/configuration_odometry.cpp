@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/configuration/configuration_odometry.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 
 namespace cremed {
 namespace {

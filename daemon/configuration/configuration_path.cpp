@@ -19,10 +19,10 @@ std::string configuration_path(const std::string& named, const std::string& stan
   // An existing but unreadable file is reported when it is read.
   std::error_code error;
   if (!std::filesystem::exists(standard, error) && !error) {
-    throw ConfigurationError(concat(
-        {standard, ": is absent; must say which radars there are and where: ", kWriteFirst,
-         ", without --replay from what is on the buses; cremed.toml in share/cremed explains "
-         "every key; --config FILE names another file"}));
+    throw ConfigurationError(
+        concat({standard, ": is absent; must say which radars there are and where: ", kWriteFirst,
+                ", without --replay from what is on the buses; cremed.toml in share/cremed/config "
+                "explains every key; --config FILE names another file"}));
   }
   return standard;
 }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "daemon/configuration/bus_options.hpp"
-#include "daemon/configuration/configuration_estimator.hpp"
-#include "daemon/configuration/configuration_odometry.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/plain_text.hpp"
 
@@ -27,7 +26,7 @@ bool is_name(std::string_view text) {
            c == '-';
   };
   return !text.empty() && text.size() <= kMaxName && text != kFusedSource &&
-         text != kOdometrySource && std::all_of(text.begin(), text.end(), fits);
+         text != kOdometrySource && std::ranges::all_of(text, fits);
 }
 
 constexpr std::string_view kRotationLead = "rotation_lead_s";
@@ -42,8 +41,7 @@ constexpr TextRule kInterface = {is_interface_name,
 /// In the order of the families.
 std::vector<const RadarFamily*> by_type(RadarFamilies families) {
   std::vector<const RadarFamily*> sorted(families.begin(), families.end());
-  std::sort(sorted.begin(), sorted.end(),
-            [](const RadarFamily* a, const RadarFamily* b) { return a->type < b->type; });
+  std::ranges::sort(sorted, {}, &RadarFamily::type);
   return sorted;
 }
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/configuration/configuration_vehicle.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
 
 #include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -103,7 +102,7 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
   check_id(reader, "speed", speed, configuration);
   check_id(reader, "yaw_rate", yaw_rate, configuration);
   const auto& radars = configuration.radars;
-  const auto told = std::find_if(radars.begin(), radars.end(), has_feedback);
+  const auto told = std::ranges::find_if(radars, has_feedback);
   if (told != radars.end()) {
     reader.report(
         "interface",

@@ -19,8 +19,7 @@ void Diagnostics::add(std::size_t line, std::string_view key, std::string_view p
 
 std::string Diagnostics::text() const {
   std::vector<Entry> sorted = entries_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Entry& a, const Entry& b) { return a.line < b.line; });
+  std::ranges::stable_sort(sorted, {}, &Entry::line);
   std::string text;
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxShown); ++i) {
     text += i == 0 ? "" : "\n";

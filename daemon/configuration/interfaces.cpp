@@ -20,15 +20,14 @@ Interfaces interfaces_of(const Configuration& configuration) {
   Interfaces interfaces;
   std::vector<std::string>& names = interfaces.names;
   for (const RadarConfiguration& radar : configuration.radars) {
-    const auto known =
-        is_auto(radar) ? names.end() : std::find(names.begin(), names.end(), radar.interface);
+    const auto known = is_auto(radar) ? names.end() : std::ranges::find(names, radar.interface);
     interfaces.of_radars.push_back(static_cast<std::uint8_t>(known - names.begin()));
     if (known == names.end()) {
       names.push_back(radar.interface);
     }
   }
   const std::string& vehicle = configuration.vehicle.interface;
-  const auto known = std::find(names.begin(), names.end(), vehicle);
+  const auto known = std::ranges::find(names, vehicle);
   interfaces.of_vehicle = static_cast<std::uint8_t>(known - names.begin());
   if (!vehicle.empty() && known == names.end()) {
     names.push_back(vehicle);
@@ -41,7 +40,7 @@ Interfaces interfaces_of(const Configuration& configuration) {
 bool is_auto(const RadarConfiguration& radar) { return radar.interface == kAutoInterface; }
 
 bool has_interface_names(const Configuration& configuration) {
-  return std::none_of(configuration.radars.begin(), configuration.radars.end(), is_auto);
+  return std::ranges::none_of(configuration.radars, is_auto);
 }
 
 std::vector<std::string> interface_names(const Configuration& configuration) {

@@ -104,8 +104,7 @@ void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
   reader.number("mount_x_m", entry.mount.x_m, kMountRangeM, Presence::required);
   reader.number("mount_y_m", entry.mount.y_m, kMountRangeM, Presence::required);
   reader.number("mount_yaw_rad", entry.mount.yaw_rad, kMountYawRangeRad, Presence::required);
-  const auto found = std::find_if(radars_.begin(), radars_.end(),
-                                  [&](const Radar& radar) { return radar.name == entry.name; });
+  const auto found = std::ranges::find(radars_, entry.name, &Radar::name);
   const bool is_here = found != radars_.end() && is_same(found->mount, entry.mount);
   const LearnedErrors any{{0.0, kMountYawRangeRad.max}, {0.0, kMountYawRangeRad.max}};
   const LearnedErrors& most = is_here ? found->unlearned : any;

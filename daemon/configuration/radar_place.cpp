@@ -13,8 +13,8 @@ namespace {
 
 bool shows(const HeardBus& bus, const RadarSettings& wanted) {
   const std::vector<RadarSettings> radars = seen_radars(bus.traffic);
-  return std::any_of(radars.begin(), radars.end(),
-                     [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
+  return std::ranges::any_of(
+      radars, [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
 }
 
 /// "can0: a Bosch GPR with base id 0x200; can1: no radar"

@@ -66,12 +66,11 @@ std::string degrees_hint(std::string_view key, std::optional<double> value, Rang
 
 bool has_control_character(std::string_view text) {
   // char is signed on some processors; bytes of UTF-8 are none of these.
-  return std::any_of(text.begin(), text.end(),
-                     [](unsigned char c) { return c < ' ' || c == '\x7F'; });
+  return std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == '\x7F'; });
 }
 
 bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 }  // namespace

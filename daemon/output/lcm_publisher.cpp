@@ -299,8 +299,8 @@ bool LcmPublisher::send(const char* channel, int size) {
 template <typename Message>
 void LcmPublisher::publish(std::initializer_list<const char*> channels, const Message& message) {
   const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
-  const bool is_sent = size >= 0 && std::all_of(channels.begin(), channels.end(),
-                                                [&](auto channel) { return send(channel, size); });
+  const bool is_sent =
+      size >= 0 && std::ranges::all_of(channels, [&](auto channel) { return send(channel, size); });
   failures_ += is_sent ? 0U : 1U;
 }
 

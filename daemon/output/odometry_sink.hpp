@@ -20,7 +20,8 @@ class OdometrySink {
   virtual ~OdometrySink() = default;
 
   virtual void on_scan(std::size_t /*radar*/, const RadarScan& /*scan*/) {}
-  virtual void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) = 0;
+  virtual void on_motion(std::size_t /*radar*/, const EgoMotion& /*motion*/,
+                         std::int32_t /*solve_us*/) {}
   /// The state of the vehicle after each scan later than those before, or predicted at
   /// odometry.rate_hz.
   virtual void on_odometry(const Odometry& /*odometry*/) {}
@@ -29,7 +30,7 @@ class OdometrySink {
   virtual void on_status(std::size_t /*radar*/, const RadarStatus& /*status*/) {}
 
   /// Results that could not be delivered.
-  [[nodiscard]] virtual std::uint64_t failures() const = 0;
+  [[nodiscard]] virtual std::uint64_t failures() const { return 0; }
   /// The first failure and its cause, as text; empty if there is none to report.
   [[nodiscard]] virtual std::string problem() const { return {}; }
 

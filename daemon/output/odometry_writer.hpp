@@ -26,7 +26,6 @@ class OdometryWriter final : public OdometrySink {
   /// Throws std::runtime_error if the file cannot be created.
   explicit OdometryWriter(const std::string& path);
 
-  void on_motion(std::size_t /*radar*/, const EgoMotion& /*motion*/, std::int32_t) override {}
   void on_odometry(const Odometry& odometry) override;
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
   [[nodiscard]] std::string problem() const override { return file_.problem(); }

@@ -30,8 +30,8 @@ std::string printable(std::string_view text) {
     --size;
   }
   std::string shown = plain_text(text.substr(0, size));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c == '\n' || c == '\t'; }, '?');
+  std::ranges::replace_if(
+      shown, [](char c) { return c == '\n' || c == '\t'; }, '?');
   return size < text.size() ? shown + "..." : shown;
 }
 

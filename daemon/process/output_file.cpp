@@ -43,7 +43,7 @@ bool wait_for_room(int descriptor) {
 }
 
 std::uint64_t count_lines(std::string_view text) {
-  return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+  return static_cast<std::uint64_t>(std::ranges::count(text, '\n'));
 }
 
 }  // namespace

@@ -4,18 +4,97 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <streambuf>
+#include <string>
+#include <string_view>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "daemon/process/plain_streams.hpp"
+#include "daemon/process/plain_text.hpp"
 
 namespace cremed {
 namespace {
+
+/// Text for a descriptor.
+struct PlainOutput {
+  int descriptor;
+  std::string unfinished;  ///< An incomplete UTF-8 sequence.
+};
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// For fopencookie(3): 0 is an error.
+ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
+  auto& output = *static_cast<PlainOutput*>(cookie);
+  std::string text = output.unfinished.append(data, size);
+  const std::size_t whole = text.size() - unfinished_bytes(text);
+  output.unfinished = text.substr(whole);
+  text.resize(whole);
+  return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
+}
+
+/// A stream buffer that writes to a FILE of plain text, as std::cout does to stdout.
+class FileBuffer final : public std::streambuf {
+ public:
+  explicit FileBuffer(int descriptor)
+      : output_{descriptor, {}},
+        file_(::fopencookie(&output_, "w", {nullptr, write_plain, nullptr, nullptr})) {}
+
+  [[nodiscard]] std::FILE* file() const { return file_; }
+
+ protected:
+  int_type overflow(int_type c) override {
+    return c == traits_type::eof() ? 0 : std::fputc(c, file_);
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    return static_cast<std::streamsize>(
+        std::fwrite(text, 1, static_cast<std::size_t>(size), file_));
+  }
+  int sync() override { return std::fflush(file_); }
+
+ private:
+  PlainOutput output_;
+  std::FILE* file_;
+};
+
+/// Never destroyed: standard streams are flushed after all other objects.
+std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
+  auto* const buffer = new FileBuffer(descriptor);
+  if (buffer->file() != nullptr) {
+    std::setvbuf(buffer->file(), nullptr, buffering, BUFSIZ);
+    stream.rdbuf(buffer);
+  }
+  return buffer->file();
+}
+
+/// Passes all output of std::cout, std::cerr, stdout and stderr through plain_text(), because
+/// programs print what they read. To be called before anything is printed.
+void make_standard_streams_plain() {
+  std::cout.flush();
+  std::fflush(stdout);
+  const int buffering = ::isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF;
+  if (std::FILE* const file = open_plain(STDOUT_FILENO, buffering, std::cout)) {
+    stdout = file;
+  }
+  if (std::FILE* const file = open_plain(STDERR_FILENO, _IONBF, std::cerr)) {
+    stderr = file;
+  }
+}
 
 /// open(2) takes the lowest free number; those below are in use.
 void open_if_closed(int descriptor, int flags) {

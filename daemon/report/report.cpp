@@ -128,9 +128,7 @@ struct Cause {
 };
 
 std::string_view remedy_of_most(std::initializer_list<Cause> causes) {
-  return std::max_element(causes.begin(), causes.end(),
-                          [](const Cause& a, const Cause& b) { return a.count < b.count; })
-      ->remedy;
+  return std::ranges::max_element(causes, {}, &Cause::count)->remedy;
 }
 
 void add_no_detection(const RadarConfiguration& radar, const RadarStatus& status,

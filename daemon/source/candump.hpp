@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "cremed/can_decoders/can_frame.hpp"
@@ -45,13 +44,9 @@ struct CandumpLine {
 /// 9 decimals are rounded down to microseconds. Never allocates or throws.
 CandumpLine parse_candump_line(std::string_view line);
 
-/// Longest line of format_candump_line: stamp, 15-character interface, FD frame, line end.
-inline constexpr std::size_t kMaxCandumpLine = 192;
-
-/// Writes the frame as one line with 6 decimals and a line end, as candump -L does, and returns the
-/// number of characters. parse_candump_line restores any valid frame with a stamp of 0 to 10^18 - 1
-/// us; other values are cut to fit the format.
-std::size_t format_candump_line(const CanFrame& frame, std::string_view interface_name,
-                                std::array<char, kMaxCandumpLine>& line);
+/// The frame as one line with 6 decimals and a line end, as candump -L writes it.
+/// parse_candump_line restores any valid frame with a stamp of 0 to 10^18 - 1 us; other values are
+/// cut to fit the format.
+std::string candump_line(const CanFrame& frame, std::string_view interface_name);
 
 }  // namespace cremed

@@ -74,8 +74,7 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
 
 void CandumpLog::count_other(std::string_view interface) {
   ++counters_.other_interface_frames;
-  const bool is_known = std::find(other_interfaces_.begin(), other_interfaces_.end(), interface) !=
-                        other_interfaces_.end();
+  const bool is_known = std::ranges::find(other_interfaces_, interface) != other_interfaces_.end();
   if (!is_known && other_interfaces_.size() < kMaxOtherInterfaces) {
     other_interfaces_.emplace_back(interface);
   }
@@ -88,8 +87,8 @@ void CandumpLog::complain(std::string_view reason) {
 }
 
 std::size_t CandumpLog::index_of(std::string_view interface_name) const {
-  return static_cast<std::size_t>(
-      std::find(interfaces_.begin(), interfaces_.end(), interface_name) - interfaces_.begin());
+  return static_cast<std::size_t>(std::ranges::find(interfaces_, interface_name) -
+                                  interfaces_.begin());
 }
 
 }  // namespace cremed

@@ -122,8 +122,10 @@ void LinkWatch::take(const char* messages, std::size_t size) {
     if (header->nlmsg_type == RTM_NEWLINK || header->nlmsg_type == RTM_DELLINK) {
       const ifinfomsg* const info = info_in(*header);
       note({std::string(name_in(*header)),
-            {static_cast<unsigned>(info->ifi_index), (info->ifi_flags & IFF_UP) != 0, 0},
-            info->ifi_type == ARPHRD_CAN},
+            {.index = static_cast<unsigned>(info->ifi_index),
+             .is_up = (info->ifi_flags & IFF_UP) != 0,
+             .is_can = info->ifi_type == ARPHRD_CAN,
+             .has_carrier = (info->ifi_flags & IFF_RUNNING) != 0}},
            header->nlmsg_type == RTM_NEWLINK);
     }
   }
@@ -139,15 +141,14 @@ void LinkWatch::note(const NamedLink& link, bool is_there) {
 }
 
 Link LinkWatch::link(std::string_view name) const {
-  const auto found = std::find_if(links_.begin(), links_.end(),
-                                  [&](const NamedLink& link) { return link.name == name; });
-  return found == links_.end() ? Link{0, false, error_} : found->link;
+  const auto found = std::ranges::find(links_, name, &NamedLink::name);
+  return found == links_.end() ? Link{.error = error_} : found->link;
 }
 
-std::vector<std::string> LinkWatch::up_can_names() const {
+std::vector<std::string> LinkWatch::can_names() const {
   std::vector<std::string> names;
   for (const NamedLink& link : links_) {
-    if (link.is_can && link.link.is_up) {
+    if (link.link.is_can) {
       names.push_back(link.name);
     }
   }

@@ -15,6 +15,8 @@ struct Link {
   unsigned index = 0;  ///< 0: no interface of this name. A recreated one gets another index.
   bool is_up = false;
   int error = 0;  ///< errno of a failed query; all else is then unknown.
+  bool is_can = false;
+  bool has_carrier = false;  ///< Drivers drop it when their controller goes bus-off.
 };
 
 /// Follows network interfaces by kernel notifications (rtnetlink(7)). A lookup by name
@@ -31,14 +33,13 @@ class LinkWatch {
   void update();
 
   [[nodiscard]] Link link(std::string_view name) const;
-  /// Names of the CAN interfaces that are up.
-  [[nodiscard]] std::vector<std::string> up_can_names() const;
+  /// Names of the CAN interfaces, up or not, in the kernel's order.
+  [[nodiscard]] std::vector<std::string> can_names() const;
 
  private:
   struct NamedLink {
     std::string name;
     Link link;
-    bool is_can = false;
   };
   void open();
   void request_all();

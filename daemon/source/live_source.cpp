@@ -62,8 +62,8 @@ BusStatus LiveSource::bus(std::uint8_t interface) const {
 
 std::uint8_t LiveSource::attach(std::uint8_t interface, const std::string& name) {
   BusConnection& found = *interfaces_[interface];
-  const auto known = std::find_if(interfaces_.begin(), interfaces_.end(),
-                                  [&](const auto& other) { return other->name() == name; });
+  const auto known =
+      std::ranges::find_if(interfaces_, [&](const auto& other) { return other->name() == name; });
   next_look_us_ = 0;
   if (known == interfaces_.end()) {
     found.set_name(name);

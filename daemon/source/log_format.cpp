@@ -79,7 +79,7 @@ std::string remedy(Way way, std::string_view command, const std::string& path) {
 }
 
 bool is_csv(std::string_view line) {
-  return std::count(line.begin(), line.end(), ',') >= kMinCommas &&
+  return std::ranges::count(line, ',') >= kMinCommas &&
          line.find_first_of("(#") == std::string_view::npos;
 }
 
@@ -87,9 +87,8 @@ bool is_csv(std::string_view line) {
 
 std::string foreign_format(std::string_view begin, const std::string& path) {
   const std::string what = concat({path == "-" ? "standard input" : printable(path), " is "});
-  const auto* const found =
-      std::find_if(kFormats.begin(), kFormats.end(),
-                   [&](const Format& format) { return begin.starts_with(format.magic); });
+  const auto* const found = std::ranges::find_if(
+      kFormats, [&](const Format& format) { return begin.starts_with(format.magic); });
   if (found != kFormats.end()) {
     return concat({what, found->name, "; ", remedy(found->way, found->command, path)});
   }

@@ -45,17 +45,15 @@ std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t m
 
 /// Opens sockets on interfaces that came up since the last round; others have closed themselves.
 void RadarSearch::follow(const LinkWatch& links) {
-  for (const std::string& name : links.up_can_names()) {
-    const unsigned index = links.link(name).index;
-    const bool is_heard =
-        std::any_of(listeners_.begin(), listeners_.end(),
-                    [&](const Listener& listener) { return listener.index == index; });
-    if (is_heard || listeners_.size() >= kMaxListeners) {
+  for (const std::string& name : links.can_names()) {
+    const Link link = links.link(name);
+    const bool is_heard = std::ranges::count(listeners_, link.index, &Listener::index) != 0;
+    if (!link.is_up || is_heard || listeners_.size() >= kMaxListeners) {
       continue;
     }
     auto socket = std::make_unique<CanSocket>();
-    if (socket->open(index, {}, configuration_.live.socket).status == CanOpenStatus::open) {
-      listeners_.push_back({index, std::move(socket)});
+    if (socket->open(link.index, {}, configuration_.live.socket).status == CanOpenStatus::open) {
+      listeners_.push_back({link.index, std::move(socket)});
       buses_.emplace_back().interface = name;
     }
   }

@@ -3,14 +3,13 @@
 #include "daemon/source/replay.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 #include <utility>
 
+#include "daemon/process/clocks.hpp"
+
 namespace cremed {
 namespace {
-
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 
 /// Longest delay of candump between frames of several interfaces.
 constexpr std::int64_t kLookAheadUs = 500'000;
@@ -19,14 +18,9 @@ constexpr std::size_t kLaneFrames = 8192;
 
 /// A longer step of the log's clock means that it was set or the log paused.
 constexpr double kClockJumpS = 10.0;
-constexpr double kLongestWaitNs = 1e18;
-constexpr std::int64_t kLongestSleepNs = 100'000'000;
-
-std::int64_t monotonic_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNsPerS + now.tv_nsec;
-}
+constexpr double kLongestWaitUs = 1e15;
+/// Short: a signal just before a sleep would not interrupt it.
+constexpr std::int64_t kLongestSleepUs = 100'000;
 
 }  // namespace
 
@@ -175,7 +169,7 @@ void Replay::begin_pace(std::int64_t stamp_us) {
       (static_cast<double>(stamp_us) - static_cast<double>(last_stamp_us_)) * 1e-6;
   if (!has_begun_ || step_s < 0.0 || step_s > kClockJumpS) {
     pace_stamp_us_ = stamp_us;
-    pace_ns_ = monotonic_ns();
+    pace_us_ = monotonic_us();
   }
   traffic_s_ += has_begun_ && step_s >= 0.0 && step_s <= kClockJumpS ? step_s : 0.0;
   has_begun_ = true;
@@ -186,15 +180,12 @@ void Replay::wait_until_due(std::int64_t stamp_us) const {
   if (speed_ <= 0.0) {
     return;
   }
-  const double after_ns = static_cast<double>(stamp_us - pace_stamp_us_) * 1e3 / speed_;
-  const std::int64_t due_ns =
-      pace_ns_ + static_cast<std::int64_t>(std::min(after_ns, kLongestWaitNs));
-  for (std::int64_t now_ns = monotonic_ns(); *stop_ == 0 && now_ns < due_ns;
-       now_ns = monotonic_ns()) {
-    // Sleeps in short steps: a signal just before a sleep would not interrupt it.
-    const std::int64_t until_ns = std::min(due_ns, now_ns + kLongestSleepNs);
-    const timespec until{until_ns / kNsPerS, until_ns % kNsPerS};
-    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+  const double after_us = static_cast<double>(stamp_us - pace_stamp_us_) / speed_;
+  const std::int64_t due_us =
+      pace_us_ + static_cast<std::int64_t>(std::min(after_us, kLongestWaitUs));
+  for (std::int64_t now_us = monotonic_us(); *stop_ == 0 && now_us < due_us;
+       now_us = monotonic_us()) {
+    sleep_us(std::min(due_us - now_us, kLongestSleepUs));
   }
 }
 

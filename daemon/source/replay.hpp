@@ -64,8 +64,8 @@ class Replay final : public FrameSource {
   bool has_begun_ = false;
   std::int64_t last_stamp_us_ = 0;
   double traffic_s_ = 0.0;
-  std::int64_t pace_stamp_us_ = 0;  // This stamp was due at pace_ns_.
-  std::int64_t pace_ns_ = 0;
+  std::int64_t pace_stamp_us_ = 0;  // This stamp was due at pace_us_.
+  std::int64_t pace_us_ = 0;
 };
 
 }  // namespace cremed

@@ -27,9 +27,9 @@ inline Approx near(double value) { return Approx(value).margin(1e-9).epsilon(0);
 constexpr double deg(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 inline const Ars408MessageRow& message_of(const CanFrame& frame) {
-  const auto* row = std::find_if(
-      kArs408Messages.begin(), kArs408Messages.end(),
-      [&](const auto& m) { return static_cast<std::uint32_t>(m.message) == (frame.id & ~0x70U); });
+  const auto* row = std::ranges::find_if(kArs408Messages, [&](const auto& m) {
+    return static_cast<std::uint32_t>(m.message) == (frame.id & ~0x70U);
+  });
   REQUIRE(row != kArs408Messages.end());
   return *row;
 }

@@ -8,51 +8,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "cremed/can_decoders/ars408_decoded.hpp"
-#include "cremed/can_decoders/ars408_layout.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 
 namespace cremed {
-namespace ars408_layout {
-
-namespace extended {
-inline constexpr BitField kAx{21, 11};
-inline constexpr BitField kAy{28, 9};
-inline constexpr BitField kClass{24, 3};
-inline constexpr BitField kOrientation{46, 10};
-inline constexpr BitField kLength{48, 8};
-inline constexpr BitField kWidth{56, 8};
-inline constexpr LinearScale kAxScale{1000.0, 100.0};
-inline constexpr LinearScale kAyScale{250.0, 100.0};
-inline constexpr LinearScale kOrientationScale{450.0, 2.5 * kDegPerRad};
-inline constexpr LinearScale kSizeScale{0.0, 5.0};
-}  // namespace extended
-
-namespace warning {
-inline constexpr BitField kRegions{8, 8};
-}  // namespace warning
-
-namespace collision {
-inline constexpr std::uint8_t kActive = 1;
-inline constexpr BitField kRegions{4, 4};
-inline constexpr BitField kMinDetectionTime{8, 8};
-inline constexpr BitField kCounter{24, 16};
-inline constexpr LinearScale kTimeScale{0.0, 10.0};
-inline constexpr BitField kRegionId{5, 3};
-inline constexpr BitField kWarningLevel{3, 2};
-inline constexpr BitField kX1{19, 13};
-inline constexpr BitField kY1{24, 11};
-inline constexpr BitField kX2{43, 13};
-inline constexpr BitField kY2{48, 11};
-inline constexpr BitField kObjectCount{56, 8};
-}  // namespace collision
-
-namespace filter_header {
-inline constexpr BitField kClusterFilters{3, 5};
-inline constexpr BitField kObjectFilters{11, 5};
-}  // namespace filter_header
-
-}  // namespace ars408_layout
-
 /// 0x60D.
 struct Ars408ObjectExtended {
   std::uint8_t id = 0;
@@ -96,55 +54,66 @@ struct Ars408RegionState {
   std::uint8_t object_count = 0;
 };
 
+template <typename Signal>
+void signals(const Signal& signal, Ars408ObjectExtended& m) {
+  signal({0, 8}, m.id);
+  signal({21, 11}, {1000.0, 100.0}, m.ax_mps2);
+  signal({28, 9}, {250.0, 100.0}, m.ay_mps2);
+  signal({24, 3}, m.object_class);
+  signal({46, 10}, {450.0, 2.5 * ars408_signals::kDegPerRad}, m.orientation_rad);
+  signal({48, 8}, {0.0, 5.0}, m.length_m);
+  signal({56, 8}, {0.0, 5.0}, m.width_m);
+}
+
+template <typename Signal>
+void signals(const Signal& signal, Ars408ObjectWarning& m) {
+  signal({0, 8}, m.id);
+  signal({8, 8}, m.regions);
+}
+
+template <typename Signal>
+void signals(const Signal& signal, Ars408FilterHeader& m) {
+  signal({3, 5}, m.cluster_filters);
+  signal({11, 5}, m.object_filters);
+}
+
+template <typename Signal>
+void signals(const Signal& signal, Ars408CollisionState& m) {
+  signal({1, 1}, m.active);
+  signal({4, 4}, m.regions);
+  signal({8, 8}, {0.0, 10.0}, m.min_detection_time_s);
+  signal({24, 16}, m.counter);
+}
+
+template <typename Signal>
+void signals(const Signal& signal, Ars408RegionState& m) {
+  signal({5, 3}, m.region_id);
+  signal({3, 2}, m.warning_level);
+  signal({19, 13}, {2500.0, 5.0}, m.x1_m);
+  signal({24, 11}, {1023.0, 5.0}, m.y1_m);
+  signal({43, 13}, {2500.0, 5.0}, m.x2_m);
+  signal({48, 11}, {1023.0, 5.0}, m.y2_m);
+  signal({56, 8}, m.object_count);
+}
+
 inline std::optional<Ars408ObjectExtended> decode_ars408_object_extended(Ars408Bytes bytes) {
-  using namespace ars408_layout::extended;
-  return decoded(Ars408Message::object_extended, bytes, [](PayloadBits bits) {
-    return Ars408ObjectExtended{.id = bits.get8(ars408_layout::kId),
-                                .ax_mps2 = kAxScale(bits.get(kAx)),
-                                .ay_mps2 = kAyScale(bits.get(kAy)),
-                                .object_class = bits.get8(kClass),
-                                .orientation_rad = kOrientationScale(bits.get(kOrientation)),
-                                .length_m = kSizeScale(bits.get(kLength)),
-                                .width_m = kSizeScale(bits.get(kWidth))};
-  });
+  return ars408_signals::decoded<Ars408ObjectExtended>(Ars408Message::object_extended, bytes);
 }
 
 inline std::optional<Ars408ObjectWarning> decode_ars408_object_warning(Ars408Bytes bytes) {
-  return decoded(Ars408Message::object_warning, bytes, [](PayloadBits bits) {
-    return Ars408ObjectWarning{.id = bits.get8(ars408_layout::kId),
-                               .regions = bits.get8(ars408_layout::warning::kRegions)};
-  });
+  return ars408_signals::decoded<Ars408ObjectWarning>(Ars408Message::object_warning, bytes);
 }
 
 inline std::optional<Ars408FilterHeader> decode_ars408_filter_header(Ars408Bytes bytes) {
-  return decoded(Ars408Message::filter_header, bytes, [](PayloadBits bits) {
-    return Ars408FilterHeader{
-        .cluster_filters = bits.get8(ars408_layout::filter_header::kClusterFilters),
-        .object_filters = bits.get8(ars408_layout::filter_header::kObjectFilters)};
-  });
+  return ars408_signals::decoded<Ars408FilterHeader>(Ars408Message::filter_header, bytes);
 }
 
 inline std::optional<Ars408CollisionState> decode_ars408_collision_state(Ars408Bytes bytes) {
-  using namespace ars408_layout::collision;
-  return decoded(Ars408Message::collision_state, bytes, [](PayloadBits bits) {
-    return Ars408CollisionState{.active = bits.flag(kActive),
-                                .regions = bits.get8(kRegions),
-                                .min_detection_time_s = kTimeScale(bits.get(kMinDetectionTime)),
-                                .counter = bits.get16(kCounter)};
-  });
+  return ars408_signals::decoded<Ars408CollisionState>(Ars408Message::collision_state, bytes);
 }
 
 inline std::optional<Ars408RegionState> decode_ars408_region_state(Ars408Bytes bytes) {
-  using namespace ars408_layout::collision;
-  return decoded(Ars408Message::region_state, bytes, [](PayloadBits bits) {
-    return Ars408RegionState{.region_id = bits.get8(kRegionId),
-                             .warning_level = bits.get8(kWarningLevel),
-                             .x1_m = ars408_layout::general::kXScale(bits.get(kX1)),
-                             .y1_m = ars408_layout::general::kObjectYScale(bits.get(kY1)),
-                             .x2_m = ars408_layout::general::kXScale(bits.get(kX2)),
-                             .y2_m = ars408_layout::general::kObjectYScale(bits.get(kY2)),
-                             .object_count = bits.get8(kObjectCount)};
-  });
+  return ars408_signals::decoded<Ars408RegionState>(Ars408Message::region_state, bytes);
 }
 
 }  // namespace cremed

@@ -179,7 +179,7 @@ Signals signals(const std::optional<Message>& message) {
   return message ? signals(*message) : Signals();
 }
 
-Signals ars408_signals(std::uint32_t id, Bytes bytes) {
+Signals signals_of_ars408(std::uint32_t id, Bytes bytes) {
   switch (Ars408Message{static_cast<std::uint16_t>(ars408_base_id(id))}) {
     case Ars408Message::radar_state:
       return signals(decode_ars408_radar_state(bytes));
@@ -305,7 +305,7 @@ int main(int argc, char** argv) {
     const CanFrame frame = test::hex_frame(line);
     const auto bytes = test::bytes_of(frame);
     print(line,
-          what == "bosch_gpr" ? gpr_signals(frame.id, bytes) : ars408_signals(frame.id, bytes));
+          what == "bosch_gpr" ? gpr_signals(frame.id, bytes) : signals_of_ars408(frame.id, bytes));
   }
   return 0;
 }

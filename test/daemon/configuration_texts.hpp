@@ -50,7 +50,7 @@ inline void check_refused(const std::vector<Refused>& rows) {
     const std::string head = "test.toml:" + std::to_string(row.line) + ": " + row.key + ": ";
     CHECK_THAT(message, Catch::StartsWith(head + row.wrong));
     CHECK_THAT(message, Catch::Contains(row.right));
-    CHECK(std::count(message.begin(), message.end(), '\n') == 0);
+    CHECK(std::ranges::count(message, '\n') == 0);
   }
 }
 

@@ -18,9 +18,7 @@ namespace {
 const std::string kHead = "(1436509052.249713) can0 ";
 
 std::string format(const CanFrame& frame, std::string_view interface_name = "can0") {
-  std::array<char, kMaxCandumpLine> line{};
-  const std::size_t size = format_candump_line(frame, interface_name, line);
-  return {line.data(), size};
+  return candump_line(frame, interface_name);
 }
 
 TEST_CASE("frames are written as candump writes them") {
@@ -55,12 +53,11 @@ TEST_CASE("seconds are padded to ten digits and may have twelve") {
   CHECK(format(frame) == "(999999999999.999999) can0 123#\n");
 }
 
-TEST_CASE("what the format cannot hold is cut, not written past the end") {
+TEST_CASE("what the format cannot hold is cut") {
   CanFrame frame = make_frame(Kind::extended_fd, 0xFFFFFFFF);
   frame.length = 255;
   frame.stamp_us = std::numeric_limits<std::int64_t>::max();
   const std::string text = format(frame, "an-interface-name-that-is-too-long");
-  CHECK(text.size() <= kMaxCandumpLine);
   CHECK(text == "(999999999999.999999) an-interface-na 1FFFFFFF##0" + std::string(128, '0') + "\n");
   frame = make_frame(Kind::remote, 0xFFF);
   frame.length = 200;

@@ -276,7 +276,7 @@ TEST_CASE("a flood of errors is cut") {
     text.append("unknown_").append(std::to_string(i)).append(" = 1\n");
   }
   const std::string message = message_of(text);
-  CHECK(std::count(message.begin(), message.end(), '\n') == 20);
+  CHECK(std::ranges::count(message, '\n') == 20);
   CHECK_THAT(message, Catch::EndsWith("test.toml: 30 more"));
 }
 

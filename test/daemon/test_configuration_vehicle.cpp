@@ -19,7 +19,7 @@ Configuration parse(const std::string& vehicle) {
 }
 
 bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
+  return std::ranges::find(ids, id) != ids.end();
 }
 
 TEST_CASE("the vehicle's bus is off unless it has an interface") {

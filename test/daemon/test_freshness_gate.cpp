@@ -24,7 +24,6 @@ class SlowSink final : public OdometrySink {
   void on_odometry(const Odometry&) override { take(); }
   void on_fused(const EgoMotion&, std::int32_t) override { take(); }
   void on_status(std::size_t, const RadarStatus&) override { take(); }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   int taken = 0;
 

@@ -359,7 +359,7 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
     std::copy_if(list, list + size, std::back_inserter(values),
                  [](auto value) { return value != 0; });
   }
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   REQUIRE(values.size() == 59);
   for (std::size_t i = 0; i < values.size(); ++i) {
     CHECK(values[i] == static_cast<std::int64_t>(i + 1));

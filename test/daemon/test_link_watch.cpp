@@ -41,5 +41,5 @@ TEST_CASE("An interface is followed up and down, and one that is absent is no er
     CHECK(links.link(name).index == 0);
     CHECK(links.link(name).error == 0);
   }
-  CHECK(links.up_can_names().empty());
+  CHECK(links.can_names().empty());
 }

@@ -66,7 +66,7 @@ TEST_CASE("Radars that share a bus share its list; others do not matter") {
                           ars408(1, Ars408Output::clusters)};
   const auto ids = ids_on(0, configuration);
   CHECK(ids.size() == 2 * kArs408Messages.size());
-  CHECK(std::is_sorted(ids.begin(), ids.end()));
+  CHECK(std::ranges::is_sorted(ids));
   CHECK(ids_on(1, configuration).size() == kGprTargetIds + 1);
   CHECK(ids_on(2, configuration).empty());
 }

@@ -36,8 +36,8 @@ std::vector<Arrival> draw_drive(std::mt19937& random, std::size_t radars, std::i
       arrivals.push_back({{radar, stamp_us}, stamp_us + lasts(random)});
     }
   }
-  std::sort(arrivals.begin(), arrivals.end(),
-            [](const auto& a, const auto& b) { return a.complete_us < b.complete_us; });
+  std::ranges::sort(arrivals,
+                    [](const auto& a, const auto& b) { return a.complete_us < b.complete_us; });
   return arrivals;
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("However long scans take, none is used before one that began earlier")
   const std::size_t radars = std::uniform_int_distribution<std::size_t>(1, 5)(random);
   const auto used = in_order_of_use(draw_drive(random, radars, kCycleUs - 1), radars);
   CHECK(used.size() == 50 * radars);
-  CHECK(std::is_sorted(used.begin(), used.end()));
+  CHECK(std::ranges::is_sorted(used));
 }
 
 TEST_CASE("A scan that waits for none is used at once, an awaited one first") {

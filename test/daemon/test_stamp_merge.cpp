@@ -51,8 +51,8 @@ std::vector<ReceivedFrame> sorted(const std::vector<Bus>& buses) {
   for (const Bus& bus : buses) {
     all.insert(all.end(), bus.frames.begin(), bus.frames.end());
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.received_us < b.received_us; });
+  std::ranges::stable_sort(
+      all, [](const auto& a, const auto& b) { return a.received_us < b.received_us; });
   return all;
 }
 

@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/data_tests/shared_data.hpp"
+#include "test/tools/readme_rows.hpp"
 #include "tools/laboratory/table/drive_table.hpp"
 
 using namespace cremed;
@@ -58,7 +59,7 @@ TEST_CASE("Real drives: the README's tables are what the command measures") {
   const std::string text(std::istreambuf_iterator<char>(file), {});
   for (const ReadmeTable& table : drive_tables({shared_path("data"), CREMED_SOURCE_DIR, threads})) {
     CAPTURE(table.name);
-    const auto written = rows_in(text, table.name);
+    const auto written = test::rows_in(text, table.name);
     REQUIRE(written);
     REQUIRE(written->size() == table.rows.size());
     for (std::size_t row = 0; row < table.rows.size(); ++row) {

@@ -9,7 +9,6 @@
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/credibility.hpp"
 #include "tools/laboratory/pairs/icp.hpp"
-#include "tools/laboratory/pairs/icp_covariance.hpp"
 
 using namespace cremed;
 

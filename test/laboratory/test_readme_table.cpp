@@ -6,9 +6,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "test/tools/readme_rows.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/laboratory/table/drive_figures.hpp"
-#include "tools/laboratory/table/readme_table.hpp"
+#include "tools/laboratory/table/drive_table.hpp"
 #include "tools/laboratory/unpacked_file.hpp"
 
 using namespace cremed;

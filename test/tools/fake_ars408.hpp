@@ -18,8 +18,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "cremed/can_decoders/ars408_layout.hpp"
 #include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/bit_field.hpp"
 #include "daemon/source/can_socket.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 
@@ -161,15 +161,15 @@ class FakeArs408s {
   }
 
   void obey(const PayloadBits& bits, Ars408RadarState& state) const {
-    using namespace ars408_layout::configuration;
-    if (bits.flag(kMaxDistanceValid) && !manners_.keeps_range) {
-      state.max_distance_m = kMaxDistanceScale(bits.get(kMaxDistance));
+    if (bits.flag(0) && !manners_.keeps_range) {
+      state.max_distance_m = 2.0 * static_cast<double>(bits.get({22, 10}));
     }
-    if (bits.flag(kSensorIdValid)) state.sensor_id = bits.get8(kSensorId);
-    if (bits.flag(kOutputValid)) state.output_code = bits.get8(kOutput);
-    if (bits.flag(kSendsQualityValid)) state.sends_quality = bits.get(kSendsQuality) != 0;
-    if (bits.flag(kSendsExtendedValid)) state.sends_extended = bits.get(kSendsExtended) != 0;
-    if (bits.flag(kStoreValid)) state.nvm_written = bits.get(kStore) != 0;
+    const SignalReader signal(bits);
+    if (bits.flag(1)) signal({32, 3}, state.sensor_id);
+    if (bits.flag(3)) signal({35, 2}, state.output_code);
+    if (bits.flag(4)) signal({42, 1}, state.sends_quality);
+    if (bits.flag(5)) signal({43, 1}, state.sends_extended);
+    if (bits.flag(7)) signal({47, 1}, state.nvm_written);
   }
 
   std::vector<Ars408RadarState> states_;

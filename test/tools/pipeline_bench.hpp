@@ -32,7 +32,6 @@ class RecordingSink final : public OdometrySink {
   void on_status(std::size_t radar, const RadarStatus& status) override {
     statuses[radar].push_back(status);
   }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<std::vector<EgoMotion>> motions;
   std::vector<Odometry> odometries;
@@ -96,9 +95,8 @@ inline Credibility credibility_of(const std::vector<EgoMotion>& motions,
 }
 
 inline std::size_t count_status(const std::vector<EgoMotion>& motions, MotionStatus status) {
-  return static_cast<std::size_t>(
-      std::count_if(motions.begin(), motions.end(),
-                    [&](const EgoMotion& motion) { return motion.status == status; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      motions, [&](const EgoMotion& motion) { return motion.status == status; }));
 }
 
 }  // namespace cremed::test

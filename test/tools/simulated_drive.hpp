@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -78,11 +77,8 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   result.radars = radars;
   Simulation simulation(scenario, radars, options,
                         [&](const ScanTruth& truth) { result.truths.push_back(truth); });
-  std::array<char, kMaxCandumpLine> line{};
   while (const auto frame = simulation.next()) {
-    const auto length =
-        format_candump_line(*frame, simulation.interfaces()[frame->interface], line);
-    result.log.append(line.data(), length);
+    result.log += candump_line(*frame, simulation.interfaces()[frame->interface]);
     result.frames.push_back(*frame);
   }
   std::ostringstream csv;

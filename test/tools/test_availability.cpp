@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/drive/availability.hpp"
+#include "tools/eval/drive/recorded_odometry.hpp"
 
 using namespace cremed;
 

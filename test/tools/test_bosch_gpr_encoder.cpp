@@ -90,7 +90,7 @@ TEST_CASE("GPR values beyond the frame's range become its limits, others the nea
   };
   const auto row =
       GENERATE(Row{1e6, 255.9375, 127.9375, 1.6382, 63.5}, Row{-1e6, 0.0, -128.0, -1.6384, -64.0},
-               Row{1.2345, 1.25, 1.25, 1.2344, 1.0});
+               Row{1.23446, 1.25, 1.25, 1.2344, 1.0});
   cremed::BoschGprTargetA target;
   target.measured = true;
   target.range_m = target.radial_velocity_mps = row.value;

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "daemon/source/link_watch.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 
 using namespace cremed;
@@ -13,6 +14,6 @@ TEST_CASE("An interface of another kind is told from one that is not there") {
   CHECK(state_of("lo") == InterfaceState::not_can);
   CHECK(state_of("cremed-absent") == InterfaceState::absent);
   CHECK(state_of("a name that is longer than any interface's") == InterfaceState::absent);
-  const auto names = can_interfaces();
-  CHECK(std::find(names.begin(), names.end(), "lo") == names.end());
+  const auto names = LinkWatch().can_names();
+  CHECK(std::ranges::find(names, "lo") == names.end());
 }

@@ -63,9 +63,8 @@ void add_twin(Recording& traffic, const std::string& interface, std::int64_t lat
     }
   }
   traffic.insert(traffic.end(), twin.begin(), twin.end());
-  std::stable_sort(traffic.begin(), traffic.end(), [](const auto& a, const auto& b) {
-    return a.frame.stamp_us < b.frame.stamp_us;
-  });
+  std::ranges::stable_sort(
+      traffic, [](const auto& a, const auto& b) { return a.frame.stamp_us < b.frame.stamp_us; });
 }
 
 void say(Recording& traffic, const std::function<void(Ars408RadarState&)>& change) {

@@ -96,8 +96,7 @@ std::vector<Person> persons() {
 }
 
 bool is_there(const Bus& bus, std::uint8_t id) {
-  return std::any_of(bus.states.begin(), bus.states.end(),
-                     [id](const auto& state) { return state.sensor_id == id; });
+  return std::ranges::any_of(bus.states, [id](const auto& state) { return state.sensor_id == id; });
 }
 
 /// Expected: to the sensor with the configured id, or to the given id if the configured one is

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/eval/drive/driven_path.hpp"
+#include "tools/eval/drive/path_drift.hpp"
 
 using namespace cremed;
 

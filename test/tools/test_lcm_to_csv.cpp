@@ -108,7 +108,7 @@ TEST_CASE("An LCM log becomes the CSV that the daemon would have written, byte f
   CHECK(content(folder.file("tool.csv")) == converted.csv);
   const std::string odometry = content(folder.file("tool-odometry.csv"));
   CHECK(odometry == content(folder.file("direct-odometry.csv")));
-  CHECK(std::count(odometry.begin(), odometry.end(), '\n') > 100);
+  CHECK(std::ranges::count(odometry, '\n') > 100);
 }
 
 TEST_CASE("Messages that are none of ours are left out and counted") {
@@ -143,7 +143,7 @@ TEST_CASE("Messages that are none of ours are left out and counted") {
     const Converted converted = convert(folder.file("log"));
     CHECK(converted.counters.motions == 1);
     CHECK(converted.counters.bad_messages == 1);
-    CHECK(std::count(converted.csv.begin(), converted.csv.end(), '\n') == 2);
+    CHECK(std::ranges::count(converted.csv, '\n') == 2);
     const ToolRun run = run_tool("cremed-lcm-to-csv", folder, folder.file("log"));
     CHECK(run.status == 1);
     CHECK(run.output == converted.csv);
@@ -204,7 +204,7 @@ TEST_CASE("Of a damaged log what comes before is converted, and where the damage
     std::ofstream(log, std::ios::binary) << damaged;
     const ToolRun run = run_tool("cremed-lcm-to-csv", folder, log);
     CHECK(run.status == 1);
-    CHECK(std::count(run.output.begin(), run.output.end(), '\n') == 2);
+    CHECK(std::ranges::count(run.output, '\n') == 2);
     std::string told = log + row.told;
     told.replace(told.find("200"), 3, std::to_string(second));
     CHECK(run.error.find(told) != std::string::npos);

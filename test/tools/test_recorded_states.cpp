@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "test/tools/circle.hpp"
+#include "tools/eval/drive/against_wheels.hpp"
 #include "tools/eval/drive/recorded_states.hpp"
-#include "tools/eval/drive/twist_against_wheels.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

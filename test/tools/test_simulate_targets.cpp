@@ -91,10 +91,10 @@ TEST_CASE("standing targets drop in and out; ghosts never come twice") {
       if (echo.kind == EchoKind::ghost) ++ghosts[{echo.view.range_m, echo.view.azimuth_rad}];
     }
   }
-  const auto steady = std::count_if(fixed.begin(), fixed.end(),
-                                    [&](const auto& entry) { return entry.second == scans; });
-  const auto frequent = std::count_if(fixed.begin(), fixed.end(),
-                                      [&](const auto& entry) { return entry.second > scans / 2; });
+  const auto steady =
+      std::ranges::count_if(fixed, [&](const auto& entry) { return entry.second == scans; });
+  const auto frequent =
+      std::ranges::count_if(fixed, [&](const auto& entry) { return entry.second > scans / 2; });
   CHECK(steady == 0);
   CHECK(frequent > 30);
   CHECK(ghosts.size() > 2 * scans);

@@ -11,7 +11,8 @@
 #include <span>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
-#include "cremed/can_decoders/ars408_layout.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
+#include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -26,7 +27,7 @@ struct Row {
 
 constexpr std::array<Row, 6> kRows{{{"count", "", 1.0},
                                     {"range", " m", 1.0},
-                                    {"azimuth", " deg", ars408_layout::kDegPerRad},
+                                    {"azimuth", " deg", kDegPerRad},
                                     {"oncoming", " m/s", 1.0},
                                     {"departing", " m/s", 1.0},
                                     {"rcs", " dBm^2", 1.0}}};
@@ -50,7 +51,7 @@ std::optional<Ars408FilterState> filter_in(const CanFrame& frame) {
 
 /// Rounds to steps of the frame; limits need no rounding.
 bool can_be_sent(const Ars408FilterState& filter) {
-  const auto& limits = ars408_layout::filter::kLimits[static_cast<std::size_t>(filter.criterion)];
+  const auto& limits = ars408_signals::kFilterLimits[static_cast<std::size_t>(filter.criterion)];
   const double step = 1.0 / limits.scale.steps_per_unit;
   const auto sent = filter_in(frame_of(0, filter));
   return sent && std::abs(sent->min - filter.min) <= step &&
@@ -141,8 +142,7 @@ void tell_written(std::span<const Ars408FilterState> written, std::ostream& out)
 std::optional<Ars408FilterState> parse_ars408_filter(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
-  const auto row =
-      std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.name == name; });
+  const auto row = std::ranges::find(kRows, name, &Row::name);
   if (row == kRows.end() || equals == std::string_view::npos) {
     return std::nullopt;
   }

@@ -34,9 +34,8 @@ const RadarConfiguration* other_radar(std::uint8_t sensor_id, const Configuratio
 
 bool has_gpr(const BusObservation& bus) {
   const std::vector<RadarSettings> radars = seen_radars(bus.traffic);
-  return std::any_of(radars.begin(), radars.end(), [](const RadarSettings& seen) {
-    return seen.as<BoschGprOptions>() != nullptr;
-  });
+  return std::ranges::any_of(
+      radars, [](const RadarSettings& seen) { return seen.as<BoschGprOptions>() != nullptr; });
 }
 
 bool is_set_alike(const Ars408RadarState& a, const Ars408RadarState& b) {

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/doctor/ars408_talk.hpp"
 
-#include <array>
 #include <cstring>
 #include <memory>
 #include <ostream>
 #include <string>
-#include <string_view>
 
 #include <poll.h>
+#include <unistd.h>
 
 #include "daemon/process/clocks.hpp"
 #include "daemon/source/candump.hpp"
@@ -17,12 +16,22 @@
 namespace cremed {
 namespace {
 
+/// A line, and the status if it is incomplete.
+std::string read_line(int descriptor) {
+  constexpr std::size_t kLongest = 80;
+  std::string line;
+  char c = '\0';
+  while (line.size() < kLongest && ::read(descriptor, &c, 1) == 1 && c != '\n') {
+    line += c;
+  }
+  return line;
+}
+
 /// In the format of candump: "can0 200#3800000010040000".
 std::string frame_text(const std::string& interface, const CanFrame& frame) {
-  std::array<char, kMaxCandumpLine> line{};
-  const std::string_view text(line.data(), format_candump_line(frame, interface, line));
-  const std::size_t begin = text.find(' ') + 1;
-  return std::string(text.substr(begin, text.find('\n') - begin));
+  const std::string line = candump_line(frame, interface);
+  const std::size_t begin = line.find(' ') + 1;
+  return line.substr(begin, line.find('\n') - begin);
 }
 
 /// Discards what came before, such as while the user was asked: it is no answer.
@@ -33,6 +42,19 @@ void drain(CanSocket& socket) {
 }
 
 }  // namespace
+
+bool asks_consent(const Consent& consent, std::ostream& out) {
+  if (consent.is_given) {
+    return true;
+  }
+  if (::isatty(consent.terminal) == 0) {
+    out << "standard input is no terminal; add --yes to give consent\n";
+    return false;
+  }
+  out << "Send it? [y/N] " << std::flush;
+  const std::string answer = read_line(consent.terminal);
+  return answer == "y" || answer == "Y" || answer == "yes";
+}
 
 void listen(CanSocket& socket, std::int64_t duration_us,
             const std::function<bool(const CanFrame&)>& use) {

@@ -12,9 +12,18 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/source/can_socket.hpp"
 #include "tools/doctor/ars408_search.hpp"
-#include "tools/doctor/consent.hpp"
 
 namespace cremed {
+
+/// The user's consent to send. It is read from a terminal only: a pipe, file or bus on standard
+/// input is no consent.
+struct Consent {
+  bool is_given = false;  ///< On the command line: do not ask.
+  int terminal = 0;       ///< Descriptor to ask on.
+};
+
+/// Asks unless consent was given. Without a terminal, prints the option to give instead.
+bool asks_consent(const Consent& consent, std::ostream& out);
 
 /// How to find the sensor, and how long to wait.
 struct Ars408TalkOptions {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "tools/doctor/bus_observation.hpp"
 
@@ -11,9 +10,6 @@ namespace cremed {
 
 /// Whether this kernel supports raw CAN sockets.
 bool kernel_has_can();
-
-/// Names of the CAN interfaces, in the kernel's order.
-std::vector<std::string> can_interfaces();
 
 /// The kernel's state of an interface; never `failed`.
 InterfaceState state_of(const std::string& interface);

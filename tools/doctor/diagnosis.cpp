@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <nlohmann/json.hpp>
+
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/plain_text.hpp"
 #include "daemon/report/report.hpp"
 #include "daemon/report/vehicle_findings.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -53,8 +56,8 @@ void add_buses(const Configuration& configuration, const Observation& observatio
 void add_radar(const Configuration& configuration, const Observation& observation,
                std::size_t radar, Findings& findings) {
   const RadarConfiguration& wanted = configuration.radars[radar];
-  const auto bus = std::find_if(observation.buses.begin(), observation.buses.end(),
-                                [&](const auto& b) { return b.interface == wanted.interface; });
+  const auto bus =
+      std::ranges::find(observation.buses, wanted.interface, &BusObservation::interface);
   Findings own = is_silent(*bus) ? find_elsewhere(configuration, observation, radar)
                                  : diagnose_radar(configuration, observation, radar);
   for (Finding& finding : own) {
@@ -75,6 +78,24 @@ void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observa
       append(own, findings);
     }
   }
+}
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Finding& finding) {
+  return {{"severity", severity_name(finding.severity)},
+          {"what", plain_text(finding.what)},
+          {"remedy", plain_text(finding.remedy)}};
+}
+
+Json to_json(const RadarConfiguration& radar, const RadarObservation& observed) {
+  return {{"radar", radar.name},
+          {"interface", radar.interface},
+          {"frames", observed.status.decoder.frames},
+          {"scans", observed.status.assembler.scans},
+          {"incomplete_scans", observed.status.assembler.incomplete_scans},
+          {"estimates", estimates(observed.status)},
+          {"longest_pause_s", observed.times.longest_pause_s}};
 }
 
 }  // namespace
@@ -101,8 +122,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   if (!observation.lcm_problem.empty()) {
     findings.push_back({Severity::error, "LCM cannot send", observation.lcm_problem});
   }
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
+  std::ranges::stable_sort(findings, {}, &Finding::severity);
   return findings;
 }
 
@@ -111,8 +131,8 @@ const char* severity_name(Severity severity) {
 }
 
 bool is_well(const Findings& findings) {
-  return std::all_of(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.severity == Severity::note; });
+  return std::ranges::all_of(
+      findings, [](const Finding& finding) { return finding.severity == Severity::note; });
 }
 
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
@@ -123,6 +143,21 @@ std::string vital_signs(const RadarConfiguration& radar, const RadarObservation&
   return concat({radar.name, ": ", tenths(sent_s > 0.0 ? scans / sent_s : 0.0), " scans/s",
                  has_pause ? concat({" in ", tenths(sent_s), " of ", tenths(seconds), " s"}) : "",
                  ", ", std::to_string(estimates(observation.status)), " estimates"});
+}
+
+std::string diagnosis_json(const Configuration& configuration, const Observation& observation,
+                           const std::vector<Finding>& findings) {
+  Json json{{"good", is_well(findings)},
+            {"seconds", observation.seconds},
+            {"findings", Json::array()},
+            {"radars", Json::array()}};
+  for (const Finding& finding : findings) {
+    json["findings"].push_back(to_json(finding));
+  }
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    json["radars"].push_back(to_json(configuration.radars[i], observation.radars[i]));
+  }
+  return json.dump(2);
 }
 
 }  // namespace cremed

@@ -24,4 +24,8 @@ bool is_well(const std::vector<Finding>& findings);
 std::string vital_signs(const RadarConfiguration& radar, const RadarObservation& observation,
                         double seconds);
 
+/// The diagnosis as one JSON object, for scripts.
+std::string diagnosis_json(const Configuration& configuration, const Observation& observation,
+                           const std::vector<Finding>& findings);
+
 }  // namespace cremed

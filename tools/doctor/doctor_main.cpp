@@ -25,7 +25,6 @@
 #include "tools/doctor/bus_findings.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/diagnosis.hpp"
-#include "tools/doctor/diagnosis_json.hpp"
 #include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/live_observation.hpp"
 #include "tools/doctor/log_observation.hpp"
@@ -170,14 +169,13 @@ int run_diagnosis(const Arguments& arguments) {
   std::vector<Finding> findings = located.findings;
   const std::vector<Finding> diagnosed = diagnose(configuration, observation);
   findings.insert(findings.end(), diagnosed.begin(), diagnosed.end());
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
+  std::ranges::stable_sort(findings, {}, &Finding::severity);
   const bool all_well = is_well(findings);
   if (arguments.is_json) {
     std::cout << diagnosis_json(configuration, observation, findings) << '\n';
     return all_well ? good : failure;
   }
-  std::for_each(findings.begin(), findings.end(), print);
+  std::ranges::for_each(findings, print);
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     std::cout << (all_well ? "good: " : "")
               << vital_signs(configuration.radars[i], observation.radars[i], observation.seconds)
@@ -275,7 +273,7 @@ int run_talk(const Arguments& arguments) {
   const std::vector<Ars408FilterState> filters = filters_of(arguments);
   const std::string& name = arguments.ars408 + arguments.filtered;
   const LocatedRadars located = locate_asked(name, asked);
-  std::for_each(located.findings.begin(), located.findings.end(), print);
+  std::ranges::for_each(located.findings, print);
   if (!located.findings.empty()) {
     return failure;
   }

@@ -10,7 +10,7 @@
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/source/radar_search.hpp"
-#include "tools/doctor/log_lines.hpp"
+#include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
@@ -21,8 +21,7 @@ constexpr std::int64_t kListenUs = 3'000'000;
 
 Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>& sightings,
                    std::size_t index) {
-  const auto sighting = std::find_if(sightings.begin(), sightings.end(),
-                                     [&](const Sighting& s) { return s.radar == index; });
+  const auto sighting = std::ranges::find(sightings, index, &Sighting::radar);
   return sighting == sightings.end()
              ? Finding{Severity::error,
                        concat({radar.name, ": its interface was not searched for"}),
@@ -49,9 +48,7 @@ void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
   if (line.status != CandumpStatus::frame) {
     return;
   }
-  auto bus = std::find_if(buses.begin(), buses.end(), [&](const HeardBus& known) {
-    return known.interface == line.interface_name;
-  });
+  auto bus = std::ranges::find(buses, line.interface_name, &HeardBus::interface);
   if (bus == buses.end()) {
     if (buses.size() >= kMaxBuses) {
       return;

@@ -18,6 +18,7 @@
 #include "daemon/process/clocks.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/source/can_socket.hpp"
+#include "daemon/source/link_watch.hpp"
 #include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/observer.hpp"
 
@@ -33,7 +34,7 @@ struct Ear {
 };
 
 std::set<std::string> interfaces_to_hear(const Configuration& configuration) {
-  const std::vector<std::string> there = can_interfaces();
+  const std::vector<std::string> there = LinkWatch().can_names();
   const std::vector<std::string> wanted = interface_names(configuration);
   std::set<std::string> names(there.begin(), there.end());
   names.insert(wanted.begin(), wanted.end());

@@ -32,9 +32,7 @@ Observer::Observer(const Configuration& configuration)
 
 std::size_t Observer::index_of(std::string_view interface) const {
   const auto& buses = observation_.buses;
-  const auto found = std::find_if(buses.begin(), buses.end(), [interface](const auto& bus) {
-    return bus.interface == interface;
-  });
+  const auto found = std::ranges::find(buses, interface, &BusObservation::interface);
   return static_cast<std::size_t>(found - buses.begin());
 }
 

@@ -49,8 +49,6 @@ class Observer {
    public:
     explicit Sink(Observation& observation) : observation_(observation) {}
     void on_scan(std::size_t radar, const RadarScan& scan) override;
-    void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
-    [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
    private:
     Observation& observation_;

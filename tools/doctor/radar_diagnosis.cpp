@@ -19,8 +19,7 @@ namespace {
 using Findings = std::vector<Finding>;
 
 const BusObservation& bus_of(const RadarConfiguration& radar, const Observation& observation) {
-  return *std::find_if(observation.buses.begin(), observation.buses.end(),
-                       [&](const auto& bus) { return bus.interface == radar.interface; });
+  return *std::ranges::find(observation.buses, radar.interface, &BusObservation::interface);
 }
 
 void erase(const RadarSettings& radar, std::vector<RadarSettings>& radars) {
@@ -40,8 +39,8 @@ std::vector<RadarSettings> unclaimed(const BusObservation& bus,
 }
 
 bool contains(const std::vector<RadarSettings>& radars, const RadarSettings& wanted) {
-  return std::any_of(radars.begin(), radars.end(),
-                     [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
+  return std::ranges::any_of(
+      radars, [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
 }
 
 std::string quoted_name(const RadarConfiguration& radar) { return in_quotes(radar.name); }
@@ -286,8 +285,8 @@ void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
 }
 
 bool has_error(const Findings& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.severity == Severity::error; });
+  return std::ranges::any_of(
+      findings, [](const Finding& finding) { return finding.severity == Severity::error; });
 }
 
 }  // namespace

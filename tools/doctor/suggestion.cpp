@@ -34,8 +34,8 @@ constexpr std::string_view kExamined =
 
 /// A name that needs no escapes in a TOML string.
 bool is_suggestible(const std::string& interface) {
-  return std::all_of(interface.begin(), interface.end(),
-                     [](char c) { return c > ' ' && c < '\x7F' && c != '"' && c != '\\'; });
+  return std::ranges::all_of(interface,
+                             [](char c) { return c > ' ' && c < '\x7F' && c != '"' && c != '\\'; });
 }
 
 std::vector<const BusObservation*> by_name(const Observation& observation) {
@@ -45,8 +45,7 @@ std::vector<const BusObservation*> by_name(const Observation& observation) {
       buses.push_back(&bus);
     }
   }
-  std::sort(buses.begin(), buses.end(),
-            [](const auto* a, const auto* b) { return a->interface < b->interface; });
+  std::ranges::sort(buses, {}, &BusObservation::interface);
   return buses;
 }
 

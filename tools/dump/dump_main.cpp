@@ -3,7 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -12,10 +14,9 @@
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "tools/doctor/interface_search.hpp"
-#include "tools/doctor/log_lines.hpp"
 #include "tools/doctor/log_observation.hpp"
+#include "tools/doctor/observer.hpp"
 #include "tools/doctor/unconfigured.hpp"
-#include "tools/dump/log_head.hpp"
 #include "tools/dump/record_writer.hpp"
 #include "tools/dump/scan_reader.hpp"
 #include "tools/program.hpp"
@@ -63,6 +64,54 @@ void select(const std::string& wanted, Configuration& configuration) {
   }
 }
 
+/// The longest period of a radar's messages is a second.
+constexpr std::int64_t kHeadUs = 2'000'000;
+/// More than five full buses carry in that time, 111 us a frame at 1 Mbit/s.
+constexpr std::size_t kMostLines = 100'000;
+
+/// Keeps the first seconds of a log that cannot be read twice (a pipe), in which the radars that
+/// are on the buses are recognised.
+class LogHead {
+ public:
+  void add(const CandumpLine& line) {
+    lines_.push_back({line, std::string(line.interface_name)});
+    if (line.status == CandumpStatus::frame) {
+      observer_.add(line.interface_name, line.frame);
+      first_us_ = first_us_.value_or(line.frame.stamp_us);
+      is_complete_ = line.frame.stamp_us >= *first_us_ + kHeadUs;
+    }
+    is_complete_ = is_complete_ || lines_.size() >= kMostLines;
+  }
+  /// Every radar that was on has been seen.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  /// The radars in what was added of the log `path`. Throws std::runtime_error with advice if there
+  /// are none. Call it once.
+  [[nodiscard]] Configuration examined(const std::string& path) {
+    if (!first_us_) {
+      throw std::runtime_error(no_frame_in(path));
+    }
+    return examined_radars(observer_.finish());
+  }
+  /// All lines that were added, in order; they are kept no longer.
+  void hand_over(ScanReader& reader) {
+    for (Kept& kept : lines_) {
+      kept.line.interface_name = kept.interface;
+      reader.add(kept.line);
+    }
+    lines_ = {};
+  }
+
+ private:
+  struct Kept {
+    CandumpLine line;
+    std::string interface;  // That of the line ends with it.
+  };
+  std::vector<Kept> lines_;
+  Observer observer_{without_radars()};
+  std::optional<std::int64_t> first_us_;
+  bool is_complete_ = false;
+};
+
 /// Reads the log once; without a configuration, its head tells the radars.
 class Dump {
  public:
@@ -105,8 +154,7 @@ class Dump {
 
   void end_head() {
     begin(head_.examined(arguments_.log));
-    head_.replay([&](const CandumpLine& line) { reader_->add(line); });
-    head_.clear();
+    head_.hand_over(*reader_);
   }
 
   void take(const CandumpLine& line) {

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
-#include "daemon/output/text_line.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -31,64 +31,34 @@ std::string_view name(Validity validity) {
 std::string_view name(Motion motion) { return kMotionNames[static_cast<std::size_t>(motion)]; }
 
 /// "(1436509052.249713) can0 ", as candump -L.
-TextLine line_at(std::int64_t stamp_us, std::string_view interface) {
+std::string line_begin(std::int64_t stamp_us, const std::string& interface) {
   constexpr std::int64_t kUsPerS = 1'000'000;
-  const std::string fraction = std::to_string(std::abs(stamp_us % kUsPerS));
-  TextLine line;
-  line.text("(").integer(stamp_us / kUsPerS).text(".");
-  line.text(std::string(6 - fraction.size(), '0')).text(fraction);
-  line.text(") ").text(interface).text(" ");
-  return line;
+  return fmt::format("({}.{:06}) {} ", stamp_us / kUsPerS, std::abs(stamp_us % kUsPerS),
+                     printable(interface));
 }
 
-/// Right-aligned.
-void add(TextLine& line, double value, int decimals, std::size_t width) {
-  const std::string text(TextLine().fixed(value, decimals).view());
-  line.text(std::string(width - std::min(width, text.size()), ' ')).text(text);
-}
-
-void add_with_sigma(TextLine& line, double value, double sigma, int decimals,
-                    std::string_view unit) {
-  add(line, value, decimals, 9);
-  line.text(" +-").fixed(sigma, decimals).text(" ").text(unit);
-}
-
-void add_target(TextLine& line, const Detection& target) {
-  line.text("  id");
-  add(line, target.id, 0, 4);
-  add_with_sigma(line, target.range_m, target.range_std_m, 2, "m");
-  add_with_sigma(line, kDegPerRad * target.azimuth_rad, kDegPerRad * target.azimuth_std_rad, 2,
-                 "deg");
-  add_with_sigma(line, target.doppler_mps, target.doppler_std_mps, 2, "m/s");
-  add(line, target.rcs_dbm2, 1, 7);
-  line.text(" dBm2  ").text(name(target.validity)).text(", ").text(name(target.motion));
+std::string target_text(const Detection& target) {
+  return fmt::format(
+      "  id{:4}{:>9.2f} +-{:.2f} m{:>9.2f} +-{:.2f} deg{:>9.2f} +-{:.2f} m/s{:>7.1f} dBm2  {}, {}",
+      target.id, target.range_m, target.range_std_m, kDegPerRad * target.azimuth_rad,
+      kDegPerRad * target.azimuth_std_rad, target.doppler_mps, target.doppler_std_mps,
+      target.rcs_dbm2, name(target.validity), name(target.motion));
 }
 
 /// JSON has no NaN.
-TextLine& add_key(TextLine& line, std::string_view key, double value, int decimals) {
-  line.text(",\"").text(key).text("\":");
-  return std::isfinite(value) ? line.fixed(value, decimals) : line.text("null");
-}
-
-TextLine& add_name(TextLine& line, std::string_view key, std::string_view value) {
-  return line.text(",\"").text(key).text("\":\"").text(value).text("\"");
+std::string number(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "null";
 }
 
 /// Finer than any radar's steps.
-TextLine target_json(const Detection& target) {
-  TextLine line;
-  line.text("{\"id\":").integer(target.id);
-  add_key(line, "range_m", target.range_m, 4);
-  add_key(line, "azimuth_rad", target.azimuth_rad, 6);
-  add_key(line, "doppler_mps", target.doppler_mps, 4);
-  add_key(line, "range_std_m", target.range_std_m, 4);
-  add_key(line, "azimuth_std_rad", target.azimuth_std_rad, 6);
-  add_key(line, "doppler_std_mps", target.doppler_std_mps, 4);
-  add_key(line, "rcs_dbm2", target.rcs_dbm2, 2);
-  add_name(line, "validity", name(target.validity));
-  add_name(line, "motion", name(target.motion));
-  line.text("}");
-  return line;
+std::string target_json(const Detection& target) {
+  return fmt::format(
+      R"({{"id":{},"range_m":{},"azimuth_rad":{},"doppler_mps":{},"range_std_m":{},)"
+      R"("azimuth_std_rad":{},"doppler_std_mps":{},"rcs_dbm2":{},"validity":"{}","motion":"{}"}})",
+      target.id, number(target.range_m, 4), number(target.azimuth_rad, 6),
+      number(target.doppler_mps, 4), number(target.range_std_m, 4),
+      number(target.azimuth_std_rad, 6), number(target.doppler_std_mps, 4),
+      number(target.rcs_dbm2, 2), name(target.validity), name(target.motion));
 }
 
 /// A name of a log may hold anything.
@@ -102,28 +72,20 @@ class TextRecords final : public RecordWriter {
 
   void scan(const std::string& interface, const std::string& radar,
             const RadarScan& scan) override {
-    TextLine line = line_at(scan.stamp_us, printable(interface));
-    line.text(radar).text(" scan ").integer(scan.counter).text(" ").text(name(scan.status));
-    line.text(", ").integer(scan.count).text(" of ").integer(scan.announced).text(" targets");
-    out() << line.view();
+    out() << line_begin(scan.stamp_us, interface) << radar << " scan " << scan.counter << ' '
+          << name(scan.status) << ", " << scan.count << " of " << scan.announced << " targets";
     for (std::size_t i = 0; with_targets() && i < scan.count; ++i) {
-      TextLine target;
-      add_target(target, scan.detections[i]);
-      out() << '\n' << target.view();
+      out() << '\n' << target_text(scan.detections[i]);
     }
     end_record();
   }
 
   void reading(const std::string& interface, std::uint32_t id,
                const VehicleReading& reading) override {
-    TextLine line = line_at(reading.stamp_us, printable(interface));
-    line.text(hexadecimal(id));
-    if (reading.signal == VehicleSignal::speed) {
-      line.text(" speed ").fixed(reading.value, 2).text(" m/s");
-    } else {
-      line.text(" yaw rate ").fixed(kDegPerRad * reading.value, 2).text(" deg/s");
-    }
-    out() << line.view();
+    out() << line_begin(reading.stamp_us, interface) << hexadecimal(id)
+          << (reading.signal == VehicleSignal::speed
+                  ? fmt::format(" speed {:.2f} m/s", reading.value)
+                  : fmt::format(" yaw rate {:.2f} deg/s", kDegPerRad * reading.value));
     end_record();
   }
 
@@ -139,18 +101,15 @@ class JsonRecords final : public RecordWriter {
 
   void scan(const std::string& interface, const std::string& radar,
             const RadarScan& scan) override {
-    TextLine line;
-    line.text("{\"type\":\"scan\",\"utime\":").integer(scan.stamp_us);
-    add_name(line, "radar", radar);
-    line.text(",\"interface\":").text(quoted(interface));
-    line.text(",\"counter\":").integer(scan.counter);
-    add_name(line, "status", name(scan.status));
-    line.text(",\"announced\":").integer(scan.announced).text(",\"count\":").integer(scan.count);
-    out() << line.view();
+    out() << fmt::format(
+        R"({{"type":"scan","utime":{},"radar":"{}","interface":{},"counter":{},"status":"{}",)"
+        R"("announced":{},"count":{})",
+        scan.stamp_us, radar, quoted(interface), scan.counter, name(scan.status), scan.announced,
+        scan.count);
     if (with_targets()) {
       out() << ",\"targets\":[";
       for (std::size_t i = 0; i < scan.count; ++i) {
-        out() << (i == 0 ? "" : ",") << target_json(scan.detections[i]).view();
+        out() << (i == 0 ? "" : ",") << target_json(scan.detections[i]);
       }
       out() << ']';
     }
@@ -160,12 +119,10 @@ class JsonRecords final : public RecordWriter {
 
   void reading(const std::string& interface, std::uint32_t id,
                const VehicleReading& reading) override {
-    TextLine line;
-    line.text("{\"type\":\"vehicle\",\"utime\":").integer(reading.stamp_us);
-    line.text(",\"interface\":").text(quoted(interface)).text(",\"id\":").integer(id);
-    add_key(line, reading.signal == VehicleSignal::speed ? "speed_mps" : "yaw_rate_radps",
-            reading.value, 6);
-    out() << line.view() << '}';
+    out() << fmt::format(R"({{"type":"vehicle","utime":{},"interface":{},"id":{},"{}":{}}})",
+                         reading.stamp_us, quoted(interface), id,
+                         reading.signal == VehicleSignal::speed ? "speed_mps" : "yaw_rate_radps",
+                         number(reading.value, 6));
     end_record();
   }
 

@@ -25,7 +25,7 @@ ScanReader::ScanReader(const Configuration& configuration, RecordWriter& writer)
 
 void ScanReader::add_signals(const Configuration& configuration) {
   const auto add = [&](const std::string& interface, std::uint32_t id, VehicleSignal signal) {
-    const bool is_known = std::any_of(signals_.begin(), signals_.end(), [&](const Signal& known) {
+    const bool is_known = std::ranges::any_of(signals_, [&](const Signal& known) {
       return known.interface == interface && known.id == id;
     });
     if (!is_known) {

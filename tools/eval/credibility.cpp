@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include <Eigen/Dense>
+#include <spdlog/fmt/fmt.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
 
@@ -78,14 +78,12 @@ double Credibility::coverage(int axis, int sigmas) const {
 }
 
 std::string to_line(const Credibility& credibility) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%7zu %9.5f %9.5f %9.4f", credibility.count(),
-                credibility.rmse_m(), credibility.rmse_deg(), credibility.anees());
-  std::string line = text.data();
+  // '>': fmt would else put NaN to the left.
+  std::string line = fmt::format("{:7} {:>9.5f} {:>9.5f} {:>9.4f}", credibility.count(),
+                                 credibility.rmse_m(), credibility.rmse_deg(), credibility.anees());
   for (int axis = 0; axis < 3; ++axis) {
     for (int sigmas = 1; sigmas <= 3; ++sigmas) {
-      std::snprintf(text.data(), text.size(), " %6.3f", credibility.coverage(axis, sigmas));
-      line += text.data();
+      line += fmt::format(" {:>6.3f}", credibility.coverage(axis, sigmas));
     }
   }
   return line;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace cremed {
 namespace {
@@ -26,6 +28,15 @@ std::vector<std::string> split(std::string_view line) {
 std::string_view without_mark(std::string_view line) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return line.substr(line.starts_with(kMark) ? kMark.size() : 0);
+}
+
+double finite_number(const CsvTable& table, std::size_t row, const char* name) {
+  const double value = table.number(row, table.column(name));
+  if (!std::isfinite(value)) {
+    throw std::runtime_error("row " + std::to_string(row + 1) + ", " + name +
+                             ": an estimate that is not finite");
+  }
+  return value;
 }
 
 }  // namespace
@@ -50,7 +61,7 @@ CsvTable::CsvTable(std::istream& input) {
 }
 
 std::size_t CsvTable::column(std::string_view name) const {
-  const auto found = std::find(header_.begin(), header_.end(), name);
+  const auto found = std::ranges::find(header_, name);
   if (found == header_.end()) {
     throw std::runtime_error("no column " + std::string(name));
   }
@@ -58,7 +69,7 @@ std::size_t CsvTable::column(std::string_view name) const {
 }
 
 bool CsvTable::has_column(std::string_view name) const {
-  return std::find(header_.begin(), header_.end(), name) != header_.end();
+  return std::ranges::find(header_, name) != header_.end();
 }
 
 template <typename Number>
@@ -79,6 +90,24 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
 
 long long CsvTable::integer(std::size_t row, std::size_t column) const {
   return parse<long long>(row, column);
+}
+
+Eigen::Vector3d read_vector(const CsvTable& table, std::size_t row, const VectorColumns& names) {
+  Eigen::Vector3d vector;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    vector(static_cast<Eigen::Index>(i)) = finite_number(table, row, names[i]);
+  }
+  return vector;
+}
+
+Eigen::Matrix3d read_symmetric(const CsvTable& table, std::size_t row,
+                               const SymmetricColumns& names) {
+  const auto number = [&](std::size_t i) { return finite_number(table, row, names[i]); };
+  Eigen::Matrix3d matrix;
+  matrix << number(0), number(1), number(2),  //
+      number(1), number(3), number(4),        //
+      number(2), number(4), number(5);
+  return matrix;
 }
 
 }  // namespace cremed

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace cremed {
 
@@ -34,5 +37,18 @@ class CsvTable {
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> rows_;
 };
+
+/// Names of the columns of a symmetric matrix: first row, second from its diagonal, last.
+using SymmetricColumns = std::array<const char*, 6>;
+using VectorColumns = std::array<const char*, 3>;
+
+inline constexpr VectorColumns kPoseColumns{"x_m", "y_m", "yaw_rad"};
+inline constexpr SymmetricColumns kPoseCovarianceColumns{"cov_xx", "cov_xy",   "cov_xyaw",
+                                                         "cov_yy", "cov_yyaw", "cov_yawyaw"};
+
+/// Cells of a row; throws std::runtime_error where one is not finite.
+Eigen::Vector3d read_vector(const CsvTable& table, std::size_t row, const VectorColumns& names);
+Eigen::Matrix3d read_symmetric(const CsvTable& table, std::size_t row,
+                               const SymmetricColumns& names);
 
 }  // namespace cremed

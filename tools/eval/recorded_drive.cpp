@@ -50,8 +50,6 @@ class RecordingSink final : public OdometrySink {
                : 0.0;
   }
 
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
-
   std::vector<RecordedRadar> take() { return std::move(radars_); }
 
  private:
@@ -100,7 +98,7 @@ std::vector<RecordedRadar> record_drive(const Configuration& configuration,
   sinks.push_back(&sink);
   play_drive(configuration, logs, sinks);
   std::vector<RecordedRadar> radars = sink.take();
-  if (std::all_of(radars.begin(), radars.end(), [](const auto& r) { return r.scans.empty(); })) {
+  if (std::ranges::all_of(radars, [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(
         concat({logs.front(),
                 ": no complete scan of any radar; `cremed-doctor --replay` shows the cause"}));

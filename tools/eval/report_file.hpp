@@ -2,34 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <cstdio>
-#include <memory>
+#include <iterator>
 #include <string>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "daemon/process/replaced_file.hpp"
 
 namespace cremed {
 
-/// A text file, written atomically when it is closed; every failure is a std::runtime_error that
-/// names it.
+/// A text file, written atomically when it is closed.
 class ReportFile {
  public:
-  explicit ReportFile(std::string path);
-  ~ReportFile();
-  ReportFile(const ReportFile&) = delete;
-  ReportFile& operator=(const ReportFile&) = delete;
+  explicit ReportFile(std::string path) : path_(std::move(path)) {}
 
-  [[nodiscard]] std::FILE* stream() const { return file_.get(); }
-  /// Writes the file; throws on failure.
-  void close();
+  template <typename... Values>
+  void print(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+  /// Writes the file; throws std::runtime_error that names it on failure.
+  void close() const { replace_file(path_, text_); }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::string path_;
-  char* text_ = nullptr;  // Buffer of the stream.
-  std::size_t size_ = 0;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::string text_;
 };
 
 }  // namespace cremed

@@ -48,13 +48,13 @@ struct PairsArguments {
 
 void write_pairs(const std::string& path, const std::vector<cremed::PairResult>& results) {
   cremed::ReportFile file(path);
-  std::fputs("pair,x,y,yaw,cxx,cxy,cxt,cyy,cyt,ctt,iterations,solve_us\n", file.stream());
+  file.print("pair,x,y,yaw,cxx,cxy,cxt,cyy,cyt,ctt,iterations,solve_us\n");
   for (std::size_t i = 0; i < results.size(); ++i) {
     const cremed::RegistrationResult& r = results[i].registration;
     const Eigen::Matrix3d& c = r.covariance;
-    std::fprintf(file.stream(), "%zu,%.9f,%.9f,%.9f,%.9e,%.9e,%.9e,%.9e,%.9e,%.9e,%d,%lld\n", i,
-                 r.motion.x(), r.motion.y(), r.motion.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1),
-                 c(1, 2), c(2, 2), r.iterations, static_cast<long long>(results[i].solve_us));
+    file.print("{},{:.9f},{:.9f},{:.9f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{},{}\n", i,
+               r.motion.x(), r.motion.y(), r.motion.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1),
+               c(1, 2), c(2, 2), r.iterations, results[i].solve_us);
   }
   file.close();
 }
@@ -82,14 +82,14 @@ cremed::PairsFigures figures_of(const std::vector<cremed::PairResult>& results,
 
 void print_pairs(const PairsArguments& arguments, const cremed::PairsFigures& figures) {
   if (arguments.as_json) {
-    std::printf("%s\n", cremed::pairs_json(figures).c_str());
+    fmt::print("{}\n", cremed::pairs_json(figures));
     return;
   }
-  std::printf("# method %s iterations solve_us no_convergence left_out\n",
-              cremed::kCredibilityColumns);
-  std::printf("%-8s %s %10.2f %8.0f %14zu %8zu\n", figures.method.c_str(),
-              cremed::to_line(figures.credibility).c_str(), figures.iterations, figures.solve_us,
-              figures.no_convergence, figures.left_out);
+  fmt::print("# method {} iterations solve_us no_convergence left_out\n",
+             cremed::kCredibilityColumns);
+  fmt::print("{:<8} {} {:>10.2f} {:>8.0f} {:14} {:8}\n", figures.method,
+             cremed::to_line(figures.credibility), figures.iterations, figures.solve_us,
+             figures.no_convergence, figures.left_out);
 }
 
 int run_pairs(const PairsArguments& arguments) {

@@ -25,7 +25,7 @@ constexpr std::size_t kLongestSource = 15;
 /// A source name that would break a CSV row is refused; the daemon writes none.
 bool is_source(std::string_view name) {
   return !name.empty() && name.size() <= kLongestSource &&
-         std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c != ','; });
+         std::ranges::all_of(name, [](char c) { return c > ' ' && c != ','; });
 }
 
 bool is_good(const ego_motion_t& message) {

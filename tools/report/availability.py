@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""For how much of a drive there was a usable estimate, as tools/eval/drive/availability.hpp defines it."""
+"""For how much of a drive there was a usable estimate, as tools/eval/drive/recorded_odometry.hpp defines it."""
 SHORTEST_PAUSE_US = 250_000
 
 

@@ -160,9 +160,8 @@ void Ars408Sender::encode(const std::vector<Measurement>& targets, std::uint32_t
 
 void Ars408Sender::encode_clusters(const std::vector<Measurement>& targets, std::uint16_t counter,
                                    std::vector<CanFrame>& list) {
-  const auto near_count =
-      std::count_if(targets.begin(), targets.end(),
-                    [](const Measurement& target) { return target.range_m < kNearScanM; });
+  const auto near_count = std::ranges::count_if(
+      targets, [](const Measurement& target) { return target.range_m < kNearScanM; });
   Ars408ClusterStatus status;
   status.near_count = static_cast<std::uint8_t>(near_count);
   status.far_count = static_cast<std::uint8_t>(targets.size() - status.near_count);

@@ -14,6 +14,37 @@ constexpr double kGhostSpeedMps = 15.0;
 
 }  // namespace
 
+RadarState radar_state(const VehicleState& vehicle, const Pose2& vehicle_from_radar) {
+  const double cos_yaw = std::cos(vehicle.pose.yaw_rad);
+  const double sin_yaw = std::sin(vehicle.pose.yaw_rad);
+  const Pose2& mount = vehicle_from_radar;
+  const double arm_x_m = cos_yaw * mount.x_m - sin_yaw * mount.y_m;
+  const double arm_y_m = sin_yaw * mount.x_m + cos_yaw * mount.y_m;
+  return {{vehicle.pose.x_m + arm_x_m, vehicle.pose.y_m + arm_y_m,
+           vehicle.pose.yaw_rad + mount.yaw_rad},
+          vehicle.speed_mps * cos_yaw - vehicle.side_speed_mps * sin_yaw -
+              vehicle.yaw_rate_radps * arm_y_m,
+          vehicle.speed_mps * sin_yaw + vehicle.side_speed_mps * cos_yaw +
+              vehicle.yaw_rate_radps * arm_x_m};
+}
+
+RadarView view_of(const RadarState& radar, const WorldPoint& point) {
+  const double cos_yaw = std::cos(radar.pose.yaw_rad);
+  const double sin_yaw = std::sin(radar.pose.yaw_rad);
+  const double world_x_m = point.x_m - radar.pose.x_m;
+  const double world_y_m = point.y_m - radar.pose.y_m;
+  const double world_x_mps = point.x_mps - radar.x_mps;
+  const double world_y_mps = point.y_mps - radar.y_mps;
+  RadarView view;
+  view.range_m = std::hypot(world_x_m, world_y_m);
+  view.azimuth_rad = std::atan2(cos_yaw * world_y_m - sin_yaw * world_x_m,
+                                cos_yaw * world_x_m + sin_yaw * world_y_m);
+  view.doppler_mps = (world_x_m * world_x_mps + world_y_m * world_y_mps) / view.range_m;
+  view.across_mps = (world_x_m * world_y_mps - world_y_m * world_x_mps) / view.range_m;
+  view.ground_doppler_mps = (world_x_m * point.x_mps + world_y_m * point.y_mps) / view.range_m;
+  return view;
+}
+
 RadarModel::RadarModel(const RadarCharacter& character, const Pose2& vehicle_from_radar,
                        const Scene& scene, Random random)
     : character_(character),
@@ -95,8 +126,7 @@ bool RadarModel::same_cell(const RadarView& a, const RadarView& b) const {
 
 /// The stronger of two unresolved targets hides the weaker, so every detection has one true place.
 void RadarModel::merge_unresolved() {
-  std::stable_sort(echoes_.begin(), echoes_.end(),
-                   [](const Echo& a, const Echo& b) { return a.rcs_dbm2 > b.rcs_dbm2; });
+  std::ranges::stable_sort(echoes_, std::ranges::greater{}, &Echo::rcs_dbm2);
   std::size_t kept = 0;
   for (const Echo& echo : echoes_) {
     const auto hides = [&](const Echo& other) { return same_cell(other.view, echo.view); };

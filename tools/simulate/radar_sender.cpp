@@ -81,8 +81,7 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
         with_shared_errors(target.doppler_mps) + std.doppler_mps * random_.normal();
     if (can_report(target)) targets_.push_back(target);
   }
-  std::stable_sort(targets_.begin(), targets_.end(),
-                   [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
+  std::ranges::stable_sort(targets_, {}, &Measurement::range_m);
   targets_.resize(std::min(targets_.size(), setup_.max_targets));
 }
 

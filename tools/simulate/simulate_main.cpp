@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -14,7 +13,6 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "daemon/source/candump.hpp"
 #include "tools/line_stream.hpp"
 #include "tools/program.hpp"
 #include "tools/simulate/scenario.hpp"
@@ -84,16 +82,6 @@ const Scenario& asked_scenario(const std::string& name) {
   throw UsageError("--scenario: unknown scenario '" + name + "'; '--scenario list' prints all");
 }
 
-void write_log(Simulation& simulation, LineStream& log) {
-  std::array<char, kMaxCandumpLine> line{};
-  while (const auto frame = simulation.next()) {
-    const std::string& interface = simulation.interfaces()[frame->interface];
-    const std::size_t length = format_candump_line(*frame, interface, line);
-    if (!log.stream().write(line.data(), static_cast<std::streamsize>(length))) break;
-  }
-  log.finish();
-}
-
 void write_truth(const Simulation& simulation, const std::string& path) {
   LineStream file(path);
   simulation.write_truth(file.stream());
@@ -122,7 +110,8 @@ void simulate(Arguments& arguments) {
   Simulation simulation(scenario, configuration.radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
   LineStream log(arguments.output);
-  write_log(simulation, log);
+  simulation.write_log(log.stream());
+  log.finish();
 }
 
 int run(CLI::App& app, int argc, char** argv) {

@@ -3,14 +3,15 @@
 #include "tools/simulate/simulation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <ostream>
 #include <stdexcept>
 
+#include <spdlog/fmt/fmt.h>
+
+#include "daemon/source/candump.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 #include "tools/simulate/ars408_sender.hpp"
 #include "tools/simulate/bosch_gpr_encoder.hpp"
@@ -154,7 +155,7 @@ void Simulation::attach(const std::vector<RadarConfiguration>& radars, const Sen
 }
 
 CanBus& Simulation::bus_of(const std::string& interface) {
-  const auto found = std::find(interfaces_.begin(), interfaces_.end(), interface);
+  const auto found = std::ranges::find(interfaces_, interface);
   if (found != interfaces_.end()) {
     return buses_[static_cast<std::size_t>(found - interfaces_.begin())];
   }
@@ -201,9 +202,7 @@ void Simulation::attach_state(CanBus& bus, std::size_t radar, std::vector<CanFra
 
 std::optional<CanFrame> Simulation::next() {
   while (true) {
-    const auto earliest = std::min_element(
-        buses_.begin(), buses_.end(),
-        [](const CanBus& a, const CanBus& b) { return a.next_stamp_us() < b.next_stamp_us(); });
+    const auto earliest = std::ranges::min_element(buses_, {}, &CanBus::next_stamp_us);
     if (earliest == buses_.end() || earliest->next_stamp_us() == FrameRequest::kNeverUs) {
       return std::nullopt;
     }
@@ -212,16 +211,19 @@ std::optional<CanFrame> Simulation::next() {
   }
 }
 
+void Simulation::write_log(std::ostream& output) {
+  while (const auto frame = next()) {
+    if (!(output << candump_line(*frame, interfaces()[frame->interface]))) return;
+  }
+}
+
 void Simulation::write_truth(std::ostream& output) const {
   output << "utime,x_m,y_m,yaw_rad\n";
   const std::int64_t step_us = std::llround(VehicleCourse::kStepS * 1e6);
   std::int64_t stamp_us = scene_.start_us();
   for (const VehicleState& state : scene_.course().steps()) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "%lld,%.9f,%.9f,%.12f\n",
-                  static_cast<long long>(stamp_us), state.pose.x_m, state.pose.y_m,
-                  state.pose.yaw_rad);
-    output << line.data();
+    output << fmt::format("{},{:.9f},{:.9f},{:.12f}\n", stamp_us, state.pose.x_m, state.pose.y_m,
+                          state.pose.yaw_rad);
     if (stamp_us >= scene_.end_us()) return;
     stamp_us += step_us;
   }

@@ -71,6 +71,8 @@ class Simulation {
   /// True mount of each radar.
   [[nodiscard]] const std::vector<Pose2>& mounts() const { return mounts_; }
 
+  /// All frames that are left, as `candump -L` writes them; fewer if the stream fails.
+  void write_log(std::ostream& output);
   /// Pose of the rear axle every 10 ms as CSV: utime,x_m,y_m,yaw_rad.
   void write_truth(std::ostream& output) const;
 

@@ -35,7 +35,8 @@ Traffic::Traffic(const VehicleCourse& course, const Road& road, const TrafficOpt
 void Traffic::add_jam(int count, Random& random) {
   for (int i = 0; i < count; ++i) {
     const double left_m = kSameWayLaneM * (i / 2 % 3);
-    const double gap_m = kLeaderGapM * (1 + i / 6) + random.uniform(0.0, 3.0);
+    const int row = 1 + i / 6;  // Three lanes, before and behind.
+    const double gap_m = kLeaderGapM * row + random.uniform(0.0, 3.0);
     const double side = i % 2 == 0 ? 1.0 : -1.0;
     jam_.push_back({side * gap_m, random.uniform(-kJamMomentS, kJamMomentS), left_m});
   }

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
-#include "daemon/output/text_line.hpp"
 
 namespace cremed {
 namespace {
@@ -36,14 +36,14 @@ constexpr std::array<std::string_view, 8> kCauseNames{
 
 /// A message may hold anything.
 std::string ascii(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
 std::string words(const Json& name) {
   std::string text = name.is_string() ? ascii(name.get<std::string>()) : "-";
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 
@@ -51,21 +51,11 @@ bool is_number(const Json& value) {
   return value.is_number() && std::isfinite(value.get<double>());
 }
 
-std::string fixed(double value, int decimals) {
-  return std::string(TextLine().fixed(value, decimals).view());
-}
+std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 
 /// "-" if it is not known.
 std::string fixed(const Json& value, int decimals) {
   return is_number(value) ? fixed(value.get<double>(), decimals) : "-";
-}
-
-std::string right(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, text.size()), ' ') + text;
-}
-
-std::string left(const std::string& text, std::size_t width) {
-  return text + std::string(width - std::min(width, text.size()), ' ');
 }
 
 std::string with_sigma(double value, double sigma, int decimals, std::string_view unit) {
@@ -129,9 +119,9 @@ void add_motion(const Json& rates, std::vector<ScreenLine>& lines) {
     return;
   }
   const auto last = [&](const char* key) { return rates[key].back().get<double>(); };
-  lines.push_back({left("speed      " + with_sigma(last("vx"), last("vx_sigma"), 2, " m/s"), 40) +
-                   "yaw rate   " +
-                   with_sigma(last("yaw_rate"), last("yaw_rate_sigma"), 2, " deg/s")});
+  lines.push_back({fmt::format("speed      {:<29}yaw rate   {}",
+                               with_sigma(last("vx"), last("vx_sigma"), 2, " m/s"),
+                               with_sigma(last("yaw_rate"), last("yaw_rate_sigma"), 2, " deg/s"))});
 }
 
 void add_pose(const Json& pose, std::vector<ScreenLine>& lines) {
@@ -143,7 +133,7 @@ void add_pose(const Json& pose, std::vector<ScreenLine>& lines) {
   const auto value = [&](const char* key, std::size_t variance) {
     return with_sigma(pose[key].get<double>(), sigma_of(covariance[variance]), 2, " m");
   };
-  lines.push_back({left("x          " + value("x", 0), 40) + "y          " + value("y", 2)});
+  lines.push_back({fmt::format("x          {:<29}y          {}", value("x", 0), value("y", 2))});
   lines.push_back({"yaw        " +
                    with_sigma(yaw_deg, kDegPerRad * sigma_of(covariance[3]), 2, " deg") +
                    "   (since the start)"});
@@ -182,22 +172,19 @@ std::string milliseconds(const Json& latency_us) {
   return us > 0.0 ? fixed(us / 1000.0, 1) : "-";
 }
 
-/// The columns of a radar's row, in this order.
 constexpr std::string_view kColumns =
     "radar            scans/s  lost %  targets    NIS  mount yaw deg  p99 ms  last motion, doubts";
 
 ScreenLine radar_line(const Json& radar) {
   const Json& status = radar["status"];
   const bool has_status = !status.is_null();
-  const auto told = [&](const char* key) { return has_status ? status[key] : Json(); };
-  std::string text = left(ascii(radar["name"].get<std::string>()), 16);
-  text += right(fixed(radar["scan_rate_hz"], 1), 8);
-  text += right(has_status ? percent(status["scans_incomplete"], status["scans"]) : "-", 8);
-  text += right(std::to_string(radar["targets"].get<int>()), 9);
-  text += right(fixed(told("odometry_nis_doppler"), 2), 7);
-  text +=
-      right(has_status ? learned(status["mount_yaw_deg"], status["mount_yaw_sigma_deg"]) : "-", 15);
-  text += right(has_status ? milliseconds(status["latency_p99_us"]) : "-", 8);
+  std::string text = fmt::format(
+      "{:<16}{:>8}{:>8}{:>9}{:>7}{:>15}{:>8}", ascii(radar["name"].get<std::string>()),
+      fixed(radar["scan_rate_hz"], 1),
+      has_status ? percent(status["scans_incomplete"], status["scans"]) : "-",
+      radar["targets"].get<int>(), fixed(has_status ? status["odometry_nis_doppler"] : Json(), 2),
+      has_status ? learned(status["mount_yaw_deg"], status["mount_yaw_sigma_deg"]) : "-",
+      has_status ? milliseconds(status["latency_p99_us"]) : "-");
   const std::string silent = silence(radar["silent_s"]);
   const std::string doubted = has_status ? doubts(status) : "";
   text += "  " + (silent.empty() ? words(radar["motion"]) : silent);

@@ -188,8 +188,7 @@ void HeardState::keep_motion(const odometry_t& message) {
 
 /// Null where there are more than a configuration may have.
 HeardState::Radar* HeardState::radar(const std::string& name) {
-  const auto found = std::find_if(radars_.begin(), radars_.end(),
-                                  [&](const Radar& radar) { return radar.name == name; });
+  const auto found = std::ranges::find(radars_, name, &Radar::name);
   if (found != radars_.end()) {
     return &*found;
   }

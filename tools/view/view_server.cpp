@@ -117,8 +117,7 @@ std::vector<std::string> own_host_names() {
 
 bool is_own_host(const std::string& header, const std::vector<std::string>& names) {
   const std::string name = host_of(header);
-  return is_address(name) || name == "localhost" ||
-         std::find(names.begin(), names.end(), name) != names.end();
+  return is_address(name) || name == "localhost" || std::ranges::find(names, name) != names.end();
 }
 
 ViewServer::ViewServer(const HeardState& state, const ViewAddress& address)

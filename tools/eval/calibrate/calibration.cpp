@@ -324,8 +324,7 @@ void Calibrator::check() {
   bool is_any = false;
   for (const RadarCalibration& radar : radars_) {
     changed.push_back(radar.is_changed);
-    is_any = is_any ||
-             std::any_of(changed.back().begin(), changed.back().end(), [](bool is) { return is; });
+    is_any = is_any || std::ranges::any_of(changed.back(), [](bool is) { return is; });
   }
   if (!is_any) {
     return;
@@ -334,8 +333,7 @@ void Calibrator::check() {
   bool is_any_refused = false;
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     if (!check_->is_better || !check_->is_radar_better[i]) {
-      radars_[i].is_refused =
-          std::any_of(changed[i].begin(), changed[i].end(), [](bool is) { return is; });
+      radars_[i].is_refused = std::ranges::any_of(changed[i], [](bool is) { return is; });
       radars_[i].is_changed = {};
       is_any_refused = is_any_refused || radars_[i].is_refused;
     }

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace cremed {
 namespace {
@@ -36,11 +37,7 @@ constexpr std::array<CalibratedKey, 11> kKeys = {{
 
 constexpr CalibratedKey kSlipKey = {"odometry", "slip_per_lateral_acceleration", nullptr, 5};
 
-std::string digits(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
+std::string digits(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 
 }  // namespace
 
@@ -65,9 +62,8 @@ std::vector<CalibratedValue> changed_vehicle_values(const OdometryOptions& befor
 
 bool has_values(const Radar& radar, const Radar& before,
                 const std::vector<CalibratedValue>& values) {
-  return std::all_of(kKeys.begin(), kKeys.end(), [&](const CalibratedKey& key) {
-    const auto changed = std::find_if(values.begin(), values.end(),
-                                      [&](const auto& value) { return value.key == &key; });
+  return std::ranges::all_of(kKeys, [&](const CalibratedKey& key) {
+    const auto changed = std::ranges::find(values, &key, &CalibratedValue::key);
     const double wanted =
         changed == values.end() ? key.get(before) : std::strtod(changed->text.c_str(), nullptr);
     return key.get(radar) == wanted;

@@ -135,8 +135,8 @@ void ConfigurationEditor::add_to_table(const toml::table& table, const Calibrate
 /// Later edits at one position are placed before earlier ones.
 void ConfigurationEditor::add_to_inline(const toml::table& table, const std::string& assigned) {
   const std::size_t inside = offset_of(table.source().begin) + 1;
-  const bool is_first = table.empty() && std::none_of(edits_.begin(), edits_.end(),
-                                                      [&](auto& e) { return e.begin == inside; });
+  const bool is_first =
+      table.empty() && std::ranges::none_of(edits_, [&](auto& e) { return e.begin == inside; });
   edits_.push_back({inside, 0, " " + assigned + (is_first ? " " : ",")});
 }
 
@@ -190,8 +190,7 @@ void ConfigurationEditor::add_line_after(std::size_t index, const std::string& a
 
 std::string ConfigurationEditor::result() const {
   std::vector<Edit> edits = edits_;
-  std::stable_sort(edits.begin(), edits.end(),
-                   [](const Edit& a, const Edit& b) { return a.begin > b.begin; });
+  std::ranges::stable_sort(edits, std::ranges::greater{}, &Edit::begin);
   std::string text(text_);
   for (const Edit& edit : edits) {
     text.replace(edit.begin, edit.length, edit.replacement);

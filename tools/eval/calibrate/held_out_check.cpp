@@ -71,8 +71,7 @@ HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<Changed
   }
   check.is_better = gain.is_significant();
   for (std::size_t radar = 0; radar < changed.size(); ++radar) {
-    const bool is_changed =
-        std::any_of(changed[radar].begin(), changed[radar].end(), [](bool is) { return is; });
+    const bool is_changed = std::ranges::count(changed[radar], true) != 0;
     check.is_radar_better.push_back(!is_changed || gains[radar].is_significant());
   }
   return check;

@@ -97,11 +97,10 @@ std::optional<DopplerState> agreed_velocity(std::span<const Target> targets) {
 RecordedScan static_part(const RecordedScan& scan, const DopplerState& expected,
                          const DopplerNoise& noise, double slack_mps) {
   RecordedScan result{scan.stamp_us, {}, scan.told_yaw_rate_radps};
-  std::copy_if(scan.targets.begin(), scan.targets.end(), std::back_inserter(result.targets),
-               [&](const Target& t) {
-                 return std::abs(residual_mps(t, expected, scan.told_yaw_rate_radps)) <
-                        kGateSigma * std_mps(t, expected, noise) + slack_mps;
-               });
+  std::ranges::copy_if(scan.targets, std::back_inserter(result.targets), [&](const Target& t) {
+    return std::abs(residual_mps(t, expected, scan.told_yaw_rate_radps)) <
+           kGateSigma * std_mps(t, expected, noise) + slack_mps;
+  });
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/eval/drive/recorded_odometry.hpp"
+#include "tools/eval/drive/recorded_states.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/eval/drive/wheel_reference.hpp"
 
@@ -56,5 +57,18 @@ struct TruthAgainstWheels {
 
 TruthAgainstWheels truth_against_wheels(const TrueTrajectory& truth, const WheelReference& wheels,
                                         std::int64_t interval_us);
+
+/// The state's forward speed and yaw rate against the wheels at the same time; variances are the
+/// sum of the state's and the wheels'. NaN if the wheels cover no state.
+struct TwistAgainstWheels {
+  std::size_t count = 0;
+  double nees_speed = 0.0;
+  double nees_yaw_rate = 0.0;
+  double rms_speed_mps = 0.0;
+  double rms_yaw_rate_radps = 0.0;
+};
+
+TwistAgainstWheels against_wheels(const std::vector<RecordedState>& states,
+                                  const WheelReference& wheels);
 
 }  // namespace cremed

@@ -10,7 +10,6 @@
 #include "tools/eval/drive/baselines.hpp"
 #include "tools/eval/drive/drive_json.hpp"
 #include "tools/eval/drive/drive_report.hpp"
-#include "tools/eval/drive/drive_tables.hpp"
 #include "tools/eval/drive/other_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
@@ -73,15 +72,14 @@ void say_what_is_missing(const std::vector<SourceEvaluation>& sources,
 }
 
 bool any_compared(const std::vector<SourceEvaluation>& sources) {
-  return std::any_of(sources.begin(), sources.end(),
-                     [](const SourceEvaluation& source) { return !source.errors.empty(); });
+  return std::ranges::any_of(sources,
+                             [](const SourceEvaluation& source) { return !source.errors.empty(); });
 }
 
 void check_overlap(const DriveFiles& files, const std::vector<SourceEvaluation>& sources,
                    const TrueTrajectory& truth) {
-  const bool is_outside =
-      std::any_of(sources.begin(), sources.end(),
-                  [](const SourceEvaluation& source) { return source.outside_truth != 0; });
+  const bool is_outside = std::ranges::any_of(
+      sources, [](const SourceEvaluation& source) { return source.outside_truth != 0; });
   if (is_outside && !any_compared(sources)) {
     throw std::runtime_error(
         concat({files.truth, ": its time, utime ", std::to_string(truth.utime_us().front()), " to ",

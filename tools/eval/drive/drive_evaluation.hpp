@@ -13,14 +13,12 @@
 
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/against_wheels.hpp"
-#include "tools/eval/drive/driven_path.hpp"
 #include "tools/eval/drive/path_drift.hpp"
 #include "tools/eval/drive/recorded_odometry.hpp"
 #include "tools/eval/drive/running_nees.hpp"
 #include "tools/eval/drive/trajectory_segments.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/eval/drive/truth_noise.hpp"
-#include "tools/eval/drive/twist_against_wheels.hpp"
 #include "tools/eval/drive/wheel_reference.hpp"
 
 namespace cremed {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 
 #include "cremed/estimator/scan/degrees.hpp"
-#include "daemon/output/text_line.hpp"
 #include "daemon/output/tum_writer.hpp"
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/report_file.hpp"
@@ -27,17 +27,17 @@ std::string text(std::size_t count) { return std::to_string(count); }
 
 /// "-" if there is no segment.
 std::string text(double value, int decimals) {
-  return std::isnan(value) ? "-" : std::string(TextLine().fixed(value, decimals).view());
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
 /// A row of the drift table: `cell` of each length, then of all.
 template <typename Cell>
 void print_drift_row(std::FILE* file, const SourceEvaluation& source, const char* what, Cell cell) {
-  std::fprintf(file, "# %-15s %-8s", source.source.c_str(), what);
+  fmt::print(file, "# {:<15} {:<8}", source.source, what);
   for (const PathDrift& drift : source.drift) {
-    std::fprintf(file, " %7s", cell(drift).c_str());
+    fmt::print(file, " {:>7}", cell(drift));
   }
-  std::fprintf(file, " %7s\n", cell(mean_drift(source.drift)).c_str());
+  fmt::print(file, " {:>7}\n", cell(mean_drift(source.drift)));
 }
 
 void print_drift(std::FILE* file, const SourceEvaluation& source) {
@@ -47,9 +47,49 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
   row("segments", [](const PathDrift& d) { return text(d.segments); });
   if (gaps(source) != 0) {
     row("left out", [](const PathDrift& d) { return text(d.across_gaps); });
-    std::fprintf(file, "# %-15s omitted: segments across a gap without estimate; gaps: %zu\n",
-                 source.source.c_str(), gaps(source));
+    fmt::print(file, "# {:<15} omitted: segments across a gap without estimate; gaps: {}\n",
+               source.source, gaps(source));
   }
+}
+
+/// One axis' row; `unit` converts metres or radians.
+void print_axis(std::FILE* file, const std::string& source, const char* name,
+                const AxisAgainstWheels& axis, double unit) {
+  fmt::print(file,
+             "# {:<15} {:<10} {:6} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.4f} {:>9.4f} "
+             "{:>9.4f}\n",
+             source, name, axis.count, axis.nees, axis.nees_estimate, axis.nees_truth,
+             axis.nees_cross, axis.nees_against_truth(), unit * axis.rms_estimate_per_s,
+             unit * axis.rms_truth_per_s, unit * axis.rms_both_per_s);
+}
+
+void print_twist(std::FILE* file, const std::string& source, const TwistAgainstWheels& twist) {
+  fmt::print(file, "# {:<15} {:<10} {:6} {:>9.3f} {:>39} {:>9.4f}\n", source, "vx m/s", twist.count,
+             twist.nees_speed, "", twist.rms_speed_mps);
+  fmt::print(file, "# {:<15} {:<10} {:6} {:>9.3f} {:>39} {:>9.4f}\n", source, "w deg/s",
+             twist.count, twist.nees_yaw_rate, "", kDegPerRad * twist.rms_yaw_rate_radps);
+}
+
+void print_truth(std::FILE* file, const std::vector<TruthAgainstWheels>& truth) {
+  fmt::print(
+      file,
+      "# truth against the wheels over intervals of one length, RMS; y: upper bound, includes "
+      "slip in bends\n# {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+      "s", "intervals", "x_m", "y_m", "yaw_rad", "x_m/s", "yaw_deg/s");
+  for (const TruthAgainstWheels& t : truth) {
+    fmt::print(file, "# {:>6.3f} {:9} {:>9.4f} {:>9.4f} {:>9.6f} {:>9.4f} {:>9.4f}\n", t.interval_s,
+               t.count, t.rms_x_m, t.rms_y_m, t.rms_yaw_rad, t.rms_x_m / t.interval_s,
+               kDegPerRad * t.rms_yaw_rad / t.interval_s);
+  }
+}
+
+void print_segment(std::FILE* file, const std::string& source, const SegmentErrors& errors) {
+  fmt::print(file,
+             "# {:<15} {:>6} {:8} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.2f} {:8} {:>8.2f} {:>8.2f} "
+             "{:>8.2f} {:>8.2f}\n",
+             source, to_text(errors.length), errors.segments, errors.rmse.x(), errors.rmse.y(),
+             kDegPerRad * errors.rmse.z(), errors.position_percent, errors.chains, errors.anees,
+             errors.nees.x(), errors.nees.y(), errors.nees.z());
 }
 
 }  // namespace
@@ -57,26 +97,26 @@ void print_drift(std::FILE* file, const SourceEvaluation& source) {
 void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                  const TruthNoise& noise) {
   const std::string note = noise.note();
-  std::fprintf(
+  fmt::print(
       file,
       "# n estimates against truth: RMS errors; anees: mean of (error / sigma)^2, 1 if the "
       "covariance is credible,\n# less if it is too large; share of errors within 1, 2, 3 sigma, "
-      "of a Gaussian 0.683, 0.954, 0.997%s%s\n",
-      note.empty() ? "" : "; ", note.c_str());
-  std::fprintf(file, "%-16s %s\n", "# source", kCredibilityColumns);
+      "of a Gaussian 0.683, 0.954, 0.997{}{}\n",
+      note.empty() ? "" : "; ", note);
+  fmt::print(file, "{:<16} {}\n", "# source", kCredibilityColumns);
   for (const SourceEvaluation& source : sources) {
-    std::fprintf(file, "%-16s %s\n", source.source.c_str(), to_line(source.credibility).c_str());
+    fmt::print(file, "{:<16} {}\n", source.source, to_line(source.credibility));
   }
   for (const SourceEvaluation& source : sources) {
-    std::fprintf(file, "# %-15s a usable estimate for %s %% of the drive\n", source.source.c_str(),
-                 text(source.availability.percent, 1).c_str());
+    fmt::print(file, "# {:<15} a usable estimate for {} % of the drive\n", source.source,
+               text(source.availability.percent, 1));
   }
-  std::fprintf(file,
-               "# drift over segments of the true path, mean of all segments (KITTI)\n# %-24s", "");
+  fmt::print(file, "# drift over segments of the true path, mean of all segments (KITTI)\n# {:<24}",
+             "");
   for (const double length_m : kDriftLengthsM) {
-    std::fprintf(file, " %5.0f m", length_m);
+    fmt::print(file, " {:>5.0f} m", length_m);
   }
-  std::fprintf(file, "     all\n");
+  fmt::print(file, "     all\n");
   for (const SourceEvaluation& source : sources) {
     print_drift(file, source);
   }
@@ -84,40 +124,39 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
 
 void write_truth_csv(const std::string& path, const TrueTrajectory& truth) {
   ReportFile file(path);
-  std::fprintf(file.stream(), "x_m,y_m\n");
+  file.print("x_m,y_m\n");
   for (const Pose2& pose : truth.poses()) {
-    std::fprintf(file.stream(), "%.4f,%.4f\n", pose.x_m - truth.poses().front().x_m,
-                 pose.y_m - truth.poses().front().y_m);
+    file.print("{:.4f},{:.4f}\n", pose.x_m - truth.poses().front().x_m,
+               pose.y_m - truth.poses().front().y_m);
   }
   file.close();
 }
 
 void write_sources_csv(const std::string& path, const std::vector<SourceEvaluation>& sources) {
   ReportFile file(path);
-  std::fprintf(file.stream(),
-               "source,dof,estimates,without_estimate,availability_percent,gaps,rmse_m,rmse_deg,"
-               "anees,anees_low,"
-               "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw,segments,across_gaps,"
-               "translation_percent,rotation_deg_per_m,windows_10s,yaw_deg_10s,percent_10s,"
-               "anees_10s\n");
+  file.print(
+      "source,dof,estimates,without_estimate,availability_percent,gaps,rmse_m,rmse_deg,"
+      "anees,anees_low,"
+      "anees_high,nees_low,nees_high,outside_x,outside_y,outside_yaw,segments,across_gaps,"
+      "translation_percent,rotation_deg_per_m,windows_10s,yaw_deg_10s,percent_10s,"
+      "anees_10s\n");
   for (const SourceEvaluation& source : sources) {
     const Credibility& c = source.credibility;
     const int dof = source.degrees_of_freedom;
     const Interval anees = anees_interval(c.count(), dof, 0.95);
     const Interval nees = anees_interval(1, dof, 0.95);
     const PathDrift drift = mean_drift(source.drift);
-    std::FILE* const out = file.stream();
-    std::fprintf(out, "%s,%d,%zu,%zu,%.3f,%zu,", source.source.c_str(), dof, c.count(),
-                 source.without_estimate, source.availability.percent, gaps(source));
-    std::fprintf(out, "%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,", c.rmse_m(), c.rmse_deg(), c.anees(),
-                 anees.low, anees.high, nees.low, nees.high);
-    std::fprintf(out, "%.4f,%.4f,%.4f,", 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3),
-                 1.0 - c.coverage(2, 3));
-    std::fprintf(out, "%zu,%zu,%.5g,%.5g,", drift.segments, drift.across_gaps,
-                 drift.translation_percent, drift.rotation_deg_per_m);
+    file.print("{},{},{},{},{:.3f},{},", source.source, dof, c.count(), source.without_estimate,
+               source.availability.percent, gaps(source));
+    file.print("{:.5f},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},", c.rmse_m(), c.rmse_deg(),
+               c.anees(), anees.low, anees.high, nees.low, nees.high);
+    file.print("{:.4f},{:.4f},{:.4f},", 1.0 - c.coverage(0, 3), 1.0 - c.coverage(1, 3),
+               1.0 - c.coverage(2, 3));
+    file.print("{},{},{:.5g},{:.5g},", drift.segments, drift.across_gaps, drift.translation_percent,
+               drift.rotation_deg_per_m);
     const SegmentErrors& late = after_time(source.segments, 10.0);
-    std::fprintf(out, "%zu,%.5g,%.5g,%.5g\n", late.segments, kDegPerRad * late.rmse.z(),
-                 late.position_percent, late.anees);
+    file.print("{},{:.5g},{:.5g},{:.5g}\n", late.segments, kDegPerRad * late.rmse.z(),
+               late.position_percent, late.anees);
   }
   file.close();
 }
@@ -125,20 +164,19 @@ void write_sources_csv(const std::string& path, const std::vector<SourceEvaluati
 void write_errors_csv(const std::string& path, const std::vector<SourceEvaluation>& sources,
                       const TrueTrajectory& truth) {
   ReportFile file(path);
-  std::fprintf(file.stream(),
-               "source,time_s,x_m,y_m,yaw_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,nees,mean_nees,"
-               "mean_low,mean_high,speed_mps,true_speed_mps,yaw_rate_degps,true_yaw_rate_degps\n");
+  file.print(
+      "source,time_s,x_m,y_m,yaw_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,nees,mean_nees,"
+      "mean_low,mean_high,speed_mps,true_speed_mps,yaw_rate_degps,true_yaw_rate_degps\n");
   for (const SourceEvaluation& source : sources) {
     for (std::size_t i = 0; i < source.errors.size(); ++i) {
       const EstimateError& e = source.errors[i];
       const RunningNees& running = source.mean_nees[i];
-      std::fprintf(file.stream(), "%s,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.5g,%.5g,%.5g,%.5g,",
-                   source.source.c_str(), seconds(e.utime_us, truth), e.error.x(), e.error.y(),
-                   kDegPerRad * e.error.z(), e.sigma.x(), e.sigma.y(), kDegPerRad * e.sigma.z(),
-                   e.nees, running.mean, running.interval.low, running.interval.high);
-      std::fprintf(file.stream(), "%.4f,%.4f,%.4f,%.4f\n", e.estimate.forward_mps,
-                   e.truth.forward_mps, kDegPerRad * e.estimate.yaw_radps,
-                   kDegPerRad * e.truth.yaw_radps);
+      file.print("{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.5g},{:.5g},{:.5g},{:.5g},",
+                 source.source, seconds(e.utime_us, truth), e.error.x(), e.error.y(),
+                 kDegPerRad * e.error.z(), e.sigma.x(), e.sigma.y(), kDegPerRad * e.sigma.z(),
+                 e.nees, running.mean, running.interval.low, running.interval.high);
+      file.print("{:.4f},{:.4f},{:.4f},{:.4f}\n", e.estimate.forward_mps, e.truth.forward_mps,
+                 kDegPerRad * e.estimate.yaw_radps, kDegPerRad * e.truth.yaw_radps);
     }
   }
   file.close();
@@ -147,12 +185,12 @@ void write_errors_csv(const std::string& path, const std::vector<SourceEvaluatio
 void write_path_csv(const std::string& path, const std::vector<SourceEvaluation>& sources,
                     const TrueTrajectory& truth) {
   ReportFile file(path);
-  std::fprintf(file.stream(), "source,x_m,y_m,gaps\n");
+  file.print("source,x_m,y_m,gaps\n");
   for (const SourceEvaluation& source : sources) {
     for (const PathPose& pose : source.path) {
-      std::fprintf(file.stream(), "%s,%.4f,%.4f,%zu\n", source.source.c_str(),
-                   pose.estimate.x_m - truth.poses().front().x_m,
-                   pose.estimate.y_m - truth.poses().front().y_m, pose.gaps);
+      file.print("{},{:.4f},{:.4f},{}\n", source.source,
+                 pose.estimate.x_m - truth.poses().front().x_m,
+                 pose.estimate.y_m - truth.poses().front().y_m, pose.gaps);
     }
   }
   file.close();
@@ -160,13 +198,11 @@ void write_path_csv(const std::string& path, const std::vector<SourceEvaluation>
 
 void write_drift_csv(const std::string& path, const std::vector<SourceEvaluation>& sources) {
   ReportFile file(path);
-  std::fprintf(file.stream(),
-               "source,length_m,segments,across_gaps,translation_percent,rotation_deg_per_m\n");
+  file.print("source,length_m,segments,across_gaps,translation_percent,rotation_deg_per_m\n");
   for (const SourceEvaluation& source : sources) {
     for (const PathDrift& drift : source.drift) {
-      std::fprintf(file.stream(), "%s,%g,%zu,%zu,%.5g,%.5g\n", source.source.c_str(),
-                   drift.length_m, drift.segments, drift.across_gaps, drift.translation_percent,
-                   drift.rotation_deg_per_m);
+      file.print("{},{:g},{},{},{:.5g},{:.5g}\n", source.source, drift.length_m, drift.segments,
+                 drift.across_gaps, drift.translation_percent, drift.rotation_deg_per_m);
     }
   }
   file.close();
@@ -181,10 +217,52 @@ void write_truth_tum(const std::string& path, const std::vector<SourceEvaluation
   }
   ReportFile file(path);
   for (const auto& [utime_us, pose] : poses) {
-    const TextLine line = tum_line(utime_us, pose);
-    std::fwrite(line.view().data(), 1, line.view().size(), file.stream());
+    file.print("{}", tum_line(utime_us, pose).view());
   }
   file.close();
+}
+
+void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                    const TruthNoise& noise) {
+  const std::string note = noise.note();
+  fmt::print(
+      file,
+      "# pose after a distance or a time. Errors after a time: over every window, begun 0.5 s "
+      "apart (of the vehicle's\n# state: of the poses since the start). ANEES: of estimates "
+      "chained as independent, from every anchor, the only\n# time without covariance, to the row "
+      "nearest to that time (of motions: begun 0.5 s apart){}{}\n",
+      note.empty() ? "" : "; ", note);
+  fmt::print(file, "# {:<15} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
+             "source", "after", "segments", "rmse_x_m", "rmse_y_m", "yaw_deg", "%_of_way", "chains",
+             "anees", "nees_x", "nees_y", "nees_yaw");
+  for (const SourceEvaluation& source : sources) {
+    for (const SegmentErrors& errors : source.segments) {
+      if (errors.segments + errors.chains != 0) {
+        print_segment(file, source.source, errors);
+      }
+    }
+  }
+}
+
+void print_wheels(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                  const WheelReference& wheels, const std::vector<TruthAgainstWheels>& truth) {
+  fmt::print(file,
+             "# against the wheels (nees_wheels includes their std {:g} m/s, {:g} rad/s); NEES "
+             "against truth = estimate + truth + cross\n",
+             wheels.std().speed_mps, wheels.std().yaw_rate_radps);
+  fmt::print(file, "# {:<15} {:<10} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+             "source", "axis", "n", "nees_whls", "estimate", "truth", "cross", "nees_trth",
+             "rms_est", "rms_truth", "rms_e-t");
+  for (const SourceEvaluation& source : sources) {
+    if (source.wheels) {
+      print_axis(file, source.source, "x m/s", source.wheels->x, 1.0);
+      print_axis(file, source.source, "yaw deg/s", source.wheels->yaw, kDegPerRad);
+    }
+    if (source.twist) {
+      print_twist(file, source.source, *source.twist);
+    }
+  }
+  print_truth(file, truth);
 }
 
 }  // namespace cremed

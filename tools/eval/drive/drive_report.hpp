@@ -28,4 +28,13 @@ void write_drift_csv(const std::string& path, const std::vector<SourceEvaluation
 /// times. Throws std::runtime_error.
 void write_truth_tum(const std::string& path, const std::vector<SourceEvaluation>& sources);
 
+/// Table below a drive's figures, as comments: the pose after a distance or a time.
+void print_segments(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                    const TruthNoise& noise);
+
+/// Each source's x and yaw against the wheels with the split of NEES, the twist if there is one,
+/// and truth against the wheels.
+void print_wheels(std::FILE* file, const std::vector<SourceEvaluation>& sources,
+                  const WheelReference& wheels, const std::vector<TruthAgainstWheels>& truth);
+
 }  // namespace cremed

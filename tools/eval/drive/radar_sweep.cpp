@@ -29,9 +29,7 @@ const RecordedScan* nearest(const std::vector<RecordedScan>& scans, std::int64_t
   const auto distance_s = [&](const RecordedScan& scan) {
     return std::abs(seconds_between(scan.stamp_us, stamp_us));
   };
-  const auto best = std::min_element(scans.begin(), scans.end(), [&](const auto& a, const auto& b) {
-    return distance_s(a) < distance_s(b);
-  });
+  const auto best = std::ranges::min_element(scans, {}, distance_s);
   return best != scans.end() && distance_s(*best) <= kMaxTimeDifferenceS ? &*best : nullptr;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/eval/csv_matrix.hpp"
+#include "tools/eval/csv_table.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 
 namespace cremed {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/submap_odometry.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -9,6 +11,10 @@
 
 namespace cremed {
 namespace {
+
+constexpr int kGrids = 4;
+/// One point has no distribution.
+constexpr int kLeastPoints = 2;
 
 constexpr int kMaxIterations = 30;
 constexpr double kStepTolerance = 1e-5;
@@ -29,6 +35,7 @@ std::vector<UncertainPoint> standing_points(const Sweep& sweep, const KellnerVel
 std::vector<UncertainPoint> placed(const std::vector<UncertainPoint>& points, const Pose2& pose) {
   const Eigen::Matrix2d turn = rotation_matrix(pose.yaw_rad);
   std::vector<UncertainPoint> result;
+  result.reserve(points.size());
   for (const UncertainPoint& point : points) {
     result.push_back({turn * point.position_m + Eigen::Vector2d(pose.x_m, pose.y_m),
                       turn * point.covariance_m2 * turn.transpose()});
@@ -81,6 +88,61 @@ Match matched(const NdtMap& map, const std::vector<UncertainPoint>& points,
 
 }  // namespace
 
+/// Index of the cell of a point.
+std::int64_t NdtMap::key(int grid, const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d shift(grid % 2 == 0 ? 0.0 : 0.5, grid < 2 ? 0.0 : 0.5);
+  const Eigen::Vector2d cell = point_m / cell_m_ + shift;
+  const auto column = static_cast<std::int64_t>(std::floor(cell.x()));
+  const auto row = static_cast<std::int64_t>(std::floor(cell.y()));
+  return ((column + (std::int64_t{1} << 24)) << 32 | (row + (std::int64_t{1} << 24))) * kGrids +
+         grid;
+}
+
+void NdtMap::add(const UncertainPoint& point) {
+  for (int grid = 0; grid < kGrids; ++grid) {
+    Cell& cell = cells_[key(grid, point.position_m)];
+    ++cell.points;
+    cell.sum_m += point.position_m;
+    cell.squares_m2 += point.position_m * point.position_m.transpose() + point.covariance_m2;
+  }
+}
+
+void NdtMap::remove(const UncertainPoint& point) {
+  for (int grid = 0; grid < kGrids; ++grid) {
+    const auto cell = cells_.find(key(grid, point.position_m));
+    if (--cell->second.points == 0) {
+      cells_.erase(cell);
+      continue;
+    }
+    cell->second.sum_m -= point.position_m;
+    cell->second.squares_m2 -=
+        point.position_m * point.position_m.transpose() + point.covariance_m2;
+  }
+}
+
+void NdtMap::add_point(const UncertainPoint& point, const Eigen::Vector2d& centre_m,
+                       Equations& equations) const {
+  const Eigen::Vector2d arm = point.position_m - centre_m;
+  Eigen::Matrix<double, 2, 3> by_motion;
+  by_motion << 1.0, 0.0, -arm.y(), 0.0, 1.0, arm.x();
+  for (int grid = 0; grid < kGrids; ++grid) {
+    const auto found = cells_.find(key(grid, point.position_m));
+    if (found == cells_.end() || found->second.points < kLeastPoints) {
+      continue;
+    }
+    const Cell& cell = found->second;
+    const Eigen::Vector2d mean = cell.sum_m / cell.points;
+    const Eigen::Matrix2d covariance =
+        cell.squares_m2 / cell.points - mean * mean.transpose() + point.covariance_m2;
+    const Eigen::Matrix2d information = covariance.inverse();
+    const Eigen::Vector2d error = mean - point.position_m;
+    const double likelihood = std::exp(-0.5 * error.dot(information * error)) / kGrids;
+    equations.information += likelihood * by_motion.transpose() * information * by_motion;
+    equations.right += likelihood * by_motion.transpose() * information * error;
+    equations.likelihood += likelihood;
+  }
+}
+
 void SubmapOdometry::add_to_map(const std::vector<UncertainPoint>& placed_points) {
   for (const UncertainPoint& point : placed_points) {
     map_.add(point);
@@ -100,8 +162,8 @@ SubmapOdometry::Result SubmapOdometry::update(const Sweep& sweep, const KellnerV
   const Match match = matched(map_, points, expectation(pose_, motion, dt_s));
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = rotation_matrix(-pose_.yaw_rad);
-  const Result result{motion_between(pose_, match.pose),
-                      turn * match.equations.information.inverse() * turn.transpose()};
+  Result result{motion_between(pose_, match.pose),
+                turn * match.equations.information.inverse() * turn.transpose()};
   pose_ = match.pose;
   add_to_map(placed(points, pose_));
   return result;

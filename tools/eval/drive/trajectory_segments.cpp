@@ -128,7 +128,7 @@ using AllLengths = std::vector<LengthErrors>;
 void add_segments(const std::vector<RecordedEstimate>& estimates, std::size_t first,
                   const TrueTrajectory& truth, const TruthNoise& noise, AllLengths& lengths) {
   const std::int64_t begin_us = estimates[first].start_us;
-  std::for_each(lengths.begin(), lengths.end(), [](LengthErrors& length) { length.open(); });
+  std::ranges::for_each(lengths, [](LengthErrors& length) { length.open(); });
   MotionChain chain(begin_us);
   MotionChain before = chain;
   for (std::size_t i = first; i < estimates.size() && chain.add(estimates[i]); ++i) {
@@ -176,9 +176,8 @@ std::vector<SegmentErrors> trajectory_segments(const RecordedOdometry& odometry,
 }
 
 const SegmentErrors& after_time(const std::vector<SegmentErrors>& segments, double time_s) {
-  const auto found = std::find_if(segments.begin(), segments.end(), [&](const auto& errors) {
-    return errors.length.time_s == time_s;
-  });
+  const auto found = std::ranges::find_if(
+      segments, [&](const auto& errors) { return errors.length.time_s == time_s; });
   if (found == segments.end()) {
     throw std::invalid_argument("no segments of that time");
   }

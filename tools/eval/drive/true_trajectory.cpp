@@ -19,7 +19,7 @@ namespace {
 double wrap(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
 
 void check_order(const std::vector<std::int64_t>& utime_us) {
-  const auto late = std::adjacent_find(utime_us.begin(), utime_us.end(), std::greater_equal<>());
+  const auto late = std::ranges::adjacent_find(utime_us, std::greater_equal<>());
   if (late != utime_us.end()) {
     throw std::runtime_error("row " + std::to_string(late - utime_us.begin() + 2) +
                              ": utime does not increase");

@@ -3,10 +3,10 @@
 #include "tools/eval/drive/truth_noise.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace cremed {
 namespace {
@@ -18,9 +18,7 @@ RelativePoseStd between(const RelativePoseStd& a, const RelativePoseStd& b, doub
 }
 
 RelativePoseStd at(const std::vector<RelativePoseStd>& stds, double interval_s) {
-  const auto after = std::find_if(stds.begin(), stds.end(), [&](const RelativePoseStd& std) {
-    return std.interval_s > interval_s;
-  });
+  const auto after = std::ranges::upper_bound(stds, interval_s, {}, &RelativePoseStd::interval_s);
   if (after == stds.begin()) {
     return stds.front();
   }
@@ -30,10 +28,7 @@ RelativePoseStd at(const std::vector<RelativePoseStd>& stds, double interval_s) 
 }  // namespace
 
 TruthNoise::TruthNoise(std::vector<RelativePoseStd> stds) : stds_(std::move(stds)) {
-  std::stable_sort(stds_.begin(), stds_.end(),
-                   [](const RelativePoseStd& a, const RelativePoseStd& b) {
-                     return a.interval_s < b.interval_s;
-                   });
+  std::ranges::stable_sort(stds_, {}, &RelativePoseStd::interval_s);
 }
 
 Eigen::Matrix3d TruthNoise::covariance(std::int64_t interval_us) const {
@@ -47,13 +42,10 @@ Eigen::Matrix3d TruthNoise::covariance(std::int64_t interval_us) const {
 std::string TruthNoise::note() const {
   std::string note;
   for (const RelativePoseStd& std : stds_) {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "%s%g, %g m, %g rad", note.empty() ? "" : "; ", std.x_m,
-                  std.y_m, std.yaw_rad);
-    note += text.data();
+    note += fmt::format("{}{:g}, {:g} m, {:g} rad", note.empty() ? "" : "; ", std.x_m, std.y_m,
+                        std.yaw_rad);
     if (stds_.size() > 1) {
-      std::snprintf(text.data(), text.size(), " over %g s", std.interval_s);
-      note += text.data();
+      note += fmt::format(" over {:g} s", std.interval_s);
     }
   }
   return note.empty() ? note : "truth's own std added to the covariance: " + note;

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/laboratory/bench/bench_problem.hpp"
 
-#include <cmath>
-#include <random>
-
 #include "tools/laboratory/pairs/profile.hpp"
 #include "tools/laboratory/table/simulated_pairs.hpp"
 
@@ -24,45 +21,18 @@ struct Area {
   double half_width_m;
 };
 
-struct Sensor {
-  double range_std_m;
-  double azimuth_std_rad;
-  double doppler_std_mps;
-};
-
-struct Point {
-  double x_m;
-  double y_m;
-};
-
-/// A static target seen by a radar at the vehicle's origin that drives straight ahead.
-Detection see(const Point& point, double speed_mps, const Sensor& sensor, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Detection detection;
-  detection.range_std_m = sensor.range_std_m;
-  detection.azimuth_std_rad = sensor.azimuth_std_rad;
-  detection.doppler_std_mps = sensor.doppler_std_mps;
-  const double azimuth_rad = std::atan2(point.y_m, point.x_m);
-  detection.range_m = std::hypot(point.x_m, point.y_m) + sensor.range_std_m * normal(random);
-  detection.azimuth_rad = azimuth_rad + sensor.azimuth_std_rad * normal(random);
-  detection.doppler_mps =
-      -speed_mps * std::cos(azimuth_rad) + sensor.doppler_std_mps * normal(random);
-  detection.validity = Validity::usable;
-  return detection;
-}
-
-RegistrationPair random_pair(std::size_t targets, const Area& area, const Sensor& sensor,
-                             std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+/// Static targets seen by a radar at the vehicle's origin that drives straight ahead.
+RegistrationPair random_pair(std::size_t targets, const Area& area, const DetectionNoise& noise,
+                             Random& random) {
   RegistrationPair pair;
   pair.dt_s = kIntervalS;
-  pair.truth.x_m = 0.25 * unit(random);
-  const double speed_mps = pair.truth.x_m / kIntervalS;
+  pair.truth.x_m = random.uniform(-0.25, 0.25);
+  const Eigen::Vector2d moved_m(pair.truth.x_m, 0.0);
   for (std::size_t i = 0; i < targets; ++i) {
-    const Point point{area.x_m + area.half_length_m * unit(random),
-                      area.half_width_m * unit(random)};
-    pair.previous.push_back(see(point, speed_mps, sensor, random));
-    pair.current.push_back(see({point.x_m - pair.truth.x_m, point.y_m}, speed_mps, sensor, random));
+    const double ahead_m = area.x_m + area.half_length_m * random.uniform(-1.0, 1.0);
+    const Eigen::Vector2d point_m(ahead_m, area.half_width_m * random.uniform(-1.0, 1.0));
+    pair.previous.push_back(observe(point_m, moved_m / kIntervalS, noise, random));
+    pair.current.push_back(observe(point_m - moved_m, moved_m / kIntervalS, noise, random));
   }
   return pair;
 }
@@ -86,7 +56,7 @@ std::vector<BenchProblem> simulated_problems(Likelihood likelihood) {
 }
 
 BenchProblem problem_of_size(std::size_t targets, Likelihood likelihood) {
-  std::mt19937_64 random(kSeed);
+  Random random(kSeed, 0);
   BenchProblem problem{std::to_string(targets), *profile("sim", true, likelihood), {}};
   for (std::size_t k = 0; k < kPairsOfSize; ++k) {
     problem.pairs.push_back(random_pair(targets, {30.0, 28.0, 25.0}, {0.13, 0.0157, 0.3}, random));
@@ -95,7 +65,7 @@ BenchProblem problem_of_size(std::size_t targets, Likelihood likelihood) {
 }
 
 BenchProblem ambiguous_problem(Likelihood likelihood) {
-  std::mt19937_64 random(kSeed);
+  Random random(kSeed, 0);
   BenchProblem problem{"worst", *profile("nuscenes", true, likelihood), {}};
   problem.options.degrees_of_freedom = 3;
   for (std::size_t k = 0; k < kPairsOfSize; ++k) {

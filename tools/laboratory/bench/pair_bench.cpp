@@ -88,7 +88,7 @@ double mean_of(const std::vector<Case>& cases, Value value) {
 /// The ratio compares least times on both sides, without caches emptied by other programs.
 void set_counters(const std::vector<Case>& cases, std::vector<double>& times_us,
                   benchmark::State& state) {
-  std::sort(times_us.begin(), times_us.end());
+  std::ranges::sort(times_us);
   const double targets = mean_of(cases, [](const Case& c) {
     return 0.5 * static_cast<double>(c.previous.size() + c.current.size());
   });
@@ -121,7 +121,7 @@ void run(benchmark::State& state, const BenchProblem& problem) {
     next = next + 1 == cases.size() ? 0 : next + 1;
   }
   for (int k = 0; k < kMoreRounds; ++k) {
-    std::for_each(cases.begin(), cases.end(), solve_us);
+    std::ranges::for_each(cases, solve_us);
   }
   set_counters(cases, times_us, state);
 }

@@ -34,11 +34,10 @@ CorrespondenceCounts count_correspondences(const RegistrationPair& pair) {
   for (const Target& target : current) {
     const Eigen::Vector2d point_m = rotation * position(target) + translation_m;
     const Eigen::Matrix2d covariance = rotation * covariance_matrix(target) * rotation.transpose();
-    const bool has_partner =
-        std::any_of(previous.begin(), previous.end(), [&](const Target& other) {
-          return bhattacharyya_distance(point_m - position(other), covariance,
-                                        covariance_matrix(other)) < kMaxDistance;
-        });
+    const bool has_partner = std::ranges::any_of(previous, [&](const Target& other) {
+      return bhattacharyya_distance(point_m - position(other), covariance,
+                                    covariance_matrix(other)) < kMaxDistance;
+    });
     ++(has_partner ? counts.correspondences : counts.outliers);
   }
   return counts;
@@ -47,10 +46,10 @@ CorrespondenceCounts count_correspondences(const RegistrationPair& pair) {
 void write_correspondences_csv(const std::string& path,
                                const std::vector<RegistrationPair>& pairs) {
   ReportFile file(path);
-  std::fputs("pair,correspondences,outliers\n", file.stream());
+  file.print("pair,correspondences,outliers\n");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const CorrespondenceCounts counts = count_correspondences(pairs[i]);
-    std::fprintf(file.stream(), "%zu,%zu,%zu\n", i, counts.correspondences, counts.outliers);
+    file.print("{},{},{}\n", i, counts.correspondences, counts.outliers);
   }
   file.close();
 }

@@ -120,11 +120,9 @@ class Cost {
     using std::log;
     using std::sqrt;
     const T nearest =
-        std::min_element(densities.begin(), densities.end(),
-                         [](const Density<T>& a, const Density<T>& b) {
-                           return value_of(a.squared_distance) < value_of(b.squared_distance);
-                         })
-            ->squared_distance;
+        std::ranges::min_element(densities, [](const Density<T>& a, const Density<T>& b) {
+          return value_of(a.squared_distance) < value_of(b.squared_distance);
+        })->squared_distance;
     T sum(0.0);
     for (const Density<T>& density : densities) {
       const T distance = density.squared_distance - nearest;

@@ -62,9 +62,7 @@ double mixture_cost(Mixture& mixture, const TargetSet& current, double translati
 }
 
 void make_relative(std::vector<CostPoint>& points, double CostPoint::*member) {
-  const auto lowest = std::min_element(
-      points.begin(), points.end(),
-      [&](const CostPoint& a, const CostPoint& b) { return a.*member < b.*member; });
+  const auto lowest = std::ranges::min_element(points, {}, member);
   const double base = (*lowest).*member;
   for (CostPoint& point : points) {
     point.*member -= base;
@@ -111,13 +109,11 @@ std::vector<CostPoint> cost_curves(bool outlier) {
 
 void write_cost_csv(const std::string& path) {
   ReportFile file(path);
-  std::fputs("outlier,truth_m,translation_m,likelihood,sum_approximation,msm,msm_with_ray\n",
-             file.stream());
+  file.print("outlier,truth_m,translation_m,likelihood,sum_approximation,msm,msm_with_ray\n");
   for (const bool outlier : {false, true}) {
     for (const CostPoint& p : cost_curves(outlier)) {
-      std::fprintf(file.stream(), "%d,%.3f,%.3f,%.6f,%.6f,%.6f,%.6f\n", outlier ? 1 : 0,
-                   kCurveTruthM, p.translation_m, p.likelihood, p.sum_approximation, p.msm,
-                   p.msm_with_ray);
+      file.print("{},{:.3f},{:.3f},{:.6f},{:.6f},{:.6f},{:.6f}\n", outlier ? 1 : 0, kCurveTruthM,
+                 p.translation_m, p.likelihood, p.sum_approximation, p.msm, p.msm_with_ray);
     }
   }
   file.close();

@@ -33,14 +33,12 @@ TruthNoise nuscenes_truth_noise() {
 /// Keeps what the odometry puts out.
 class OutputSink final : public OdometrySink {
  public:
-  void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
   void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
   void on_fused(const EgoMotion& motion, std::int32_t) override {
     if (motion.has_estimate()) {
       fused.push_back(motion);
     }
   }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<Odometry> outputs;
   std::vector<EgoMotion> fused;
@@ -158,8 +156,8 @@ DriveFigures drive_figures(const TabledDrive& drive) {
 DriveFigures mean_figures(const std::vector<DriveFigures>& drives) {
   DriveFigures mean = drives.empty() ? DriveFigures{} : drives.front();
   std::erase_if(mean, [&](const auto& group) {
-    return !std::all_of(drives.begin(), drives.end(),
-                        [&](const DriveFigures& one) { return one.contains(group.first); });
+    return !std::ranges::all_of(drives,
+                                [&](const DriveFigures& one) { return one.contains(group.first); });
   });
   for (auto& [name, values] : mean) {
     for (std::size_t i = 0; i < values.size(); ++i) {

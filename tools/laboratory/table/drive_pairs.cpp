@@ -50,7 +50,6 @@ class PairingSink final : public OdometrySink {
     }
   }
   void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
-  [[nodiscard]] std::uint64_t failures() const override { return 0; }
 
   std::vector<UsableScan> scans;
   std::vector<EgoMotion> motions;
@@ -159,8 +158,7 @@ void add_paper(const DriveToPair& drive, std::string_view profile_name, const Tr
 
 std::size_t paired_radar(const Configuration& configuration) {
   const auto& radars = configuration.radars;
-  const auto front = std::find_if(radars.begin(), radars.end(),
-                                  [](const auto& radar) { return radar.name == "front"; });
+  const auto front = std::ranges::find(radars, "front", &RadarConfiguration::name);
   return front == radars.end() ? 0 : static_cast<std::size_t>(front - radars.begin());
 }
 

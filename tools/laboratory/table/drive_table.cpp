@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "daemon/output/text_line.hpp"
@@ -17,6 +18,38 @@
 
 namespace cremed {
 namespace {
+
+std::string comment(std::string_view name) {
+  return "<!-- cremed-eval table --drives: " + std::string(name) + " -->\n";
+}
+
+std::string line_of(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) {
+    line += " " + cell + " |";
+  }
+  return line + "\n";
+}
+
+/// Comment and table.
+struct Place {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::optional<Place> find(const std::string& readme, std::string_view name) {
+  const std::string title = comment(name);
+  const std::size_t begin = readme.find(title);
+  if (begin == std::string::npos) {
+    return std::nullopt;
+  }
+  Place place{begin, begin + title.size()};
+  while (place.end < readme.size() && readme[place.end] == '|') {
+    place.end = readme.find('\n', place.end);
+    place.end = place.end == std::string::npos ? readme.size() : place.end + 1;
+  }
+  return place;
+}
 
 struct KnownDrive {
   std::string_view name;
@@ -77,8 +110,7 @@ const std::vector<Layout>& layouts() {
 std::string cell(const DriveFigures& figures, const Column& column) {
   const auto found = figures.find(column.group);
   const auto is_number = [](double value) { return std::isfinite(value); };
-  if (found == figures.end() ||
-      !std::all_of(found->second.begin(), found->second.end(), is_number)) {
+  if (found == figures.end() || !std::ranges::all_of(found->second, is_number)) {
     return "–";
   }
   std::string text;
@@ -149,9 +181,8 @@ ReadmeTable table_of(const Layout& layout, const std::vector<NamedFigures>& driv
     table.header.emplace_back(column.title);
   }
   for (const NamedFigures& drive : drives) {
-    const bool has_any =
-        std::any_of(layout.columns.begin(), layout.columns.end(),
-                    [&](const Column& column) { return drive.figures.contains(column.group); });
+    const bool has_any = std::ranges::any_of(
+        layout.columns, [&](const Column& column) { return drive.figures.contains(column.group); });
     if (has_any) {
       std::vector<std::string>& row = table.rows.emplace_back();
       row.push_back(drive.name);
@@ -164,6 +195,24 @@ ReadmeTable table_of(const Layout& layout, const std::vector<NamedFigures>& driv
 }
 
 }  // namespace
+
+std::string to_markdown(const ReadmeTable& table) {
+  std::string text = comment(table.name) + line_of(table.header) + "|";
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    text += "---|";
+  }
+  text += "\n";
+  for (const auto& row : table.rows) {
+    text += line_of(row);
+  }
+  return text;
+}
+
+std::string with_table(const std::string& readme, const ReadmeTable& table) {
+  const auto place = find(readme, table.name);
+  return place ? readme.substr(0, place->begin) + to_markdown(table) + readme.substr(place->end)
+               : readme;
+}
 
 std::vector<ReadmeTable> drive_tables(const DriveTableOptions& options) {
   const auto drives = all_figures(options);

@@ -5,9 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "tools/laboratory/table/readme_table.hpp"
-
 namespace cremed {
+
+/// A table of a README, in Markdown below a comment with its name.
+struct ReadmeTable {
+  std::string name;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Comment and table.
+std::string to_markdown(const ReadmeTable& table);
+
+/// The README with the table in place of that of the same name; unchanged if it has none.
+std::string with_table(const std::string& readme, const ReadmeTable& table);
 
 struct DriveTableOptions {
   std::string data;           ///< Folder of the recorded drives.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,11 +11,27 @@
 
 #include "tools/eval/chi_square.hpp"
 #include "tools/eval/credibility.hpp"
-#include "tools/laboratory/table/nees_histogram.hpp"
 #include "tools/laboratory/table/published_figures.hpp"
 #include "tools/laboratory/table/simulated_pairs.hpp"
 
 namespace cremed {
+
+/// Histogram of the normalised estimation error squared (NEES, not divided by the degrees of
+/// freedom) with kBins bins; the last one includes everything above.
+class NeesHistogram {
+ public:
+  static constexpr std::size_t kBins = 41;
+  static constexpr double kBinWidth = 0.5;
+
+  void add(double nees) {
+    const double bin = std::clamp(nees / kBinWidth, 0.0, static_cast<double>(kBins - 1));
+    ++counts_.at(static_cast<std::size_t>(bin));
+  }
+  [[nodiscard]] const std::array<std::size_t, kBins>& counts() const { return counts_; }
+
+ private:
+  std::array<std::size_t, kBins> counts_{};
+};
 
 /// Size of the evaluation; 0: the paper's.
 struct PaperTableOptions {

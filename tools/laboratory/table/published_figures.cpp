@@ -38,9 +38,9 @@ constexpr std::array<PublishedRow, 16> kPublished{{
 }  // namespace
 
 Figures published_figures(std::string_view problem, std::string_view method) {
-  const auto* const row = std::find_if(
-      kPublished.begin(), kPublished.end(),
-      [&](const PublishedRow& r) { return r.problem == problem && r.method == method; });
+  const auto* const row = std::ranges::find_if(kPublished, [&](const PublishedRow& r) {
+    return r.problem == problem && r.method == method;
+  });
   return row == kPublished.end() ? Figures{} : row->figures;
 }
 

@@ -124,7 +124,7 @@ std::vector<std::filesystem::path> drives_in(const std::string& folder) {
                      " has no folder with can.log, truth.csv and cremed.toml; must be the "
                      "--output of `cremed-convert nuscenes`");
   }
-  std::sort(drives.begin(), drives.end());
+  std::ranges::sort(drives);
   return drives;
 }
 

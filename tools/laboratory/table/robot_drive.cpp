@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/laboratory/table/robot_drive.hpp"
 
-#include <array>
-
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "daemon/source/candump.hpp"
 #include "tools/line_stream.hpp"
 #include "tools/simulate/simulation.hpp"
 
@@ -29,17 +26,6 @@ Configuration robot() {
   return configuration;
 }
 
-void write_log(Simulation& simulation, const std::string& path) {
-  LineStream log(path);
-  std::array<char, kMaxCandumpLine> line{};
-  while (const auto frame = simulation.next()) {
-    const auto length =
-        format_candump_line(*frame, simulation.interfaces()[frame->interface], line);
-    log.stream().write(line.data(), static_cast<std::streamsize>(length));
-  }
-  log.finish();
-}
-
 }  // namespace
 
 RobotDrive::RobotDrive(std::uint64_t seed)
@@ -48,7 +34,9 @@ RobotDrive::RobotDrive(std::uint64_t seed)
   LineStream truth(drive_.truth);
   simulation.write_truth(truth.stream());
   truth.finish();
-  write_log(simulation, drive_.log);
+  LineStream log(drive_.log);
+  simulation.write_log(log.stream());
+  log.finish();
 }
 
 }  // namespace cremed

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Core>
-
 #include "cremed/estimator/scan/degrees.hpp"
-#include "tools/simulate/random.hpp"
 
 namespace cremed {
 namespace {
@@ -21,16 +18,18 @@ constexpr double kMaxStepM = 0.25;
 constexpr double kMaxTurnRad = 15.0 * kRadPerDeg;
 constexpr double kPeriodS = 0.2;
 
-constexpr SimulatedProblemSettings kPsr{
-    "PSR", "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, 0.2, 3.0 * kRadPerDeg, 0.3, 0, 100, 1000};
-constexpr SimulatedProblemSettings kPsrC{"PSR-C",          "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, 0.2,
-                                         3.0 * kRadPerDeg, 0.3,   8, 100, 1000};
-constexpr SimulatedProblemSettings kSim{
-    "Sim",  "sim", 2, 2.5, 37.5, 55.0 * kRadPerDeg, 40.0 * kRadPerDeg, 0.13,
-    0.0157, 0.3,   0, 50,  500};
-constexpr SimulatedProblemSettings kSimC{
-    "Sim-C", "sim", 2, 2.5, 37.5, 55.0 * kRadPerDeg, 40.0 * kRadPerDeg, 0.13,
-    0.0157,  0.3,   8, 50,  500};
+constexpr DetectionNoise kPsrNoise{0.2, 3.0 * kRadPerDeg, 0.3};
+constexpr DetectionNoise kSimNoise{0.13, 0.0157, 0.3};
+constexpr double kSimSpread = 55.0 * kRadPerDeg;
+constexpr double kSimView = 40.0 * kRadPerDeg;
+
+// By the enumerators' order.
+constexpr std::array<SimulatedProblemSettings, 4> kSettings{{
+    {"PSR", "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, kPsrNoise, 0, 100, 1000},
+    {"PSR-C", "psr", 3, 5.0, 15.0, kPi, 2.0 * kPi, kPsrNoise, 8, 100, 1000},
+    {"Sim", "sim", 2, 2.5, 37.5, kSimSpread, kSimView, kSimNoise, 0, 50, 500},
+    {"Sim-C", "sim", 2, 2.5, 37.5, kSimSpread, kSimView, kSimNoise, 8, 50, 500},
+}};
 
 /// Index of the random stream; run 0 is for the landmarks.
 std::uint64_t stream(SimulatedProblem problem, std::size_t set, std::size_t run) {
@@ -65,23 +64,6 @@ Pose2 draw_motion(const SimulatedProblemSettings& problem, Random& random) {
   return motion;
 }
 
-/// The landmark at `point_m` in the radar's frame, seen while the radar moves with (vx, vy).
-Detection observe(const SimulatedProblemSettings& problem, const Eigen::Vector2d& point_m,
-                  const Eigen::Vector2d& velocity_mps, Random& random) {
-  const double azimuth_rad = std::atan2(point_m.y(), point_m.x());
-  Detection detection;
-  detection.range_std_m = problem.range_std_m;
-  detection.azimuth_std_rad = problem.azimuth_std_rad;
-  detection.doppler_std_mps = problem.doppler_std_mps;
-  detection.range_m = point_m.norm() + problem.range_std_m * random.normal();
-  detection.azimuth_rad = azimuth_rad + problem.azimuth_std_rad * random.normal();
-  const Eigen::Vector2d line_of_sight(std::cos(azimuth_rad), std::sin(azimuth_rad));
-  detection.doppler_mps =
-      -velocity_mps.dot(line_of_sight) + problem.doppler_std_mps * random.normal();
-  detection.validity = Validity::usable;
-  return detection;
-}
-
 std::vector<Detection> observe_all(const SimulatedProblemSettings& problem,
                                    const Landmarks& landmarks, const Pose2& pose,
                                    const Eigen::Vector2d& velocity_mps, Random& random) {
@@ -93,7 +75,7 @@ std::vector<Detection> observe_all(const SimulatedProblemSettings& problem,
     const Eigen::Vector2d point_m(c * offset.x() + s * offset.y(),
                                   -s * offset.x() + c * offset.y());
     if (std::abs(std::atan2(point_m.y(), point_m.x())) <= problem.half_view_rad) {
-      detections.push_back(observe(problem, point_m, velocity_mps, random));
+      detections.push_back(observe(point_m, velocity_mps, problem.noise, random));
       detections.back().id = static_cast<std::uint16_t>(i);
     }
   }
@@ -103,17 +85,22 @@ std::vector<Detection> observe_all(const SimulatedProblemSettings& problem,
 }  // namespace
 
 const SimulatedProblemSettings& settings(SimulatedProblem problem) {
-  switch (problem) {
-    case SimulatedProblem::psr:
-      return kPsr;
-    case SimulatedProblem::psr_c:
-      return kPsrC;
-    case SimulatedProblem::sim:
-      return kSim;
-    case SimulatedProblem::sim_c:
-      break;
-  }
-  return kSimC;
+  return kSettings[static_cast<std::size_t>(problem)];
+}
+
+Detection observe(const Eigen::Vector2d& point_m, const Eigen::Vector2d& velocity_mps,
+                  const DetectionNoise& noise, Random& random) {
+  const double azimuth_rad = std::atan2(point_m.y(), point_m.x());
+  Detection detection;
+  detection.range_std_m = noise.range_m;
+  detection.azimuth_std_rad = noise.azimuth_rad;
+  detection.doppler_std_mps = noise.doppler_mps;
+  detection.range_m = point_m.norm() + noise.range_m * random.normal();
+  detection.azimuth_rad = azimuth_rad + noise.azimuth_rad * random.normal();
+  const Eigen::Vector2d line_of_sight(std::cos(azimuth_rad), std::sin(azimuth_rad));
+  detection.doppler_mps = -velocity_mps.dot(line_of_sight) + noise.doppler_mps * random.normal();
+  detection.validity = Validity::usable;
+  return detection;
 }
 
 RegistrationPair simulated_pair(SimulatedProblem problem, std::uint64_t seed, std::size_t set,

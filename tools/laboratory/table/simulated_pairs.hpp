@@ -8,7 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "tools/laboratory/pairs/registration_pairs.hpp"
+#include "tools/simulate/random.hpp"
 
 namespace cremed {
 
@@ -17,6 +20,13 @@ namespace cremed {
 enum class SimulatedProblem : std::uint8_t { psr, psr_c, sim, sim_c };
 inline constexpr std::array kSimulatedProblems{SimulatedProblem::psr, SimulatedProblem::psr_c,
                                                SimulatedProblem::sim, SimulatedProblem::sim_c};
+
+/// Standard deviations of a target's measurement.
+struct DetectionNoise {
+  double range_m;
+  double azimuth_rad;
+  double doppler_mps;
+};
 
 /// Parameters of a simulated problem.
 struct SimulatedProblemSettings {
@@ -27,15 +37,17 @@ struct SimulatedProblemSettings {
   double max_range_m;
   double half_spread_rad;  ///< Landmarks stand within +- this azimuth, uniform.
   double half_view_rad;    ///< The radar sees targets whose true azimuth is within +- this.
-  double range_std_m;
-  double azimuth_std_rad;
-  double doppler_std_mps;
+  DetectionNoise noise;
   std::size_t clusters;  ///< This many landmarks have two more beside them.
   std::size_t sets;      ///< Sets of landmarks in the paper's evaluation,
   std::size_t runs;      ///< and runs (motion and noise) with each.
 };
 
 const SimulatedProblemSettings& settings(SimulatedProblem problem);
+
+/// The static target at `point_m` in the radar's frame, seen while the radar moves with (vx, vy).
+Detection observe(const Eigen::Vector2d& point_m, const Eigen::Vector2d& velocity_mps,
+                  const DetectionNoise& noise, Random& random);
 
 /// One pair: the landmarks depend on (problem, seed, set), motion and noise also on `run`.
 /// Detection::id is the landmark's number, so equal ids correspond.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/laboratory/table/table_report.hpp"
 
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -15,29 +14,15 @@ namespace {
 constexpr const char* kNotes =
     "# RMSE counts x and y; ANEES is over the estimated states (x, yaw; PSR and ICP: x, y, yaw);\n"
     "# low, high: 95 % interval of the ANEES of consistent estimators; bound: least squares with\n"
-    "# known correspondences.\n";
-
-/// Column titles: text and, for the row of groups, the start of a group.
-std::string header() {
-  std::array<char, 320> buffer{};
-  std::snprintf(buffer.data(), buffer.size(),
-                "# %-28s %-40s %-49s| %-17s| %s\n"
-                "%-9s %-12s %7s %8s %8s %8s %8s %8s %6s %7s %8s %9s %7s %7s |%6s %5s %5s |%8s %6s "
-                "%6s\n",
-                "", "this run", "", "paper", "bound", "# problem", "method", "pairs", "rmse_m",
-                "rmse_deg", "anees", "low", "high", "iter", "ms_pair", "left_out", "ambiguous",
-                "no_conv", "nees>25", "m", "deg", "anees", "m", "deg", "anees");
-  return buffer.data();
-}
+    "# known correspondences.\n"
+    "#                              this run                                                   "
+    "                               | paper            | bound\n"
+    "# problem method         pairs   rmse_m rmse_deg    anees      low     high   iter "
+    "ms_pair left_out ambiguous no_conv nees>25 |     m   deg anees |       m    deg  anees\n";
 
 std::string text(double value, int width, int decimals, std::string_view unknown) {
-  std::array<char, 48> buffer{};
-  if (std::isnan(value)) {
-    std::snprintf(buffer.data(), buffer.size(), "%*s", width, unknown.data());
-  } else {
-    std::snprintf(buffer.data(), buffer.size(), "%*.*f", width, decimals, value);
-  }
-  return buffer.data();
+  return std::isnan(value) ? fmt::format("{:>{}}", unknown, width)
+                           : fmt::format("{:{}.{}f}", value, width, decimals);
 }
 
 /// A cell with a leading space. Large figures, of methods that fail, need no decimals.
@@ -46,28 +31,28 @@ std::string cell(double value, int width, int decimals) {
 }
 
 std::string figures(const Figures& f, int width_m, int decimals_m, int width, int decimals) {
-  return cell(f.rmse_m, width_m, decimals_m)
-      .append(cell(f.rmse_deg, width, decimals))
-      .append(cell(f.anees, width, decimals));
+  return cell(f.rmse_m, width_m, decimals_m) + cell(f.rmse_deg, width, decimals) +
+         cell(f.anees, width, decimals);
 }
 
 std::string csv(const Figures& f) {
-  return text(f.rmse_m, 0, 6, "")
-      .append(",")
-      .append(text(f.rmse_deg, 0, 5, ""))
-      .append(",")
-      .append(text(f.anees, 0, 5, ""));
+  return fmt::format("{},{},{}", text(f.rmse_m, 0, 6, ""), text(f.rmse_deg, 0, 5, ""),
+                     text(f.anees, 0, 5, ""));
+}
+
+/// This run's, and the interval of the ANEES of consistent estimators.
+template <typename Row>
+std::string ours(const Row& row) {
+  return cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) + cell(row.ours.anees, 8, 3) +
+         cell(row.consistent.low, 8, 3) + cell(row.consistent.high, 8, 3);
 }
 
 void print_row(std::FILE* stream, const TableRow& row) {
-  std::fprintf(stream, "%-9s %-12s", row.problem.data(), row.method.data());
-  const std::string ours = cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) +
-                           cell(row.ours.anees, 8, 3) + cell(row.consistent.low, 8, 3) +
-                           cell(row.consistent.high, 8, 3);
-  std::fprintf(stream, " %7zu%s %6.1f %7.3f %8zu %9zu %7zu %7zu |%s |%s\n", row.count, ours.c_str(),
-               row.iterations, row.milliseconds, row.left_out, row.ambiguous, row.no_convergence,
-               row.gross, figures(row.paper, 5, 3, 5, 2).c_str(),
-               figures(row.bound, 7, 5, 6, 3).c_str());
+  fmt::print(stream, "{:<9} {:<12}", row.problem, row.method);
+  fmt::print(stream, " {:7}{} {:>6.1f} {:>7.3f} {:8} {:9} {:7} {:7} |{} |{}\n", row.count,
+             ours(row), row.iterations, row.milliseconds, row.left_out, row.ambiguous,
+             row.no_convergence, row.gross, figures(row.paper, 5, 3, 5, 2),
+             figures(row.bound, 7, 5, 6, 3));
 }
 
 constexpr const char* kRealNotes =
@@ -78,21 +63,17 @@ constexpr const char* kRealNotes =
     "# (cremed-simulate --scenario campus, Bosch GPR); the paper's recording is not public.\n";
 
 void print_row(std::FILE* stream, const RealRow& row) {
-  const std::string ours = cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) +
-                           cell(row.ours.anees, 8, 3) + cell(row.consistent.low, 8, 3) +
-                           cell(row.consistent.high, 8, 3);
-  std::fprintf(stream, "%-9s %-12s %7zu%s %8zu |%s |%s\n", row.problem.data(), row.method.data(),
-               row.count, ours.c_str(), row.left_out, figures(row.paper, 6, 4, 6, 3).c_str(),
-               figures(row.paper_850, 6, 4, 6, 3).c_str());
+  fmt::print(stream, "{:<9} {:<12} {:7}{} {:8} |{} |{}\n", row.problem, row.method, row.count,
+             ours(row), row.left_out, figures(row.paper, 6, 4, 6, 3),
+             figures(row.paper_850, 6, 4, 6, 3));
 }
 
 void print_row(std::FILE* stream, const RealTable::Odometry& row) {
   const SegmentErrors& errors = row.errors;
-  std::fprintf(stream, "%-9s %-12s %8zu%s%s%s%s\n", row.problem.data(),
-               ("after " + to_text(errors.length)).c_str(), errors.segments,
-               cell(std::hypot(errors.rmse.x(), errors.rmse.y()), 8, 4).c_str(),
-               cell(errors.rmse.z() * kDegPerRad, 8, 3).c_str(), cell(errors.anees, 8, 3).c_str(),
-               cell(errors.position_percent, 8, 2).c_str());
+  fmt::print(stream, "{:<9} {:<12} {:8}{}{}{}{}\n", row.problem, "after " + to_text(errors.length),
+             errors.segments, cell(std::hypot(errors.rmse.x(), errors.rmse.y()), 8, 4),
+             cell(errors.rmse.z() * kDegPerRad, 8, 3), cell(errors.anees, 8, 3),
+             cell(errors.position_percent, 8, 2));
 }
 
 }  // namespace
@@ -100,17 +81,17 @@ void print_row(std::FILE* stream, const RealTable::Odometry& row) {
 void print_real_table(std::FILE* stream, const RealTable& table) {
   std::fputs(kRealNotes, stream);
   if (!table.note.empty()) {
-    std::fprintf(stream, "# NuSc: %s.\n", table.note.c_str());
+    fmt::print(stream, "# NuSc: {}.\n", table.note);
   }
-  std::fprintf(stream,
-               "# %-20s %-50s %8s | paper (NuSc: mini) | paper (NuSc: trainval)\n"
-               "# problem method      pairs   rmse_m rmse_deg    anees      low     high left_out |"
-               "     m    deg  anees |     m    deg  anees\n",
-               "", (std::to_string(table.drives) + " drives in the folder").c_str(), "");
+  fmt::print(stream,
+             "# {:<20} {:<50} {:>8} | paper (NuSc: mini) | paper (NuSc: trainval)\n"
+             "# problem method      pairs   rmse_m rmse_deg    anees      low     high left_out |"
+             "     m    deg  anees |     m    deg  anees\n",
+             "", (std::to_string(table.drives) + " drives in the folder"), "");
   for (const RealRow& row : table.rows) {
     print_row(stream, row);
   }
-  std::fprintf(
+  fmt::print(
       stream,
       "# Odometry of all radars: error of the pose after that time over every window, begun 0.5 s\n"
       "# apart; ANEES of the poses chained from every anchor.\n"
@@ -122,7 +103,6 @@ void print_real_table(std::FILE* stream, const RealTable& table) {
 
 void print_table(std::FILE* stream, const std::vector<TableRow>& rows) {
   std::fputs(kNotes, stream);
-  std::fputs(header().c_str(), stream);
   for (const TableRow& row : rows) {
     print_row(stream, row);
   }
@@ -130,27 +110,24 @@ void print_table(std::FILE* stream, const std::vector<TableRow>& rows) {
 
 void write_table_csv(const std::string& path, const std::vector<TableRow>& rows) {
   ReportFile file(path);
-  std::fputs(
+  file.print(
       "problem,method,dof,pairs,rmse_m,rmse_deg,anees,anees_low,anees_high,paper_m,paper_deg,"
-      "paper_anees,bound_m,bound_deg,bound_anees\n",
-      file.stream());
+      "paper_anees,bound_m,bound_deg,bound_anees\n");
   for (const TableRow& row : rows) {
-    std::fprintf(file.stream(), "%s,%s,%d,%zu,%s,%.5f,%.5f,%s,%s\n", row.problem.data(),
-                 row.method.data(), row.degrees_of_freedom, row.count, csv(row.ours).c_str(),
-                 row.consistent.low, row.consistent.high, csv(row.paper).c_str(),
-                 csv(row.bound).c_str());
+    file.print("{},{},{},{},{},{:.5f},{:.5f},{},{}\n", row.problem, row.method,
+               row.degrees_of_freedom, row.count, csv(row.ours), row.consistent.low,
+               row.consistent.high, csv(row.paper), csv(row.bound));
   }
   file.close();
 }
 
 void write_nees_csv(const std::string& path, const std::vector<TableRow>& rows) {
   ReportFile file(path);
-  std::fputs("problem,method,dof,low,count\n", file.stream());
+  file.print("problem,method,dof,low,count\n");
   for (const TableRow& row : rows) {
     for (std::size_t bin = 0; bin < NeesHistogram::kBins; ++bin) {
-      std::fprintf(file.stream(), "%s,%s,%d,%.2f,%zu\n", row.problem.data(), row.method.data(),
-                   row.degrees_of_freedom, NeesHistogram::kBinWidth * static_cast<double>(bin),
-                   row.nees.counts()[bin]);
+      file.print("{},{},{},{:.2f},{}\n", row.problem, row.method, row.degrees_of_freedom,
+                 NeesHistogram::kBinWidth * static_cast<double>(bin), row.nees.counts()[bin]);
     }
   }
   file.close();

@@ -5,9 +5,19 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/toml_reader.hpp"
 
+// The readers of single sections. Absent keys keep the values.
 namespace cremed {
 
-/// Reads [vehicle]; absent keys keep the values.
+/// [estimator] or [radar.estimator].
+void read_estimator(TomlReader reader, EgoMotionOptions& options);
+
+/// [odometry].
+void read_odometry(TomlReader reader, OdometryConfiguration& odometry);
+
+/// The one key of [odometry] that calibration finds.
+void read_slip_per_lateral_acceleration(TomlReader& reader, OdometryConfiguration& odometry);
+
+/// [vehicle].
 void read_vehicle(TomlReader& reader, VehicleConfiguration& vehicle, VehicleOptions& options);
 
 /// Reports what in the configuration contradicts [vehicle].

@@ -80,6 +80,7 @@ bool FaultHypotheses::take_step_back() {
   const bool has_stepped_back = evidence_.take_step_back();
   if (has_stepped_back) {
     convictions_.acquit(convictions_.accused());
+    unknown_epochs_ = 0;
   }
   return has_stepped_back;
 }

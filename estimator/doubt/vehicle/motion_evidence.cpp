@@ -91,6 +91,7 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   if (track.is_after_step && is_step(radar)) {
     track.is_after_step = false;
     has_stepped_back_ = !is_after_step(judged_);
+    count_ = has_stepped_back_ ? 0 : count_;
   }
   newest_us_ = std::max(newest_us_, stamp_us);
   const auto time_us = common_time();

@@ -57,8 +57,8 @@ NormalEquations ExclusiveCost::linearise(const Unknowns& at) {
           positions_.cost + doppler_.cost, doppler_.shared};
 }
 
-std::optional<Eigen::Matrix3d> ExclusiveCost::covariance(const Unknowns& at,
-                                                         const NormalEquations& equations) {
+std::optional<Estimate> ExclusiveCost::estimate(const Unknowns& at,
+                                                const NormalEquations& equations) {
   const auto complete = invert_information(equations.information, degrees_of_freedom_);
   if (!complete) {
     return std::nullopt;
@@ -66,11 +66,12 @@ std::optional<Eigen::Matrix3d> ExclusiveCost::covariance(const Unknowns& at,
   const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
   auto covariance = invert_information(
       equations.information - likelihood_.missing_information(sigma), degrees_of_freedom_);
-  if (covariance) {
-    add_consider_covariance(errors_, at.motion, dt_s_, has_doppler_, degrees_of_freedom_,
-                            *covariance);
+  if (!covariance) {
+    return std::nullopt;
   }
-  return covariance;
+  const Eigen::Vector3d motion = at.motion - *covariance * equations.gradient;
+  add_consider_covariance(errors_, motion, dt_s_, has_doppler_, degrees_of_freedom_, *covariance);
+  return Estimate{motion, *covariance};
 }
 
 double ExclusiveCost::doppler_nis() const {

@@ -33,6 +33,10 @@ class ExclusiveCost {
   void start();
   /// See MixtureCost. Larger here, because EM steps converge from farther away.
   static constexpr double kStartTolerance = 0.1;
+  /// 3 % of sigma, from where estimate() takes the last step, with the missing information. On
+  /// nuScenes 0061, 0103 and RadarScenes 105 the result is within 0.003 sigma (RMS) of that by EM
+  /// steps down to 0.3 %, and a search takes a third less of them.
+  static constexpr double kStepTolerance = 1e-3;
 
   NormalEquations linearise(const Unknowns& at);
   /// A step never raises the cost of the positions (EM, see above). With Doppler the costs of two
@@ -46,9 +50,10 @@ class ExclusiveCost {
 
   // At the last linearisation, `at`:
 
-  /// Inverse of the curvature of -log L, plus the consider parameters' part.
-  [[nodiscard]] std::optional<Eigen::Matrix3d> covariance(const Unknowns& at,
-                                                          const NormalEquations& equations);
+  /// The motion after a Newton step, and as covariance the inverse of the curvature of -log L plus
+  /// the consider parameters' part.
+  [[nodiscard]] std::optional<Estimate> estimate(const Unknowns& at,
+                                                 const NormalEquations& equations);
   /// Expected number of targets found again.
   [[nodiscard]] double matched() const { return likelihood_.matched(); }
   /// RegistrationResult::doppler_nis. At the solution the gradients g_p of the positions and

@@ -62,9 +62,10 @@ void MixtureCost::add_doppler(const Eigen::Vector3d& motion, NormalEquations& eq
   equations.cost += sums.cost;
 }
 
-std::optional<Eigen::Matrix3d> MixtureCost::covariance(const Unknowns& /*at*/,
-                                                       const NormalEquations& equations) const {
-  return invert_information(equations.information, degrees_of_freedom_);
+std::optional<Estimate> MixtureCost::estimate(const Unknowns& at,
+                                              const NormalEquations& equations) const {
+  const auto covariance = invert_information(equations.information, degrees_of_freedom_);
+  return covariance ? std::optional(Estimate{at.motion, *covariance}) : std::nullopt;
 }
 
 }  // namespace cremed

@@ -46,8 +46,11 @@ class MixtureCost {
   /// The first stage ends at a step whose squared length in standard deviations is smaller than
   /// this. It only provides the start of the second.
   static constexpr double kStartTolerance = 1e-2;
-  [[nodiscard]] std::optional<Eigen::Matrix3d> covariance(const Unknowns& at,
-                                                          const NormalEquations& equations) const;
+  /// A search ends at a step whose squared length in standard deviations (step' J'J step) is
+  /// smaller than this.
+  static constexpr double kStepTolerance = 1e-5;
+  [[nodiscard]] std::optional<Estimate> estimate(const Unknowns& at,
+                                                 const NormalEquations& equations) const;
   /// Not available with this likelihood.
   [[nodiscard]] static constexpr double matched() { return 0.0; }
   [[nodiscard]] static constexpr double doppler_nis() {

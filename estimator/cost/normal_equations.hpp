@@ -36,6 +36,12 @@ struct NormalEquations {
   void add_point(const Symmetric2& m, const Eigen::Vector2d& v, const Eigen::Vector2d& lever_m);
 };
 
+/// The result of a search.
+struct Estimate {
+  Eigen::Vector3d motion;
+  Eigen::Matrix3d covariance;
+};
+
 /// Smallest reciprocal condition number that counts as positive definite: two of the 16 digits of a
 /// double are left.
 inline constexpr double kMinReciprocalCondition = 1e-14;

@@ -171,7 +171,7 @@ RegistrationResult Registration::second_stage(Cost& exact, Descent descent) {
     exact.start();
     descent.equations = exact.linearise(descent.at);
     result.status =
-        descend(exact, rule(exact, options_.max_iterations, options_.step_tolerance), descent);
+        descend(exact, rule(exact, options_.max_iterations, Cost::kStepTolerance), descent);
     result.cost = descent.equations.cost;
     result.matched = exact.matched();
   }
@@ -180,8 +180,9 @@ RegistrationResult Registration::second_stage(Cost& exact, Descent descent) {
   if (!has_work_left || !result.has_motion()) {
     return result;
   }
-  if (const auto covariance = exact.covariance(descent.at, descent.equations)) {
-    result.covariance = *covariance;
+  if (const auto estimate = exact.estimate(descent.at, descent.equations)) {
+    result.motion = estimate->motion;
+    result.covariance = estimate->covariance;
     result.doppler_nis = exact.doppler_nis();
   } else {
     result.status = RegistrationStatus::degenerate;

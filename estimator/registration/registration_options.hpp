@@ -22,9 +22,6 @@ struct RegistrationOptions {
   /// sensors, 1 in simulation.
   double start_doppler_scale = 2.0;
   int max_iterations = 100;  ///< Gauss-Newton steps of the second stage.
-  /// The second stage ends at a step whose squared length in standard deviations (step' J'J step)
-  /// is smaller than this.
-  double step_tolerance = 1e-5;
   /// If few targets are matched, search from other yaw angles, unless the result continues the
   /// motion before (PredictedMotion).
   bool restarts = true;

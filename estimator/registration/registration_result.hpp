@@ -12,7 +12,7 @@ namespace cremed {
 /// How a registration ended. With the next step s, the information H of the free states, the
 /// expected number m of matched targets, n current and F previous targets:
 enum class RegistrationStatus : std::uint8_t {
-  /// s' H s < step_tolerance; or the cost is higher at s, s / 2, s / 4 .. s / 2048, and
+  /// s' H s < kStepTolerance of the cost; or the cost is higher at s, s / 2, s / 4 .. s / 2048, and
   /// s' H s <= kMaxStuckSquaredStep.
   converged,
   /// 1 / cond(H) <= kMinReciprocalCondition, or H is not positive definite: not all free states are

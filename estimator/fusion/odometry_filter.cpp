@@ -206,9 +206,10 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
   for (std::size_t i = 0; i < state_.radars(); ++i) {
     state_.widen_errors(i);
   }
-  state_.start_motion(believed.head<2>(), Eigen::Vector2d(squared(options.settled_speed_std_mps),
-                                                          squared(options.settled_yaw_rate_std_radps))
-                                              .asDiagonal());
+  state_.start_motion(believed.head<2>(),
+                      Eigen::Vector2d(squared(options.settled_speed_std_mps),
+                                      squared(options.settled_yaw_rate_std_radps))
+                          .asDiagonal());
   vehicle_.restart_errors();
   positions_.clear();
 }

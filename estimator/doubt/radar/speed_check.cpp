@@ -18,7 +18,7 @@ constexpr double kMaxSpeedStdMps = 0.3;
 /// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
 /// Of the votes of the best speed, those of Doppler's: figures in SpeedCheck.
-constexpr double kMaxShare = 0.6;
+constexpr double kMaxShareOfBest = 0.6;
 /// Bound of the difference between two numbers of votes (Poisson).
 constexpr double kMinSigmas = 2.0;
 /// Of the targets nearer than this to each other only one votes. Without it 980 of 1778 comparisons
@@ -93,7 +93,7 @@ void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
   const bool is_other = std::abs(support.best_mps - doppler_mps) > kMinDifferenceMps;
   const double excess = support.best_votes - support.given_votes;
   const bool contradicts =
-      is_other && support.given_votes < kMaxShare * support.best_votes &&
+      is_other && support.given_votes < kMaxShareOfBest * support.best_votes &&
       excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes);
   const bool agrees = !contradicts && (!is_other || support.given_votes > support.max_chance_votes);
   contradictions_ =

@@ -109,7 +109,14 @@ void MotionEvidence::set_after_step(bool value) {
 }
 
 bool MotionEvidence::is_after_step(RadarSet set) const {
-  return any_of(set, [&](std::size_t i) { return tracks_[i].is_after_step; });
+  return any_of(set,
+                [&](std::size_t i) { return tracks_[i].is_after_step && is_heard(tracks_[i]); });
+}
+
+/// It measured a velocity lately.
+bool MotionEvidence::is_heard(const Track& track) const {
+  return track.count > 0 &&
+         seconds_between(track.velocities[1].stamp_us, newest_us_) <= kMaxScanPeriodS;
 }
 
 /// The velocity changed by more than the vehicle's can between the two newest scans.
@@ -128,7 +135,7 @@ std::optional<std::int64_t> MotionEvidence::common_time() const {
   std::optional<std::int64_t> time_us;
   for (const Track& track : tracks_) {
     const std::int64_t last_us = track.velocities[1].stamp_us;
-    if (track.count == 2 && seconds_between(last_us, newest_us_) <= kMaxScanPeriodS) {
+    if (track.count == 2 && is_heard(track)) {
       time_us = std::min(time_us.value_or(last_us), last_us);
     }
   }

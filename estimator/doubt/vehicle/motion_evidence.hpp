@@ -111,7 +111,7 @@ class MotionEvidence {
   [[nodiscard]] bool contradicts_positions() const;
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
-  /// Since a step of all radars (add_step()) that of a radar in the set had no other.
+  /// Since a step of all radars (add_step()) one that is heard in the set had no other.
   [[nodiscard]] bool is_after_step(RadarSet set) const;
   /// A radar's own check found it wrong, and not too long ago.
   [[nodiscard]] bool is_accused(std::size_t radar) const {
@@ -150,6 +150,7 @@ class MotionEvidence {
   };
 
   void set_after_step(bool value);
+  [[nodiscard]] bool is_heard(const Track& track) const;
   [[nodiscard]] bool is_step(std::size_t radar) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);

@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/doubt/radar/acceleration.hpp"
 #include "cremed/estimator/doubt/radar/fixed_places.hpp"
 #include "cremed/estimator/doubt/radar/side_gate.hpp"
-#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -25,8 +25,6 @@ constexpr double kMinWayM = 1.5;
 constexpr double kMaxIntervalS = 1.0;
 /// A longer pause breaks the way by Doppler.
 constexpr double kMaxScanPeriodS = 0.3;
-/// Of the noise of two velocities.
-constexpr double kMaxDopplerStepMps = 1.5;
 /// Votes fade with this time.
 constexpr double kVotesMemoryS = 3.0;
 /// Difference of a target's range between two scans.
@@ -96,8 +94,7 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
                            std::int64_t stamp_us) {
   const Scan& last = scan(0);
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
-  if ((velocity_mps - velocity_mps_).norm() >
-      kMaxAccelerationMps2 * std::abs(dt_s) + kMaxDopplerStepMps) {
+  if (is_doppler_step((velocity_mps - velocity_mps_).norm(), dt_s)) {
     forget();  // Votes of before tell nothing of this Doppler.
     is_wrong_ = false;
   }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/doubt/radar/acceleration.hpp"
 #include "cremed/estimator/doubt/radar/fixed_places.hpp"
-#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -24,8 +24,6 @@ constexpr double kMinSigmas = 2.0;
 /// Of the targets nearer than this to each other only one votes. Without it 980 of 1778 comparisons
 /// on RadarScenes 105, with 200 targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;
-/// Of the noise of two speeds.
-constexpr double kMaxStepMps = 1.5;
 
 }  // namespace
 
@@ -44,7 +42,8 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   }
   has_verdict_ = has_verdict_ && std::abs(seconds_between(verdict_us_, stamp_us)) <= kVerdictValidS;
   const auto speed_mps = take(targets);
-  if (is_contradicted_ && speed_mps && is_step(*speed_mps, stamp_us)) {
+  if (is_contradicted_ && speed_mps &&
+      is_doppler_step(*speed_mps - last_mps_, seconds_between(last_us_, stamp_us))) {
     forget();  // A fault that ends: what was found of the Doppler before tells nothing of this one.
   }
   if (speed_mps) {
@@ -71,11 +70,6 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
     reference_us_ = stamp_us;
     reference_mps_ = *speed_mps;
   }
-}
-
-bool SpeedCheck::is_step(double speed_mps, std::int64_t stamp_us) const {
-  const double dt_s = std::abs(seconds_between(last_us_, stamp_us));
-  return std::abs(speed_mps - last_mps_) > kMaxAccelerationMps2 * dt_s + kMaxStepMps;
 }
 
 /// The speed by Doppler, and the places that are at rest with it.

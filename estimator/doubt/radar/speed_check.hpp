@@ -18,7 +18,7 @@ namespace cremed {
 /// Compares every 0.2 s, with the targets that are at rest by Doppler. A contradiction is another
 /// speed, more than 2 m/s from Doppler's, of whose votes Doppler's has less than 0.6, and two
 /// standard deviations of their numbers fewer. Stuck Doppler has 0.3 to 0.6 of them; healthy drives
-/// 0.65 at least where the difference is that large (RadarScenes 105 and nuScenes, 20588
+/// 0.66 at least where the difference is that large (RadarScenes 105 and nuScenes, 20588
 /// comparisons at random phases; by number alone up to 3 standard deviations, since posts of guard
 /// rails repeat); the eight places of a truck ahead reach it once, not twice in a row.
 /// Contradictions count up, agreements count down; the doubt begins at kMaxContradictions and ends
@@ -38,7 +38,6 @@ class SpeedCheck {
   static constexpr int kMaxContradictions = 2;
   static constexpr double kVerdictValidS = 5.0;
 
-  [[nodiscard]] bool is_step(double speed_mps, std::int64_t stamp_us) const;
   [[nodiscard]] std::optional<double> take(const TargetSet& targets);
   void judge(const SpeedSupport& support, double doppler_mps);
 

@@ -213,13 +213,11 @@ void FaultHypotheses::search_causes(RadarSet believed) {
 /// Of two radars one may be too fast, or the other too slow. But none is early: a frame is not
 /// received before it was measured. After a scale that has just changed one seems to be late by
 /// more and more.
-bool FaultHypotheses::is_told(std::size_t radar, const FaultCauseSearch::Finding& finding) {
+void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding) {
   const double change_s = std::abs(finding.cause.value - lateness_.delay_s);
   const bool is_late = finding.is_clear && finding.cause.kind == FaultKind::late;
   const bool is_same = is_late && radar == lateness_.radar && change_s < kMaxChangeOfDelayS;
   lateness_ = {radar, finding.cause.value, is_same ? lateness_.epochs + 1 : 0};
-  return std::popcount(evidence_.present() & ~at_fault()) > 2 ||
-         lateness_.epochs >= kEpochsOfLateness;
 }
 
 /// One error explains what a radar measures, and none as much what another does.
@@ -241,8 +239,12 @@ void FaultHypotheses::convict_by_cause() {
       next = std::max(next, found.gain);
     }
   });
-  if (best.gain > 2.0 * next && is_grave(best.cause) && is_told(guilty, best)) {
-    convictions_.convict(guilty, evidence_.time_us());
+  if (best.gain > 2.0 * next && is_grave(best.cause)) {
+    note_lateness(guilty, best);
+    if (std::popcount(evidence_.present() & ~at_fault()) > 2 ||
+        lateness_.epochs >= kEpochsOfLateness) {
+      convictions_.convict(guilty, evidence_.time_us());
+    }
   }
   const RadarSet aside = evidence_.witnesses();
   for_each(aside, [&](std::size_t i) {

@@ -107,7 +107,7 @@ class FaultHypotheses {
   void begin_search(std::size_t radar);
   void search_causes(RadarSet believed);
   void convict_by_cause();
-  bool is_told(std::size_t radar, const FaultCauseSearch::Finding& finding);
+  void note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;
   MotionEvidence evidence_;

@@ -92,6 +92,9 @@ void PositionFusion::match(std::size_t radar, double age_s) {
   }
   LinearMeasurement measurement = from_map.linearise(*match, has_x);
   measurement.noise *= trust.position_noise.value();
+  if (looks_across(state_.mount(radar))) {
+    measurement.noise *= state_.options().position_noise_factor_across;
+  }
   const Innovation innovation = state_.gaussian.innovate(measurement);
   trust.lateral.add(state_.time_us(), innovation.nis_of_numbers.y());
   trust.yaw.add(state_.time_us(), innovation.nis_of_numbers.z());

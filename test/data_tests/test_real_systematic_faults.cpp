@@ -19,6 +19,22 @@ TEST_CASE("Real drives without fault: nobody is named, and front radars are avai
   matrix.check();
 }
 
+TEST_CASE("Real drives with a share of their targets: nobody is named", "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const double share : {0.6, 0.45}) {
+    const auto run = [&](FaultDrive drive) {
+      drive.frames = with_fewer_targets(drive.frames, share);
+      matrix.run_healthy(share > 0.5 ? "0.6 of the targets" : "0.45 of the targets", drive);
+    };
+    for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
+      run(nuscenes_fault_drive(scene));
+    }
+    run(radarscenes_fault_drive(true));
+    run(radarscenes_fault_drive(false));
+  }
+  matrix.check();
+}
+
 TEST_CASE("Real drives: each systematic fault", "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const auto* scene : {"0061", "0103", "1094"}) {

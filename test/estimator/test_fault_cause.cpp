@@ -44,8 +44,9 @@ FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const
   FaultCauseSearch search(kMounts, radar);
   for (double time_s = 1000.0; time_s < 1000.0 + duration_s; time_s += 0.15) {
     const Motion motion = drive(time_s);
-    search.add_motion(std::llround(time_s * 1e6), {motion.v_mps + 0.03 * normal(random),
-                                                   motion.w_radps + 0.005 * normal(random), 0.0});
+    search.add_motion(
+        std::llround(time_s * 1e6),
+        {motion.v_mps + 0.03 * normal(random), motion.w_radps + 0.005 * normal(random), 0.0}, 0.0);
     search.add_velocity(fault(drive, time_s, kMounts[radar]) +
                         Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)));
   }
@@ -129,7 +130,7 @@ TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the
     FaultCauseSearch search(kMounts, 0);
     for (double time_s = 1000.0; time_s < 1004.0; time_s += 0.15) {
       const Motion motion = drive(time_s);
-      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0});
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
       search.add_velocity(fault(drive, time_s, kMounts[0]));
     }
     return search.find();
@@ -170,7 +171,7 @@ TEST_CASE("nothing is named before lateness can be told, and after a pause from 
   const auto drive = [&](double from_s, double until_s, double factor) {
     for (double time_s = from_s; time_s < until_s; time_s += 0.15) {
       search.add_motion(std::llround(time_s * 1e6),
-                        {town(time_s).v_mps, town(time_s).w_radps, 0.0});
+                        {town(time_s).v_mps, town(time_s).w_radps, 0.0}, 0.0);
       search.add_velocity(factor * velocity_at(town(time_s), kMounts[0]));
     }
     return search.cause(1U);
@@ -185,7 +186,7 @@ TEST_CASE("after the end of a fault the next one is found anew") {
   const auto drive = [&](double from_s, const Fault& fault) {
     for (double time_s = from_s; time_s < from_s + 5.0; time_s += 0.15) {
       const Motion motion = town(time_s);
-      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0});
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
       search.add_velocity(fault(town, time_s, kMounts[0]));
     }
     return search.cause(1U).kind;

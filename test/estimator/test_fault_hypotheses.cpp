@@ -144,6 +144,33 @@ TEST_CASE("the radar that differs from the others is at fault, and no other") {
   CHECK_FALSE(comparison.faults().is_unknown());
 }
 
+TEST_CASE("one registration that went wrong convicts nobody, one a second later neither") {
+  Comparison comparison(kFive);
+  comparison.drive(3.0);
+  for (int i = 0; i < 2; ++i) {
+    comparison.drive(0.07, [](std::size_t radar, Comparison::Measured& measured) {
+      measured.yaw_rate_radps += radar == 1 ? 0.5 : 0.0;
+    });
+    comparison.drive(1.2);
+    CHECK(comparison.faults().at_fault() == 0);
+  }
+  // Those of a second do.
+  comparison.drive(1.0, [](std::size_t radar, Comparison::Measured& measured) {
+    measured.yaw_rate_radps += radar == 1 ? 0.5 : 0.0;
+  });
+  CHECK(comparison.faults().at_fault() == 0b10);
+}
+
+TEST_CASE("of two radars no cause is found again while the other is silent") {
+  Comparison comparison({kFront, kRearLeft});
+  comparison.delay(0, 0.3);
+  comparison.drive(3.2);
+  REQUIRE(comparison.faults().at_fault() == 0);
+  comparison.silence(1);
+  comparison.drive(10.0);
+  CHECK(comparison.faults().at_fault() == 0);
+}
+
 TEST_CASE("a radar that is late is at fault, with what corrects it, and no other") {
   const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
   Comparison comparison(kFive);

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <random>
 #include <span>
 #include <utility>
 #include <vector>
@@ -83,6 +85,39 @@ Frames with_scaled_doppler(Frames frames, FaultTime time, IsFaulty is_faulty, do
                                  cluster.vx_mps *= factor;
                                  cluster.vy_mps *= factor;
                                });
+}
+
+/// Only a share of the targets is seen, drawn anew in each scan. No fault: another sensor, or
+/// surroundings with less in them.
+inline Frames with_fewer_targets(const Frames& frames, double share) {
+  struct List {
+    std::optional<std::size_t> header;  // In the result.
+    std::uint8_t near = 0;              // Number of its targets before.
+    std::array<std::optional<std::uint8_t>, 256> new_id;
+  };
+  std::array<List, 256> lists;
+  std::mt19937_64 random(1);
+  std::bernoulli_distribution is_seen(share);
+  Frames result;
+  for (CanFrame frame : frames) {
+    List& list = lists[frame.interface];
+    std::uint8_t& id = frame.data[0];
+    if (is_message(frame, Ars408Message::cluster_status)) {
+      list = {result.size(), std::exchange(frame.data[0], 0), {}};
+      frame.data[1] = 0;
+    } else if (is_message(frame, Ars408Message::cluster_general)) {
+      if (!list.header || !is_seen(random)) continue;
+      auto& header = result[*list.header].data;
+      list.new_id[id] = static_cast<std::uint8_t>(header[0] + header[1]);
+      ++header[id < list.near ? 0 : 1];
+      id = *list.new_id[id];
+    } else if (is_message(frame, Ars408Message::cluster_quality)) {
+      if (!list.new_id[id]) continue;
+      id = *list.new_id[id];
+    }
+    result.push_back(frame);
+  }
+  return result;
 }
 
 /// Radars hang: each repeats the clusters of its last list while its counter runs on.

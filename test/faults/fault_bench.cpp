@@ -41,6 +41,8 @@ CREMED_SHARED names the folder with the recorded data.
   --from S     105 from then on
   --rows       each row of the odometry
   --case TEXT  only cases whose name and radar contain it
+  --healthy    no fault, and only
+  --radars A,B these radars
   --seeds N    so many of the latter two (default 20)
   --seed N     only this one
 
@@ -50,6 +52,8 @@ struct Options {
   double seconds = 40.0;
   double from_s = 0.0;
   bool are_rows_printed = false;
+  bool is_healthy = false;
+  std::string radars;
   std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
   std::string filter;
@@ -68,6 +72,10 @@ Options options_of(int argc, char** argv) {
       options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--from" && i + 1 < argc) {
       options.from_s = std::atof(argv[++i]);
+    } else if (argument == "--healthy") {
+      options.is_healthy = true;
+    } else if (argument == "--radars" && i + 1 < argc) {
+      options.radars = argv[++i];
     } else if (argument == "--rows") {
       options.are_rows_printed = true;
     } else if (argument == "--case" && i + 1 < argc) {
@@ -91,6 +99,24 @@ FaultDrive drive_of(const std::string& name, const Options& options) {
                                  configuration_of_car("nuscenes-singapore").radars);
   }
   return nuscenes_fault_drive(name);
+}
+
+/// Only the radars of a list with commas; of an empty one all.
+FaultDrive with_radars(FaultDrive drive, const std::string& names) {
+  if (names.empty()) return drive;
+  std::vector<RadarConfiguration> kept;
+  std::vector<int> index;
+  for (const RadarConfiguration& radar : drive.radars) {
+    const bool is_kept = ("," + names + ",").find("," + radar.name + ",") != std::string::npos;
+    index.push_back(is_kept ? static_cast<int>(kept.size()) : -1);
+    if (is_kept) kept.push_back(radar);
+  }
+  drive.radars = kept;
+  std::erase_if(drive.frames, [&](const CanFrame& frame) { return index[frame.interface] < 0; });
+  for (CanFrame& frame : drive.frames) {
+    frame.interface = static_cast<std::uint8_t>(index[frame.interface]);
+  }
+  return drive;
 }
 
 using Job = std::function<std::string()>;
@@ -172,6 +198,14 @@ int main(int argc, char** argv) {
                   options.seed, options.seeds);
       } else if (name == "own-start") {
         run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options.seed, options.seeds);
+      } else if (options.is_healthy) {
+        const FaultDrive drive = with_radars(drive_of(name, options), options.radars);
+        const FaultCase none{"none", options.radars, {drive.start_us(), kNever}};
+        if (options.are_rows_printed) {
+          print_rows(drive, none);
+        } else {
+          std::printf("%s\n", figures_line(drive, none, judged(drive, none)).c_str());
+        }
       } else {
         run_faults(drive_of(name, options), options.filter, options.are_rows_printed);
       }

@@ -14,13 +14,14 @@ constexpr double kMaxDecreaseToReturn = 4.0;
 /// Decrease of chi-square by which one set is better than another.
 constexpr double kClearlyBetter = 4.0;
 
-bool is_consistent(const MotionEvidence& evidence, RadarSet set, double chi_square_of_set,
-                   RadarSet at_fault, std::optional<MotionEvidence::Pair> pair = std::nullopt) {
+/// `is_lenient`: by all epochs but the worst. One registration of two scans that went wrong (0.98
+/// +- 0.06 instead of 0.48 rad/s, on 1094 with 0.45 of its targets) does not change what is
+/// believed.
+bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault, bool is_lenient,
+                   std::optional<MotionEvidence::Pair> pair = std::nullopt) {
   return !any_of(set, [&](std::size_t radar) {
-    const RadarSet without = set & ~set_of(radar);
     const double limit = contains(at_fault, radar) ? kMaxDecreaseToReturn : kMaxDecrease;
-    const double rest = without == 0 ? 0.0 : evidence.fit(without, pair).chi_square();
-    return chi_square_of_set - rest > limit;
+    return evidence.decrease(set, radar, pair, is_lenient) > limit;
   });
 }
 
@@ -35,7 +36,7 @@ class Search {
       return {evidence_.judged()};
     }
     // That of before is kept while it explains the measurements.
-    try_set(present);
+    try_set(present, (present & at_fault_) == 0);
     if (best_.radars == 0) {
       try_less(present);
     }
@@ -45,7 +46,7 @@ class Search {
 
  private:
   void try_less(RadarSet present) {
-    try_set(present & ~at_fault_);
+    try_set(present & ~at_fault_, true);
     if (best_.radars == 0 || do_witnesses_contradict()) {
       try_all(present);
     }
@@ -91,7 +92,7 @@ class Search {
         const auto fit = evidence_.fit(present, pair);
         const auto own = evidence_.fit(present, MotionEvidence::Pair{one, other, false});
         if (fit.of_witnesses < kMaxWitness && own.of_set - fit.of_set > kMaxDecrease &&
-            is_consistent(evidence_, present, fit.chi_square(), 0U, pair)) {
+            is_consistent(evidence_, present, 0U, false, pair)) {
           exchanged = {present & ~set_of(one) & ~set_of(other), fit.chi_square(),
                        exchanged.radars == 0 ? 0 : exchanged.rivals + 1};
           of_witnesses = fit.of_witnesses;
@@ -116,14 +117,11 @@ class Search {
     return evidence_.fit(best_.radars).of_witnesses > kMaxWitness;
   }
 
-  void try_set(RadarSet set) {
-    if (set == 0) {
+  void try_set(RadarSet set, bool is_lenient = false) {
+    if (set == 0 || !is_consistent(evidence_, set, at_fault_, is_lenient)) {
       return;
     }
     const double fit = evidence_.fit(set).chi_square();
-    if (!is_consistent(evidence_, set, fit, at_fault_)) {
-      return;
-    }
     // Of two single radars that are each right by their own none is better.
     const double clearly_better =
         std::has_single_bit(set) ? std::numeric_limits<double>::infinity() : kClearlyBetter;
@@ -145,7 +143,7 @@ class Search {
     const MotionEvidence::Fit fit = evidence_.fit(set);
     const double gain =
         evidence_.fit(best_.radars).of_witnesses - fit.of_witnesses - kMaxWitness * fewer;
-    if (gain <= 0.0 || !is_consistent(evidence_, set, fit.chi_square(), at_fault_)) {
+    if (gain <= 0.0 || !is_consistent(evidence_, set, at_fault_, false)) {
       return;
     }
     if (gain > kClearlyBetter) {
@@ -163,7 +161,7 @@ class Search {
 }  // namespace
 
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault) {
-  return is_consistent(evidence, set, evidence.fit(set).chi_square(), at_fault);
+  return is_consistent(evidence, set, at_fault, false);
 }
 
 ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault) {

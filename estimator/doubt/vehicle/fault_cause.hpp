@@ -31,8 +31,8 @@ class FaultCauseSearch {
   /// `mounts` of all radars, which must outlive this object.
   FaultCauseSearch(std::span<const Pose2> mounts, std::size_t radar);
 
-  /// The motion by the other radars, x = (v, w, slip); seven times a second.
-  void add_motion(std::int64_t time_us, const Eigen::Vector3d& motion);
+  /// The motion by the other radars, x = (v, w, slip), and the variance of w; seven times a second.
+  void add_motion(std::int64_t time_us, const Eigen::Vector3d& motion, double yaw_rate_variance);
   /// The radar's velocity at the time of the last motion, in the axes of the vehicle.
   void add_velocity(const Eigen::Vector2d& velocity_mps);
   /// Starts again: a fault has begun or ended.
@@ -75,6 +75,7 @@ class FaultCauseSearch {
   std::array<Past, kLags + 1> past_;
   std::size_t motions_ = 0;
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
+  double yaw_rate_variance_ = 0.0;
   std::vector<VelocityMoments> at_mount_;  // By radar whose mount it is.
   std::array<Lag, kLags> lags_;
 };

@@ -105,8 +105,8 @@ class FaultHypotheses {
   [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
   void begin_search(std::size_t radar);
-  void search_causes(RadarSet believed);
-  void convict_by_cause();
+  RadarSet search_causes(RadarSet believed);
+  void convict_by_cause(RadarSet compared);
   void note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;

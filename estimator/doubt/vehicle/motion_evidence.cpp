@@ -251,20 +251,42 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
   return sum;
 }
 
+MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,
+                                        std::optional<Pair> pair) const {
+  const MotionSums joint = sum(set, epoch, pair);
+  Fit fit{joint.chi_square()};
+  for_each(witnesses(), [&](std::size_t i) {
+    MotionSums with = joint;
+    with.add(epoch[i].all);
+    fit.of_witnesses += std::min(kMaxWitness, with.chi_square() - fit.of_set);
+  });
+  return fit;
+}
+
 MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) const {
   Fit sum;
   for (std::size_t k = 0; k < epochs(); ++k) {
-    const MotionSums joint = this->sum(set, epochs_[k], pair);
-    const double of_set = joint.chi_square();
-    sum.of_set += of_set;
-    for_each(witnesses(), [&](std::size_t i) {
-      MotionSums with = joint;
-      with.add(epochs_[k][i].all);
-      sum.of_witnesses += std::min(kMaxWitness, with.chi_square() - of_set);
-    });
+    const Fit of_epoch = fit(set, epochs_[k], pair);
+    sum.of_set += of_epoch.of_set;
+    sum.of_witnesses += of_epoch.of_witnesses;
   }
   const auto count = static_cast<double>(epochs());
   return {sum.of_set / count, sum.of_witnesses / count};
+}
+
+double MotionEvidence::decrease(RadarSet set, std::size_t radar, std::optional<Pair> pair,
+                                bool is_without_worst) const {
+  const RadarSet without = set & ~set_of(radar);
+  double sum = 0.0;
+  double worst = 0.0;
+  for (std::size_t k = 0; k < epochs(); ++k) {
+    const double rest = without == 0 ? 0.0 : fit(without, epochs_[k], pair).chi_square();
+    const double decrease = fit(set, epochs_[k], pair).chi_square() - rest;
+    sum += decrease;
+    worst = std::max(worst, decrease);
+  }
+  const auto count = static_cast<double>(epochs());
+  return is_without_worst && count > 1.0 ? (sum - worst) / (count - 1.0) : sum / count;
 }
 
 RadarSet MotionEvidence::present() const {

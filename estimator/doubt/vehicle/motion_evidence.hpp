@@ -93,6 +93,10 @@ class MotionEvidence {
     bool is_exchanged;
   };
   [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
+  /// By how much chi-square is less without a radar of the set: mean of all epochs, or of those but
+  /// the worst.
+  [[nodiscard]] double decrease(RadarSet set, std::size_t radar, std::optional<Pair> pair,
+                                bool is_without_worst) const;
 
   // In the newest epoch:
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
@@ -162,6 +166,7 @@ class MotionEvidence {
   [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
                                          const std::optional<Velocity>& velocity) const;
   [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
+  [[nodiscard]] Fit fit(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
 
   const OdometryState& state_;

@@ -23,6 +23,9 @@ constexpr double kMinGain = 25.0;
 /// others.
 constexpr double kMaxChiSquareOfEpoch = 32.0;
 
+/// Of two radars, where no third tells: healthy ones with 0.45 of their targets have 35.3 (105,
+/// unflagged), one 0.3 s late 39 to 43.
+constexpr double kMinGainOfTwo = 37.5;
 /// Of one of two radars: a second, in which a seeming delay changes by a second.
 constexpr std::size_t kEpochsOfLateness = 7;
 constexpr double kMaxChangeOfDelayS = 0.05;
@@ -231,7 +234,8 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
 /// more and more.
 void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding) {
   const double change_s = std::abs(finding.cause.value - lateness_.delay_s);
-  const bool is_late = finding.is_clear && finding.cause.kind == FaultKind::late;
+  const bool is_late =
+      finding.is_clear && finding.cause.kind == FaultKind::late && finding.gain > kMinGainOfTwo;
   const bool is_same = is_late && radar == lateness_.radar && change_s < kMaxChangeOfDelayS;
   lateness_ = {radar, finding.cause.value, is_same ? lateness_.epochs + 1 : 0};
 }

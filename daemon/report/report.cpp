@@ -167,10 +167,11 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
        {count_of(status, MotionStatus::too_few_targets),
         "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},
        {count_of(status, MotionStatus::degenerate), "the surroundings hold too few fixed targets"},
-       {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
+       {count_of(status, MotionStatus::no_convergence),
+        "narrow [radar.limits] to what it sees well, and leave out the vehicle's own parts"},
        {count_of(status, MotionStatus::non_finite), "report it: it is a bug in cremed"},
        {count_of(status, MotionStatus::implausible),
-        "check type, the keys that invert a sign and the limits of speed"},
+        "check type and the keys that invert a sign: no vehicle is faster than 70 m/s or 3 rad/s"},
        {count_of(status, MotionStatus::ambiguous),
         "the surroundings hold too few fixed targets, or its noise is set too small: "
         "`cremed-eval calibrate`"}});

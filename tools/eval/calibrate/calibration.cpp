@@ -192,7 +192,7 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
         continue;
       }
       const RecordedScan fixed = static_part(scan, *state, {}, kGateSlackMps);
-      if (fixed.targets.size() == 0) {
+      if (fixed.targets.empty()) {
         continue;
       }
       result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});

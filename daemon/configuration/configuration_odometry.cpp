@@ -24,6 +24,7 @@ void read_radar_errors(TomlReader& reader, OdometryOptions& options) {
 }
 
 void read_limits(TomlReader& reader, OdometryOptions& options) {
+  reader.integer("min_targets", options.min_targets, 2, 256);
   reader.number("predicted_s", options.predicted_s, {0.01, 10.0});
   reader.number("lost_s", options.lost_s, {0.01, 60.0});
   reader.number("anchor_period_s", options.anchor_period_s, {0.1, 60.0});

@@ -205,6 +205,7 @@ doppler_scale_std = 0.13
 doppler_offset_std_mps = 1.19
 azimuth_scale_std = 0.21
 mount_position_std_m = 0.23
+min_targets = 22
 predicted_s = 1.26
 lost_s = 1.27
 anchor_period_s = 1.28
@@ -217,6 +218,7 @@ max_gap_s = 1.30
                    o.body_velocity.std} == std::array{1.01, 1.03, 0.05, -0.01, 1.07});
   CHECK(std::array{o.mount_yaw_std_rad, o.doppler_scale_std, o.offset.std, o.azimuth_scale_std,
                    o.lever_std_m} == std::array{0.11, 0.13, 1.19, 0.21, 0.23});
+  CHECK(o.min_targets == 22);
   CHECK(std::array{o.predicted_s, o.lost_s, o.anchor_period_s, o.max_lateness_s, o.max_gap_s} ==
         std::array{1.26, 1.27, 1.28, 0.29, 1.30});
 }

@@ -202,7 +202,6 @@ void add_setting(const RadarConfiguration& radar, const RadarHealth& health, Fin
 
 void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
                         Findings& findings) {
-  constexpr std::uint8_t kEveryDynProp = 0xFF;
   const bool no_speed = (health.faults & RadarHealth::speed_missing) != 0;
   const bool no_yaw_rate = (health.faults & RadarHealth::yaw_rate_missing) != 0;
   if ((no_speed || no_yaw_rate) && options.keep_dyn_props != kEveryDynProp) {
@@ -211,8 +210,8 @@ void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
          concat({"the sensor gets no ", no_speed ? "speed (0x300)" : "",
                  no_speed && no_yaw_rate ? " and no " : "", no_yaw_rate ? "yaw rate (0x301)" : "",
                  ": its DynProp is wrong while driving"}),
-         "send them from the vehicle's bus, or set motion_feedback = true, or "
-         "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"});
+         "send them from the vehicle's bus, or set keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7], and "
+         "motion_feedback = true if no other node can send them"});
   }
 }
 

@@ -30,6 +30,9 @@ enum class Ars408Output : std::uint8_t { clusters, objects };
 /// objects: no measurement.
 inline constexpr double kArs408RotationLeadS = 0.040;
 
+/// keep_dyn_props that leaves nothing out.
+inline constexpr std::uint8_t kEveryDynProp = 0xFF;
+
 struct Ars408Options {
   std::uint8_t sensor_id = 0;  ///< 0..7; every identifier is base + 0x10 * sensor_id.
   Ars408Output output = Ars408Output::clusters;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -39,19 +38,14 @@ void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
   }
 }
 
-/// Logs the faults of the logs; false if one could not be read to its end, or has no times.
+/// Logs the faults of the logs; false if one cannot be used.
 bool report_logs(const Replay& replay) {
   bool good = true;
   for (const auto& log : replay.logs()) {
-    if (log->complaint().line_number != 0) {
-      spdlog::warn("{}:{}: {} ({} such lines)", log->path(), log->complaint().line_number,
-                   log->complaint().reason, log->counters().malformed_lines);
+    if (const std::string malformed = log->reader().malformed(); !malformed.empty()) {
+      spdlog::warn("{}", malformed);
     }
-    if (log->read_error() != 0) {
-      spdlog::error("{}: {}", log->path(), std::strerror(log->read_error()));
-      good = false;
-    }
-    if (const std::string problem = log->stamps().problem(log->path()); !problem.empty()) {
+    if (const std::string problem = log->reader().problem(); !problem.empty()) {
       spdlog::error("{}", problem);
       good = false;
     }
@@ -78,8 +72,10 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
   const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
     if (std::ranges::none_of(replay.logs(), [i](const auto& log) { return log->has_frames(i); })) {
-      spdlog::error("the input has no frame of interface {}; set interface to one of these: {}",
-                    names[i], others);
+      spdlog::error(
+          "the input has no frame of interface {}; record that bus too, or set interface to one of "
+          "these: {}",
+          names[i], others);
     }
   }
 }
@@ -90,7 +86,7 @@ std::string doctor_command(const Replayed& replayed, std::size_t interface) {
   const auto own =
       std::ranges::find_if(logs, [&](const auto& log) { return log->has_frames(interface); });
   return concat({"`cremed-doctor --config ", in_shell(replayed.configuration_path), " --replay ",
-                 in_shell((own != logs.end() ? *own : logs.front())->path()), "`"});
+                 in_shell((own != logs.end() ? *own : logs.front())->reader().path()), "`"});
 }
 
 /// False if it had no scan.
@@ -134,16 +130,35 @@ bool report_radars(const Replayed& replayed) {
   return is_good && count != 0;
 }
 
+/// How much of the drive has an odometry: a radar's own estimates do not tell.
+void log_odometry(const OdometryTally& tally) {
+  std::string text;
+  for (std::size_t i = 0; i < kOdometryStatusCount; ++i) {
+    const auto status = static_cast<OdometryStatus>(i);
+    if (tally.count(status) != 0) {
+      text +=
+          fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(status), tally.count(status));
+    }
+  }
+  const bool is_usable =
+      tally.count(OdometryStatus::ok) + tally.count(OdometryStatus::standing_still) != 0;
+  spdlog::log(is_usable ? spdlog::level::info : spdlog::level::warn, "odometry: {}",
+              is_usable ? text : concat({"never usable: ", text.empty() ? "no scan" : text}));
+}
+
 }  // namespace
 
 bool report_replay(const Replayed& replayed) {
   const SourceCounters& counters = replayed.replay.counters();
   if (counters.frames + counters.other_interface_frames == 0) {
-    const bool is_read = report_logs(replayed.replay);
-    if (is_read && !replayed.is_stopped) {
-      spdlog::error("no CAN frame in the input; lines of `candump -L` are expected");
+    if (replayed.is_stopped) {
+      return report_logs(replayed.replay);
     }
-    return is_read && replayed.is_stopped;
+    for (const auto& log : replayed.replay.logs()) {
+      const std::string problem = log->reader().problem();
+      spdlog::error("{}", problem.empty() ? log->reader().no_frame() : problem);
+    }
+    return false;
   }
   if (!report_logs(replayed.replay)) {
     return false;
@@ -152,6 +167,9 @@ bool report_replay(const Replayed& replayed) {
     report_absent_interfaces(replayed.configuration, replayed.replay);
   }
   const bool is_good = report_radars(replayed);
+  if (replayed.configuration.odometry.enabled) {
+    log_odometry(replayed.odometry);
+  }
   log_vehicle(replayed.configuration, replayed.pipeline);
   return is_good || replayed.is_stopped;
 }

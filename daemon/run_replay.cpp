@@ -178,13 +178,16 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   stop_at_hangup();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
   const Sinks sinks = open_sinks(command_line, configuration);
+  OdometryTally tally;
+  std::vector<OdometrySink*> all_sinks = sinks.pointers();
+  all_sinks.push_back(&tally);
   std::optional<LearnedFile> learned;
   if (command_line.state_file) {
     learned.emplace(*command_line.state_file, configuration);
   }
   const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(
-      configuration, *replay, sinks.pointers(),
+      configuration, *replay, std::move(all_sinks),
       command_line.timing ? PipelineClock{&monotonic_us} : no_clock,
       learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
@@ -200,7 +203,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
   const bool input_good =
-      report_replay({configuration_path, configuration, pipeline, *replay, *stop != 0});
+      report_replay({configuration_path, configuration, pipeline, *replay, tally, *stop != 0});
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }

@@ -90,6 +90,13 @@ def _open_closed_streams():
     sys.stderr = sys.stderr or open(2, "w", encoding="utf-8", closefd=False)
 
 
+def reason_of(error):
+    """Without Python's number and quotes."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error) or "the memory does not suffice"
+
+
 def tell(name, reason):
     with contextlib.suppress(OSError):
         print(f"{name}: {reason}", file=sys.stderr, flush=True)
@@ -103,7 +110,7 @@ def _status_of(name, main):
         tell(name, error)
         return BAD_USAGE
     except (OSError, ValueError, MemoryError) as error:
-        tell(name, error if str(error) else type(error).__name__)
+        tell(name, reason_of(error))
         return FAILURE
     except SystemExit as exit_:
         return exit_.code or 0

@@ -5,45 +5,26 @@
 namespace cremed {
 namespace {
 
-constexpr Range kTimeS{0.01, 1000.0};
 constexpr Range kAngleRad{0.0, 1.0};
 constexpr Range kVelocityMps{0.0, 10.0};
 
 void read_vehicle(TomlReader& reader, OdometryOptions& options) {
   reader.number("acceleration_std_mps2", options.acceleration.std, {0.01, 100.0});
-  reader.number("acceleration_time_s", options.acceleration.time_s, kTimeS);
   reader.number("yaw_acceleration_std_radps2", options.yaw_acceleration.std, {0.001, 100.0});
-  reader.number("yaw_acceleration_time_s", options.yaw_acceleration.time_s, kTimeS);
   reader.number("slip_std_rad", options.slip_std_rad, kAngleRad);
-  reader.number("slip_walk_rad_per_sqrt_s", options.slip_walk, kAngleRad);
-  reader.number("slip_per_lateral_acceleration_std", options.slip_per_lateral_acceleration_std,
-                {0.0, 0.05});
   reader.number("body_velocity_std_mps", options.body_velocity.std, kVelocityMps);
-  reader.number("body_velocity_time_s", options.body_velocity.time_s, kTimeS);
-  reader.number("start_speed_std_mps", options.start_speed_std_mps, {0.1, 150.0});
-  reader.number("start_yaw_rate_std_radps", options.start_yaw_rate_std_radps, {0.01, 10.0});
 }
 
 void read_radar_errors(TomlReader& reader, OdometryOptions& options) {
   reader.number("mount_yaw_std_rad", options.mount_yaw_std_rad, kAngleRad);
-  reader.number("mount_yaw_walk_rad_per_sqrt_s", options.mount_yaw_walk, kAngleRad);
   reader.number("mount_position_std_m", options.lever_std_m, {0.0, 10.0});
   reader.number("doppler_scale_std", options.doppler_scale_std, {0.0, 1.0});
-  reader.number("doppler_std_mps", options.doppler_std_mps, {0.001, 10.0});
-  reader.number("doppler_x_std_mps", options.doppler_x.std, kVelocityMps);
-  reader.number("doppler_x_time_s", options.doppler_x.time_s, kTimeS);
-  reader.number("doppler_y_std_mps", options.doppler_y.std, kVelocityMps);
-  reader.number("doppler_y_time_s", options.doppler_y.time_s, kTimeS);
   reader.number("doppler_offset_std_mps", options.offset.std, kVelocityMps);
-  reader.number("doppler_offset_time_s", options.offset.time_s, kTimeS);
   reader.number("azimuth_scale_std", options.azimuth_scale_std, {0.0, 1.0});
 }
 
 void read_limits(TomlReader& reader, OdometryOptions& options) {
   reader.integer("min_targets", options.min_targets, 2, 256);
-  reader.number("max_doppler_nis", options.max_doppler_nis, {1.0, 1000.0});
-  reader.number("max_position_nis", options.max_position_nis, {1.0, 1000.0});
-  reader.number("standstill_mps", options.standstill_mps, {0.0, 1.0});
   reader.number("predicted_s", options.predicted_s, {0.01, 10.0});
   reader.number("lost_s", options.lost_s, {0.01, 60.0});
   reader.number("anchor_period_s", options.anchor_period_s, {0.1, 60.0});

@@ -10,6 +10,7 @@
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/message_text.hpp"
 
 namespace cremed {
 namespace {
@@ -140,6 +141,13 @@ std::vector<std::string> configuration_doubts(const Configuration& configuration
           "{:g} degrees are",
           radar.name, yaw, kDegPerRad * yaw, std::remainder(yaw, 2.0 * std::numbers::pi),
           yaw / kDegPerRad, yaw));
+    }
+    const auto* ars408 = radar.decoder.as<Ars408Options>();
+    if (ars408 != nullptr && ars408->motion_feedback && ars408->keep_dyn_props != kEveryDynProp) {
+      doubts.push_back(concat({radar.name,
+                               ": motion_feedback = true, but keep_dyn_props selects targets by a "
+                               "flag that follows from it: an error would confirm itself; set "
+                               "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"}));
     }
   }
   return doubts;

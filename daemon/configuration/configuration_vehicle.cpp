@@ -63,7 +63,6 @@ void check_id(TomlReader& reader, std::string_view key, std::optional<std::uint3
 void read_vehicle(TomlReader& reader, VehicleConfiguration& vehicle, VehicleOptions& options) {
   constexpr Range kDelayS{0.0, 0.2};
   constexpr Range kScale{0.0, 0.5};
-  constexpr Range kTimeS{0.01, 1000.0};
   std::string interface(kOff);
   reader.text("interface", interface, kBusName);
   vehicle.interface = interface == kOff ? "" : interface;
@@ -71,13 +70,9 @@ void read_vehicle(TomlReader& reader, VehicleConfiguration& vehicle, VehicleOpti
   read_id(reader, "yaw_rate", vehicle.id(VehicleSignal::yaw_rate));
   reader.number("speed_delay_s", options.speed.delay_s, kDelayS);
   reader.number("speed_scale_std", options.speed.scale_std, kScale);
-  reader.number("speed_std_mps", options.speed.error.std, {0.0, 10.0});
-  reader.number("speed_time_s", options.speed.error.time_s, kTimeS);
   reader.number("yaw_rate_delay_s", options.yaw_rate.delay_s, kDelayS);
   reader.number("yaw_rate_scale_std", options.yaw_rate.scale_std, kScale);
   reader.number("yaw_rate_bias_std_radps", options.yaw_rate_bias_std_radps, {0.0, 1.0});
-  reader.number("yaw_rate_std_radps", options.yaw_rate.error.std, {0.0, 1.0});
-  reader.number("yaw_rate_time_s", options.yaw_rate.error.time_s, kTimeS);
   reader.finish();
   options.speed.is_used = vehicle.is_used(VehicleSignal::speed);
   options.yaw_rate.is_used = vehicle.is_used(VehicleSignal::yaw_rate);

@@ -16,6 +16,7 @@ inline constexpr const char* kFirstSteps =
     "Example, from a log to its odometry; this one is installed, `candump -l any` records yours:\n"
     "  LOG=/usr/share/cremed/examples/town.log\n"
     "  cremed-doctor --replay $LOG --suggest-config > my.toml       # then fill in the mounts\n"
-    "  cremed --config my.toml --replay $LOG --output-csv odo.csv   # the motion at each scan";
+    "  cremed --config my.toml --replay $LOG --output-odometry state.csv   # the state at each "
+    "scan";
 
 }  // namespace cremed

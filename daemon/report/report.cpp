@@ -167,10 +167,11 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
        {count_of(status, MotionStatus::too_few_targets),
         "let more detections pass (keep_dyn_props, [radar.limits]) or lower min_targets"},
        {count_of(status, MotionStatus::degenerate), "the surroundings hold too few fixed targets"},
-       {count_of(status, MotionStatus::no_convergence), "raise max_iterations"},
+       {count_of(status, MotionStatus::no_convergence),
+        "narrow [radar.limits] to what it sees well, and leave out the vehicle's own parts"},
        {count_of(status, MotionStatus::non_finite), "report it: it is a bug in cremed"},
        {count_of(status, MotionStatus::implausible),
-        "check type, the keys that invert a sign and the limits of speed"},
+        "check type and the keys that invert a sign: no vehicle is faster than 70 m/s or 3 rad/s"},
        {count_of(status, MotionStatus::ambiguous),
         "the surroundings hold too few fixed targets, or its noise is set too small: "
         "`cremed-eval calibrate`"}});
@@ -201,7 +202,6 @@ void add_setting(const RadarConfiguration& radar, const RadarHealth& health, Fin
 
 void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
                         Findings& findings) {
-  constexpr std::uint8_t kEveryDynProp = 0xFF;
   const bool no_speed = (health.faults & RadarHealth::speed_missing) != 0;
   const bool no_yaw_rate = (health.faults & RadarHealth::yaw_rate_missing) != 0;
   if ((no_speed || no_yaw_rate) && options.keep_dyn_props != kEveryDynProp) {
@@ -210,8 +210,8 @@ void add_missing_motion(const RadarHealth& health, const Ars408Options& options,
          concat({"the sensor gets no ", no_speed ? "speed (0x300)" : "",
                  no_speed && no_yaw_rate ? " and no " : "", no_yaw_rate ? "yaw rate (0x301)" : "",
                  ": its DynProp is wrong while driving"}),
-         "send them from the vehicle's bus, or set motion_feedback = true, or "
-         "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"});
+         "send them from the vehicle's bus, or set keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7], and "
+         "motion_feedback = true if no other node can send them"});
   }
 }
 

@@ -21,7 +21,8 @@ constexpr std::string_view kDropPrefix = "DROPCOUNT: dropped ";
 
 /// Static text that states the correct form; empty: no error.
 using Error = std::string_view;
-constexpr Error kStampShape = "time stamp must be (seconds.fraction) in digits";
+constexpr Error kStampShape =
+    "time stamp must be (seconds.fraction) in digits, as of `candump -l` or `-ta`";
 constexpr Error kSecondsLength = "seconds must have at most 12 digits";
 constexpr Error kDecimals = "time stamp must have 6 or 9 decimals";
 constexpr Error kInterfaceLength = "interface name must have 1 to 15 characters";

@@ -8,22 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/source/candump.hpp"
+#include "daemon/source/candump_reader.hpp"
 #include "daemon/source/frame_source.hpp"
-#include "daemon/source/line_reader.hpp"
-#include "daemon/source/stamp_order.hpp"
 
 namespace cremed {
 
 /// One candump log (or standard input) as a source of frames.
 class CandumpLog final : public FrameSource {
  public:
-  /// The first invalid line.
-  struct Complaint {
-    std::uint64_t line_number = 0;  ///< 0: none.
-    std::string_view reason;
-  };
-
   /// `interfaces`: names in the order of CanFrame::interface. Reading ends when `*stop` is set.
   /// Throws std::runtime_error if the log cannot be opened or has another format.
   CandumpLog(const std::string& path, std::vector<std::string> interfaces,
@@ -32,8 +24,7 @@ class CandumpLog final : public FrameSource {
   /// Throws std::runtime_error at the first line of a pipe with another format.
   SourceEvent next(CanFrame& frame) override;
 
-  [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] const LineReader& reader() const { return reader_; }
+  [[nodiscard]] const CandumpReader& reader() const { return reader_; }
   [[nodiscard]] std::size_t interface_count() const { return interfaces_.size(); }
   /// Whether the interface with that index had a frame.
   [[nodiscard]] bool has_frames(std::size_t interface) const { return has_frames_[interface]; }
@@ -41,26 +32,17 @@ class CandumpLog final : public FrameSource {
   [[nodiscard]] const std::vector<std::string>& other_interfaces() const {
     return other_interfaces_;
   }
-  [[nodiscard]] const Complaint& complaint() const { return complaint_; }
-  [[nodiscard]] const StampOrder& stamps() const { return stamps_; }
-  /// errno of a failed read, else 0.
-  [[nodiscard]] int read_error() const { return read_error_; }
 
  private:
   void count_other(std::string_view interface);
-  void complain(std::string_view reason);
   /// Index of the interface, or interfaces_.size().
   [[nodiscard]] std::size_t index_of(std::string_view interface_name) const;
 
-  std::string path_;
-  LineReader reader_;
+  CandumpReader reader_;
   std::vector<std::string> interfaces_;
   std::vector<bool> has_frames_;
   std::vector<std::string> other_interfaces_;
   const volatile std::sig_atomic_t* stop_;
-  Complaint complaint_;
-  StampOrder stamps_;
-  int read_error_ = 0;
 };
 
 }  // namespace cremed

@@ -144,11 +144,11 @@ std::optional<double> Replay::share_read() const {
   std::uint64_t all = 0;
   std::uint64_t read = 0;
   for (const auto& log : logs_) {
-    if (log->reader().file_bytes() == 0) {
+    if (log->reader().lines().file_bytes() == 0) {
       return std::nullopt;
     }
-    all += log->reader().file_bytes();
-    read += log->reader().read_bytes();
+    all += log->reader().lines().file_bytes();
+    read += log->reader().lines().read_bytes();
   }
   return std::min(1.0, static_cast<double>(read) / static_cast<double>(all));
 }
@@ -159,7 +159,7 @@ void Replay::count() {
   for (const auto& log : logs_) {
     counters_.other_interface_frames += log->counters().other_interface_frames;
     counters_.lost_frames += log->counters().lost_frames;
-    counters_.malformed_lines += log->counters().malformed_lines;
+    counters_.malformed_lines += log->reader().malformed_lines();
   }
 }
 

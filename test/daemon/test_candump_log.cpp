@@ -41,9 +41,29 @@ TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
   CHECK(log.counters().frames == 2);
   CHECK(log.counters().other_interface_frames == 1);
   CHECK(log.counters().lost_frames == 15);
-  CHECK(log.counters().malformed_lines == 1);
-  CHECK(log.complaint().line_number == 4);
-  CHECK_FALSE(log.complaint().reason.empty());
+  CHECK(log.reader().malformed_lines() == 1);
+  CHECK_FALSE(log.reader().is_cut_off());
+  CHECK_THAT(log.reader().malformed(),
+             Catch::StartsWith(file.path() + ":4: ") && Catch::EndsWith(" (1 such line)"));
+}
+
+TEST_CASE("A log that ends inside a line was cut off") {
+  const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000100) can0 60");
+  CandumpLog log(file.path(), {"can0"}, &no_stop);
+  CanFrame frame;
+  CHECK(log.next(frame) == SourceEvent::frame);
+  CHECK(log.next(frame) == SourceEvent::end);
+  CHECK(log.reader().is_cut_off());
+}
+
+TEST_CASE("Of a log without a frame the first malformed line tells why") {
+  const TemporaryFile file("  can0  600   [2]  00 11\n  can0  600   [2]  00 11\n");
+  CandumpLog log(file.path(), {"can0"}, &no_stop);
+  CanFrame frame;
+  CHECK(log.next(frame) == SourceEvent::end);
+  CHECK_THAT(log.reader().no_frame(), Catch::Contains("no CAN frame in it; ") &&
+                                          Catch::Contains(":1: console output without time") &&
+                                          Catch::EndsWith(" (2 such lines)"));
 }
 
 TEST_CASE("A request to stop ends the log") {

@@ -55,6 +55,16 @@ TEST_CASE(
         "if 5 degrees are");
 }
 
+TEST_CASE("motion_feedback is doubted if targets are selected by the flag that it sets") {
+  const std::string text = kArs408 + "motion_feedback = true\n";
+  const auto doubts = configuration_doubts(parse_configuration(text, "test.toml"));
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Catch::StartsWith("front: motion_feedback = true, but keep_dyn_props"));
+  CHECK(configuration_doubts(
+            parse_configuration(text + "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]\n", "test.toml"))
+            .empty());
+}
+
 TEST_CASE("a yaw of up to half a turn is not doubted, however it is rounded") {
   const auto* yaw = GENERATE("0.0", "-1.5708", "3.1416", "-3.14159265358979");
   CHECK(configuration_doubts(parse_configuration(with_yaw(yaw), "test.toml")).empty());

@@ -148,9 +148,9 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
                             Case{MotionStatus::gap_too_long, "so rarely"},
                             Case{MotionStatus::too_few_targets, "min_targets"},
                             Case{MotionStatus::degenerate, "few fixed targets"},
-                            Case{MotionStatus::no_convergence, "max_iterations"},
+                            Case{MotionStatus::no_convergence, "narrow [radar.limits]"},
                             Case{MotionStatus::non_finite, "bug"},
-                            Case{MotionStatus::implausible, "limits of speed"},
+                            Case{MotionStatus::implausible, "invert a sign"},
                             Case{MotionStatus::ambiguous, "few fixed targets"});
   RadarStatus status = healthy();
   no_estimate_but(status, row.status);

@@ -23,11 +23,12 @@ std::string write_configuration(const TemporaryFolder& folder, const std::string
 }
 
 /// The log of a simulated drive with bends.
-std::string write_log(const TemporaryFolder& folder, const std::string& config, int duration_s) {
+std::string write_log(const TemporaryFolder& folder, const std::string& config, int duration_s,
+                      const std::string& scenario = "bends") {
   const std::string log = folder.file("drive.log");
   REQUIRE(run_tool("cremed-simulate", folder,
-                   "--scenario bends --duration " + std::to_string(duration_s) + " --config " +
-                       config + " --output " + log)
+                   "--scenario " + scenario + " --duration " + std::to_string(duration_s) +
+                       " --config " + config + " --output " + log)
               .status == 0);
   return log;
 }
@@ -129,6 +130,27 @@ TEST_CASE("cremed-eval calibrate says what is wrong") {
   const std::string file =
       write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
   check(run_tool("cremed-eval", folder, with_file(row.arguments, "CONFIG", file)), row);
+}
+
+TEST_CASE("cremed-eval calibrate refuses what is too far from the configuration, or stands still") {
+  const TemporaryFolder folder;
+  const std::string first =
+      "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.0 }\n[[radar]]\nname = "
+      "\"rear\"\ntype = \"ars408\"\ninterface = \"can1\"\n";
+  const std::string right = write_configuration(
+      folder, "right.toml", first + "mount = { x_m = -0.9, y_m = 0.0, yaw_rad = 3.1416 }");
+  const std::string reversed = write_configuration(
+      folder, "reversed.toml", first + "mount = { x_m = -0.9, y_m = 0.0, yaw_rad = 0.0 }");
+  const auto calibrate = [&](const std::string& log, const std::string& config) {
+    return run_tool("cremed-eval", folder, "calibrate " + log + " --config " + config);
+  };
+  const ToolRun far = calibrate(write_log(folder, right, 15), reversed);
+  CHECK(far.status == 1);
+  CHECK_THAT(far.error, Catch::Contains("rear: its yaw or the sign of its Doppler is wrong"));
+  CHECK(far.output.empty());
+  const ToolRun still = calibrate(write_log(folder, right, 3, "standing"), right);
+  CHECK(still.status == 1);
+  CHECK_THAT(still.error, Catch::Contains("the vehicle does not move"));
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ TEST_CASE("What is wrong with a bus is found") {
              front_bus(o).state = InterfaceState::absent;
              o.is_live = false;
            },
-           "the log has no frame of interface can0", "set interface to one of these: can1"},
+           "the log has no frame of interface can0",
+           "record that bus too, or set interface to one of these: can1"},
       Case{"no CAN interface", [](auto& o) { front_bus(o).state = InterfaceState::not_can; },
            "can0 is no CAN interface", "`ip -brief link show type can`"},
       Case{"down", [](auto& o) { front_bus(o).state = InterfaceState::down; }, "can0 is down",

@@ -47,8 +47,8 @@ TEST_CASE("cremed-doctor: findings are one a line, the status says that there ar
   const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '");
   CHECK(silent.status == 1);
   CHECK_THAT(silent.output,
-             Catch::StartsWith("error: the log has no frame of interface can0; set "
-                               "interface to one of these: can1\nfront: 0.0 scans/s, "
+             Catch::StartsWith("error: the log has no frame of interface can0; record that bus "
+                               "too, or set interface to one of these: can1\nfront: 0.0 scans/s, "
                                "0 estimates\nrear: 10."));
   const ToolRun shifted = doctor_of_filtered(folder, "sed 's/ can0 \\([267]\\)0/ can0 \\12/'");
   CHECK(shifted.status == 1);
@@ -108,11 +108,11 @@ TEST_CASE("cremed-doctor: the diagnosis as JSON") {
   const ToolRun silent = doctor_of_filtered(folder, "grep -v ' can0 '", " --json");
   CHECK(silent.status == 1);
   CHECK_THAT(silent.output, Catch::StartsWith("{\n  \"good\": false,"));
-  CHECK_THAT(
-      silent.output,
-      Catch::Contains("\"severity\": \"error\",\n      \"what\": \"the log has no frame of "
-                      "interface can0\",\n      \"remedy\": \"set interface to one of these: "
-                      "can1\""));
+  CHECK_THAT(silent.output,
+             Catch::Contains(
+                 "\"severity\": \"error\",\n      \"what\": \"the log has no frame of "
+                 "interface can0\",\n      \"remedy\": \"record that bus too, or set interface to "
+                 "one of these: can1\""));
 }
 
 TEST_CASE("cremed-doctor suggests a configuration, which is refused until it is filled in") {
@@ -150,7 +150,8 @@ TEST_CASE("cremed-doctor examines a log without any configuration, and says how 
   std::ofstream(folder.file("other.log")) << "(1.000000) can0 7FF#00\n(2.000000) can0 7FF#00\n";
   check(doctor(folder, "--replay " + folder.file("other.log")),
         {"", 1, "can0: frames, but none of a radar (0x7FF)"});
-  check(doctor(folder, "--replay - <" + kData + "bends.log"), {"", 2, std::string(kWriteFirst)});
+  check(doctor(folder, "--replay - <" + kData + "bends.log"),
+        {"", 2, "a pipe cannot be read twice"});
 }
 
 TEST_CASE("cremed-doctor takes the log to suggest from with either option") {
@@ -220,6 +221,17 @@ TEST_CASE("cremed-doctor says what is wrong with its arguments") {
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   check(doctor(folder, row.arguments), row);
+}
+
+TEST_CASE(
+    "cremed-doctor tells of lines that are none of candump, but not of a log that was cut off") {
+  const TemporaryFolder folder;
+  const ToolRun spoilt = doctor_of_filtered(folder, "sed '100~50s/^(/x/'");
+  CHECK(spoilt.status == 1);
+  CHECK_THAT(spoilt.output,
+             Catch::Contains(": a frame's line must begin with (seconds.fraction) (") &&
+                 Catch::Contains("they are left out"));
+  CHECK(doctor_of_filtered(folder, "head -c -12").status == 0);
 }
 
 TEST_CASE("cremed-doctor on a computer without these interfaces") {

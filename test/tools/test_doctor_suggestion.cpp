@@ -96,7 +96,8 @@ TEST_CASE("A GPR is suggested with its base id") {
 TEST_CASE("An ARS408 that sends objects, or nothing, is suggested with what sets it right") {
   RadarConfiguration objects = default_radars()[0];
   objects.decoder = Ars408Options{.output = Ars408Output::objects};
-  CHECK_THAT(suggested(recording_of({objects})), Catch::Contains("# It sends objects now; "));
+  CHECK_THAT(suggested(recording_of({objects})),
+             Catch::Contains("\noutput = \"objects\"  # as it sends now; "));
   Recording silent = recording_of({ars408("a", "can0", 0)});
   report_state(silent, "can0", good_state());
   remove_if(silent, [](const BusFrame& entry) { return entry.frame.id != 0x201; });

@@ -46,7 +46,7 @@ Finding absent(const BusObservation& bus, const Observation& observation) {
   const std::string others = other_interfaces(observation);
   if (!observation.is_live) {
     return {Severity::error, concat({"the log has no frame of interface ", bus.interface}),
-            concat({"set interface to one of these: ", others})};
+            concat({"record that bus too, or set interface to one of these: ", others})};
   }
   const std::string remedy =
       is_virtual(bus)

@@ -112,6 +112,11 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     add_buses(configuration, observation, findings);
     add_vehicle(configuration.vehicle, observation, findings);
   }
+  if (!observation.malformed_lines.empty()) {
+    findings.push_back({Severity::warning, observation.malformed_lines,
+                        "they are left out, and frames that they held are missing; record with "
+                        "`candump -l`"});
+  }
   if (observation.frames_left_out != 0) {
     findings.push_back({Severity::warning,
                         concat({counted(observation.frames_left_out, "frame"),

@@ -124,9 +124,13 @@ void print(const Finding& finding) {
   std::cout << severity_name(finding.severity) << ": " << to_text(finding) << '\n';
 }
 
-/// A pipe cannot be read twice.
 bool finds_radars(const Arguments& arguments) {
-  return !is_pipe(arguments.replay) && is_unconfigured(arguments.config);
+  if (is_unconfigured(arguments.config) && is_pipe(arguments.replay)) {
+    throw UsageError(
+        "--replay: a pipe cannot be read twice, first for its radars; name a file, or "
+        "the radars by --config FILE");
+  }
+  return is_unconfigured(arguments.config);
 }
 
 Observation observe(const Arguments& arguments, const Configuration& configuration,

@@ -9,8 +9,8 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/source/candump_reader.hpp"
 #include "daemon/source/radar_search.hpp"
-#include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
@@ -61,7 +61,10 @@ void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
 
 std::vector<HeardBus> heard_in(const std::string& path) {
   std::vector<HeardBus> buses;
-  read_log(path, [&](const CandumpLine& line) { hear(line, buses); });
+  CandumpReader log(path);
+  for (CandumpLine line; log.next(line);) {
+    hear(line, buses);
+  }
   return buses;
 }
 

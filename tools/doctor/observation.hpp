@@ -50,6 +50,7 @@ struct Observation {
   bool kernel_has_can = true;
   double seconds = 0.0;  ///< Of traffic.
   std::string lcm_problem;
+  std::string malformed_lines;           ///< Of a log, the first and how many; empty: none.
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
   std::uint64_t frames_left_out = 0;     ///< Of interfaces beyond kMaxBuses.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.

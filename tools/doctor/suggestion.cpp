@@ -60,9 +60,10 @@ std::string output_line(const BusObservation& bus, const RadarSettings& radar) {
     return "";
   }
   return has(Ars408Message::object_status)
-             ? "# It sends objects now; clusters are far better: `cremed-doctor "
-               "--configure-ars408`.\n"
-             : "# It sends no targets now: `cremed-doctor --configure-ars408`.\n";
+             ? "output = \"objects\"  # as it sends now; \"clusters\" are far better: "
+               "`cremed-doctor "
+               "--configure-ars408 NAME` sets them\n"
+             : "# It sends no targets now: `cremed-doctor --configure-ars408 NAME`.\n";
 }
 
 /// A comment with the types that cannot be distinguished from `family`; empty: none.
@@ -81,7 +82,7 @@ std::string table(const BusObservation& bus, const RadarSettings& radar, std::si
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
                  radar.family().type, "\"", others_like(radar.family(), families),
                  "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n",
-                 output_line(bus, radar), mount});
+                 mount == kMount ? output_line(bus, radar) : "", mount});
 }
 
 std::string tables_of(const Observation& observation, RadarFamilies families,

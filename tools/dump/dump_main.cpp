@@ -13,6 +13,7 @@
 #include "daemon/configuration/configuration_path.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/usage_error.hpp"
+#include "daemon/source/candump_reader.hpp"
 #include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/log_observation.hpp"
 #include "tools/doctor/observer.hpp"
@@ -84,11 +85,11 @@ class LogHead {
   }
   /// Every radar that was on has been seen.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
-  /// The radars in what was added of the log `path`. Throws std::runtime_error with advice if there
-  /// are none. Call it once.
-  [[nodiscard]] Configuration examined(const std::string& path) {
+  /// The radars in what was added of `log`. Throws std::runtime_error with advice if there are
+  /// none. Call it once.
+  [[nodiscard]] Configuration examined(const CandumpReader& log) {
     if (!first_us_) {
-      throw std::runtime_error(no_frame_in(path));
+      throw std::runtime_error(log.no_frame());
     }
     return examined_radars(observer_.finish());
   }
@@ -117,6 +118,7 @@ class Dump {
  public:
   explicit Dump(const Arguments& arguments)
       : arguments_(arguments),
+        log_(arguments.log),
         writer_(make_record_writer(
             std::cout, {arguments.is_json, !arguments.without_targets, is_pipe(arguments.log)})) {
     if (const auto configuration = configuration_of(arguments)) {
@@ -125,7 +127,9 @@ class Dump {
   }
 
   void run() {
-    read_log(arguments_.log, [&](const CandumpLine& line) { take(line); });
+    for (CandumpLine line; log_.next(line);) {
+      take(line);
+    }
     if (!reader_) {
       end_head();
     }
@@ -134,16 +138,20 @@ class Dump {
 
   /// Tells what one may miss in the output. Whether it is complete.
   [[nodiscard]] bool report() const {
-    if (bad_lines_ != 0) {
-      std::cerr << "cremed-dump: " << counted(bad_lines_, "line")
-                << " of another form than candump -L writes\n";
-    }
     const std::string silent = reader_->silent();
-    if (!silent.empty()) {
-      std::cerr << "cremed-dump: no scan of " << silent
-                << "; cremed-doctor --replay LOG tells why\n";
+    const std::string reasons[] = {
+        log_.malformed(), log_.problem(),
+        silent.empty() ? ""
+                       : concat({"no scan of ", silent, "; `cremed-doctor --replay ",
+                                 in_shell(arguments_.log), "` tells why"})};
+    bool is_complete = true;
+    for (const std::string& reason : reasons) {
+      if (!reason.empty()) {
+        std::cerr << "cremed-dump: " << reason << '\n';
+        is_complete = false;
+      }
     }
-    return bad_lines_ == 0 && silent.empty();
+    return is_complete;
   }
 
  private:
@@ -153,12 +161,11 @@ class Dump {
   }
 
   void end_head() {
-    begin(head_.examined(arguments_.log));
+    begin(head_.examined(log_));
     head_.hand_over(*reader_);
   }
 
   void take(const CandumpLine& line) {
-    bad_lines_ += line.status == CandumpStatus::malformed ? 1 : 0;
     if (reader_) {
       reader_->add(line);
       return;
@@ -170,10 +177,10 @@ class Dump {
   }
 
   const Arguments& arguments_;
+  CandumpReader log_;
   std::unique_ptr<RecordWriter> writer_;
   LogHead head_;
   std::optional<ScanReader> reader_;
-  std::uint64_t bad_lines_ = 0;
 };
 
 int run(CLI::App& app, int argc, char** argv) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -16,7 +18,7 @@ auto with_input(const std::string& path, Read read) {
   if (path != "-") {
     file.open(path);
     if (!file) {
-      throw std::runtime_error("cannot read " + path);
+      throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno));
     }
   }
   try {

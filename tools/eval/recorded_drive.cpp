@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -63,10 +62,7 @@ std::int64_t no_clock() { return 0; }
 
 void check_logs(const Replay& replay) {
   for (const auto& log : replay.logs()) {
-    if (log->read_error() != 0) {
-      throw std::runtime_error(concat({log->path(), ": ", std::strerror(log->read_error())}));
-    }
-    if (const std::string problem = log->stamps().problem(log->path()); !problem.empty()) {
+    if (const std::string problem = log->reader().problem(); !problem.empty()) {
       throw std::runtime_error(problem);
     }
   }
@@ -100,8 +96,8 @@ std::vector<RecordedRadar> record_drive(const Configuration& configuration,
   std::vector<RecordedRadar> radars = sink.take();
   if (std::ranges::all_of(radars, [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(
-        concat({logs.front(),
-                ": no complete scan of any radar; `cremed-doctor --replay` shows the cause"}));
+        concat({logs.front(), ": no complete scan of any radar; `cremed-doctor --replay ",
+                in_shell(logs.front()), "` tells why"}));
   }
   return radars;
 }

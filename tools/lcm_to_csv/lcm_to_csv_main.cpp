@@ -52,9 +52,9 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
     std::cerr << log << ": no odometry on CREMED_ODOMETRY\n";
   }
   if (!counters.damage.empty()) {
-    std::cerr << counters.damage << "; what comes before is converted\n";
-  }
-  if (counters.motions == 0) {
+    std::cerr << counters.damage
+              << (counters.motions != 0 ? "; what comes before is converted\n" : "\n");
+  } else if (counters.motions == 0) {
     std::cerr << log << ": no motion on CREMED_EGO_MOTION; record with lcm-logger\n";
   }
   return counters.bad_messages == 0 && counters.damage.empty() && counters.motions != 0 &&

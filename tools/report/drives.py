@@ -51,6 +51,8 @@ def logs_in(folder):
 
 def named_logs(paths):
     for path in paths:
+        if path == "-":
+            raise main_program.UsageError("LOG: a page is made of a file, not of a pipe")
         yield from logs_in(path) if os.path.isdir(path) else [(path, pathlib.Path(path).stem)]
 
 
@@ -182,7 +184,8 @@ def make_one(number, drive, programs, share, version):
     try:
         return make(drive, programs, share, version, PROGRESS.teller(number))
     except (OSError, ValueError, MemoryError) as error:
-        return f"{', '.join(drive.logs)}: {error or 'the memory does not suffice'}"
+        reason = main_program.reason_of(error)
+        return reason if reason.startswith(drive.logs[0]) else f"{', '.join(drive.logs)}: {reason}"
     finally:
         PROGRESS.parts[number] = 1.0
 

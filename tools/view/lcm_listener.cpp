@@ -101,6 +101,11 @@ LcmListener::LcmListener(const std::string& url, HeardState& state)
     : state_(state), speed_(speed_of(url)) {
   if (const std::string file = lcm_file(url); !file.empty()) {
     log_.emplace(file);
+    logged_ = log_->next();
+    if (logged_ == nullptr && !log_->damage().empty()) {
+      throw std::runtime_error(log_->damage());
+    }
+    recorded_us_ = logged_ != nullptr ? logged_->recorded_us : 0;
     return;
   }
   if (const std::string problem = multicast_problem(url); !problem.empty()) {

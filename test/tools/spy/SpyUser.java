@@ -28,6 +28,7 @@ public final class SpyUser {
   private static final Color OK = new Color(0x66BB6A);
   private static final long LIMIT_NS = 200_000_000_000L;
   private static final double SPAN_S = 30;
+  private static final String REPLAY = "replay"; // Asks window_test for a replay from the start.
 
   private final Robot robot;
   private final String channel;
@@ -57,8 +58,9 @@ public final class SpyUser {
 
   private BufferedImage look() throws Exception {
     JTable channels = (JTable) wait("lcm-spy", () -> part(frame("LCM Spy"), "JTable").get(0));
-    System.out.println("listens");
+    System.out.println(REPLAY);
     Frame window = wait(channel + "'s window", () -> opened(channels));
+    System.out.println(REPLAY); // What was drawn stays: no later replay replaces it.
     return wait("curves in the window", () -> seen(window));
   }
 

@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Dense>
 
+#include "daemon/process/message_text.hpp"
 #include "tools/eval/calibrate/matched_turns.hpp"
 #include "tools/eval/recorded_drive.hpp"
 
@@ -190,6 +192,9 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
         continue;
       }
       const RecordedScan fixed = static_part(scan, *state, {}, kGateSlackMps);
+      if (fixed.targets.empty()) {
+        continue;
+      }
       result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
     }
   }
@@ -249,11 +254,19 @@ std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
 }
 
 void Calibrator::solve() {
-  fit_.set_measurements(velocities(),
-                        is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
+  const std::vector<VelocityMeasurement> measured = velocities();
+  if (measured.empty()) {
+    throw std::runtime_error(
+        concat({logs_.front(),
+                ": the vehicle does not move; calibration needs two minutes of "
+                "driving with bends, starts and stops"}));
+  }
+  fit_.set_measurements(measured, is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
   fit_.solve();
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     radars_[i].fit = fit_.radars()[i];
+    radars_[i].explained_scans =
+        static_cast<std::size_t>(std::ranges::count(measured, i, &VelocityMeasurement::radar));
   }
 }
 

@@ -25,7 +25,8 @@ struct RadarCalibration {
   std::array<bool, kCalibrationStates> is_changed{};
   SensorNoise noise;
   std::size_t scans = 0;
-  bool is_refused = false;  ///< What was found fits other parts of the drive no better.
+  std::size_t explained_scans = 0;  ///< While driving, by the motion of all radars.
+  bool is_refused = false;          ///< What was found fits other parts of the drive no better.
 };
 
 struct Calibration {

@@ -170,8 +170,8 @@ TEST_CASE("nothing is named before lateness can be told, and after a pause from 
   FaultCauseSearch search(kMounts, 0);
   const auto drive = [&](double from_s, double until_s, double factor) {
     for (double time_s = from_s; time_s < until_s; time_s += 0.15) {
-      search.add_motion(std::llround(time_s * 1e6),
-                        {town(time_s).v_mps, town(time_s).w_radps, 0.0}, 0.0);
+      search.add_motion(std::llround(time_s * 1e6), {town(time_s).v_mps, town(time_s).w_radps, 0.0},
+                        0.0);
       search.add_velocity(factor * velocity_at(town(time_s), kMounts[0]));
     }
     return search.cause(1U);

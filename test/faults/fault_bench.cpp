@@ -101,24 +101,6 @@ FaultDrive drive_of(const std::string& name, const Options& options) {
   return nuscenes_fault_drive(name);
 }
 
-/// Only the radars of a list with commas; of an empty one all.
-FaultDrive with_radars(FaultDrive drive, const std::string& names) {
-  if (names.empty()) return drive;
-  std::vector<RadarConfiguration> kept;
-  std::vector<int> index;
-  for (const RadarConfiguration& radar : drive.radars) {
-    const bool is_kept = ("," + names + ",").find("," + radar.name + ",") != std::string::npos;
-    index.push_back(is_kept ? static_cast<int>(kept.size()) : -1);
-    if (is_kept) kept.push_back(radar);
-  }
-  drive.radars = kept;
-  std::erase_if(drive.frames, [&](const CanFrame& frame) { return index[frame.interface] < 0; });
-  for (CanFrame& frame : drive.frames) {
-    frame.interface = static_cast<std::uint8_t>(index[frame.interface]);
-  }
-  return drive;
-}
-
 using Job = std::function<std::string()>;
 
 /// Two at a time; each gives a line, printed in order.

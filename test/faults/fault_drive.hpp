@@ -46,6 +46,24 @@ inline std::vector<RadarConfiguration> four_radars() {
   return radars;
 }
 
+/// Only the radars of a list with commas; of an empty one all.
+inline FaultDrive with_radars(FaultDrive drive, const std::string& names) {
+  if (names.empty()) return drive;
+  std::vector<RadarConfiguration> kept;
+  std::vector<int> index;
+  for (const RadarConfiguration& radar : drive.radars) {
+    const bool is_kept = ("," + names + ",").find("," + radar.name + ",") != std::string::npos;
+    index.push_back(is_kept ? static_cast<int>(kept.size()) : -1);
+    if (is_kept) kept.push_back(radar);
+  }
+  drive.radars = kept;
+  std::erase_if(drive.frames, [&](const CanFrame& frame) { return index[frame.interface] < 0; });
+  for (CanFrame& frame : drive.frames) {
+    frame.interface = static_cast<std::uint8_t>(index[frame.interface]);
+  }
+  return drive;
+}
+
 inline FaultDrive simulated_fault_drive(
     const std::string& name, double duration_s,
     const std::vector<RadarConfiguration>& radars = four_radars()) {

@@ -25,7 +25,8 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"late 100 ms", "", "I", "0.3 s in which it is not known who is wrong"},
     {"late 200 ms", "", "BU", "a bend that begins in the first second tells too little of it"},
     {"late 300 ms", "", "BU", "likewise"},
-    {"late 500 ms", "", "U", "noticed when braking or turning only"},
+    {"late 500 ms", "", "BU", "noticed when braking or turning only"},
+    {"fewer targets, 105", "I", "", "posts of guard rails: as many votes as against stuck Doppler"},
 });
 
 }  // namespace cremed::test

@@ -19,8 +19,8 @@ constexpr double kMaxSpeedStdMps = 0.3;
 constexpr double kMinDifferenceMps = 2.0;
 /// Of the votes of the best speed, those of Doppler's: figures in SpeedCheck.
 constexpr double kMaxShareOfBest = 0.6;
-/// Bound of the difference between two numbers of votes (Poisson): figures in SpeedCheck.
-constexpr double kMinSigmas = 3.2;
+/// Bound of the difference between two numbers of votes (Poisson).
+constexpr double kMinSigmas = 2.0;
 /// Of the targets nearer than this to each other only one votes. Without it 980 of 1778 comparisons
 /// on RadarScenes 105, with 200 targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;

@@ -16,12 +16,11 @@ namespace cremed {
 /// of time.
 ///
 /// Compares every 0.2 s, with the targets that are at rest by Doppler. A contradiction is another
-/// speed, more than 2 m/s from Doppler's, of whose votes Doppler's has less than 0.6, and 3.2
-/// standard deviations of their numbers fewer. Stuck Doppler has 0.3 to 0.6 of them, and most
-/// comparisons exceed 3 standard deviations. On healthy drives the share is 0.66 at least where the
-/// difference is larger than 2 (RadarScenes 105 and nuScenes, 20588 comparisons at random phases;
-/// by number alone up to 3 standard deviations, since posts of guard rails repeat). With 0.6 to 0.3
-/// of their targets it is less in 1 to 30 % of the comparisons, by 3.0 standard deviations at most.
+/// speed, more than 2 m/s from Doppler's, of whose votes Doppler's has less than 0.6, and two
+/// standard deviations of their numbers fewer. Stuck Doppler has 0.3 to 0.6 of them; healthy drives
+/// 0.66 at least where the difference is that large (RadarScenes 105 and nuScenes, 20588
+/// comparisons at random phases; by number alone up to 3 standard deviations, since posts of guard
+/// rails repeat); the eight places of a truck ahead reach it once, not twice in a row.
 /// Contradictions count up, agreements count down; the doubt begins at kMaxContradictions and ends
 /// at 0, or with a step of the Doppler that no vehicle can make. Detection takes 1 s of driving.
 class SpeedCheck {

@@ -20,19 +20,13 @@ constexpr double kMaxMountM = 50.0;
 constexpr double kFullCircleRad = 6.2832;
 constexpr double kHalfCircleRad = 3.1416;
 
-/// As channels of LCM are in capitals.
-bool is_same_channel(std::string_view a, std::string_view b) {
-  const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; };
-  return std::ranges::equal(a, b, {}, upper, upper);
-}
-
 bool is_name(std::string_view text) {
   const auto fits = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
            c == '-';
   };
-  return !text.empty() && text.size() <= kMaxName && !is_same_channel(text, kFusedSource) &&
-         !is_same_channel(text, kOdometrySource) && std::ranges::all_of(text, fits);
+  return !text.empty() && text.size() <= kMaxName && !share_channel(text, kFusedSource) &&
+         !share_channel(text, kOdometrySource) && std::ranges::all_of(text, fits);
 }
 
 constexpr std::string_view kRotationLead = "rotation_lead_s";
@@ -156,6 +150,13 @@ void read_calibrated(TomlReader& reader, RadarConfiguration& radar) {
 }
 
 }  // namespace
+
+bool share_channel(std::string_view a, std::string_view b) {
+  const auto upper = [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  };
+  return std::ranges::equal(a, b, {}, upper, upper);
+}
 
 bool is_interface_name(std::string_view text) {
   return !text.empty() && text.size() <= kMaxInterfaceName && text != "." && text != ".." &&

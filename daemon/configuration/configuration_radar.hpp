@@ -15,6 +15,9 @@ namespace cremed {
 /// Whether the text can be the name of a CAN interface.
 bool is_interface_name(std::string_view text);
 
+/// Whether sources of these names would have one LCM channel: channels are in upper case.
+bool share_channel(std::string_view a, std::string_view b);
+
 /// A radar and its place in the file.
 struct PlacedRadar {
   RadarConfiguration radar;

@@ -11,21 +11,13 @@
 namespace cremed {
 namespace {
 
-std::string upper_case(std::string text) {
-  for (char& c : text) {
-    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  }
-  return text;
-}
-
 std::string of_radar(const PlacedRadar& placed) {
   return concat(
       {" of radar \"", placed.radar.name, "\" (line ", std::to_string(placed.name_line), ")"});
 }
 
-/// Channel names are upper case, so names that differ only in case would share one.
 void check_name(const PlacedRadar& earlier, const PlacedRadar& later, Diagnostics& diagnostics) {
-  if (upper_case(earlier.radar.name) == upper_case(later.radar.name)) {
+  if (share_channel(earlier.radar.name, later.radar.name)) {
     diagnostics.add(later.name_line, "radar.name",
                     concat({"is the name", of_radar(earlier), "; must differ in more than case"}));
   }

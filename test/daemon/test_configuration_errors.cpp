@@ -174,6 +174,8 @@ TEST_CASE("strings that cannot work are refused") {
        "neither \"fused\" nor \"odometry\""},
       {interface + "name = \"odometry\"\n", 5, "radar.name", "is \"odometry\"",
        "neither \"fused\" nor \"odometry\""},
+      {interface + "name = \"Odometry\"\n", 5, "radar.name", "is \"Odometry\"",
+       "neither \"fused\" nor \"odometry\""},
       {name + "interface = \"\"\n", 5, "radar.interface", "is \"\"", "1 to 15 characters"},
       {name + "interface = \"abcdefghijklmnop\"\n", 5, "radar.interface", "is", "1 to 15"},
       {name + "interface = \"can 0\"\n", 5, "radar.interface", "is", "without space"},

@@ -142,6 +142,22 @@ TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the
   CHECK(gain(town, late(0.3)).is_clear);
 }
 
+TEST_CASE("others that know their yaw rate badly convict no radar by it") {
+  const auto gain = [](double yaw_rate_std_radps) {
+    FaultCauseSearch search(kMounts, 0);
+    for (double time_s = 1000.0; time_s < 1010.0; time_s += 0.15) {
+      const Motion motion = town(time_s);
+      // A quarter too small: as if the front radar were further ahead.
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.75 * motion.w_radps, 0.0},
+                        yaw_rate_std_radps * yaw_rate_std_radps);
+      search.add_velocity(velocity_at(motion, kMounts[0]));
+    }
+    return search.find().gain;
+  };
+  CHECK(gain(0.0) > 25.0);
+  CHECK(gain(0.08) < 25.0);
+}
+
 TEST_CASE("data of a radar at another mount are found with its number") {
   for (const auto& [radar, other] : {std::pair<std::size_t, std::size_t>{1, 2}, {3, 0}, {0, 3}}) {
     const FaultCause cause = found(radar, town, 10.0, of_mount(other), 1U << other);

@@ -162,9 +162,19 @@ TEST_CASE("one registration that went wrong convicts nobody, one a second later 
 }
 
 TEST_CASE("of two radars no cause is found again while the other is silent") {
+  constexpr double kDelayS = 0.4;
+  constexpr double kStepS = 0.15;
+  Comparison both({kFront, kRearLeft});
+  both.delay(0, kDelayS);
+  int steps = 0;
+  for (; both.faults().at_fault() == 0 && steps < 100; ++steps) {
+    both.drive(kStepS);
+  }
+  REQUIRE(both.faults().at_fault() == 1U);
+  // Half of the second for which the same delay has to be found.
   Comparison comparison({kFront, kRearLeft});
-  comparison.delay(0, 0.3);
-  comparison.drive(3.2);
+  comparison.delay(0, kDelayS);
+  comparison.drive(kStepS * (steps - 4));
   REQUIRE(comparison.faults().at_fault() == 0);
   comparison.silence(1);
   comparison.drive(10.0);

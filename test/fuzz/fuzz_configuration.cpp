@@ -26,8 +26,6 @@ void check_accepted(const Configuration& configuration) {
     check(!radar.name.empty() && radar.name.size() <= 15);
     check(!radar.interface.empty() && radar.interface.size() <= 15);
     check(radar.scan_timeout_s > 0.0);
-    const RegistrationOptions& registration = radar.ego_motion.registration;
-    check(registration.outlier_ray.min_range_m < registration.outlier_ray.max_range_m);
   }
 }
 

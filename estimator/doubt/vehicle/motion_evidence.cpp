@@ -274,19 +274,13 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) 
   return {sum.of_set / count, sum.of_witnesses / count};
 }
 
-double MotionEvidence::decrease(RadarSet set, std::size_t radar, std::optional<Pair> pair,
-                                bool is_without_worst) const {
-  const RadarSet without = set & ~set_of(radar);
-  double sum = 0.0;
-  double worst = 0.0;
-  for (std::size_t k = 0; k < epochs(); ++k) {
-    const double rest = without == 0 ? 0.0 : fit(without, epochs_[k], pair).chi_square();
-    const double decrease = fit(set, epochs_[k], pair).chi_square() - rest;
-    sum += decrease;
-    worst = std::max(worst, decrease);
+MotionEvidence::ChiSquares MotionEvidence::chi_squares(RadarSet set,
+                                                       std::optional<Pair> pair) const {
+  ChiSquares result{};
+  for (std::size_t k = 0; set != 0 && k < epochs(); ++k) {
+    result[k] = fit(set, epochs_[k], pair).chi_square();
   }
-  const auto count = static_cast<double>(epochs());
-  return is_without_worst && count > 1.0 ? (sum - worst) / (count - 1.0) : sum / count;
+  return result;
 }
 
 RadarSet MotionEvidence::present() const {

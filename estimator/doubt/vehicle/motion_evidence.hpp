@@ -76,6 +76,7 @@ class MotionEvidence {
   [[nodiscard]] RadarSet witnesses() const { return set_of(tracks_.size()) - 1U - judged_; }
   [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
 
+  static constexpr std::size_t kEpochs = 7;  ///< A second.
   /// Of the last second, since which nothing was missing.
   [[nodiscard]] std::size_t epochs() const { return std::min(count_, kEpochs); }
   /// Means over these: of the chi-square of the radars in a set with each other, and of the
@@ -93,10 +94,9 @@ class MotionEvidence {
     bool is_exchanged;
   };
   [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
-  /// By how much chi-square is less without a radar of the set: mean of all epochs, or of those but
-  /// the worst.
-  [[nodiscard]] double decrease(RadarSet set, std::size_t radar, std::optional<Pair> pair,
-                                bool is_without_worst) const;
+  /// Their sum in each epoch; 0 of an empty set and where there is no epoch.
+  using ChiSquares = std::array<double, kEpochs>;
+  [[nodiscard]] ChiSquares chi_squares(RadarSet set, std::optional<Pair> pair) const;
 
   // In the newest epoch:
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
@@ -123,7 +123,6 @@ class MotionEvidence {
   }
 
  private:
-  static constexpr std::size_t kEpochs = 7;
   struct Measured {
     std::optional<Velocity> velocity;
     MotionSums all;

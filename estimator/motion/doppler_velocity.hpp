@@ -17,11 +17,17 @@ inline constexpr double kArs408DopplerStdMps = 0.13;
 /// The sensor's velocity over ground from the Doppler of one scan, in the axes of the vehicle.
 struct DopplerVelocity {
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< By the noise of the static targets.
+  /// To the fit with weights that are wider: what targets add that move with nearly the Doppler of
+  /// static ones.
+  Eigen::Vector2d difference_mps = Eigen::Vector2d::Zero();
   /// Derivative of the velocity by an offset of all Doppler.
   Eigen::Vector2d per_offset = Eigen::Vector2d::Zero();
   double residual_std_mps = 0.0;  ///< Of the static targets, by their median.
   int targets = 0;                ///< Number of static targets.
+
+  /// With the shift by such targets, of which the narrow fit has a part.
+  [[nodiscard]] Eigen::Matrix2d covariance_in_traffic() const;
 };
 
 /// Robust least squares of a static world's Doppler (Kellner et al., ITSC 2013; here all targets

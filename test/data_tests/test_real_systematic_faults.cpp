@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "test/data_tests/real_fault_drives.hpp"
+#include "test/faults/reversed_drive.hpp"
 #include "test/faults/systematic_matrix.hpp"
 
 using namespace cremed;
@@ -34,6 +35,20 @@ TEST_CASE("Real drives with a share of their targets: nobody is named", "[system
     }
     run("fewer targets, 105", radarscenes_fault_drive(true));
     run("fewer targets, 105", radarscenes_fault_drive(false));
+  }
+  matrix.check();
+}
+
+TEST_CASE("Real drives played backwards: nobody is named, poses are as certain as they say",
+          "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
+    matrix.run_healthy("reversed nuScenes", ReversedDrive::of(nuscenes_fault_drive(scene)), 0.97);
+  }
+  // Not its end: there truth slides sideways.
+  for (const bool are_flags_used : {true, false}) {
+    matrix.run_healthy("reversed 105",
+                       ReversedDrive::of(radarscenes_fault_drive(are_flags_used, 1e9, 8.0)));
   }
   matrix.check();
 }

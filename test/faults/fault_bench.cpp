@@ -22,6 +22,7 @@
 #include "test/faults/drive_figures.hpp"
 #include "test/faults/figures_line.hpp"
 #include "test/faults/parked_drive.hpp"
+#include "test/faults/reversed_drive.hpp"
 #include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
 
@@ -41,6 +42,7 @@ CREMED_SHARED names the folder with the recorded data.
   --from S     105 from then on
   --rows       each row of the odometry
   --case TEXT  only cases whose name and radar contain it
+  --reversed   recorded drives backwards (ReversedDrive)
   --healthy    no fault, and only
   --radars A,B these radars
   --seeds N    so many of the latter two (default 20)
@@ -53,6 +55,7 @@ struct Options {
   double from_s = 0.0;
   bool are_rows_printed = false;
   bool is_healthy = false;
+  bool is_reversed = false;
   std::string radars;
   std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
@@ -72,6 +75,8 @@ Options options_of(int argc, char** argv) {
       options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--from" && i + 1 < argc) {
       options.from_s = std::atof(argv[++i]);
+    } else if (argument == "--reversed") {
+      options.is_reversed = true;
     } else if (argument == "--healthy") {
       options.is_healthy = true;
     } else if (argument == "--radars" && i + 1 < argc) {
@@ -90,15 +95,20 @@ Options options_of(int argc, char** argv) {
   return options;
 }
 
-FaultDrive drive_of(const std::string& name, const Options& options) {
+FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
   if (name.starts_with("105")) {
     return radarscenes_fault_drive(name == "105", options.seconds, options.from_s);
   }
+  return nuscenes_fault_drive(name);
+}
+
+FaultDrive drive_of(const std::string& name, const Options& options) {
   if (find_scenario(name) != nullptr) {
     return simulated_fault_drive(name, options.seconds,
                                  configuration_of_car("nuscenes-singapore").radars);
   }
-  return nuscenes_fault_drive(name);
+  const FaultDrive drive = recorded_drive_of(name, options);
+  return options.is_reversed ? ReversedDrive::of(drive) : drive;
 }
 
 using Job = std::function<std::string()>;

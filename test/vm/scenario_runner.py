@@ -34,11 +34,11 @@ def scenario(function=None, owns_kernel=False):
     return function
 
 
-def expect_estimates(listener, sources, limit_s):
+def expect_estimates(listener, sources):
     """Waits for three more estimates of each source; returns the delay of the first."""
     begin_s = time.monotonic()
     for source in sources:
-        wait_until(lambda s=source: len(listener.estimates(s, begin_s)) >= 3, limit_s,
+        wait_until(lambda s=source: len(listener.estimates(s, begin_s)) >= 3,
                    f"three estimates of {source}")
     return listener.estimates(sources[0], begin_s)[0].monotonic_s - begin_s
 
@@ -76,8 +76,8 @@ class Vehicle:
         self.daemons.append(daemon)
         return daemon
 
-    def expect_odometry(self, *sources, limit_s=20):
-        return expect_estimates(self.listener, sources, limit_s)
+    def expect_odometry(self, *sources):
+        return expect_estimates(self.listener, sources)
 
     def is_fresh(self, utime_us, seen_us):
         """At most max_latency_s old when it left. `seen_us`: the kernel's stamp of receiving it."""
@@ -98,7 +98,7 @@ class Vehicle:
         """Estimates of front. On a busy computer the listener is behind the bus: waits for it."""
         def heard():
             return [heard.message for heard in self.listener.estimates("front")]
-        return wait_until(lambda: [m for m in heard() if m.utime > stamp_us] and heard(), 30,
+        return wait_until(lambda: [m for m in heard() if m.utime > stamp_us] and heard(),
                           "an estimate after the last speed")
 
     def expect_nothing_stale(self):

@@ -199,9 +199,11 @@ void FaultHypotheses::allow_for_scale() {
   }
 }
 
-/// What was measured before a radar is found at fault tells nothing of it, unless that shows it.
+/// What was measured before a radar is found at fault tells nothing of it, unless that shows it. In
+/// a turn one that looks sideways may seem to be late (1094, right).
 void FaultHypotheses::begin_search(std::size_t radar) {
-  if (!is_at_fault(radar) && causes_[radar].find().gain < kMinGain) {
+  const bool is_shown = contains(judged(), radar) && causes_[radar].find().gain >= kMinGain;
+  if (!is_at_fault(radar) && !is_shown) {
     causes_[radar].clear();
   }
 }

@@ -246,7 +246,10 @@ TEST_CASE(
   CAPTURE(is_alone);
   CHECK(after_s > 5.0);
   CHECK(after_s <= 7.0);
-  CHECK(doubts(sink, kRear) == 0);
+  // Until the positions tell, either of the two may be wrong.
+  for (const RadarStatus& status : sink.statuses[kRear]) {
+    CHECK((status.belief.doubts == 0 || status.utime_us - start_us < 6'500'000));
+  }
   CHECK(sink.statuses[kFront].back().belief.is_speed_checked);
 }
 

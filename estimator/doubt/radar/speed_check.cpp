@@ -25,6 +25,10 @@ constexpr double kMinSigmas = 2.0;
 /// on RadarScenes 105, with 200 targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;
 
+/// Change of the other speed from one comparison to the next: a step, and 2 m/s^2. A vehicle has
+/// one speed, chance another one each time.
+constexpr double kMaxChangeMps = 1.5;
+
 }  // namespace
 
 void SpeedCheck::forget() {
@@ -86,12 +90,16 @@ std::optional<double> SpeedCheck::take(const TargetSet& targets) {
 void SpeedCheck::judge(const SpeedSupport& support, double doppler_mps) {
   const bool is_other = std::abs(support.best_mps - doppler_mps) > kMinDifferenceMps;
   const double excess = support.best_votes - support.given_votes;
-  const bool contradicts =
-      is_other && support.given_votes < kMaxShareOfBest * support.best_votes &&
-      excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes);
-  const bool agrees = !contradicts && (!is_other || support.given_votes > support.max_chance_votes);
-  contradictions_ =
-      std::clamp(contradictions_ + (contradicts ? 1 : 0) - (agrees ? 1 : 0), 0, kMaxContradictions);
+  const bool is_supported = support.given_votes >= kMaxShareOfBest * support.best_votes;
+  if (is_other && !is_supported &&
+      excess > kMinSigmas * std::sqrt(support.best_votes + support.given_votes)) {
+    const bool is_same = std::abs(support.best_mps - other_mps_) <= kMaxChangeMps;
+    contradictions_ = is_same || is_contradicted_ ? contradictions_ + 1 : 1;
+    other_mps_ = support.best_mps;
+  } else if (!is_other || (is_supported && support.given_votes > support.max_chance_votes)) {
+    --contradictions_;
+  }
+  contradictions_ = std::clamp(contradictions_, 0, kMaxContradictions);
   if (contradictions_ == 0 || contradictions_ == kMaxContradictions) {
     is_contradicted_ = contradictions_ != 0;
   }

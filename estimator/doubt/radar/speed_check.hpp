@@ -20,9 +20,10 @@ namespace cremed {
 /// standard deviations of their numbers fewer. Stuck Doppler has 0.3 to 0.6 of them; healthy drives
 /// 0.66 at least where the difference is that large (RadarScenes 105 and nuScenes, 20588
 /// comparisons at random phases; by number alone up to 3 standard deviations, since posts of guard
-/// rails repeat); the eight places of a truck ahead reach it once, not twice in a row.
-/// Contradictions count up, agreements count down; the doubt begins at kMaxContradictions and ends
-/// at 0, or with a step of the Doppler that no vehicle can make. Detection takes 1 s of driving.
+/// rails repeat). With half of their targets or less by chance: then for another speed each time.
+/// Contradictions by one speed count up, agreements count down; the doubt begins at
+/// kMaxContradictions and ends at 0, or with a step of the Doppler that no vehicle can make.
+/// Detection takes 1 s of driving.
 class SpeedCheck {
  public:
   /// Adds the targets of the next scan.
@@ -35,7 +36,7 @@ class SpeedCheck {
   [[nodiscard]] bool is_checked() const { return has_verdict_; }
 
  private:
-  static constexpr int kMaxContradictions = 2;
+  static constexpr int kMaxContradictions = 3;
   static constexpr double kVerdictValidS = 5.0;
 
   [[nodiscard]] std::optional<double> take(const TargetSet& targets);
@@ -51,6 +52,7 @@ class SpeedCheck {
   double last_mps_ = 0.0;
   std::int64_t verdict_us_ = 0;
   int contradictions_ = 0;
+  double other_mps_ = 0.0;  // That of the last one.
   bool has_reference_ = false;
   bool has_verdict_ = false;
   bool is_contradicted_ = false;

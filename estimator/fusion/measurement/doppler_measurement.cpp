@@ -54,8 +54,10 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   result.depend_on(first + kOffset, by_offset);
   result.depend_on(first + kLeverX, 0.0, w);
   result.depend_on(first + kLeverY, -w * scale, d * w);
+  // What passes a lateral radar makes the difference in each scan; the factors of its noise hold
+  // it.
   result.noise.topLeftCorner<2, 2>() =
-      state.is_witness(radar) ? velocity.covariance : velocity.covariance_in_traffic();
+      looks_across(state.mount(radar)) ? velocity.covariance : velocity.covariance_in_traffic();
   result.noise(0, 0) += squared(options.velocity_floor_x_mps);
   result.noise(1, 1) += squared(options.velocity_floor_y_mps);
   add_lateness(result);

@@ -62,11 +62,8 @@ struct Sums {
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   int targets = 0;
 
-  [[nodiscard]] Eigen::Matrix2d information_of_velocity() const {
-    return information.topLeftCorner<2, 2>();
-  }
-  [[nodiscard]] Eigen::Vector2d velocity() const {
-    return information_of_velocity().inverse() * weighted.head<2>();
+  [[nodiscard]] Eigen::Matrix2d inverse() const {
+    return information.topLeftCorner<2, 2>().inverse();
   }
 };
 
@@ -145,12 +142,12 @@ std::optional<DopplerVelocity> DopplerVelocityEstimator::fit(const TargetSet& ta
   DopplerVelocity result;
   result.residual_std_mps =
       median_residual(targets, solution, kTukeySigmas * std_mps) / kMedianPerStd;
-  const Eigen::Matrix2d inverse = sums.information_of_velocity().inverse();
-  result.velocity_mps = sums.velocity();
+  const Eigen::Matrix2d inverse = sums.inverse();
+  result.velocity_mps = inverse * sums.weighted.head<2>();
   result.per_offset = inverse * sums.information.topRightCorner<2, 1>();
   result.covariance = std_mps * std_mps * inverse;
-  result.difference_mps =
-      sum_up(targets, solution, kWider * std_mps).velocity() - result.velocity_mps;
+  const Sums wider = sum_up(targets, solution, kWider * std_mps);
+  result.difference_mps = wider.inverse() * wider.weighted.head<2>() - result.velocity_mps;
   result.targets = sums.targets;
   return result;
 }

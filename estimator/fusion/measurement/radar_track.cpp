@@ -18,15 +18,11 @@ constexpr double kMaxLearningShare = 0.1;
 /// of a group that moves nearly alike widen the weights, which then include more of it (1094, in a
 /// turn: from 0.12 to 0.33 m/s in 0.4 s). Traffic passes, the noise of a radar stays.
 constexpr double kLearningTargetsInTraffic = 10'000.0;
-constexpr double kClearShare = 0.8;
+constexpr double kShareWithoutTraffic = 0.8;
 /// Bounds of the adapted value. The grid of an ARS408 alone gives 0.25 / sqrt(12) = 0.07 m/s; above
 /// 0.6 m/s Tukey's weights extend beyond 2.8 m/s and no longer reject moving targets.
 constexpr double kMinDopplerStdMps = 0.05;
 constexpr double kMaxDopplerStdMps = 0.6;
-
-bool is_majority(const DopplerVelocity& velocity, const TargetSet& targets) {
-  return 2 * static_cast<std::size_t>(velocity.targets) > targets.size();
-}
 
 }  // namespace
 
@@ -53,13 +49,14 @@ std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
   if (!best) {
     return std::nullopt;
   }
-  const bool is_clear = best->targets > kClearShare * static_cast<double>(targets.size());
-  const double share = std::min(
-      kMaxLearningShare, best->targets / (is_clear ? kLearningTargets : kLearningTargetsInTraffic));
+  const double static_share = best->targets / static_cast<double>(targets.size());
+  const double learning_targets =
+      static_share > kShareWithoutTraffic ? kLearningTargets : kLearningTargetsInTraffic;
+  const double share = std::min(kMaxLearningShare, best->targets / learning_targets);
   const double std = std::clamp(best->residual_std_mps, kMinDopplerStdMps, kMaxDopplerStdMps);
   doppler_std_mps_ =
       std::sqrt((1.0 - share) * doppler_std_mps_ * doppler_std_mps_ + share * std * std);
-  return ScanVelocity{*best, is_majority(*best, targets)};
+  return ScanVelocity{*best, static_share > 0.5};
 }
 
 }  // namespace cremed

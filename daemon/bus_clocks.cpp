@@ -3,6 +3,7 @@
 #include "daemon/bus_clocks.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -10,25 +11,40 @@
 
 namespace cremed {
 
+void BusClocks::Offset::note(std::uint32_t other, bool shows_it, int least_buses) {
+  pairs = std::clamp(pairs + (shows_it ? 1 : -1), 0, kMinPairs);
+  by = pairs == 0 ? 0 : shows_it ? by : by & ~other;
+  is_shown = (is_shown && pairs > 0) || (pairs == kMinPairs && std::popcount(by) >= least_buses);
+}
+
 void BusClocks::note(const CanFrame& frame) {
-  if (last_ && last_->interface != frame.interface) {
-    const std::uint32_t before = bit_of(last_->interface);
-    const bool agree = last_->stamp_us - frame.stamp_us <= kMaxDifferenceUs;
-    std::uint32_t& followed = clocks_[frame.interface].followed;
-    followed = (followed & ~before) | (agree ? before : 0U);
+  const std::uint32_t bit = bit_of(frame.interface);
+  Clock& own = clocks_[frame.interface];
+  buses_ |= bit;
+  // Two others that agree: of two buses that differ one may be wrong, or the other.
+  const int least_buses = std::min(std::popcount(buses_) - 1, 2);
+  const std::int64_t ahead_us = least_buses == 2 ? kAheadUs : kAheadOfOneUs;
+  for (std::uint8_t i = 0; i < kMaxBuses; ++i) {
+    if (i != frame.interface && clocks_[i].last_us) {
+      const std::int64_t back_us = *clocks_[i].last_us - frame.stamp_us;
+      clocks_[i].ahead.by |= back_us > ahead_us ? bit : 0U;
+      own.behind.by |= back_us > kBehindUs ? bit_of(i) : 0U;
+    }
   }
-  last_ = {frame.interface, frame.stamp_us};
+  if (last_interface_ && *last_interface_ != frame.interface) {
+    const std::uint32_t before = bit_of(*last_interface_);
+    Clock& last = clocks_[*last_interface_];
+    const std::int64_t back_us = *last.last_us - frame.stamp_us;
+    own.followed = (own.followed & ~before) | (back_us <= kMaxDifferenceUs ? before : 0U);
+    last.ahead.note(bit, back_us > ahead_us, least_buses);
+    own.behind.note(before, back_us > kBehindUs, least_buses);
+  }
+  own.last_us = frame.stamp_us;
+  last_interface_ = frame.interface;
 }
 
 bool BusClocks::is_set_back(const CanFrame& frame) {
   Clock& own = clocks_[frame.interface];
-  for (Clock& other : clocks_) {
-    if (&other == &own || !other.latest_us) {
-      continue;
-    }
-    const bool is_behind = frame.stamp_us < *other.latest_us - kAheadUs;
-    other.frames_behind = is_behind ? std::min(other.frames_behind + 1, kMinFramesBehind) : 0;
-  }
   const bool is_back = own.latest_us && frame.stamp_us < *own.latest_us - kSetBackUs;
   own.frames_back = is_back ? own.frames_back + 1 : 0;
   if (is_back && own.frames_back < kMinFramesBack) {

@@ -31,10 +31,14 @@ class BusClocks {
   /// Notes a frame of a radar. True if its stamp and those of the frames before it
   /// are kSetBackUs or more before the latest of its bus: the clock was set.
   bool is_set_back(const CanFrame& frame);
-  /// Whether the stamps of a bus are kAheadUs or more ahead of those of all other buses that send:
-  /// its own clock is wrong, since frames cannot arrive before they are sent.
+  /// Whether the stamps of a bus are ahead of those of all other buses that send: its own clock is
+  /// wrong, since frames cannot arrive before they are sent.
   [[nodiscard]] bool is_ahead(std::uint8_t interface) const {
-    return clocks_[interface].frames_behind >= kMinFramesBehind;
+    return clocks_[interface].ahead.is_shown;
+  }
+  /// Whether they are kBehindUs or more behind: its clock is wrong, or its frames come late.
+  [[nodiscard]] bool is_behind(std::uint8_t interface) const {
+    return clocks_[interface].behind.is_shown;
   }
 
  private:
@@ -44,15 +48,33 @@ class BusClocks {
   static constexpr std::int64_t kSetBackUs = 50'000;
   /// In a row: a single frame may have waited for the next list.
   static constexpr std::uint32_t kMinFramesBack = 3;
-  /// Beyond max_lateness_s of the odometry, which then takes the scans of the others for late.
-  static constexpr std::int64_t kAheadUs = 500'000;
-  /// In a row and of other buses: a cluster list of an ARS408.
-  static constexpr std::uint32_t kMinFramesBehind = 25;
+  /// More than a radar's frames wait in a gateway (75 ms, a cycle), and less than what the odometry
+  /// takes for late. Of two buses either may be wrong, until 0.5 s are no delay any more.
+  static constexpr std::int64_t kAheadUs = 100'000;
+  static constexpr std::int64_t kAheadOfOneUs = 500'000;
+  /// Default of max_lateness_s of the odometry, which does not use the bus then.
+  static constexpr std::int64_t kBehindUs = 200'000;
+
+  /// What pairs of frames in a row, of this bus and another, show of this one. Pairs with others
+  /// between them can show a difference too, but not that there is none.
+  struct Offset {
+    /// More than single late frames: lists of ARS408 are 13 pairs a second or more.
+    static constexpr int kMinPairs = 10;
+
+    std::uint32_t by = 0;  // Bit i: bus i shows it.
+    int pairs = 0;         // That show it, less those that do not.
+    bool is_shown = false;
+
+    /// A pair in a row.
+    void note(std::uint32_t other, bool shows_it, int least_buses);
+  };
   struct Clock {
-    std::optional<std::int64_t> latest_us;
-    std::uint32_t frames_back = 0;    // Stamped that much before it.
-    std::uint32_t frames_behind = 0;  // Of other buses, stamped that much earlier.
-    std::uint32_t followed = 0;       // Bit i: this bus and bus i agree, by frames of this one.
+    std::optional<std::int64_t> last_us;    // Of its last frame,
+    std::optional<std::int64_t> latest_us;  // and the largest of a radar.
+    std::uint32_t frames_back = 0;  // Stamped that much before it.
+    std::uint32_t followed = 0;     // Bit i: this bus and bus i agree, by frames of this one.
+    Offset ahead;
+    Offset behind;
   };
   /// One a radar, and the vehicle's.
   static constexpr std::size_t kMaxBuses = kMaxRadars + 1;
@@ -60,11 +82,8 @@ class BusClocks {
   static constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
   std::array<Clock, kMaxBuses> clocks_{};
-  struct Last {
-    std::uint8_t interface;
-    std::int64_t stamp_us;
-  };
-  std::optional<Last> last_;  // Frame.
+  std::uint32_t buses_ = 0;  // That have sent.
+  std::optional<std::uint8_t> last_interface_;
 };
 
 /// The stamps of one radar's scans compared with its cycle counter: shows that the clock was set

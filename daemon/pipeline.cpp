@@ -121,6 +121,7 @@ void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
 /// Every scan with usable targets, registered or not.
 void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   const bool was_ahead = std::exchange(radar.is_ahead, clocks_.is_ahead(radar.interface));
+  radar.is_behind = clocks_.is_behind(radar.interface);
   if (radar.is_ahead != was_ahead) {
     odometry_.forget();
   }

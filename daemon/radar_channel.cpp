@@ -59,6 +59,7 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
       scale.is_wrong() ? std::optional(scale.correction()) : std::nullopt;
   status_.belief.doubts =
       self_check.doubts() | (is_ahead ? std::uint32_t{stamps_run_ahead} : 0U) |
+      (is_behind ? std::uint32_t{stamps_run_behind} : 0U) |
       (status_.odometry.is_left_out ? std::uint32_t{other_radars_contradict} : 0U);
   return status_;
 }

@@ -48,7 +48,8 @@ struct RadarChannel {
   EgoMotionEstimator estimator;
   SelfCheck self_check;
   ScanClock scan_clock;
-  bool is_ahead = false;         ///< Its stamps are ahead of all other buses (BusClocks).
+  bool is_ahead = false;         ///< Its stamps are ahead of all other buses (BusClocks),
+  bool is_behind = false;        ///< or behind.
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 

@@ -318,14 +318,20 @@ void add_wrong_speed(const RadarConfiguration& radar, const BeliefStatus& belief
   }
 }
 
-void add_ahead(const BeliefStatus& belief, Findings& findings) {
+void add_clock(const BeliefStatus& belief, Findings& findings) {
   if ((belief.doubts & stamps_run_ahead) != 0) {
     findings.push_back(
         {Severity::warning,
-         "its stamps are half a second or more ahead of those of all other buses: the "
-         "odometry does not use it",
+         "its stamps are ahead of those of all other buses: the odometry does not use it",
          "the clock that stamps this bus is wrong: `cremed-doctor`, or how it was "
          "recorded"});
+  }
+  if ((belief.doubts & stamps_run_behind) != 0) {
+    findings.push_back(
+        {Severity::warning,
+         "its frames come later than their stamps by 0.2 s or more, compared with all other "
+         "buses: the odometry does not use what comes later than odometry.max_lateness_s",
+         "the clock that stamps this bus is wrong, or a gateway holds its frames back"});
   }
 }
 
@@ -462,7 +468,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_few_estimates(status, findings);
   add_doubts(status.belief, findings);
   add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
-  add_ahead(status.belief, findings);
+  add_clock(status.belief, findings);
   add_left_out(radar, status, all, findings);
   return findings;
 }

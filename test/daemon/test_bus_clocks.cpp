@@ -38,28 +38,45 @@ TEST_CASE("a frame that waited for the next list is no clock that was set back")
   }
 }
 
-TEST_CASE("the bus that is ahead of all others is told, not the others, and not one that is late") {
-  const std::int64_t offset_us = GENERATE(1'000'000, -1'000'000);
-  BusClocks clocks;
+/// Bursts of frames of three buses in turn, as of cluster lists; stamps of bus 2 are off.
+void send_bursts(BusClocks& clocks, std::int64_t start_us, std::int64_t offset_us,
+                 std::uint8_t buses = 3) {
   for (std::int64_t i = 0; i < 1000; ++i) {
-    const auto bus = static_cast<std::uint8_t>(i % 3);
-    clocks.is_set_back(frame_of(bus, kStartUs + 250 * i + (bus == 2 ? offset_us : 0)));
+    const auto bus = static_cast<std::uint8_t>(i / 20 % buses);
+    clocks.note(frame_of(bus, start_us + 250 * i + (bus == buses - 1 ? offset_us : 0)));
   }
-  CHECK_FALSE(clocks.is_ahead(0));
-  CHECK_FALSE(clocks.is_ahead(1));
-  CHECK(clocks.is_ahead(2) == (offset_us > 0));
+}
+
+TEST_CASE("the bus that is ahead or behind of all others is told, not the others") {
+  const std::int64_t offset_us =
+      GENERATE(1'000'000, 250'000, 150'000, 50'000, -50'000, -150'000, -250'000, -1'000'000);
+  BusClocks clocks;
+  send_bursts(clocks, kStartUs, offset_us);
+  for (std::uint8_t bus = 0; bus < 2; ++bus) {
+    CHECK_FALSE(clocks.is_ahead(bus));
+    CHECK_FALSE(clocks.is_behind(bus));
+  }
+  CHECK(clocks.is_ahead(2) == (offset_us > 100'000));
+  CHECK(clocks.is_behind(2) == (offset_us < -200'000));
   // Its clock is right again.
-  for (std::int64_t i = 1000; i < 1100; ++i) {
-    clocks.is_set_back(frame_of(static_cast<std::uint8_t>(i % 3), kStartUs + 250 * i));
-  }
+  send_bursts(clocks, kStartUs + 250'000, 0);
   CHECK_FALSE(clocks.is_ahead(2));
+  CHECK_FALSE(clocks.is_behind(2));
+}
+
+TEST_CASE("of two buses one is told only if no delay explains the difference") {
+  const std::int64_t offset_us = GENERATE(250'000, 600'000);
+  BusClocks clocks;
+  send_bursts(clocks, kStartUs, offset_us, 2);
+  CHECK(clocks.is_ahead(1) == (offset_us > 500'000));
+  CHECK_FALSE(clocks.is_ahead(0));
 }
 
 TEST_CASE("a bus that sends alone after the others stopped is not ahead") {
   BusClocks clocks;
-  clocks.is_set_back(frame_of(0, kStartUs));
+  clocks.note(frame_of(0, kStartUs));
   for (std::int64_t i = 0; i < 1000; ++i) {
-    clocks.is_set_back(frame_of(1, kStartUs + 10'000 * i));
+    clocks.note(frame_of(1, kStartUs + 10'000 * i));
   }
   CHECK_FALSE(clocks.is_ahead(1));
 }

@@ -115,6 +115,7 @@ TEST_CASE("status_t says whether the covariance is to be believed") {
   CHECK(status_t::DOUBT_COVARIANCE_TOO_LARGE == static_cast<int>(covariance_too_large));
   CHECK(status_t::DOUBT_POSITIONS_CONTRADICT_SPEED == static_cast<int>(positions_contradict_speed));
   CHECK(status_t::DOUBT_STAMPS_RUN_AHEAD == static_cast<int>(stamps_run_ahead));
+  CHECK(status_t::DOUBT_STAMPS_RUN_BEHIND == static_cast<int>(stamps_run_behind));
   LcmPublisher publisher("memq://", two_radars());
   REQUIRE(publisher.connect().empty());
   RadarStatus status;

@@ -22,6 +22,7 @@
 #include "test/faults/drive_figures.hpp"
 #include "test/faults/figures_line.hpp"
 #include "test/faults/parked_drive.hpp"
+#include "test/faults/random_faults.hpp"
 #include "test/faults/reversed_drive.hpp"
 #include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
@@ -42,6 +43,7 @@ CREMED_SHARED names the folder with the recorded data.
   --from S     105 from then on
   --rows       each row of the odometry
   --case TEXT  only cases whose name and radar contain it
+  --random N   so many faults of random kind, size, radar and time (--seed) instead
   --reversed   recorded drives backwards (ReversedDrive)
   --healthy    no fault, and only
   --radars A,B these radars
@@ -56,6 +58,7 @@ struct Options {
   bool are_rows_printed = false;
   bool is_healthy = false;
   bool is_reversed = false;
+  std::size_t random_faults = 0;
   std::string radars;
   std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
@@ -75,6 +78,8 @@ Options options_of(int argc, char** argv) {
       options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--from" && i + 1 < argc) {
       options.from_s = std::atof(argv[++i]);
+    } else if (argument == "--random" && i + 1 < argc) {
+      options.random_faults = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--reversed") {
       options.is_reversed = true;
     } else if (argument == "--healthy") {
@@ -159,11 +164,17 @@ void print_rows(const FaultDrive& drive, const FaultCase& fault) {
   DriveJudge(drive, fault, result).print_rows();
 }
 
-void run_faults(const FaultDrive& drive, const std::string& filter, bool are_rows_printed) {
+std::vector<FaultCase> faults_of(const FaultDrive& drive, const Options& options) {
+  return options.random_faults == 0
+             ? SystematicFaults(drive).all()
+             : RandomFaults(drive, options.seed).draw(options.random_faults);
+}
+
+void run_faults(const FaultDrive& drive, const Options& options) {
   std::vector<Job> jobs;
-  for (const FaultCase& fault : SystematicFaults(drive).all()) {
-    if ((fault.kind + " " + fault.of).find(filter) == std::string::npos) continue;
-    if (are_rows_printed) {
+  for (const FaultCase& fault : faults_of(drive, options)) {
+    if ((fault.kind + " " + fault.of).find(options.filter) == std::string::npos) continue;
+    if (options.are_rows_printed) {
       print_rows(drive, fault);
     } else {
       jobs.emplace_back(
@@ -199,7 +210,7 @@ int main(int argc, char** argv) {
           std::printf("%s\n", figures_line(drive, none, judged(drive, none)).c_str());
         }
       } else {
-        run_faults(drive_of(name, options), options.filter, options.are_rows_printed);
+        run_faults(drive_of(name, options), options);
       }
     }
   } catch (const std::exception& error) {

@@ -9,7 +9,7 @@ const REPLAY_S = 60;
 // status_t.DOUBT_*, from the lowest bit.
 const DOUBTS = ["registration contradicts Doppler", "motions contradict each other",
                 "other radars contradict", "covariance too large", "positions contradict speed",
-                "stamps run ahead"];
+                "stamps run ahead", "stamps run behind"];
 const byId = (id) => document.getElementById(id);
 
 let state = null, messages = -1;

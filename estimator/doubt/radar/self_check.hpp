@@ -20,6 +20,7 @@ enum Doubt : std::uint32_t {
   covariance_too_large = 1U << 3U,              ///< Configured noise is far too high.
   positions_contradict_speed = 1U << 4U,        ///< Wrong Doppler or rate of the stamps.
   stamps_run_ahead = 1U << 5U,                  ///< Of those of all other buses.
+  stamps_run_behind = 1U << 6U,                 ///< Likewise.
 };
 
 /// Compares independent estimates of one radar while driving. No ground truth is needed: if

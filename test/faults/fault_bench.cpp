@@ -40,7 +40,8 @@ cremed-simulate (bends), what departs beside a parked vehicle: train, convoy, ja
 of the vehicle itself: own-start.
 CREMED_SHARED names the folder with the recorded data.
   --seconds S  only so much of 105 and of simulated drives (default 40)
-  --from S     105 from then on
+  --from S     105 from then on,
+  --nuscenes-from S  and the scenes of nuScenes
   --rows       each row of the odometry
   --case TEXT  only cases whose name and radar contain it
   --random N   so many faults of random kind, size, radar and time (--seed) instead
@@ -55,6 +56,7 @@ CREMED_SHARED names the folder with the recorded data.
 struct Options {
   double seconds = 40.0;
   double from_s = 0.0;
+  double nuscenes_from_s = 0.0;
   bool are_rows_printed = false;
   bool is_healthy = false;
   bool is_reversed = false;
@@ -80,6 +82,8 @@ Options options_of(int argc, char** argv) {
       options.from_s = std::atof(argv[++i]);
     } else if (argument == "--random" && i + 1 < argc) {
       options.random_faults = std::strtoull(argv[++i], nullptr, 10);
+    } else if (argument == "--nuscenes-from" && i + 1 < argc) {
+      options.nuscenes_from_s = std::atof(argv[++i]);
     } else if (argument == "--reversed") {
       options.is_reversed = true;
     } else if (argument == "--healthy") {
@@ -104,7 +108,7 @@ FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
   if (name.starts_with("105")) {
     return radarscenes_fault_drive(name == "105", options.seconds, options.from_s);
   }
-  return nuscenes_fault_drive(name);
+  return nuscenes_fault_drive(name, options.nuscenes_from_s);
 }
 
 FaultDrive drive_of(const std::string& name, const Options& options) {

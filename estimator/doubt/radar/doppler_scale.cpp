@@ -36,13 +36,17 @@ constexpr double kMaxWidths = 5.0;
 constexpr double kSpacingM = 0.5;
 /// Smaller r are a healthy radar's.
 constexpr double kMaxShare = 0.03;
+/// Times the curvature of the way: r of a healthy radar in a turn, besides. Its positions turn by 1
+/// to 4 % too little, which shifts those beside it along the way. With 0.06 to 0.13 per m (1094) r is
+/// 0.03 on average and 0.08 at most.
+constexpr double kShareByCurvatureM = 0.4;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
 constexpr double kClearSigmas = 4.0;
 /// Of the votes for the way back, more than for r = 0. Healthy radars of 0061, 0103, 1094 and
 /// RadarScenes 105 have 0.7 at most, with the sign of Doppler flipped 3 to 14 after a second.
 constexpr double kReversedSigmas = 3.0;
 /// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
-constexpr double kContradictingSigmas = 1.5;
+constexpr double kContradictingSigmas = 1.6;
 
 /// A target in the axes of the way between two scans.
 struct AlongWay {
@@ -57,6 +61,7 @@ void DopplerScale::forget() {
   count_ = 0;
   votes_.fill(0.0);
   reversed_.fill(0.0);
+  share_by_turn_ = 0.0;
 }
 
 void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us) {
@@ -80,6 +85,8 @@ void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int
         age + 1 == count_ || seconds_between(scan(age + 1).stamp_us, stamp_us) > kMaxIntervalS;
     if (way_m.norm() >= kWayM || (is_last && way_m.norm() >= kMinWayM)) {
       vote(past, now, way_m);
+      const double curvature = std::abs(now.yaw_rad - past.yaw_rad) / way_m.norm();
+      share_by_turn_ = std::max(share_by_turn_, kShareByCurvatureM * curvature);
       judge(way_m.norm());
       return;
     }
@@ -117,6 +124,7 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   for (Votes* votes : {&votes_, &reversed_}) {
     std::for_each(votes->begin(), votes->end(), [&](double& some) { some *= kept; });
   }
+  share_by_turn_ *= kept;
 }
 
 void DopplerScale::take(const TargetSet& targets, Scan& to) {
@@ -188,12 +196,15 @@ void DopplerScale::judge(double way_m) {
     is_wrong_ = true;
     return;
   }
+  const int by_turn = std::min(static_cast<int>(share_by_turn_ / kStep), kMaxShareSteps);
   int best = kMiddle;
   double most = 0.0;
+  double healthy = 0.0;
   for (int step = kMiddle - kMaxShareSteps; step <= kMiddle + kMaxShareSteps; ++step) {
     const double votes = near(votes_, step);
     best = votes > most ? step : best;
     most = std::max(votes, most);
+    healthy = std::abs(step - kMiddle) <= by_turn ? std::max(votes, healthy) : healthy;
   }
   constexpr double kSqrtTwoPi = 2.5066;
   const double chance = std::accumulate(votes_.begin(), votes_.end(), 0.0) /
@@ -203,9 +214,9 @@ void DopplerScale::judge(double way_m) {
   }
   const double share = kStep * (best - kMiddle);
   correction_ = 1.0 + share;
-  if (std::abs(share) < kMaxShare) {
+  if (std::abs(share) < kMaxShare + share_by_turn_) {
     is_wrong_ = false;
-  } else if (most - given > kContradictingSigmas * std::sqrt(most + given)) {
+  } else if (most - healthy > kContradictingSigmas * std::sqrt(most + healthy)) {
     is_wrong_ = true;
   }
 }

@@ -85,6 +85,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   Odometry odometry = output_.at_scan();
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
+  was_ok_ = was_ok_ || result.status == OdometryStatus::ok;
   traffic_.parked.add_output(odometry);
   if (condition_.settle() || believed) {
     output_.renew_anchor();
@@ -149,6 +150,7 @@ void OdometryFilter::restart(std::int64_t stamp_us, double gap_s) {
   majority_.clear();
   traffic_.parked.clear();
   has_started_ = true;
+  was_ok_ = false;
 }
 
 bool OdometryFilter::is_usable(std::size_t radar, const TargetSet& targets,
@@ -193,14 +195,16 @@ void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
 }
 
 /// The state followed a radar at fault if it is far from `believed`, and so did the errors of the
-/// others and the maps. Not after a step: then those that are believed may be wrong as well.
+/// others and the maps. Not if all was well and then stepped: those that are believed may be wrong
+/// as well.
 void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps) {
   const OdometryOptions& options = state_.options();
   const double change_mps = std::abs(state_.gaussian.mean(kSpeed) - believed.x());
   const double change_radps = std::abs(state_.gaussian.mean(kYawRate) - believed.y());
   const bool is_far = change_mps > options.settled_speed_std_mps ||
                       change_radps > options.settled_yaw_rate_std_radps;
-  if (!is_far || majority_.has_stepped() || change_mps > possible_change_mps) {
+  const bool is_step = was_ok_ && change_mps > possible_change_mps;
+  if (!is_far || is_step || majority_.has_stepped()) {
     return;
   }
   for (std::size_t i = 0; i < state_.radars(); ++i) {

@@ -122,6 +122,7 @@ class OdometryFilter {
   OdometryOutput output_;
   VehicleSignals vehicle_;
   bool has_started_ = false;
+  bool was_ok_ = false;  // Since the start.
 };
 
 }  // namespace cremed

@@ -24,11 +24,13 @@ constexpr double kSilentS = 2.0;
 constexpr double kReplayS = 60.0;
 
 /// status_t.DOUBT_*, from the lowest bit.
-constexpr std::array<std::string_view, 7> kDoubtNames{
-    "registration contradicts Doppler", "motions contradict each other",
-    "other radars contradict",          "covariance too large",
-    "positions contradict speed",       "stamps run ahead",
-    "stamps run behind"};
+constexpr std::array<std::string_view, 7> kDoubtNames{"registration contradicts Doppler",
+                                                      "motions contradict each other",
+                                                      "other radars contradict",
+                                                      "covariance too large",
+                                                      "positions contradict speed",
+                                                      "stamps run ahead",
+                                                      "stamps run behind"};
 /// status_t.CAUSE_*
 constexpr std::array<std::string_view, 8> kCauseNames{
     "cause unknown", "scale of Doppler",      "sign of Doppler",

@@ -23,12 +23,12 @@ void BusClocks::note(const CanFrame& frame) {
   buses_ |= bit;
   // Two others that agree: of two buses that differ one may be wrong, or the other.
   const int least_buses = std::min(std::popcount(buses_) - 1, 2);
-  const std::int64_t ahead_us = least_buses == 2 ? kAheadUs : kAheadOfOneUs;
+  const std::int64_t offset_us = least_buses == 2 ? kOffsetUs : kOffsetOfTwoUs;
   for (std::uint8_t i = 0; i < kMaxBuses; ++i) {
     if (i != frame.interface && clocks_[i].last_us) {
-      const std::int64_t back_us = *clocks_[i].last_us - frame.stamp_us;
-      clocks_[i].ahead.by |= back_us > ahead_us ? bit : 0U;
-      own.behind.by |= back_us > kBehindUs ? bit_of(i) : 0U;
+      const bool is_back = *clocks_[i].last_us - frame.stamp_us > offset_us;
+      clocks_[i].ahead.by |= is_back ? bit : 0U;
+      own.behind.by |= is_back ? bit_of(i) : 0U;
     }
   }
   if (last_interface_ && *last_interface_ != frame.interface) {
@@ -36,8 +36,8 @@ void BusClocks::note(const CanFrame& frame) {
     Clock& last = clocks_[*last_interface_];
     const std::int64_t back_us = *last.last_us - frame.stamp_us;
     own.followed = (own.followed & ~before) | (back_us <= kMaxDifferenceUs ? before : 0U);
-    last.ahead.note(bit, back_us > ahead_us, least_buses);
-    own.behind.note(before, back_us > kBehindUs, least_buses);
+    last.ahead.note(bit, back_us > offset_us, least_buses);
+    own.behind.note(before, back_us > offset_us, least_buses);
   }
   own.last_us = frame.stamp_us;
   last_interface_ = frame.interface;

@@ -36,7 +36,7 @@ class BusClocks {
   [[nodiscard]] bool is_ahead(std::uint8_t interface) const {
     return clocks_[interface].ahead.is_shown;
   }
-  /// Whether they are kBehindUs or more behind: its clock is wrong, or its frames come late.
+  /// Whether they are behind: its clock is wrong, or its frames come late.
   [[nodiscard]] bool is_behind(std::uint8_t interface) const {
     return clocks_[interface].behind.is_shown;
   }
@@ -48,12 +48,11 @@ class BusClocks {
   static constexpr std::int64_t kSetBackUs = 50'000;
   /// In a row: a single frame may have waited for the next list.
   static constexpr std::uint32_t kMinFramesBack = 3;
-  /// More than a radar's frames wait in a gateway (75 ms, a cycle), and less than what the odometry
-  /// takes for late. Of two buses either may be wrong, until 0.5 s are no delay any more.
-  static constexpr std::int64_t kAheadUs = 100'000;
-  static constexpr std::int64_t kAheadOfOneUs = 500'000;
-  /// Default of max_lateness_s of the odometry, which does not use the bus then.
-  static constexpr std::int64_t kBehindUs = 200'000;
+  /// More than a radar's frames wait in a gateway (75 ms, a cycle). Stamps of the kernel, and logs
+  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong, until 0.5 s are no delay any
+  /// more.
+  static constexpr std::int64_t kOffsetUs = 100'000;
+  static constexpr std::int64_t kOffsetOfTwoUs = 500'000;
 
   /// What pairs of frames in a row, of this bus and another, show of this one. Pairs with others
   /// between them can show a difference too, but not that there is none.

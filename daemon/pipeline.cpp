@@ -125,7 +125,7 @@ void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   if (radar.is_ahead != was_ahead) {
     odometry_.forget();
   }
-  if (radar.estimator.targets().size() != 0 && !radar.is_ahead) {
+  if (radar.estimator.targets().size() != 0 && !radar.is_ahead && !radar.is_behind) {
     odometry_.hold(radar, motion.utime_us);
   }
 }

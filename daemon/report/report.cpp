@@ -329,8 +329,7 @@ void add_clock(const BeliefStatus& belief, Findings& findings) {
   if ((belief.doubts & stamps_run_behind) != 0) {
     findings.push_back(
         {Severity::warning,
-         "its frames come later than their stamps by 0.2 s or more, compared with all other "
-         "buses: the odometry does not use what comes later than odometry.max_lateness_s",
+         "its stamps are behind those of all other buses: the odometry does not use it",
          "the clock that stamps this bus is wrong, or a gateway holds its frames back"});
   }
 }

@@ -39,13 +39,14 @@ inline FaultDrive recorded_fault_drive(const std::string& name, const std::strin
 }
 
 /// Of nuScenes, e.g. "0061".
-inline FaultDrive nuscenes_fault_drive(const std::string& scene, double from_s = 0.0) {
+inline FaultDrive nuscenes_fault_drive(const std::string& scene, double duration_s = 1e9,
+                                       double from_s = 0.0) {
   const bool is_boston = scene == "0103" || scene == "0655";
   const std::string folder = "data/nuscenes/scene-" + scene;
   FaultDrive drive = recorded_fault_drive(
       "scene-" + scene, folder,
       configuration_of_car(is_boston ? "nuscenes-boston" : "nuscenes-singapore"),
-      nuscenes_truth_noise(), 1e9, from_s);
+      nuscenes_truth_noise(), duration_s, from_s);
   std::istringstream wheels(read_shared(folder + "/wheels.csv"));
   drive.wheels.emplace(wheels, nuscenes_wheel_std());
   return drive;

@@ -23,6 +23,16 @@ TEST_CASE("Real drives without fault: nobody is named, and front radars are avai
   matrix.check();
 }
 
+TEST_CASE("Real drives from any moment on: nobody is named", "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
+    for (double from_s = 0.4; from_s < 12.0; from_s += 0.8) {
+      matrix.run_healthy("from any moment on", nuscenes_fault_drive(scene, 7.0, from_s));
+    }
+  }
+  matrix.check();
+}
+
 TEST_CASE("Real drives with a share of their targets: nobody is named", "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const double share : {0.6, 0.45}) {

@@ -150,31 +150,29 @@ class RandomFaults {
       }
       case 6: {
         const double std_mps = random_.uniform(0.2, 2.0);
-        set("noise %.1f", std_mps, FaultKind::unknown, true,
-            [=](const FaultDrive& d, FaultTime t) {
-              Random random(1, kStream);
-              return clusters(radar, [&random, std_mps](Ars408General& c) {
-                const double r = std::hypot(c.x_m, c.y_m);
-                const double more = std_mps * random.normal();
-                c.vx_mps += more * c.x_m / r;
-                c.vy_mps += more * c.y_m / r;
-              })(d, t);
-            });
+        set("noise %.1f", std_mps, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
+          Random random(1, kStream);
+          return clusters(radar, [&random, std_mps](Ars408General& c) {
+            const double r = std::hypot(c.x_m, c.y_m);
+            const double more = std_mps * random.normal();
+            c.vx_mps += more * c.x_m / r;
+            c.vy_mps += more * c.y_m / r;
+          })(d, t);
+        });
         break;
       }
       case 7: {
         const double share = random_.uniform(0.2, 0.95);
-        set("ghosts %.2f", share, FaultKind::unknown, true,
-            [=](const FaultDrive& d, FaultTime t) {
-              Random random(1, kStream);
-              return clusters(radar, [&random, share](Ars408General& c) {
-                if (!random.chance(share)) return;
-                c.x_m = random.uniform(2.0, 60.0);
-                c.y_m = random.uniform(-1.0, 1.0) * c.x_m;
-                c.vx_mps = random.uniform(-20.0, 20.0);
-                c.vy_mps = 0.0;
-              })(d, t);
-            });
+        set("ghosts %.2f", share, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
+          Random random(1, kStream);
+          return clusters(radar, [&random, share](Ars408General& c) {
+            if (!random.chance(share)) return;
+            c.x_m = random.uniform(2.0, 60.0);
+            c.y_m = random.uniform(-1.0, 1.0) * c.x_m;
+            c.vx_mps = random.uniform(-20.0, 20.0);
+            c.vy_mps = 0.0;
+          })(d, t);
+        });
         break;
       }
       case 8: {

@@ -204,10 +204,12 @@ class SystematicFaults {
           return with_late_stamps(d.frames, t, radar, 1000 * late_ms);
         };
       }
-      add("stamps 1 s ahead", radar, always(), FaultKind::late).put_in =
-          [radar](const FaultDrive& d, FaultTime t) {
-            return with_clock_offset(d.frames, t, radar, 1'000'000);
-          };
+      for (const double ahead_s : {1.0, 0.3, -0.3}) {
+        add(text("stamps %+.1f s ahead", ahead_s), radar, always(), FaultKind::late).put_in =
+            [radar, ahead_us = std::llround(ahead_s * 1e6)](const FaultDrive& d, FaultTime t) {
+              return with_clock_offset(d.frames, t, radar, ahead_us);
+            };
+      }
     }
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);

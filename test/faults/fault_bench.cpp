@@ -169,9 +169,8 @@ void print_rows(const FaultDrive& drive, const FaultCase& fault) {
 }
 
 std::vector<FaultCase> faults_of(const FaultDrive& drive, const Options& options) {
-  return options.random_faults == 0
-             ? SystematicFaults(drive).all()
-             : RandomFaults(drive, options.seed).draw(options.random_faults);
+  return options.random_faults == 0 ? SystematicFaults(drive).all()
+                                    : RandomFaults(drive, options.seed).draw(options.random_faults);
 }
 
 void run_faults(const FaultDrive& drive, const Options& options) {

@@ -50,7 +50,8 @@ TEST_CASE("Doppler scale: a right one is not doubted, and known to 2 %") {
   CHECK(drive.check.correction() == Approx(1.0).margin(0.025));
 }
 
-TEST_CASE("Doppler scale: one that is 5 % or more off is found in 2 s, 10 % in a turn, and its end") {
+TEST_CASE(
+    "Doppler scale: one that is 5 % or more off is found in 2 s, 10 % in a turn, and its end") {
   const double scale = GENERATE(0.8, 0.9, 0.95, 1.06, 1.1, 1.25);
   const double speed_mps = GENERATE(-5.0, 5.0, 12.0, 25.0);
   const double yaw_rate_radps = GENERATE(-0.2, 0.0);

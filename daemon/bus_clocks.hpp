@@ -49,8 +49,8 @@ class BusClocks {
   /// In a row: a single frame may have waited for the next list.
   static constexpr std::uint32_t kMinFramesBack = 3;
   /// More than a radar's frames wait in a gateway (75 ms, a cycle). Stamps of the kernel, and logs
-  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong, until 0.5 s are no delay any
-  /// more.
+  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong, until 0.5 s are no delay
+  /// any more.
   static constexpr std::int64_t kOffsetUs = 100'000;
   static constexpr std::int64_t kOffsetOfTwoUs = 500'000;
 
@@ -70,8 +70,8 @@ class BusClocks {
   struct Clock {
     std::optional<std::int64_t> last_us;    // Of its last frame,
     std::optional<std::int64_t> latest_us;  // and the largest of a radar.
-    std::uint32_t frames_back = 0;  // Stamped that much before it.
-    std::uint32_t followed = 0;     // Bit i: this bus and bus i agree, by frames of this one.
+    std::uint32_t frames_back = 0;          // Stamped that much before it.
+    std::uint32_t followed = 0;  // Bit i: this bus and bus i agree, by frames of this one.
     Offset ahead;
     Offset behind;
   };

@@ -37,8 +37,8 @@ constexpr double kSpacingM = 0.5;
 /// Smaller r are a healthy radar's.
 constexpr double kMaxShare = 0.03;
 /// Times the curvature of the way: r of a healthy radar in a turn, besides. Its positions turn by 1
-/// to 4 % too little, which shifts those beside it along the way. With 0.06 to 0.13 per m (1094) r is
-/// 0.03 on average and 0.08 at most.
+/// to 4 % too little, which shifts those beside it along the way. With 0.06 to 0.13 per m (1094) r
+/// is 0.03 on average and 0.08 at most.
 constexpr double kShareByCurvatureM = 0.4;
 /// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
 constexpr double kClearSigmas = 4.0;

@@ -24,9 +24,9 @@ namespace cremed {
 /// On healthy drives the r with most votes is within 0.02 in nine of ten comparisons. A larger one
 /// has more votes than r = 0 by 1.2 sigma at most, in the first comparisons after a start by 1.56;
 /// with a Doppler scale of 0.95 by 1.5 to 4 (medians of the front radars of 0061, 0103, 1094,
-/// RadarScenes 105, each alone), with 0.9 by 5 to 7. r is then 0.03 to 0.07 and 0.09 to 0.13 in nine
-/// of ten, on 1094 at walking pace up to 0.18. In tight turns it is up to 0.08 on healthy drives:
-/// more is allowed there.
+/// RadarScenes 105, each alone), with 0.9 by 5 to 7. r is then 0.03 to 0.07 and 0.09 to 0.13 in
+/// nine of ten, on 1094 at walking pace up to 0.18. In tight turns it is up to 0.08 on healthy
+/// drives: more is allowed there.
 class DopplerScale {
  public:
   explicit DopplerScale(const Pose2& vehicle_from_radar) : mount_(vehicle_from_radar) {}
@@ -73,8 +73,8 @@ class DopplerScale {
   TargetSet fixed_;
   Eigen::Vector2d velocity_mps_ = Eigen::Vector2d::Zero();
   std::array<Scan, kScans> scans_;
-  Votes votes_{};     // For ways (1 + r) times that by Doppler,
-  Votes reversed_{};  // and for -(1 + r) times.
+  Votes votes_{};               // For ways (1 + r) times that by Doppler,
+  Votes reversed_{};            // and for -(1 + r) times.
   double share_by_turn_ = 0.0;  // In turns healthy radars have r up to this, besides.
   std::size_t newest_ = 0;
   std::size_t count_ = 0;

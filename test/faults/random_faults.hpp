@@ -58,6 +58,7 @@ class RandomFaults {
     return random_.uniform(low, high) * (random_.chance(0.5) ? 1.0 : -1.0);
   }
 
+  /// Which cause belongs to which radar is not told: with two faults a named cause counts as wrong.
   static FaultCase both(const FaultCase& first, const FaultCase& second) {
     FaultCase result = first;
     result.kind += " & " + second.kind;
@@ -73,152 +74,177 @@ class RandomFaults {
     return result;
   }
 
-  using ChangeCluster = std::function<void(Ars408General&)>;
-  static std::function<Frames(const FaultDrive&, FaultTime)> clusters(std::size_t radar,
-                                                                      const ChangeCluster& change) {
+  using PutIn = std::function<Frames(const FaultDrive&, FaultTime)>;
+
+  /// What is drawn for one radar. `may_be_learned`: see FaultCase.
+  struct Fault {
+    std::string kind;
+    FaultKind cause;
+    bool may_be_learned;
+    PutIn put_in;
+  };
+
+  FaultCase of(std::size_t radar, FaultTime time) {
+    constexpr std::array kKinds{
+        &RandomFaults::scale,        &RandomFaults::offset, &RandomFaults::turned,
+        &RandomFaults::range,        &RandomFaults::late,   &RandomFaults::clock,
+        &RandomFaults::noise,        &RandomFaults::ghosts, &RandomFaults::loss,
+        &RandomFaults::silence,      &RandomFaults::stuck,  &RandomFaults::upside_down,
+        &RandomFaults::repeated_scan};
+    const Fault drawn = (this->*kKinds[random_.index(kKinds.size())])(radar);
+    FaultCase fault{drawn.kind, drive_.radars[radar].name, time, drawn.put_in};
+    fault.guilty = 1U << radar;
+    fault.cause = drawn.cause;
+    fault.may_be_learned = drawn.may_be_learned;
+    return fault;
+  }
+
+  static std::string text(const char* format, double value) {
+    char result[64];
+    std::snprintf(result, sizeof result, format, value);
+    return result;
+  }
+
+  /// `change(cluster, random)` is applied to each cluster of a radar.
+  template <typename Change>
+  static PutIn clusters(std::size_t radar, Change change) {
     return [radar, change](const FaultDrive& d, FaultTime t) {
+      Random random(1, kStream);
       return with_changed_clusters(
-          d.frames, t, [radar](std::size_t each) { return each == radar; }, change);
+          d.frames, t, [radar](std::size_t each) { return each == radar; },
+          [&](Ars408General& cluster) { change(cluster, random); });
     };
   }
 
-  FaultCase of(std::size_t radar, FaultTime time) {
-    FaultCase fault{"", drive_.radars[radar].name, time};
-    fault.guilty = 1U << radar;
-    const auto set = [&](const char* name, double value, FaultKind cause, bool may_be_learned,
-                         std::function<Frames(const FaultDrive&, FaultTime)> put_in) {
-      char text[64];
-      std::snprintf(text, sizeof text, name, value);
-      fault.kind = text;
-      fault.cause = cause;
-      fault.may_be_learned = may_be_learned;
-      fault.put_in = std::move(put_in);
-    };
-    const bool is_side = drive_.is_side(radar);
-    switch (random_.index(13)) {
-      case 0: {
-        const double factor = 1.0 + either_sign(0.02, 0.4);
-        set("scale %.2f", factor, FaultKind::scale, is_side || std::abs(factor - 1.0) < 0.06,
-            [=](const FaultDrive& d, FaultTime t) {
-              return with_scaled_doppler(
-                  d.frames, t, [radar](std::size_t each) { return each == radar; }, factor);
-            });
-        break;
-      }
-      case 1: {
-        const double mps = either_sign(0.05, 1.0);
-        set("offset %.2f", mps, FaultKind::unknown, is_side || std::abs(mps) < 0.4,
-            clusters(radar, [mps](Ars408General& c) {
-              const double r = std::hypot(c.x_m, c.y_m);
-              c.vx_mps += mps * c.x_m / r;
-              c.vy_mps += mps * c.y_m / r;
-            }));
-        break;
-      }
-      case 2: {
-        const double deg = either_sign(1.0, 20.0);
-        set("turned %.1f", deg, FaultKind::mount_yaw, is_side || std::abs(deg) < 5.0,
-            [=](const FaultDrive& d, FaultTime t) {
+  static void add_doppler(Ars408General& cluster, double mps) {
+    const double range_m = std::hypot(cluster.x_m, cluster.y_m);
+    cluster.vx_mps += mps * cluster.x_m / range_m;
+    cluster.vy_mps += mps * cluster.y_m / range_m;
+  }
+
+  static PutIn scaled(std::size_t radar, double factor) {
+    return clusters(radar, [factor](Ars408General& cluster, Random&) {
+      cluster.vx_mps *= factor;
+      cluster.vy_mps *= factor;
+    });
+  }
+
+  Fault scale(std::size_t radar) {
+    const double factor = 1.0 + either_sign(0.02, 0.4);
+    return {text("scale %.2f", factor), FaultKind::scale,
+            drive_.is_side(radar) || std::abs(factor - 1.0) < 0.06, scaled(radar, factor)};
+  }
+
+  Fault offset(std::size_t radar) {
+    const double mps = either_sign(0.05, 1.0);
+    return {text("offset %.2f", mps), FaultKind::unknown,
+            drive_.is_side(radar) || std::abs(mps) < 0.4,
+            clusters(radar, [mps](Ars408General& cluster, Random&) { add_doppler(cluster, mps); })};
+  }
+
+  Fault turned(std::size_t radar) {
+    const double deg = either_sign(1.0, 20.0);
+    return {text("turned %.1f", deg), FaultKind::mount_yaw,
+            drive_.is_side(radar) || std::abs(deg) < 5.0,
+            [radar, deg](const FaultDrive& d, FaultTime t) {
               return with_knocked_mount(d.frames, t, radar, deg * kRadPerDeg);
-            });
-        break;
-      }
-      case 3: {
-        const double factor = 1.0 + either_sign(0.02, 0.2);
-        set("range %.2f", factor, FaultKind::unknown, true,
-            clusters(radar, [factor](Ars408General& c) {
-              c.x_m *= factor;
-              c.y_m *= factor;
-            }));
-        break;
-      }
-      case 4: {
-        const double ms = random_.uniform(50.0, 800.0);
-        set("late %.0f", ms, FaultKind::late, is_side || ms < 300.0,
-            [=](const FaultDrive& d, FaultTime t) {
+            }};
+  }
+
+  Fault range(std::size_t radar) {
+    const double factor = 1.0 + either_sign(0.02, 0.2);
+    return {text("range %.2f", factor), FaultKind::unknown, true,
+            clusters(radar, [factor](Ars408General& cluster, Random&) {
+              cluster.x_m *= factor;
+              cluster.y_m *= factor;
+            })};
+  }
+
+  Fault late(std::size_t radar) {
+    const double ms = random_.uniform(50.0, 800.0);
+    return {text("late %.0f", ms), FaultKind::late, drive_.is_side(radar) || ms < 300.0,
+            [radar, ms](const FaultDrive& d, FaultTime t) {
               return with_late_stamps(d.frames, t, radar, std::llround(1e3 * ms));
-            });
-        break;
-      }
-      case 5: {
-        const double ms = either_sign(50.0, 450.0);
-        set("clock %+.0f", ms, FaultKind::late, is_side || std::abs(ms) < 300.0,
-            [=](const FaultDrive& d, FaultTime t) {
+            }};
+  }
+
+  Fault clock(std::size_t radar) {
+    const double ms = either_sign(50.0, 450.0);
+    return {text("clock %+.0f", ms), FaultKind::late, drive_.is_side(radar) || std::abs(ms) < 300.0,
+            [radar, ms](const FaultDrive& d, FaultTime t) {
               return with_clock_offset(d.frames, t, radar, std::llround(1e3 * ms));
-            });
-        break;
-      }
-      case 6: {
-        const double std_mps = random_.uniform(0.2, 2.0);
-        set("noise %.1f", std_mps, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
-          Random random(1, kStream);
-          return clusters(radar, [&random, std_mps](Ars408General& c) {
-            const double r = std::hypot(c.x_m, c.y_m);
-            const double more = std_mps * random.normal();
-            c.vx_mps += more * c.x_m / r;
-            c.vy_mps += more * c.y_m / r;
-          })(d, t);
-        });
-        break;
-      }
-      case 7: {
-        const double share = random_.uniform(0.2, 0.95);
-        set("ghosts %.2f", share, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
-          Random random(1, kStream);
-          return clusters(radar, [&random, share](Ars408General& c) {
-            if (!random.chance(share)) return;
-            c.x_m = random.uniform(2.0, 60.0);
-            c.y_m = random.uniform(-1.0, 1.0) * c.x_m;
-            c.vx_mps = random.uniform(-20.0, 20.0);
-            c.vy_mps = 0.0;
-          })(d, t);
-        });
-        break;
-      }
-      case 8: {
-        const double share = random_.uniform(0.05, 0.7);
-        set("loss %.2f", share, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
-          Random random(1, kStream);
-          Frames frames = d.frames;
-          std::erase_if(frames, [&](const CanFrame& frame) {
-            return frame.interface == radar && t.has(frame) && random.chance(share);
-          });
-          return frames;
-        });
-        break;
-      }
-      case 9:
-        set("silent", 0.0, FaultKind::unknown, true, [=](const FaultDrive& d, FaultTime t) {
-          return with_silence(d.frames, t, [radar](std::size_t each) { return each == radar; });
-        });
-        break;
-      case 10: {
-        const double factor = random_.chance(0.5) ? 0.0 : -1.0;
-        set("times %.0f", factor, factor == 0.0 ? FaultKind::scale : FaultKind::sign, is_side,
-            [=](const FaultDrive& d, FaultTime t) {
-              return with_scaled_doppler(
-                  d.frames, t, [radar](std::size_t each) { return each == radar; }, factor);
-            });
-        break;
-      }
-      case 11:
-        set("upside down", 0.0, FaultKind::upside_down, true,
-            [=](const FaultDrive& d, FaultTime t) { return with_upside_down(d.frames, t, radar); });
-        break;
-      default:
-        set("repeats", 0.0, FaultKind::unknown, is_side, [=](const FaultDrive& d, FaultTime t) {
-          Frames of_radar;
-          Frames others;
-          for (const CanFrame& frame : d.frames) {
-            (frame.interface == radar ? of_radar : others).push_back(frame);
-          }
-          Arrivals arrivals;
-          for (const CanFrame& f : with_repeated_scan(of_radar, t)) arrivals.add(f.stamp_us, f);
-          for (const CanFrame& f : others) arrivals.add(f.stamp_us, f);
-          return arrivals.in_order();
-        });
-    }
-    return fault;
+            }};
+  }
+
+  Fault noise(std::size_t radar) {
+    const double std_mps = random_.uniform(0.2, 2.0);
+    return {text("noise %.1f", std_mps), FaultKind::unknown, true,
+            clusters(radar, [std_mps](Ars408General& cluster, Random& random) {
+              add_doppler(cluster, std_mps * random.normal());
+            })};
+  }
+
+  Fault ghosts(std::size_t radar) {
+    const double share = random_.uniform(0.2, 0.95);
+    return {text("ghosts %.2f", share), FaultKind::unknown, true,
+            clusters(radar, [share](Ars408General& cluster, Random& random) {
+              if (!random.chance(share)) return;
+              cluster.x_m = random.uniform(2.0, 60.0);
+              cluster.y_m = random.uniform(-1.0, 1.0) * cluster.x_m;
+              cluster.vx_mps = random.uniform(-20.0, 20.0);
+              cluster.vy_mps = 0.0;
+            })};
+  }
+
+  Fault loss(std::size_t radar) {
+    const double share = random_.uniform(0.05, 0.7);
+    return {text("loss %.2f", share), FaultKind::unknown, true,
+            [radar, share](const FaultDrive& d, FaultTime t) {
+              Random random(1, kStream);
+              Frames frames = d.frames;
+              std::erase_if(frames, [&](const CanFrame& frame) {
+                return frame.interface == radar && t.has(frame) && random.chance(share);
+              });
+              return frames;
+            }};
+  }
+
+  Fault silence(std::size_t radar) {
+    return {"silent", FaultKind::unknown, true, [radar](const FaultDrive& d, FaultTime t) {
+              return with_silence(d.frames, t, [radar](std::size_t each) { return each == radar; });
+            }};
+  }
+
+  /// Doppler at zero, or of the wrong sign.
+  Fault stuck(std::size_t radar) {
+    const double factor = random_.chance(0.5) ? 0.0 : -1.0;
+    return {text("times %.0f", factor), factor == 0.0 ? FaultKind::scale : FaultKind::sign,
+            drive_.is_side(radar), scaled(radar, factor)};
+  }
+
+  Fault upside_down(std::size_t radar) {
+    return {"upside down", FaultKind::upside_down, true, [radar](const FaultDrive& d, FaultTime t) {
+              return with_upside_down(d.frames, t, radar);
+            }};
+  }
+
+  Fault repeated_scan(std::size_t radar) {
+    return {"repeats", FaultKind::unknown, drive_.is_side(radar),
+            [radar](const FaultDrive& d, FaultTime t) {
+              Frames of_radar;
+              Arrivals arrivals;
+              for (const CanFrame& frame : d.frames) {
+                if (frame.interface == radar) {
+                  of_radar.push_back(frame);
+                } else {
+                  arrivals.add(frame.stamp_us, frame);
+                }
+              }
+              for (const CanFrame& frame : with_repeated_scan(of_radar, t)) {
+                arrivals.add(frame.stamp_us, frame);
+              }
+              return arrivals.in_order();
+            }};
   }
 
   const FaultDrive& drive_;

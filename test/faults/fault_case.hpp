@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -16,6 +17,13 @@
 namespace cremed::test {
 
 inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+/// A kind with its size.
+inline std::string fault_kind(const char* format, double value) {
+  char result[64];
+  std::snprintf(result, sizeof result, format, value);
+  return result;
+}
 
 /// One fault of one drive.
 struct FaultCase {

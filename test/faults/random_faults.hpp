@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <utility>
@@ -99,12 +98,6 @@ class RandomFaults {
     return fault;
   }
 
-  static std::string text(const char* format, double value) {
-    char result[64];
-    std::snprintf(result, sizeof result, format, value);
-    return result;
-  }
-
   /// `change(cluster, random)` is applied to each cluster of a radar.
   template <typename Change>
   static PutIn clusters(std::size_t radar, Change change) {
@@ -123,28 +116,28 @@ class RandomFaults {
   }
 
   static PutIn scaled(std::size_t radar, double factor) {
-    return clusters(radar, [factor](Ars408General& cluster, Random&) {
-      cluster.vx_mps *= factor;
-      cluster.vy_mps *= factor;
-    });
+    return [radar, factor](const FaultDrive& d, FaultTime t) {
+      return with_scaled_doppler(
+          d.frames, t, [radar](std::size_t each) { return each == radar; }, factor);
+    };
   }
 
   Fault scale(std::size_t radar) {
     const double factor = 1.0 + either_sign(0.02, 0.4);
-    return {text("scale %.2f", factor), FaultKind::scale,
+    return {fault_kind("scale %.2f", factor), FaultKind::scale,
             drive_.is_side(radar) || std::abs(factor - 1.0) < 0.06, scaled(radar, factor)};
   }
 
   Fault offset(std::size_t radar) {
     const double mps = either_sign(0.05, 1.0);
-    return {text("offset %.2f", mps), FaultKind::unknown,
+    return {fault_kind("offset %.2f", mps), FaultKind::unknown,
             drive_.is_side(radar) || std::abs(mps) < 0.4,
             clusters(radar, [mps](Ars408General& cluster, Random&) { add_doppler(cluster, mps); })};
   }
 
   Fault turned(std::size_t radar) {
     const double deg = either_sign(1.0, 20.0);
-    return {text("turned %.1f", deg), FaultKind::mount_yaw,
+    return {fault_kind("turned %.1f", deg), FaultKind::mount_yaw,
             drive_.is_side(radar) || std::abs(deg) < 5.0,
             [radar, deg](const FaultDrive& d, FaultTime t) {
               return with_knocked_mount(d.frames, t, radar, deg * kRadPerDeg);
@@ -153,7 +146,7 @@ class RandomFaults {
 
   Fault range(std::size_t radar) {
     const double factor = 1.0 + either_sign(0.02, 0.2);
-    return {text("range %.2f", factor), FaultKind::unknown, true,
+    return {fault_kind("range %.2f", factor), FaultKind::unknown, true,
             clusters(radar, [factor](Ars408General& cluster, Random&) {
               cluster.x_m *= factor;
               cluster.y_m *= factor;
@@ -162,7 +155,7 @@ class RandomFaults {
 
   Fault late(std::size_t radar) {
     const double ms = random_.uniform(50.0, 800.0);
-    return {text("late %.0f", ms), FaultKind::late, drive_.is_side(radar) || ms < 300.0,
+    return {fault_kind("late %.0f", ms), FaultKind::late, drive_.is_side(radar) || ms < 300.0,
             [radar, ms](const FaultDrive& d, FaultTime t) {
               return with_late_stamps(d.frames, t, radar, std::llround(1e3 * ms));
             }};
@@ -170,7 +163,8 @@ class RandomFaults {
 
   Fault clock(std::size_t radar) {
     const double ms = either_sign(50.0, 450.0);
-    return {text("clock %+.0f", ms), FaultKind::late, drive_.is_side(radar) || std::abs(ms) < 300.0,
+    return {fault_kind("clock %+.0f", ms), FaultKind::late,
+            drive_.is_side(radar) || std::abs(ms) < 300.0,
             [radar, ms](const FaultDrive& d, FaultTime t) {
               return with_clock_offset(d.frames, t, radar, std::llround(1e3 * ms));
             }};
@@ -178,7 +172,7 @@ class RandomFaults {
 
   Fault noise(std::size_t radar) {
     const double std_mps = random_.uniform(0.2, 2.0);
-    return {text("noise %.1f", std_mps), FaultKind::unknown, true,
+    return {fault_kind("noise %.1f", std_mps), FaultKind::unknown, true,
             clusters(radar, [std_mps](Ars408General& cluster, Random& random) {
               add_doppler(cluster, std_mps * random.normal());
             })};
@@ -186,7 +180,7 @@ class RandomFaults {
 
   Fault ghosts(std::size_t radar) {
     const double share = random_.uniform(0.2, 0.95);
-    return {text("ghosts %.2f", share), FaultKind::unknown, true,
+    return {fault_kind("ghosts %.2f", share), FaultKind::unknown, true,
             clusters(radar, [share](Ars408General& cluster, Random& random) {
               if (!random.chance(share)) return;
               cluster.x_m = random.uniform(2.0, 60.0);
@@ -198,7 +192,7 @@ class RandomFaults {
 
   Fault loss(std::size_t radar) {
     const double share = random_.uniform(0.05, 0.7);
-    return {text("loss %.2f", share), FaultKind::unknown, true,
+    return {fault_kind("loss %.2f", share), FaultKind::unknown, true,
             [radar, share](const FaultDrive& d, FaultTime t) {
               Random random(1, kStream);
               Frames frames = d.frames;
@@ -218,7 +212,7 @@ class RandomFaults {
   /// Doppler at zero, or of the wrong sign.
   Fault stuck(std::size_t radar) {
     const double factor = random_.chance(0.5) ? 0.0 : -1.0;
-    return {text("times %.0f", factor), factor == 0.0 ? FaultKind::scale : FaultKind::sign,
+    return {fault_kind("times %.0f", factor), factor == 0.0 ? FaultKind::scale : FaultKind::sign,
             drive_.is_side(radar), scaled(radar, factor)};
   }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -66,12 +65,6 @@ class SystematicFaults {
     return drive_.radars[radar].name;
   }
 
-  static std::string text(const char* format, double value) {
-    char result[64];
-    std::snprintf(result, sizeof result, format, value);
-    return result;
-  }
-
   FaultCase& add(std::string kind, std::size_t radar, FaultTime time, FaultKind cause) {
     cases_.push_back({std::move(kind), name(radar), time});
     cases_.back().guilty = bit(radar);
@@ -94,7 +87,7 @@ class SystematicFaults {
   void add_scales() {
     for (const std::size_t radar : of_each_place()) {
       for (const double factor : {0.9, 0.95, 1.05, 1.1}) {
-        configure(text("scale %.2f", factor), radar, FaultKind::scale,
+        configure(fault_kind("scale %.2f", factor), radar, FaultKind::scale,
                   [factor](RadarConfiguration& each) { scale(each, factor); })
             // Beside a radar that looks sideways the reflections of objects move along with the
             // vehicle, by a sixth of its speed and more: no test tells a tenth from that.
@@ -103,7 +96,8 @@ class SystematicFaults {
     }
     for (const double factor : {1.0, 0.9, 1.1}) {
       const std::size_t radar = front();
-      FaultCase& alone = add(text("alone, scale %.2f", factor), radar, always(), FaultKind::scale);
+      FaultCase& alone =
+          add(fault_kind("alone, scale %.2f", factor), radar, always(), FaultKind::scale);
       if (factor == 1.0) alone.guilty = 0;
       alone.configure = [radar, factor](Radars& radars) {
         radars = {radars[radar]};
@@ -125,7 +119,7 @@ class SystematicFaults {
     }
     for (const std::size_t radar : {front(), second()}) {
       for (const double yaw_deg : {3.0, 5.0, 10.0}) {
-        configure(text("mount %g deg off", yaw_deg), radar, FaultKind::mount_yaw,
+        configure(fault_kind("mount %g deg off", yaw_deg), radar, FaultKind::mount_yaw,
                   [yaw_deg](RadarConfiguration& each) {
                     each.ego_motion.vehicle_from_radar.yaw_rad += yaw_deg * kRadPerDeg;
                   })
@@ -205,7 +199,7 @@ class SystematicFaults {
         };
       }
       for (const double ahead_s : {1.0, 0.3, -0.3}) {
-        add(text("stamps %+.1f s ahead", ahead_s), radar, always(), FaultKind::late).put_in =
+        add(fault_kind("stamps %+.1f s ahead", ahead_s), radar, always(), FaultKind::late).put_in =
             [radar, ahead_us = std::llround(ahead_s * 1e6)](const FaultDrive& d, FaultTime t) {
               return with_clock_offset(d.frames, t, radar, ahead_us);
             };
@@ -213,7 +207,7 @@ class SystematicFaults {
     }
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);
-      cases_.push_back({text("clock step %+.1f s", step_s), "", onwards(),
+      cases_.push_back({fault_kind("clock step %+.1f s", step_s), "", onwards(),
                         [step_us](const FaultDrive& d, FaultTime t) {
                           return with_clock_step(d.frames, t, step_us);
                         },

@@ -21,23 +21,25 @@ void BusClocks::note(const CanFrame& frame) {
   const std::uint32_t bit = bit_of(frame.interface);
   Clock& own = clocks_[frame.interface];
   buses_ |= bit;
-  // Two others that agree: of two buses that differ one may be wrong, or the other.
-  const int least_buses = std::min(std::popcount(buses_) - 1, 2);
-  const std::int64_t offset_us = least_buses == 2 ? kOffsetUs : kOffsetOfTwoUs;
-  for (std::uint8_t i = 0; i < kMaxBuses; ++i) {
-    if (i != frame.interface && clocks_[i].last_us) {
-      const bool is_back = *clocks_[i].last_us - frame.stamp_us > offset_us;
-      clocks_[i].ahead.by |= is_back ? bit : 0U;
-      own.behind.by |= is_back ? bit_of(i) : 0U;
+  // Two others that agree: of two buses that differ one may be wrong, or the other. If no delay
+  // explains that it is the one that is ahead.
+  constexpr int kOthers = 2;
+  const int ahead_of = std::min(std::popcount(buses_) - 1, kOthers);
+  const std::int64_t offset_us = ahead_of == kOthers ? kOffsetUs : kOffsetOfTwoUs;
+  for (std::uint32_t others = buses_ & ~bit; others != 0; others &= others - 1) {
+    Clock& other = clocks_[static_cast<std::size_t>(std::countr_zero(others))];
+    if (other.last_us - frame.stamp_us > offset_us) {
+      other.ahead.by |= bit;
+      own.behind.by |= others & -others;
     }
   }
   if (last_interface_ && *last_interface_ != frame.interface) {
     const std::uint32_t before = bit_of(*last_interface_);
     Clock& last = clocks_[*last_interface_];
-    const std::int64_t back_us = *last.last_us - frame.stamp_us;
+    const std::int64_t back_us = last.last_us - frame.stamp_us;
     own.followed = (own.followed & ~before) | (back_us <= kMaxDifferenceUs ? before : 0U);
-    last.ahead.note(bit, back_us > offset_us, least_buses);
-    own.behind.note(before, back_us > offset_us, least_buses);
+    last.ahead.note(bit, back_us > offset_us, ahead_of);
+    own.behind.note(before, back_us > offset_us, kOthers);
   }
   own.last_us = frame.stamp_us;
   last_interface_ = frame.interface;

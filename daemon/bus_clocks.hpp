@@ -68,7 +68,7 @@ class BusClocks {
     void note(std::uint32_t other, bool shows_it, int least_buses);
   };
   struct Clock {
-    std::optional<std::int64_t> last_us;    // Of its last frame,
+    std::int64_t last_us = 0;               // Of its last frame,
     std::optional<std::int64_t> latest_us;  // and the largest of a radar.
     std::uint32_t frames_back = 0;          // Stamped that much before it.
     std::uint32_t followed = 0;  // Bit i: this bus and bus i agree, by frames of this one.

@@ -70,6 +70,7 @@ TEST_CASE("of two buses one is told only if no delay explains the difference") {
   send_bursts(clocks, kStartUs, offset_us, 2);
   CHECK(clocks.is_ahead(1) == (offset_us > 500'000));
   CHECK_FALSE(clocks.is_ahead(0));
+  CHECK_FALSE(clocks.is_behind(0));
   CHECK_FALSE(clocks.is_behind(1));
 }
 

@@ -323,8 +323,7 @@ void add_clock(const BeliefStatus& belief, Findings& findings) {
     findings.push_back(
         {Severity::warning,
          "its stamps are ahead of those of all other buses: the odometry does not use it",
-         "the clock that stamps this bus is wrong: `cremed-doctor`, or how it was "
-         "recorded"});
+         "the clock that stamps this bus is wrong: that of its adapter, or of what recorded it"});
   }
   if ((belief.doubts & stamps_run_behind) != 0) {
     findings.push_back(

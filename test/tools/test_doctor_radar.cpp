@@ -113,6 +113,14 @@ const std::vector<Case>& cases() {
        },
        Severity::error, "front: an ARS408 with sensor id 0 is on can1, not on can0",
        "set interface = \"can1\""},
+      {"the clock of a bus an hour ahead",
+       [](auto&, auto& traffic) {
+         for (auto& entry : traffic) {
+           entry.frame.stamp_us += entry.interface == "can1" ? 3'600'000'000 : 0;
+         }
+       },
+       Severity::warning, "rear: its stamps are ahead of those of all other buses",
+       "the clock that stamps this bus"},
       {"other traffic only",
        [](auto&, auto& traffic) {
          for (auto& entry : traffic) {

@@ -124,14 +124,7 @@ void print(const Finding& finding) {
   std::cout << severity_name(finding.severity) << ": " << to_text(finding) << '\n';
 }
 
-bool finds_radars(const Arguments& arguments) {
-  if (is_unconfigured(arguments.config) && is_pipe(arguments.replay)) {
-    throw UsageError(
-        "--replay: a pipe cannot be read twice, first for its radars; name a file, or "
-        "the radars by --config FILE");
-  }
-  return is_unconfigured(arguments.config);
-}
+bool finds_radars(const Arguments& arguments) { return is_unconfigured(arguments.config); }
 
 Observation observe(const Arguments& arguments, const Configuration& configuration,
                     const volatile std::sig_atomic_t* stop) {
@@ -158,6 +151,11 @@ Observation observe_anything(const std::string& log, double seconds,
 
 LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_t* stop) {
   if (finds_radars(arguments)) {
+    if (is_pipe(arguments.replay)) {
+      throw UsageError(
+          "--replay: a pipe cannot be read twice, first for its radars; name a file, or "
+          "the radars by --config FILE");
+    }
     return found_radars(observe_anything(arguments.replay, arguments.seconds, stop));
   }
   const Configuration asked = load_configuration(configuration_path(arguments.config));

@@ -13,7 +13,7 @@ namespace {
 
 /// A longer step is a clock that was set, or a paused log.
 constexpr std::int64_t kClockJumpUs = 10'000'000;
-/// Frames of two buses may be out of order by this much.
+/// Lines of a log may be out of order by this much.
 constexpr std::int64_t kOutOfOrderUs = 1'000'000;
 
 std::int64_t no_clock() { return 0; }
@@ -53,7 +53,7 @@ void Observer::add(std::string_view interface, CanFrame frame) {
     return;
   }
   bus(interface).add(frame);
-  note_time(frame.stamp_us);
+  advance(bus_clocks_[index], frame.stamp_us);
   if (index < configured_buses_) {
     frame.interface = static_cast<std::uint8_t>(index);
     source_.count_frame();
@@ -74,14 +74,16 @@ void Observer::add_lost(std::string_view interface, std::uint64_t frames) {
   }
 }
 
-void Observer::note_time(std::int64_t now_us) {
-  const std::int64_t step_us = now_us - last_time_us_.value_or(now_us);
+void Observer::advance(Clock& clock, std::int64_t now_us) {
+  const std::int64_t step_us = now_us - clock.last_us.value_or(now_us);
   if (step_us < 0 && step_us > -kOutOfOrderUs) {
     return;
   }
-  last_time_us_ = now_us;
-  observation_.seconds +=
-      step_us > 0 && step_us < kClockJumpUs ? static_cast<double>(step_us) * 1e-6 : 0.0;
+  const bool is_passed = clock.last_us && step_us >= 0 && step_us < kClockJumpUs;
+  clock.passed_s =
+      is_passed ? clock.passed_s + static_cast<double>(step_us) * 1e-6 : observation_.seconds;
+  clock.last_us = now_us;
+  observation_.seconds = std::max(observation_.seconds, clock.passed_s);
 }
 
 Observation Observer::finish() {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -31,8 +33,8 @@ class Observer {
   void add(std::string_view interface, CanFrame frame);
   void add_lost(std::string_view interface, std::uint64_t frames);
 
-  /// Advances the time, in the clock of the stamps, by frames or by silence.
-  void note_time(std::int64_t now_us);
+  /// Advances the time by silence, by the clock of the computer.
+  void note_time(std::int64_t now_us) { advance(clock_, now_us); }
 
   /// End of input.
   Observation finish();
@@ -54,6 +56,13 @@ class Observer {
     Observation& observation_;
   };
 
+  /// The time passed by one clock: that of a bus may be hours ahead of the others.
+  struct Clock {
+    std::optional<std::int64_t> last_us;
+    double passed_s = 0.0;
+  };
+
+  void advance(Clock& clock, std::int64_t now_us);
   [[nodiscard]] std::size_t index_of(std::string_view interface) const;
   [[nodiscard]] bool is_full() const;
   std::size_t configured_buses_;  // The first of observation_.buses, in the pipeline's order.
@@ -61,7 +70,8 @@ class Observer {
   Source source_;
   Sink sink_;
   Pipeline pipeline_;
-  std::optional<std::int64_t> last_time_us_;
+  std::array<Clock, kMaxBuses> bus_clocks_;
+  Clock clock_;  // Of the computer.
 };
 
 }  // namespace cremed

@@ -14,6 +14,8 @@ namespace cremed::test {
 
 inline constexpr std::int64_t kTimeoutUs = 50'000;
 
+inline constexpr ScanFraming kWithHeader{true, 65536, 256, 2};
+
 /// A radar family without a payload format: the first byte of the first and the last payload is
 /// passed on in the detection; 255 in the first is an empty slot.
 class PlainDecoder final : public RadarDecoder {

@@ -13,7 +13,7 @@
 namespace cremed::test {
 namespace {
 
-Approx near(double value) { return Approx(value).margin(1e-9).epsilon(0); }
+Approx about(double value) { return Approx(value).margin(1e-9).epsilon(0); }
 
 bool crc_ok(const CanFrame& frame) { return crc8_j1850(bytes_of(frame).first(7)) == frame.data[7]; }
 
@@ -55,10 +55,10 @@ TEST_CASE("Message A holds the measurement") {
     REQUIRE(a.has_value());
     CHECK(a->is_a == row.expected.is_a);
     CHECK(a->id == row.expected.id);
-    CHECK(a->range_m == near(row.expected.range_m));
-    CHECK(a->radial_velocity_mps == near(row.expected.radial_velocity_mps));
-    CHECK(a->power_dbm2 == near(row.expected.power_dbm2));
-    CHECK(a->azimuth_rad == near(row.expected.azimuth_rad));
+    CHECK(a->range_m == about(row.expected.range_m));
+    CHECK(a->radial_velocity_mps == about(row.expected.radial_velocity_mps));
+    CHECK(a->power_dbm2 == about(row.expected.power_dbm2));
+    CHECK(a->azimuth_rad == about(row.expected.azimuth_rad));
     CHECK(a->measured == row.expected.measured);
     CHECK(a->counter == row.expected.counter);
     CHECK(crc_ok(frame) == row.crc_ok);
@@ -87,11 +87,11 @@ TEST_CASE("Message B holds the quality") {
     REQUIRE(b.has_value());
     CHECK(b->is_a == row.expected.is_a);
     CHECK(b->id == row.expected.id);
-    CHECK(b->azimuth_std_rad == near(row.expected.azimuth_std_rad));
-    CHECK(b->radial_velocity_std_mps == near(row.expected.radial_velocity_std_mps));
-    CHECK(b->range_std_m == near(row.expected.range_std_m));
-    CHECK(b->existence == near(row.expected.existence));
-    CHECK(b->age_s == near(row.expected.age_s));
+    CHECK(b->azimuth_std_rad == about(row.expected.azimuth_std_rad));
+    CHECK(b->radial_velocity_std_mps == about(row.expected.radial_velocity_std_mps));
+    CHECK(b->range_std_m == about(row.expected.range_std_m));
+    CHECK(b->existence == about(row.expected.existence));
+    CHECK(b->age_s == about(row.expected.age_s));
     CHECK(b->counter == row.expected.counter);
     CHECK(crc_ok(frame) == row.crc_ok);
     CHECK_FALSE(decode_bosch_gpr_target_b(bytes_of(frame).first(7)).has_value());
@@ -169,16 +169,16 @@ TEST_CASE("Two messages make a detection") {
   CHECK(d.validity == Validity::usable);
   CHECK(d.motion == Motion::unknown);
   CHECK(d.range_m == 10.0);
-  CHECK(d.azimuth_rad == near(0.1));
+  CHECK(d.azimuth_rad == about(0.1));
   CHECK(d.doppler_mps == -5.0);
   CHECK(d.rcs_dbm2 == 10.0);
   CHECK(d.range_std_m == 0.1875);
-  CHECK(d.azimuth_std_rad == near(0.005));
+  CHECK(d.azimuth_std_rad == about(0.005));
   CHECK(d.doppler_std_mps == 0.125);
 
   const Detection turned =
       BoschGprDecoder({.invert_azimuth = true, .invert_doppler = true}).detection(both);
-  CHECK(turned.azimuth_rad == near(-0.1));
+  CHECK(turned.azimuth_rad == about(-0.1));
   CHECK(turned.doppler_mps == 5.0);
   CHECK(turned.range_m == 10.0);
 }
@@ -188,7 +188,7 @@ TEST_CASE("A standard deviation of 0 means less than half a step") {
       BoschGprDecoder({}).detection(target("200#0150807D0AFA202C", "201#0000000000000000"));
   CHECK(d.validity == Validity::usable);
   CHECK(d.range_std_m == 0.03125);
-  CHECK(d.azimuth_std_rad == near(0.0005));
+  CHECK(d.azimuth_std_rad == about(0.0005));
   CHECK(d.doppler_std_mps == 0.03125);
 }
 

@@ -8,8 +8,6 @@
 namespace cremed::test {
 namespace {
 
-const ScanFraming kWithHeader{true, 65536, 256, 2};
-
 TEST_CASE("A list is a scan as soon as its last part is there") {
   ScanBench bench(kWithHeader);
   bench.header(7, 2);

@@ -11,11 +11,10 @@
 #include "cremed/can_decoders/scan_assembler.hpp"
 #include "test/can_decoders/gpr_frames.hpp"
 #include "test/can_decoders/hex_frame.hpp"
+#include "test/can_decoders/scan_bench.hpp"
 
 namespace cremed::test {
 namespace {
-
-constexpr std::int64_t kTimeoutUs = 50'000;
 
 /// One radar on a bus, as the daemon runs it.
 template <class Decoder, class Options>

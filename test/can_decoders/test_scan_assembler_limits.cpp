@@ -9,8 +9,6 @@
 namespace cremed::test {
 namespace {
 
-const ScanFraming kWithHeader{true, 65536, 256, 2};
-
 TEST_CASE("256 targets fit") {
   ScanBench bench(kWithHeader);
   bench.list(1, 256);

@@ -39,7 +39,7 @@ TEST_CASE("Speed: magnitude with direction, of any sensor's identifier") {
   check_value(VehicleSignal::speed, hex_frame("300#4320FFFFFFFFFFFF"), 16.0);
 }
 
-TEST_CASE("Yaw rate: counter-clockwise is positive") {
+TEST_CASE("Yaw rate of the vehicle: counter-clockwise is positive") {
   check_value(VehicleSignal::yaw_rate, hex_frame("301#8000"), 0.0);
   check_value(VehicleSignal::yaw_rate, hex_frame("301#83E8"), deg(10.0));
   check_value(VehicleSignal::yaw_rate, hex_frame("301#0000"), deg(-327.68));

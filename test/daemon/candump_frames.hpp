@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <string>
 
 #include "cremed/can_decoders/can_frame.hpp"
 
@@ -15,6 +16,8 @@ inline bool operator==(const CanFrame& a, const CanFrame& b) {
          a.length == b.length && a.extended == b.extended && a.remote == b.remote &&
          a.error == b.error && a.fd == b.fd && a.data == b.data;
 }
+
+inline const std::string kHead = "(1436509052.249713) can0 ";
 
 enum class Kind { standard, extended, remote, extended_remote, error, fd, extended_fd };
 

@@ -17,8 +17,8 @@ constexpr Link kUp{0, true, 0};
 constexpr Link kDown{0, false, 0};
 constexpr Link kRecreated{1'000'000, true, 0};
 
-struct Bench {
-  Bench() { bus.adopt(pair.receiver()); }
+struct ConnectionBench {
+  ConnectionBench() { bus.adopt(pair.receiver()); }
   DatagramPair pair;
   BusConnection bus{"absent", {1}, {}};
 };
@@ -26,7 +26,7 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("A bus that goes down keeps its socket, and each time counts once") {
-  Bench bench;
+  ConnectionBench bench;
   CHECK(bench.bus.status().link == LinkState::up);
   for (const std::uint64_t times : {1U, 2U}) {
     bench.bus.maintain(kDown);
@@ -41,7 +41,7 @@ TEST_CASE("A bus that goes down keeps its socket, and each time counts once") {
 }
 
 TEST_CASE("A recreated interface needs another socket") {
-  Bench bench;
+  ConnectionBench bench;
   bench.bus.maintain(kRecreated);
   CHECK(bench.bus.descriptor() < 0);  // It cannot be opened either.
   CHECK(bench.bus.status().link != LinkState::up);
@@ -52,7 +52,7 @@ TEST_CASE("A recreated interface needs another socket") {
 }
 
 TEST_CASE("A failed question about the interface changes an open bus in nothing") {
-  Bench bench;
+  ConnectionBench bench;
   bench.bus.maintain({0, false, ENOBUFS});
   CHECK(bench.bus.status().link == LinkState::up);
   BusConnection closed("absent", {1}, {});

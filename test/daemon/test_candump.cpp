@@ -11,8 +11,6 @@
 namespace cremed {
 namespace {
 
-const std::string kHead = "(1436509052.249713) can0 ";
-
 struct GoodLine {
   std::string text;  // Without stamp and interface.
   CanFrame frame;

@@ -15,8 +15,6 @@
 namespace cremed {
 namespace {
 
-const std::string kHead = "(1436509052.249713) can0 ";
-
 std::string format(const CanFrame& frame, std::string_view interface_name = "can0") {
   return candump_line(frame, interface_name);
 }

@@ -11,7 +11,7 @@ using namespace cremed;
 
 namespace {
 
-volatile std::sig_atomic_t no_stop = 0;
+volatile std::sig_atomic_t not_stopped = 0;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
       "DROPCOUNT: dropped 12 CAN frames on 'can0' socket (total drops 12)\n"
       "DROPCOUNT: dropped 3 CAN frames on 'vcan9' socket (total drops 3)\n"
       "(1.000300) can0 701#0011223344556677\n");
-  CandumpLog log(file.path(), {"can0", "can1"}, &no_stop);
+  CandumpLog log(file.path(), {"can0", "can1"}, &not_stopped);
   CanFrame frame;
 
   REQUIRE(log.next(frame) == SourceEvent::frame);
@@ -49,7 +49,7 @@ TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
 
 TEST_CASE("A log that ends inside a line was cut off") {
   const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000100) can0 60");
-  CandumpLog log(file.path(), {"can0"}, &no_stop);
+  CandumpLog log(file.path(), {"can0"}, &not_stopped);
   CanFrame frame;
   CHECK(log.next(frame) == SourceEvent::frame);
   CHECK(log.next(frame) == SourceEvent::end);
@@ -58,7 +58,7 @@ TEST_CASE("A log that ends inside a line was cut off") {
 
 TEST_CASE("Of a log without a frame the first malformed line tells why") {
   const TemporaryFile file("  can0  600   [2]  00 11\n  can0  600   [2]  00 11\n");
-  CandumpLog log(file.path(), {"can0"}, &no_stop);
+  CandumpLog log(file.path(), {"can0"}, &not_stopped);
   CanFrame frame;
   CHECK(log.next(frame) == SourceEvent::end);
   CHECK_THAT(log.reader().no_frame(), Catch::Contains("no CAN frame in it; ") &&

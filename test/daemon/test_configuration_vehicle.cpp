@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-Configuration parse(const std::string& vehicle) {
+Configuration parse_vehicle(const std::string& vehicle) {
   return parse_configuration(kArs408 + vehicle, "test.toml");
 }
 
@@ -25,7 +25,7 @@ bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
 TEST_CASE("the vehicle's bus is off unless it has an interface") {
   for (const char* text :
        {"", "[vehicle]\n", "[vehicle]\ninterface = \"off\"\n", "[vehicle]\nspeed = \"0x310\"\n"}) {
-    const Configuration configuration = parse(text);
+    const Configuration configuration = parse_vehicle(text);
     CHECK(configuration.vehicle.interface.empty());
     CHECK_FALSE(configuration.odometry.filter.vehicle.is_used());
     CHECK(interface_names(configuration) == std::vector<std::string>{"can0"});
@@ -35,7 +35,7 @@ TEST_CASE("the vehicle's bus is off unless it has an interface") {
 }
 
 TEST_CASE("on a radar's bus its identifiers are received beside the radar's") {
-  const Configuration configuration = parse("[vehicle]\ninterface = \"can0\"\n");
+  const Configuration configuration = parse_vehicle("[vehicle]\ninterface = \"can0\"\n");
   CHECK(configuration.odometry.filter.vehicle.speed.is_used);
   CHECK(configuration.odometry.filter.vehicle.yaw_rate.is_used);
   CHECK(interface_names(configuration) == std::vector<std::string>{"can0"});
@@ -48,7 +48,7 @@ TEST_CASE("on a radar's bus its identifiers are received beside the radar's") {
 }
 
 TEST_CASE("a bus of its own comes after the radars'") {
-  const Configuration configuration = parse(
+  const Configuration configuration = parse_vehicle(
       "[vehicle]\ninterface = \"can7\"\nspeed = \"off\"\nyaw_rate = \"0x321\"\n"
       "yaw_rate_delay_s = 0.05\nyaw_rate_bias_std_radps = 0.01\n");
   const VehicleOptions& options = configuration.odometry.filter.vehicle;

@@ -47,7 +47,7 @@ namespace {
 
 using Learned = std::vector<std::optional<LearnedErrors>>;
 
-Configuration two_radars() {
+Configuration mounted_radars() {
   Configuration configuration;
   configuration.radars.resize(2);
   configuration.radars[0].name = "front";
@@ -64,7 +64,7 @@ LearnedFile file_of(const Configuration& configuration, const std::string& path 
   return {path, configuration};
 }
 
-std::string good_text() { return file_of(two_radars()).text(kLearned).value(); }
+std::string good_text() { return file_of(mounted_radars()).text(kLearned).value(); }
 
 bool is_empty(const LearnedFile::Content& content) {
   return content.radars == Learned(content.radars.size());
@@ -79,14 +79,14 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 }  // namespace
 
 TEST_CASE("What is written is read again, to the last bit") {
-  const LearnedFile::Content content = file_of(two_radars()).parse(good_text());
+  const LearnedFile::Content content = file_of(mounted_radars()).parse(good_text());
   CHECK(content.problem.empty());
   CHECK(content.passed_over.empty());
   CHECK(content.radars == kLearned);
 }
 
 TEST_CASE("A radar of which nothing was learned is not in the file; without any there is none") {
-  const LearnedFile file = file_of(two_radars());
+  const LearnedFile file = file_of(mounted_radars());
   CHECK(file.parse(file.text(Learned{std::nullopt, kLearned[1]}).value()).radars ==
         Learned{std::nullopt, kLearned[1]});
   CHECK_FALSE(file.text(Learned(2)));
@@ -94,7 +94,7 @@ TEST_CASE("A radar of which nothing was learned is not in the file; without any 
 }
 
 TEST_CASE("A mount that is wrong rather than inexact is not kept, nor what is no number") {
-  const LearnedFile file = file_of(two_radars());
+  const LearnedFile file = file_of(mounted_radars());
   Learned learned = kLearned;
   learned[0]->mount_yaw_rad.value = GENERATE(0.2, -0.2, std::numeric_limits<double>::quiet_NaN());
   CHECK(file.parse(file.text(learned).value()).radars == Learned{std::nullopt, kLearned[1]});
@@ -104,7 +104,7 @@ TEST_CASE("A mount that is wrong rather than inexact is not kept, nor what is no
 }
 
 TEST_CASE("A sigma above that of the unlearned is written as that") {
-  const LearnedFile file = file_of(two_radars());
+  const LearnedFile file = file_of(mounted_radars());
   Learned learned = kLearned;
   learned[0]->mount_yaw_rad.std = 1.0;
   const auto read = file.parse(file.text(learned).value());
@@ -114,7 +114,7 @@ TEST_CASE("A sigma above that of the unlearned is written as that") {
 }
 
 TEST_CASE("A radar whose mount was changed since is passed over, and named") {
-  Configuration changed = two_radars();
+  Configuration changed = mounted_radars();
   Pose2& mount = changed.radars[0].ego_motion.vehicle_from_radar;
   const int which = GENERATE(0, 1, 2);
   (which == 0 ? mount.x_m : which == 1 ? mount.y_m : mount.yaw_rad) += 1e-6;
@@ -125,7 +125,7 @@ TEST_CASE("A radar whose mount was changed since is passed over, and named") {
 }
 
 TEST_CASE("A radar that is not configured says nothing; a new one has learned nothing") {
-  Configuration other = two_radars();
+  Configuration other = mounted_radars();
   other.radars[0].name = "left";
   const LearnedFile::Content content = file_of(other).parse(good_text());
   CHECK(content.problem.empty());
@@ -158,7 +158,7 @@ TEST_CASE("An error anywhere in the file is named by its line, and the file coun
   if (to == "name = \"front\"") {  // Twice with the same mount: ambiguous.
     text = good_text() + good_text().substr(good_text().find("[[radar]]"));
   }
-  const LearnedFile::Content content = file_of(two_radars()).parse(text);
+  const LearnedFile::Content content = file_of(mounted_radars()).parse(text);
   CHECK(is_empty(content));
   CAPTURE(content.problem);
   CHECK(content.problem.find("learned.toml:") == 0);
@@ -167,7 +167,7 @@ TEST_CASE("An error anywhere in the file is named by its line, and the file coun
 }
 
 TEST_CASE("Whatever is damaged, what is read is whole and sane, or nothing at all") {
-  const LearnedFile file = file_of(two_radars());
+  const LearnedFile file = file_of(mounted_radars());
   const std::string text = good_text();
   std::mt19937 random(1);
   const auto pick = [&](std::size_t end) {
@@ -202,14 +202,14 @@ TEST_CASE("Whatever is damaged, what is read is whole and sane, or nothing at al
 }
 
 TEST_CASE("No file is no error; one that cannot be read is") {
-  const LearnedFile::Content none = file_of(two_radars(), "/nowhere/learned.toml").read();
+  const LearnedFile::Content none = file_of(mounted_radars(), "/nowhere/learned.toml").read();
   CHECK(none.problem.empty());
   CHECK(is_empty(none));
-  const LearnedFile::Content folder = file_of(two_radars(), "/tmp").read();
+  const LearnedFile::Content folder = file_of(mounted_radars(), "/tmp").read();
   CHECK(folder.problem.find("/tmp: cannot be read: ") == 0);
   CHECK(is_empty(folder));
   const TemporaryFile empty;
-  CHECK_FALSE(file_of(two_radars(), empty.path()).read().problem.empty());
+  CHECK_FALSE(file_of(mounted_radars(), empty.path()).read().problem.empty());
 }
 
 TEST_CASE("The writer replaces the file at once, and makes it where there is none") {
@@ -220,14 +220,14 @@ TEST_CASE("The writer replaces the file at once, and makes it where there is non
     }
     CHECK(writer.finish().empty());
   }
-  CHECK(file_of(two_radars(), file.path()).read().radars == kLearned);
+  CHECK(file_of(mounted_radars(), file.path()).read().radars == kLearned);
   const std::string other = file.path() + ".new";
   {
     LearnedWriter writer(other);
     writer.offer("replaced by the next");
     CHECK(writer.finish(good_text()).empty());
   }
-  CHECK(file_of(two_radars(), other).read().radars == kLearned);
+  CHECK(file_of(mounted_radars(), other).read().radars == kLearned);
   CHECK(std::filesystem::remove(other));
   const auto is_left_over = [&](const auto& entry) {
     return entry.path().string().find(file.path() + ".") == 0;

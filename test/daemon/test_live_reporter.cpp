@@ -19,7 +19,7 @@ using cremed::test::DatagramPair;
 
 namespace {
 
-Configuration one_radar() {
+Configuration one_told_radar() {
   Configuration configuration;
   RadarConfiguration radar;
   radar.name = "front";
@@ -31,7 +31,7 @@ Configuration one_radar() {
   return configuration;
 }
 
-class Bench {
+class ReporterBench {
  public:
   void connect() { source_.interfaces()[0]->adopt(bus_.receiver()); }
   void send(canid_t id, int count = 1) {
@@ -58,7 +58,7 @@ class Bench {
  private:
   volatile std::sig_atomic_t stop_ = 0;
   DatagramPair bus_;
-  Configuration configuration_ = one_radar();
+  Configuration configuration_ = one_told_radar();
   LiveSource source_{configuration_, &stop_};
   FreshnessGate gate_{{}, 500'000, &realtime_us};
   Pipeline pipeline_{configuration_, source_, {&gate_}, PipelineClock{&realtime_us, true}};
@@ -69,7 +69,7 @@ class Bench {
 }  // namespace
 
 TEST_CASE("The line names the state of the bus, and what follows from it only if that is well") {
-  Bench bench;
+  ReporterBench bench;
   CHECK_THAT(bench.report(), Catch::StartsWith("front: absent "));
   bench.connect();
   CHECK(bench.report() == "front: absent is silent");
@@ -82,7 +82,7 @@ TEST_CASE("The line names the state of the bus, and what follows from it only if
 }
 
 TEST_CASE("The line names another node that tells the sensor its motion") {
-  Bench bench;
+  ReporterBench bench;
   bench.connect();
   bench.send(0x201);
   CHECK(bench.report() == "front: 0 scans/s, 0 estimates/s");

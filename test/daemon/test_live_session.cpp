@@ -30,9 +30,9 @@ Configuration one_radar() {
 }
 
 /// A session under a service manager.
-class Bench {
+class SessionBench {
  public:
-  explicit Bench(const std::string& url, const std::string& state_file = {})
+  explicit SessionBench(const std::string& url, const std::string& state_file = {})
       : session_(one_radar(), url, state_file, &stop) {}
 
   /// What the manager hears a time later.
@@ -54,7 +54,7 @@ class Bench {
 }  // namespace
 
 TEST_CASE("A session reports once a second, and not for each second that it did not run") {
-  Bench bench("memq://");
+  SessionBench bench("memq://");
   CHECK(bench.after(0) == "nothing");
   CHECK_THAT(bench.after(kSecondUs), Catch::Contains("front: absent "));
   CHECK(bench.after(kSecondUs / 2) == "nothing");
@@ -64,14 +64,14 @@ TEST_CASE("A session reports once a second, and not for each second that it did 
 }
 
 TEST_CASE("A session tells that LCM is not connected, and goes on") {
-  Bench bench("file:///nowhere/cremed.lcm?mode=w");
+  SessionBench bench("file:///nowhere/cremed.lcm?mode=w");
   for (int i = 0; i < 20; ++i) {
     CHECK_THAT(bench.after(kSecondUs), Catch::Contains("LCM is not connected"));
   }
 }
 
 TEST_CASE("A session that is to publish nothing misses no LCM") {
-  Bench bench("none");
+  SessionBench bench("none");
   CHECK_THAT(bench.after(kSecondUs), !Catch::Contains("LCM"));
 }
 
@@ -79,7 +79,7 @@ TEST_CASE(
     "A session ends when it is asked to, and keeps a state file of which it learned nothing") {
   const TemporaryFile state("kept");
   {
-    Bench bench("none", state.path());
+    SessionBench bench("none", state.path());
     CHECK(bench.after(61 * kSecondUs) != "nothing");
     bench.stop = 1;
     CHECK_FALSE(bench.turn());

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kMaxLatencyUs = 500'000;
 
-Configuration configuration_of(std::size_t radars) {
+Configuration absent_radars(std::size_t radars) {
   Configuration configuration;
   for (std::size_t i = 0; i < radars; ++i) {
     RadarConfiguration radar;
@@ -34,10 +34,10 @@ Configuration configuration_of(std::size_t radars) {
 }
 
 /// A source whose interfaces are sockets of the test.
-class Bench {
+class SourceBench {
  public:
-  explicit Bench(std::size_t interfaces)
-      : pairs(interfaces), source(configuration_of(interfaces), &stop) {
+  explicit SourceBench(std::size_t interfaces)
+      : pairs(interfaces), source(absent_radars(interfaces), &stop) {
     test::realtime_ahead_us = 0;
     for (std::size_t i = 0; i < interfaces; ++i) {
       source.interfaces()[i]->adopt(pairs[i].receiver());
@@ -63,7 +63,7 @@ class Bench {
 
 /// The kernel begins to stamp what arrives a moment after a socket has asked for that; until then
 /// reading stamps it.
-void wait_for_stamps(Bench& bench) {
+void wait_for_stamps(SourceBench& bench) {
   std::int64_t sent_us = 0;
   do {
     bench.pairs[0].send(1, 8);
@@ -76,7 +76,7 @@ void wait_for_stamps(Bench& bench) {
 }  // namespace
 
 TEST_CASE("A frame that is read in time and handed out too late is stale") {
-  Bench bench(1);
+  SourceBench bench(1);
   for (canid_t id = 1; id <= 10; ++id) {
     bench.pairs[0].send(id, 8);
   }
@@ -93,7 +93,7 @@ TEST_CASE("A frame that is read in time and handed out too late is stale") {
 }
 
 TEST_CASE("Stale frames tell the time of which nothing is left to read, so that scans time out") {
-  Bench bench(1);
+  SourceBench bench(1);
   const std::int64_t before_us = realtime_us();
   bench.pairs[0].send(1, 8);
   bench.pairs[0].send(2, 8);
@@ -106,7 +106,7 @@ TEST_CASE("Stale frames tell the time of which nothing is left to read, so that 
 }
 
 TEST_CASE("Once late it makes up half of the delay, and then hands frames out again") {
-  Bench bench(1);
+  SourceBench bench(1);
   const auto next_at_age = [&](std::int64_t percent) {
     test::realtime_ahead_us = kMaxLatencyUs * percent / 100;
     bench.pairs[0].send(1, 8);
@@ -121,7 +121,7 @@ TEST_CASE("Once late it makes up half of the delay, and then hands frames out ag
 }
 
 TEST_CASE("Error frames are counted and tell the time; those that lost frames are drops") {
-  Bench bench(1);
+  SourceBench bench(1);
   bench.pairs[0].send(CAN_ERR_FLAG | 0x80, 8);  // CAN_ERR_BUSERROR.
   CHECK(bench.next() == SourceEvent::idle);
   CHECK(bench.source.bus(0).error_frames == 1);
@@ -129,7 +129,7 @@ TEST_CASE("Error frames are counted and tell the time; those that lost frames ar
 }
 
 TEST_CASE("Frames of several interfaces come by stamp, and none is waited for on a silent one") {
-  Bench bench(3);
+  SourceBench bench(3);
   wait_for_stamps(bench);
   const std::vector<std::pair<std::size_t, canid_t>> sent = {
       {0, 1}, {1, 2}, {0, 3}, {1, 4}, {1, 5}};
@@ -145,7 +145,7 @@ TEST_CASE("Frames of several interfaces come by stamp, and none is waited for on
 }
 
 TEST_CASE("Silence is an event, and a stop ends it") {
-  Bench bench(1);
+  SourceBench bench(1);
   CHECK(bench.next() == SourceEvent::idle);
   bench.stop = 1;
   CHECK(bench.next() == SourceEvent::end);
@@ -153,7 +153,7 @@ TEST_CASE("Silence is an event, and a stop ends it") {
 
 TEST_CASE("An interface that is absent is told so, and nothing can be sent on it") {
   volatile std::sig_atomic_t stop = 0;
-  LiveSource source(configuration_of(1), &stop);
+  LiveSource source(absent_radars(1), &stop);
   CHECK((source.bus(0).link == LinkState::absent || source.bus(0).link == LinkState::failed));
   CHECK(source.send(0, CanFrame{}) == ENODEV);
   CHECK(source.bus(0).send_failures == 1);

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kScanUs = 72'000;
 constexpr std::uint8_t kSensor = 3;
 
-Configuration configuration_of(const Ars408Options& options) {
+Configuration configuration_with(const Ars408Options& options) {
   Configuration configuration;
   RadarConfiguration radar;
   radar.name = "front";
@@ -34,19 +34,19 @@ Configuration configuration_of(const Ars408Options& options) {
 }
 
 /// A bus with a radar, and perhaps with another node that knows the motion.
-class Bench {
+class FeedbackBench {
  public:
-  explicit Bench(bool is_upside_down = false)
-      : configuration_(configuration_of(
+  explicit FeedbackBench(bool is_upside_down = false)
+      : configuration_(configuration_with(
             {.sensor_id = kSensor, .invert_azimuth = is_upside_down, .motion_feedback = true})) {
     std::array<int, 2> ends{};
     REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0);
     bus_ = ends[0];
     source_.interfaces()[0]->adopt(ends[1]);
   }
-  ~Bench() { ::close(bus_); }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
+  ~FeedbackBench() { ::close(bus_); }
+  FeedbackBench(const FeedbackBench&) = delete;
+  FeedbackBench& operator=(const FeedbackBench&) = delete;
 
   /// The seconds from now to the first frame sent; -1: none within that time.
   double first_sent_s(double within_s, const CanFrame& of_other = {}) {
@@ -105,7 +105,7 @@ CanFrame speed() { return encode_ars408_speed(kSensor, 5.0); }
 }  // namespace
 
 TEST_CASE("Before its first frame it listens for a second") {
-  Bench bench;
+  FeedbackBench bench;
   CHECK(bench.first_sent_s(5.0) == Approx(1.0).margin(0.15));
   CHECK(bench.first_sent_s(5.0) == 0.0);
   CHECK_FALSE(bench.has_rival());
@@ -113,7 +113,7 @@ TEST_CASE("Before its first frame it listens for a second") {
 
 TEST_CASE("A sensor mounted upside down is told the turn as it sees it") {
   for (const bool is_upside_down : {false, true}) {
-    Bench bench(is_upside_down);
+    FeedbackBench bench(is_upside_down);
     REQUIRE(bench.first_sent_s(5.0) > 0.0);
     REQUIRE(bench.yaw_rate_radps());
     CHECK(*bench.yaw_rate_radps() == Approx(is_upside_down ? -0.1 : 0.1).margin(1e-3));
@@ -121,7 +121,7 @@ TEST_CASE("A sensor mounted upside down is told the turn as it sees it") {
 }
 
 TEST_CASE("While another node sends one of the two it sends none, and for 10 s after") {
-  Bench bench;
+  FeedbackBench bench;
   const CanFrame other = GENERATE(speed(), encode_ars408_yaw_rate(kSensor, 0.1));
   const bool begins_later = GENERATE(false, true);
   if (begins_later) {
@@ -138,7 +138,7 @@ TEST_CASE("What is said to others, or is no frame of data, is no rival") {
   extended.extended = true;
   CanFrame remote = speed();
   remote.remote = true;
-  Bench bench;
+  FeedbackBench bench;
   for (const CanFrame& other : {encode_ars408_speed(kSensor + 1, 5.0), extended, remote}) {
     CHECK(bench.first_sent_s(5.0, other) >= 0.0);
     CHECK_FALSE(bench.has_rival());
@@ -146,7 +146,7 @@ TEST_CASE("What is said to others, or is no frame of data, is no rival") {
 }
 
 TEST_CASE("Time in which the bus was not read is no silence") {
-  Bench bench;
+  FeedbackBench bench;
   REQUIRE(bench.first_sent_s(1.0, speed()) == -1.0);
   bench.pass(60.0);  // Stopped; or the clock was set.
   CHECK(bench.first_sent_s(5.0) == -1.0);
@@ -157,7 +157,7 @@ TEST_CASE("Time in which the bus was not read is no silence") {
 TEST_CASE("What the sensor is told is received if cremed is to tell it, and not otherwise") {
   for (const bool wants_feedback : {false, true}) {
     const auto ids =
-        ids_on(0, configuration_of({.sensor_id = kSensor, .motion_feedback = wants_feedback}));
+        ids_on(0, configuration_with({.sensor_id = kSensor, .motion_feedback = wants_feedback}));
     for (const std::uint32_t id : {speed().id, speed().id + 1}) {
       CHECK((std::ranges::count(ids, id) == 1) == wants_feedback);
     }

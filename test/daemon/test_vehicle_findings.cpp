@@ -16,7 +16,7 @@ VehicleConfiguration on_can0() {
   return vehicle;
 }
 
-VehicleStatus healthy() {
+VehicleStatus healthy_vehicle() {
   VehicleStatus status;
   status.odometry.is_used = true;
   status.odometry.readings = 5000;
@@ -43,7 +43,7 @@ std::string only_finding(const VehicleStatus& status, bool with_past = false,
 }
 
 TEST_CASE("a sound signal has a summary and no finding") {
-  const VehicleStatus status = healthy();
+  const VehicleStatus status = healthy_vehicle();
   CHECK(findings_of(status, true).empty());
   CHECK(signal_state(status) == SignalState::ok);
   CHECK(vehicle_summary(VehicleSignal::yaw_rate, status) ==
@@ -53,24 +53,24 @@ TEST_CASE("a sound signal has a summary and no finding") {
 }
 
 TEST_CASE("a lost signal is told from one that never was") {
-  VehicleStatus status = healthy();
+  VehicleStatus status = healthy_vehicle();
   status.odometry.is_lost = true;
   status.odometry.times_lost = 2;
   CHECK(only_finding(status) == "lost: no frame 0x301 on can0");
   CHECK(signal_state(status) == SignalState::lost);
   status.odometry.readings = 0;
   CHECK(only_finding(status, false, VehicleSignal::speed) == "no frame 0x300 on can0");
-  status = healthy();
+  status = healthy_vehicle();
   status.odometry.times_lost = 2;
   CHECK(findings_of(status).empty());
   CHECK(only_finding(status, true) == "lost: no frame 0x301 on can0 for a while, 2 times");
 }
 
 TEST_CASE("a frozen signal and one that contradicts are named, with what the radars see") {
-  VehicleStatus status = healthy();
+  VehicleStatus status = healthy_vehicle();
   status.odometry.is_frozen = true;
   CHECK_THAT(only_finding(status), Catch::StartsWith("frozen: 0x301 repeats one value"));
-  status = healthy();
+  status = healthy_vehicle();
   status.odometry.is_left_out = true;
   status.odometry.times_left_out = 1;
   status.odometry.nis = 20.0;
@@ -89,7 +89,7 @@ TEST_CASE("a frozen signal and one that contradicts are named, with what the rad
 }
 
 TEST_CASE("frames that cannot be read are counted, after the fault that they cause") {
-  VehicleStatus status = healthy();
+  VehicleStatus status = healthy_vehicle();
   status.bad_frames = 3;
   CHECK_THAT(only_finding(status), Catch::StartsWith("3 frames 0x301 cannot be read"));
   status.odometry.is_lost = true;

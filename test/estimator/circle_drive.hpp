@@ -11,10 +11,12 @@
 #include <Eigen/Geometry>
 
 #include "cremed/estimator/scan/target_set.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed::test {
 
-inline constexpr double kPeriodS = 0.075;
+using simulation::kPeriodS;
+
 inline constexpr double kWorldM = 400.0;
 
 /// A radar of a car that drives on a circle among static objects.

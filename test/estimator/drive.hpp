@@ -22,6 +22,7 @@ inline EgoMotionOptions options_at(const Pose2& mount) {
 /// static points.
 class Drive {
  public:
+  static constexpr double kPeriodS = 0.1;
   static constexpr std::int64_t kPeriodUs = 100000;
 
   Drive(const Eigen::Vector3d& velocity, const Pose2& mount, std::uint64_t seed = 1,

@@ -19,6 +19,10 @@
 
 namespace cremed::simulation {
 
+inline bool is_good(const Odometry& odometry) {
+  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
+}
+
 /// A vehicle with radars that drives through static points, and its filter.
 class OdometryDrive {
  public:

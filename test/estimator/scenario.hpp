@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <random>
 
 #include "cremed/estimator/registration/registration.hpp"
@@ -13,9 +14,6 @@
 namespace cremed::simulation {
 
 using numeric::radians;
-
-/// Time between the two scans of a scenario.
-inline constexpr double kScenarioPeriodS = 0.2;
 
 /// A simulated problem of the paper, with optional extensions.
 struct Scenario {
@@ -55,7 +53,7 @@ inline void move_landmarks(Detections& current, double share, Random& random) {
   for (std::size_t i = 0; i < count; ++i) {
     const double speed_mps = uniform(random, 2.0, 20.0);
     current[i].doppler_mps += speed_mps;
-    current[i].range_m += speed_mps * kScenarioPeriodS;
+    current[i].range_m += speed_mps * kDt;
   }
 }
 
@@ -71,6 +69,15 @@ inline Points landmarks(const Scenario& scenario, Random& random) {
   return points;
 }
 
+/// What a registration by itself tells of two scans.
+inline RegistrationResult solve(const RegistrationOptions& options, const Detections& previous,
+                                const Detections& current, double dt_s = kDt,
+                                const Pose2& mount = {}) {
+  const auto registration = std::make_unique<Registration>(options, mount);
+  registration->set_previous(targets(previous, mount));
+  return registration->solve(targets(current, mount), dt_s);
+}
+
 struct Run {
   Eigen::Vector3d error;
   RegistrationResult result;
@@ -82,9 +89,8 @@ inline Run run(const Scenario& scenario, Random& random) {
   const Eigen::Vector3d motion{uniform(random, -0.25, 0.25),
                                is_car ? 0.0 : uniform(random, -0.25, 0.25),
                                uniform(random, -scenario.max_yaw_rad, scenario.max_yaw_rad)};
-  Detections previous =
-      observe_all(points, Eigen::Vector3d::Zero(), kScenarioPeriodS, {}, scenario.noise);
-  Detections current = observe_all(points, motion, kScenarioPeriodS, {}, scenario.noise);
+  Detections previous = observe_all(points, Eigen::Vector3d::Zero(), kDt, {}, scenario.noise);
+  Detections current = observe_all(points, motion, kDt, {}, scenario.noise);
   move_landmarks(current, scenario.movers, random);
   for (Detections* detections : {&previous, &current}) {
     perturb(*detections, random);
@@ -93,7 +99,7 @@ inline Run run(const Scenario& scenario, Random& random) {
   }
   Registration registration(scenario.options, {});
   registration.set_previous(targets(previous, {}));
-  const RegistrationResult result = registration.solve(targets(current, {}), kScenarioPeriodS);
+  const RegistrationResult result = registration.solve(targets(current, {}), kDt);
   return {result.motion - motion, result};
 }
 

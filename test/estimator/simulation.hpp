@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,21 @@ namespace cremed::simulation {
 using Random = std::mt19937_64;
 using Points = std::vector<Eigen::Vector2d>;
 using Detections = std::vector<Detection>;
+
+/// Period of a radar.
+inline constexpr double kPeriodS = 0.075;
+/// Times in s between the two scans of a pair.
+inline constexpr double kDt = 0.2;
+inline constexpr double kShortDt = 0.1;
+
+inline constexpr Pose2 kFront{3.4, 0.0, 0.0};
+inline constexpr Pose2 kRearLeft{-0.6, 0.6, 3.05};
+inline constexpr Pose2 kRearRight{-0.6, -0.6, -3.05};
+/// One ahead and one to the left, in which nothing is zero.
+inline const std::vector<Pose2> kTwoMounts{{3.4, 0.1, 0.02}, {2.4, 0.8, 1.54}};
+
+inline constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
+inline const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
 struct Noise {
   double range_m = 0.13;
@@ -70,6 +86,20 @@ inline Detections observe_all(const Points& points, const Eigen::Vector3d& motio
   Detections detections;
   for (const Eigen::Vector2d& point : points) {
     detections.push_back(observe(seen_from(motion, point), motion / dt_s, mount, noise));
+  }
+  return detections;
+}
+
+/// All points as seen after `motion` by a radar at the vehicle's origin.
+inline Detections see(const Points& points, const Eigen::Vector3d& motion) {
+  return observe_all(points, motion, kDt, {}, {});
+}
+
+/// With isotropic noise: covariances then do not depend on yaw.
+inline Detections isotropic(Detections detections, double std_m) {
+  for (Detection& detection : detections) {
+    detection.range_std_m = std_m;
+    detection.azimuth_std_rad = std_m / detection.range_m;
   }
   return detections;
 }

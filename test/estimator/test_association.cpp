@@ -9,17 +9,19 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/cost/association.hpp"
+#include "test/estimator/association_pairs.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
+using simulation::fill;
+using simulation::make_association;
 using simulation::Random;
+using simulation::random_ratios;
+using simulation::Ratios;
 using simulation::uniform;
 
-using Ratios = Eigen::MatrixXd;         // 0: no such pair
 using Probabilities = Eigen::MatrixXd;  // 0: no such pair
 
 /// The sum over all one-to-one assignments, computed recursively.
@@ -59,19 +61,6 @@ Enumeration enumerate(const Ratios& ratios) {
   return sum;
 }
 
-/// The pairs whose ratios are not 0.
-void fill(Association& association, const Ratios& ratios) {
-  association.clear(static_cast<std::size_t>(ratios.cols()));
-  for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
-    association.begin_row();
-    for (Eigen::Index j = 0; j < ratios.cols(); ++j) {
-      if (ratios(i, j) != 0.0) {
-        association.add(static_cast<std::size_t>(j), ratios(i, j), Eigen::Vector3d::Zero());
-      }
-    }
-  }
-}
-
 Probabilities probabilities(const Association& association, const Ratios& ratios) {
   Probabilities result = Probabilities::Zero(ratios.rows(), ratios.cols());
   for (std::size_t i = 0; i < association.rows(); ++i) {
@@ -83,20 +72,12 @@ Probabilities probabilities(const Association& association, const Ratios& ratios
   return result;
 }
 
-Probabilities solve(Association& association, const Ratios& ratios) {
+Probabilities solved(Association& association, const Ratios& ratios) {
   fill(association, ratios);
   association.start();
   CHECK(association.solve() <= Association::kMaxRounds);
   return probabilities(association, ratios);
 }
-
-/// Ratios 10^-decades .. 10^decades.
-Ratios random_ratios(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
-  return Ratios::NullaryExpr(rows, columns,
-                             [&] { return std::pow(10.0, uniform(random, -decades, decades)); });
-}
-
-std::unique_ptr<Association> make_association() { return std::make_unique<Association>(); }
 
 TEST_CASE("a pair without competitors is exact") {
   const auto association = make_association();
@@ -104,7 +85,7 @@ TEST_CASE("a pair without competitors is exact") {
   for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
     ratios(i, (5 * i + 2) % 14) = std::pow(10.0, static_cast<double>(i) - 4.0);
   }
-  const Probabilities actual = solve(*association, ratios);
+  const Probabilities actual = solved(*association, ratios);
   double cost = 0.0;
   for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
     const double ratio = ratios.row(i).sum();
@@ -120,7 +101,7 @@ TEST_CASE("in a block of equal ratios all pairs are equally likely") {
     for (const double ratio : {1e-3, 1.0, 1e3, 1e6, 1e11}) {
       CAPTURE(n, ratio);
       const Ratios ratios = Ratios::Constant(n, n, ratio);
-      const Probabilities actual = solve(*association, ratios);
+      const Probabilities actual = solved(*association, ratios);
       const double expected = ratio / (1.0 + static_cast<double>(n) * ratio);
       CHECK((actual.array() - expected).abs().maxCoeff() < 1e-9);
       if (ratio != 1.0) {  // at 1 it is an approximation only
@@ -157,7 +138,7 @@ TEST_CASE("probabilities approximate those of the sum over all assignments") {
       }
       const Enumeration expected = enumerate(ratios);
       const Eigen::ArrayXXd error =
-          (solve(*association, ratios) - expected.probabilities).cwiseAbs().array();
+          (solved(*association, ratios) - expected.probabilities).cwiseAbs().array();
       max_error = std::max(max_error, error.maxCoeff());
       sum_error += error.mean();
       max_cost_error =
@@ -175,7 +156,7 @@ TEST_CASE("two targets that compete for two share them, unlike a mixture's rows"
   Ratios ratios(2, 2);
   ratios << 1000.0, 100.0, 1000.0, 100.0;  // both rows are nearer to the first
   const Probabilities exact = enumerate(ratios).probabilities;
-  const Probabilities actual = solve(*association, ratios);
+  const Probabilities actual = solved(*association, ratios);
   CHECK((actual - exact).cwiseAbs().maxCoeff() < 0.03);
   CHECK((actual.array() - 0.5).abs().maxCoeff() < 0.03);
 }
@@ -188,7 +169,8 @@ Eigen::Vector2d largest_sums(double decades, Eigen::Index max_size, int runs) {
   for (int run = 0; run < runs; ++run) {
     const auto rows = static_cast<Eigen::Index>(1 + random() % static_cast<unsigned>(max_size));
     const auto columns = static_cast<Eigen::Index>(1 + random() % static_cast<unsigned>(max_size));
-    const Probabilities actual = solve(*association, random_ratios(random, rows, columns, decades));
+    const Probabilities actual =
+        solved(*association, random_ratios(random, rows, columns, decades));
     REQUIRE(actual.minCoeff() >= 0.0);
     largest = largest.cwiseMax(
         Eigen::Vector2d(actual.rowwise().sum().maxCoeff(), actual.colwise().sum().maxCoeff()));
@@ -207,7 +189,7 @@ TEST_CASE("no target has more than one partner in a partly hidden cluster") {
   double largest = 0.0;
   for (const auto& [rows, columns] : {std::pair{2, 3}, {3, 4}, {4, 6}, {3, 2}, {1, 5}, {5, 2}}) {
     for (const double ratio : {1e2, 1e4, 1e6, 1e8}) {
-      const Probabilities actual = solve(*association, Ratios::Constant(rows, columns, ratio));
+      const Probabilities actual = solved(*association, Ratios::Constant(rows, columns, ratio));
       largest =
           std::max({largest, actual.rowwise().sum().maxCoeff(), actual.colwise().sum().maxCoeff()});
     }
@@ -220,7 +202,7 @@ TEST_CASE("the solution does not depend on the start of the factors") {
   Random random(3);
   for (int run = 0; run < 300; ++run) {
     const Ratios ratios = random_ratios(random, 5, 5, 1.5);
-    const Probabilities cold = solve(*association, ratios);
+    const Probabilities cold = solved(*association, ratios);
     // Warm start: factors of other ratios, small and large.
     for (const double decades : {-4.0, 4.0}) {
       fill(*association, ratios * std::pow(10.0, decades));
@@ -257,7 +239,7 @@ TEST_CASE("a full association leaves out further pairs and remains usable") {
   // clear() removes all pairs.
   Ratios one = Ratios::Zero(2, 2);
   one(1, 0) = 3.0;
-  CHECK(solve(*association, one)(1, 0) == Approx(0.75));
+  CHECK(solved(*association, one)(1, 0) == Approx(0.75));
   CHECK(association->cost() == Approx(-std::log(4.0)));
 }
 
@@ -285,7 +267,7 @@ TEST_CASE("a NaN ratio makes the cost NaN, an infinite one is certain") {
   CHECK(std::isnan(association->cost()));
   association->missing_information(Eigen::Vector3d::Ones());  // terminates
 
-  const Probabilities certain = solve(*association, Ratios::Constant(1, 1, numeric::kInfinity));
+  const Probabilities certain = solved(*association, Ratios::Constant(1, 1, numeric::kInfinity));
   CHECK(certain(0, 0) == Approx(1.0).epsilon(1e-9));
   CHECK(std::isfinite(association->cost()));
 }

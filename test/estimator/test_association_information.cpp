@@ -8,50 +8,29 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/cost/association.hpp"
+#include "test/estimator/association_pairs.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
+using simulation::fill;
+using simulation::Gradients;
+using simulation::make_association;
 using simulation::Random;
+using simulation::random_ratios;
+using simulation::Ratios;
 using simulation::uniform;
 
-using Ratios = Eigen::MatrixXd;
-using Gradients = std::vector<Eigen::Vector3d>;  // of each pair, row by row
-
-/// Pairs where ratios are not 0; their gradients row by row.
-void fill(Association& association, const Ratios& ratios, const Gradients& gradients) {
-  association.clear(static_cast<std::size_t>(ratios.cols()));
-  for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
-    association.begin_row();
-    for (Eigen::Index j = 0; j < ratios.cols(); ++j) {
-      const auto k = static_cast<std::size_t>(i * ratios.cols() + j);
-      if (ratios(i, j) != 0.0) {
-        association.add(static_cast<std::size_t>(j), ratios(i, j), gradients[k]);
-      }
-    }
-  }
-}
-
-/// Ratios 10^-decades .. 10^decades.
-Ratios random_ratios(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
-  return Ratios::NullaryExpr(rows, columns,
-                             [&] { return std::pow(10.0, uniform(random, -decades, decades)); });
-}
-
-std::unique_ptr<Association> make_association() { return std::make_unique<Association>(); }
-
 /// Pairs whose ratios change with a state: log psi(x) = log psi(0) - g x.
-struct Problem {
+struct Pairs {
   Ratios ratios;
   Gradients gradients;
 };
 
-Problem random_problem(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
+Pairs random_problem(Random& random, Eigen::Index rows, Eigen::Index columns, double decades) {
   std::normal_distribution<double> normal;
-  Problem problem{random_ratios(random, rows, columns, decades), {}};
+  Pairs problem{random_ratios(random, rows, columns, decades), {}};
   for (Eigen::Index k = 0; k < rows * columns; ++k) {
     problem.gradients.emplace_back(normal(random), normal(random), normal(random));
   }
@@ -59,7 +38,7 @@ Problem random_problem(Random& random, Eigen::Index rows, Eigen::Index columns, 
 }
 
 /// sum_ij p_ij g_ij at a state, from factors that need no further round.
-Eigen::Vector3d gradient(Association& association, const Problem& problem,
+Eigen::Vector3d gradient(Association& association, const Pairs& problem,
                          const Eigen::Vector3d& state) {
   Ratios ratios = problem.ratios;
   for (Eigen::Index k = 0; k < ratios.size(); ++k) {
@@ -77,7 +56,7 @@ Eigen::Vector3d gradient(Association& association, const Problem& problem,
   return sum;
 }
 
-Eigen::Matrix3d missing_information(Association& association, const Problem& problem) {
+Eigen::Matrix3d missing_information(Association& association, const Pairs& problem) {
   fill(association, problem.ratios, problem.gradients);
   association.start();
   association.solve();
@@ -98,7 +77,7 @@ TEST_CASE("missing information is the gradient's derivative by the probabilities
   Random random(4);
   for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 3}, {3, 1}, {2, 2}, {3, 3}, {2, 4}}) {
     for (int run = 0; run < 100; ++run) {
-      const Problem problem = random_problem(random, rows, columns, 1.0);
+      const Pairs problem = random_problem(random, rows, columns, 1.0);
       const Eigen::Matrix3d actual = missing_information(*association, problem);
       const double scale = complete_information(*association).norm();
       const Eigen::Matrix3d slope = numeric::central_differences(

@@ -16,18 +16,18 @@ namespace cremed {
 namespace {
 
 using numeric::radians;
+using simulation::kDt;
 using simulation::Random;
 using simulation::uniform;
 
 static_assert(RegistrationCost<MixtureCost>);
 static_assert(RegistrationCost<ExclusiveCost>);
 
-constexpr double kDt = 0.2;
 const Eigen::Vector3d kMotion(0.5, 0.0, 0.03);
 
 /// Two noisy scans, of which every target has neighbours within its noise; a fifth of them moves.
-struct Scene {
-  explicit Scene(std::uint64_t seed) {
+struct DenseScans {
+  explicit DenseScans(std::uint64_t seed) {
     Random random(seed);
     const auto points = simulation::scatter(random, 40, 5.0, 30.0, radians(45.0), 0.5);
     const auto see = [&](const Eigen::Vector3d& motion) {
@@ -63,27 +63,27 @@ Unknowns random_unknowns(Random& random) {
   return at;
 }
 
-bool is_identical(const NormalEquations& a, const NormalEquations& b) {
+bool is_unchanged(const NormalEquations& a, const NormalEquations& b) {
   return a.information == b.information && a.gradient == b.gradient && a.cost == b.cost &&
          a.shared == b.shared;
 }
 
 TEST_CASE("the mixture's equations depend on their argument alone") {
   Random random(1);
-  const Scene scene(2);
+  const DenseScans scene(2);
   const auto cost =
       simulation::mixture_cost(simulation::paper_options(), {}, scene.previous, scene.current, kDt);
   const Unknowns at = random_unknowns(random);
   const NormalEquations first = cost->linearise(at);
   for (int i = 0; i < 10; ++i) {
     cost->linearise(random_unknowns(random));
-    CHECK(is_identical(cost->linearise(at), first));
+    CHECK(is_unchanged(cost->linearise(at), first));
   }
 }
 
 TEST_CASE("the exclusive likelihood's equations depend on their argument alone, if settled") {
   Random random(3);
-  const Scene scene(4);
+  const DenseScans scene(4);
   const Unknowns at = random_unknowns(random);
   const auto fresh = scene.exclusive();
   const NormalEquations first = fresh->linearise(at);
@@ -105,7 +105,7 @@ TEST_CASE("the exclusive likelihood's equations depend on their argument alone, 
 }
 
 TEST_CASE("the returned shared errors are only the next point of linearisation") {
-  const Scene scene(5);
+  const DenseScans scene(5);
   DopplerOptions no_movers;
   no_movers.moving_weight = 0.0;
   const auto cost = scene.exclusive(no_movers);
@@ -122,7 +122,7 @@ TEST_CASE("by positions a step never raises the cost of the exclusive likelihood
   no_doppler.enabled = false;
   Random random(6);
   for (std::uint64_t seed = 10; seed < 40; ++seed) {
-    const Scene scene(seed);
+    const DenseScans scene(seed);
     const auto cost = scene.exclusive(no_doppler);
     Unknowns at{random_unknowns(random).motion};
     NormalEquations equations = cost->linearise(at);
@@ -139,7 +139,7 @@ TEST_CASE("by positions a step never raises the cost of the exclusive likelihood
 }
 
 TEST_CASE("a step that raises the cost is halved until it does not") {
-  const Scene scene(7);
+  const DenseScans scene(7);
   const auto cost =
       simulation::mixture_cost(simulation::paper_options(), {}, scene.previous, scene.current, kDt);
   Descent descent{{kMotion}, cost->linearise({kMotion})};

@@ -15,17 +15,16 @@ namespace cremed {
 namespace {
 
 using numeric::radians;
+using simulation::kShortDt;
 using simulation::Random;
 using simulation::uniform;
-
-constexpr double kDt = 0.1;
 
 struct NamedMount {
   const char* name;
   Pose2 pose;
 };
 
-const std::vector<NamedMount> kMounts = {
+const std::vector<NamedMount> kNamedMounts = {
     {"centre", {0.0, 0.0, 0.0}},           {"front", {3.4, 0.0, 0.0}},
     {"left", {2.4, 0.8, radians(90.0)}},   {"right", {2.4, -0.8, radians(-90.0)}},
     {"rear", {-0.6, 0.3, radians(175.0)}},
@@ -71,18 +70,19 @@ Target target_at(double bearing_rad, double doppler_mps, double bearing_std_rad 
   return target;
 }
 
-/// Change of range that the residual predicts over kDt, from a target without Doppler.
+/// Change of range that the residual predicts over kShortDt, from a target without Doppler.
 double predicted_m(double bearing_rad, const Eigen::Vector3d& motion, const Pose2& mount) {
-  return residual_of(target_at(bearing_rad, 0.0), motion, mount, kDt, plain_options(), 1.0)
+  return residual_of(target_at(bearing_rad, 0.0), motion, mount, kShortDt, plain_options(), 1.0)
              .residual *
-         0.2 * kDt;
+         0.2 * kShortDt;
 }
 
 /// The standard deviation by which the residual is whitened; the error must not be zero.
 double deviation_m(const Target& target, const Eigen::Vector3d& motion, const Pose2& mount,
                    const DopplerOptions& options, double scale) {
-  const double error_m = predicted_m(target.bearing_rad, motion, mount) - target.doppler_mps * kDt;
-  return error_m / residual_of(target, motion, mount, kDt, options, scale).residual;
+  const double error_m =
+      predicted_m(target.bearing_rad, motion, mount) - target.doppler_mps * kShortDt;
+  return error_m / residual_of(target, motion, mount, kShortDt, options, scale).residual;
 }
 
 /// Range rate of a standing target by following the radar along the vehicle's path.
@@ -103,30 +103,30 @@ TEST_CASE("driving forward at a static target ahead is a negative Doppler") {
   CHECK(predicted_m(radians(180.0), forward, {}) == Approx(1.0));
   CHECK(predicted_m(radians(60.0), forward, {}) == Approx(-0.5));
   const auto residual = [&](double doppler_mps) {
-    return residual_of(target_at(0.0, doppler_mps), forward, {}, kDt, plain_options(), 1.0)
+    return residual_of(target_at(0.0, doppler_mps), forward, {}, kShortDt, plain_options(), 1.0)
         .residual;
   };
   CHECK(residual(-10.0) == Approx(0.0).margin(1e-12));
-  CHECK(residual(10.0) == Approx(-2.0 / (0.2 * kDt)));
+  CHECK(residual(10.0) == Approx(-2.0 / (0.2 * kShortDt)));
 }
 
 TEST_CASE("the prediction is the range rate of a rigid body, for every mount") {
   Random random(1);
-  for (const NamedMount& mount : kMounts) {
+  for (const NamedMount& mount : kNamedMounts) {
     CAPTURE(mount.name);
     for (int i = 0; i < 50; ++i) {
       const Eigen::Vector3d velocity{uniform(random, -20.0, 20.0), uniform(random, -2.0, 2.0),
                                      uniform(random, -1.5, 1.5)};
       const double bearing_rad = mount.pose.yaw_rad + uniform(random, -1.0, 1.0);
-      CHECK(predicted_m(bearing_rad, velocity * kDt, mount.pose) ==
-            Approx(kDt * range_rate_mps(bearing_rad, velocity, mount.pose)).margin(1e-7));
+      CHECK(predicted_m(bearing_rad, velocity * kShortDt, mount.pose) ==
+            Approx(kShortDt * range_rate_mps(bearing_rad, velocity, mount.pose)).margin(1e-7));
     }
   }
 }
 
 TEST_CASE("the Jacobian is the derivative of the residual with its variance held") {
   Random random(2);
-  for (const NamedMount& mount : kMounts) {
+  for (const NamedMount& mount : kNamedMounts) {
     for (const double bearing_std_rad : {0.0, 0.05}) {
       CAPTURE(mount.name, bearing_std_rad);
       const Eigen::Vector3d motion{uniform(random, -2.0, 2.0), uniform(random, -0.2, 0.2),
@@ -138,7 +138,7 @@ TEST_CASE("the Jacobian is the derivative of the residual with its variance held
       const Eigen::Vector3d expected = numeric::central_differences(
           motion, 1e-4,
           [&](const Eigen::Vector3d& at) { return predicted_m(bearing_rad, at, mount.pose); });
-      const auto actual = residual_of(target, motion, mount.pose, kDt, options, 1.0);
+      const auto actual = residual_of(target, motion, mount.pose, kShortDt, options, 1.0);
       CHECK((actual.jacobian.transpose() * sigma_m - expected).norm() < 1e-8);
     }
   }
@@ -151,7 +151,7 @@ TEST_CASE("each source of error contributes to the variance") {
   const double doppler_mps = -7.0;
   DopplerOptions options = plain_options();
 
-  const double doppler_m = 0.2 * kDt;
+  const double doppler_m = 0.2 * kShortDt;
   Target target = target_at(bearing_rad, doppler_mps);
   CHECK(deviation_m(target, motion, mount, options, 1.0) == Approx(doppler_m));
   CHECK(deviation_m(target, motion, mount, options, 6.0) == Approx(6.0 * doppler_m));
@@ -178,7 +178,7 @@ TEST_CASE("a moving target is explained by the wide component") {
   DopplerOptions options;
   options.stamp_std_s = 0.0;
   const auto residual = [&](double doppler_mps) {
-    return residual_of(target_at(0.0, doppler_mps), motion, {}, kDt, options, 1.0);
+    return residual_of(target_at(0.0, doppler_mps), motion, {}, kShortDt, options, 1.0);
   };
   CHECK(residual(-10.0).is_static);
   CHECK(residual(-9.5).is_static);
@@ -186,13 +186,13 @@ TEST_CASE("a moving target is explained by the wide component") {
     const Whitened mover = residual(mover_mps);
     CHECK_FALSE(mover.is_static);
     CHECK(mover.residual == Approx((-10.0 - mover_mps) / 100.0));
-    CHECK(mover.jacobian.x() == Approx(-1.0 / (100.0 * kDt)));
+    CHECK(mover.jacobian.x() == Approx(-1.0 / (100.0 * kShortDt)));
   }
   // A scaled-up static component covers larger errors.
-  CHECK(residual_of(target_at(0.0, -8.0), motion, {}, kDt, options, 10.0).is_static);
+  CHECK(residual_of(target_at(0.0, -8.0), motion, {}, kShortDt, options, 10.0).is_static);
   CHECK_FALSE(residual(-8.0).is_static);
   // The component for moving targets is not scaled.
-  const auto scaled = residual_of(target_at(0.0, 40.0), motion, {}, kDt, options, 10.0);
+  const auto scaled = residual_of(target_at(0.0, 40.0), motion, {}, kShortDt, options, 10.0);
   CHECK_FALSE(scaled.is_static);
   CHECK(scaled.residual == Approx(-50.0 / 100.0));
 }
@@ -207,7 +207,8 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
     const double bearing_rad = uniform(random, -1.0, 1.0);
     const Target target = target_at(bearing_rad, uniform(random, -12.0, -8.0), 0.02);
     const Eigen::Vector3d motion(1.0, 0.0, 0.01);
-    const double error_m = predicted_m(target.bearing_rad, motion, {}) - target.doppler_mps * kDt;
+    const double error_m =
+        predicted_m(target.bearing_rad, motion, {}) - target.doppler_mps * kShortDt;
     const auto density = [&](double weight, double doppler_std_mps) {
       Target component = target;
       component.doppler_std_mps = doppler_std_mps;
@@ -218,7 +219,7 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
     };
     const double as_static = density(1.0 - options.moving_weight, target.doppler_std_mps);
     const double as_moving = density(options.moving_weight, options.moving_std_mps);
-    const auto actual = residual_of(target, motion, {}, kDt, options, 1.0);
+    const auto actual = residual_of(target, motion, {}, kShortDt, options, 1.0);
     CHECK(actual.is_static == (as_static >= as_moving));
     CHECK(actual.cost == Approx(-std::log(std::max(as_static, as_moving))));
     movers += actual.is_static ? 0 : 1;
@@ -229,7 +230,8 @@ TEST_CASE("the cost is the negative logarithm of the larger component") {
 
 TEST_CASE("the cost is continuous at the switch to the moving component") {
   const auto at = [](double speed_mps) {
-    return residual_of(target_at(0.0, -10.0), {speed_mps * kDt, 0.0, 0.0}, {}, kDt, {}, 1.0);
+    return residual_of(target_at(0.0, -10.0), {speed_mps * kShortDt, 0.0, 0.0}, {}, kShortDt, {},
+                       1.0);
   };
   double is_static = 10.0;
   double is_moving = 15.0;
@@ -245,9 +247,9 @@ TEST_CASE("the cost is continuous at the switch to the moving component") {
 
 TEST_CASE("with moving weight 0 every target is static") {
   const auto actual =
-      residual_of(target_at(0.0, 50.0), {1.0, 0.0, 0.0}, {}, kDt, plain_options(), 1.0);
+      residual_of(target_at(0.0, 50.0), {1.0, 0.0, 0.0}, {}, kShortDt, plain_options(), 1.0);
   CHECK(actual.is_static);
-  CHECK(actual.residual == Approx(-6.0 / (0.2 * kDt)));
+  CHECK(actual.residual == Approx(-6.0 / (0.2 * kShortDt)));
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ namespace cremed {
 namespace {
 
 using simulation::Detections;
+using simulation::kShortDt;
 using simulation::Random;
 
-constexpr double kDt = 0.1;
-const Pose2 kMount{3.4, 0.5, 0.3};
+const Pose2 kAskew{3.4, 0.5, 0.3};
 
 /// The systematic errors of SharedDoppler.
 struct Shared {
@@ -45,14 +45,14 @@ Shared draw(const RegistrationOptions& options, Random& random) {
 /// Their Doppler as the model predicts it, at a velocity in the vehicle's frame.
 void set_doppler(Detections& detections, const Eigen::Vector3d& velocity, const Shared& shared) {
   for (Detection& detection : detections) {
-    const double angle_rad = detection.azimuth_rad + kMount.yaw_rad + shared.mount_rad;
-    detection.doppler_mps = -(velocity.x() - velocity.z() * kMount.y_m) * std::cos(angle_rad) -
-                            (velocity.y() + velocity.z() * kMount.x_m) * std::sin(angle_rad) +
+    const double angle_rad = detection.azimuth_rad + kAskew.yaw_rad + shared.mount_rad;
+    detection.doppler_mps = -(velocity.x() - velocity.z() * kAskew.y_m) * std::cos(angle_rad) -
+                            (velocity.y() + velocity.z() * kAskew.x_m) * std::sin(angle_rad) +
                             shared.offset_mps;
   }
 }
 
-RegistrationOptions options_of(int degrees_of_freedom, bool both_scans, bool with_shared) {
+RegistrationOptions nis_options(int degrees_of_freedom, bool both_scans, bool with_shared) {
   RegistrationOptions options = simulation::paper_options();
   options.degrees_of_freedom = degrees_of_freedom;
   options.doppler.both_scans = both_scans;
@@ -85,22 +85,22 @@ Pair solve_pair(const RegistrationOptions& options, Random& random, bool is_arc 
   }
   const auto points = simulation::scatter(random, 40, 5.0, 40.0, 1.0, 1.0);
   Detections previous =
-      simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, kMount, noise);
-  Detections current = simulation::observe_all(points, motion, kDt, kMount, noise);
+      simulation::observe_all(points, Eigen::Vector3d::Zero(), kShortDt, kAskew, noise);
+  Detections current = simulation::observe_all(points, motion, kShortDt, kAskew, noise);
   const Shared shared = draw(options, random);
-  set_doppler(previous, (half_way / kDt) - 0.5 * kDt * shared.acceleration, shared);
-  set_doppler(current, (half_way / kDt) + 0.5 * kDt * shared.acceleration, shared);
+  set_doppler(previous, (half_way / kShortDt) - 0.5 * kShortDt * shared.acceleration, shared);
+  set_doppler(current, (half_way / kShortDt) + 0.5 * kShortDt * shared.acceleration, shared);
   simulation::perturb(previous, random);
   simulation::perturb(current, random);
-  Registration registration(options, kMount);
-  registration.set_previous(simulation::targets(previous, kMount));
-  return {motion, registration.solve(simulation::targets(current, kMount), kDt)};
+  Registration registration(options, kAskew);
+  registration.set_previous(simulation::targets(previous, kAskew));
+  return {motion, registration.solve(simulation::targets(current, kAskew), kShortDt)};
 }
 
 TEST_CASE("registration: positions and Doppler differ as their covariances state") {
   const bool both_scans = GENERATE(false, true);
   const bool with_shared = GENERATE(false, true);
-  const RegistrationOptions options = options_of(2, both_scans, with_shared);
+  const RegistrationOptions options = nis_options(2, both_scans, with_shared);
   CAPTURE(both_scans, with_shared);
   Random random(7);
   constexpr int kPairs = 300;
@@ -120,13 +120,13 @@ TEST_CASE("registration: positions and Doppler differ as their covariances state
 
 TEST_CASE("registration: without Doppler, or with max_sum_mixture, there is no NIS") {
   Random random(5);
-  RegistrationOptions options = options_of(2, true, false);
+  RegistrationOptions options = nis_options(2, true, false);
   options.doppler.enabled = false;
   CHECK(std::isnan(solve_pair(options, random).result.doppler_nis));
-  options = options_of(2, false, false);
+  options = nis_options(2, false, false);
   CHECK_FALSE(std::isnan(solve_pair(options, random).result.doppler_nis));
   // One radar's Doppler observes two of three states.
-  CHECK(std::isnan(solve_pair(options_of(3, true, true), random).result.doppler_nis));
+  CHECK(std::isnan(solve_pair(nis_options(3, true, true), random).result.doppler_nis));
   options.likelihood = Likelihood::max_sum_mixture;
   const RegistrationResult result = solve_pair(options, random).result;
   CHECK(result.status == RegistrationStatus::converged);

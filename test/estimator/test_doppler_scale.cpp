@@ -6,19 +6,20 @@
 
 #include "cremed/estimator/doubt/radar/doppler_scale.hpp"
 #include "test/estimator/circle_drive.hpp"
+#include "test/estimator/simulation.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
+using cremed::simulation::kFront;
 
 namespace {
 
-const Pose2 kFront{3.4, 0.0, 0.0};
-const Pose2 kRearLeft{-0.6, 0.6, std::numbers::pi - 0.1};
+const Pose2 kBackLeft{-0.6, 0.6, std::numbers::pi - 0.1};
 
 /// The check after some seconds of the drive.
-class CheckedDrive {
+class ScaleCheckedDrive {
  public:
-  explicit CheckedDrive(const Pose2& mount = kFront) : check(mount), mount_(mount) {}
+  explicit ScaleCheckedDrive(const Pose2& mount = kFront) : check(mount), mount_(mount) {}
 
   void go_on(CircleDrive drive, double duration_s) {
     drive.mount = mount_;
@@ -40,9 +41,9 @@ class CheckedDrive {
 TEST_CASE("Doppler scale: a right one is not doubted, and known to 2 %") {
   const double speed_mps = GENERATE(-5.0, 0.0, 1.0, 3.0, 12.0, 25.0, 35.0);
   const double yaw_rate_radps = GENERATE(-0.3, 0.0, 0.15);
-  const Pose2 mount = GENERATE(kFront, kRearLeft);
+  const Pose2 mount = GENERATE(kFront, kBackLeft);
   CAPTURE(speed_mps, yaw_rate_radps, mount.x_m);
-  CheckedDrive drive(mount);
+  ScaleCheckedDrive drive(mount);
   for (int second = 0; second < 20; ++second) {
     drive.go_on({.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps}, 1.0);
     CHECK_FALSE(drive.check.is_wrong());
@@ -55,7 +56,7 @@ TEST_CASE(
   const double scale = GENERATE(0.8, 0.9, 0.95, 1.06, 1.1, 1.25);
   const double speed_mps = GENERATE(-5.0, 5.0, 12.0, 25.0);
   const double yaw_rate_radps = GENERATE(-0.2, 0.0);
-  const Pose2 mount = GENERATE(kFront, kRearLeft);
+  const Pose2 mount = GENERATE(kFront, kBackLeft);
   CAPTURE(scale, speed_mps, yaw_rate_radps, mount.x_m);
   if (std::abs(scale - 1.0) < 0.07 && std::abs(yaw_rate_radps / speed_mps) > 0.02) {
     return;  // Healthy radars have as much there.
@@ -63,7 +64,7 @@ TEST_CASE(
   const CircleDrive healthy{.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps};
   CircleDrive faulty = healthy;
   faulty.doppler_factor = scale;
-  CheckedDrive drive(mount);
+  ScaleCheckedDrive drive(mount);
   drive.go_on(faulty, 2.0);
   CHECK(drive.check.is_wrong());
   drive.go_on(faulty, 3.0);
@@ -75,12 +76,12 @@ TEST_CASE(
 TEST_CASE("Doppler scale: a wrong sign is found in 2 s, and its end too") {
   const double speed_mps = GENERATE(-5.0, 5.0, 12.0, 25.0);
   const double yaw_rate_radps = GENERATE(-0.2, 0.0);
-  const Pose2 mount = GENERATE(kFront, kRearLeft);
+  const Pose2 mount = GENERATE(kFront, kBackLeft);
   CAPTURE(speed_mps, yaw_rate_radps, mount.x_m);
   const CircleDrive healthy{.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps};
   CircleDrive faulty = healthy;
   faulty.doppler_factor = -1.0;
-  CheckedDrive drive(mount);
+  ScaleCheckedDrive drive(mount);
   drive.go_on(healthy, 5.0);
   drive.go_on(faulty, 2.0);
   CHECK(drive.check.is_wrong());
@@ -92,13 +93,13 @@ TEST_CASE("Doppler scale: a wrong sign is found in 2 s, and its end too") {
 TEST_CASE("Doppler scale: without matches nothing is known, and nothing doubted") {
   const auto drive = GENERATE(CircleDrive{.doppler_factor = 0.9, .things = 0},
                               CircleDrive{.doppler_factor = 0.9, .kept = 0.02});
-  CheckedDrive checked;
+  ScaleCheckedDrive checked;
   checked.go_on(drive, 20.0);
   CHECK_FALSE(checked.check.is_wrong());
 }
 
 TEST_CASE("Doppler scale: pauses, stamps that go back and a set clock raise no doubt") {
-  CheckedDrive drive;
+  ScaleCheckedDrive drive;
   drive.go_on({}, 3.0);
   drive.go_on({.pace = 40.0}, 0.3);
   drive.go_on({.pace = -40.0}, 0.3);

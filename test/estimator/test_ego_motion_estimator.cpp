@@ -19,9 +19,7 @@ namespace cremed {
 namespace {
 
 using simulation::Drive;
-
-constexpr std::int64_t kPeriodUs = Drive::kPeriodUs;
-const Pose2 kFront{3.4, 0.0, 0.0};
+using simulation::kFront;
 
 std::unique_ptr<EgoMotionEstimator> make_estimator(const Pose2& mount,
                                                    void (*change)(EgoMotionOptions&) = nullptr) {
@@ -52,7 +50,7 @@ void check_consistent(const EgoMotion& motion) {
 void check_motion(const EgoMotion& motion, const Drive& drive, double periods) {
   REQUIRE(motion.has_estimate());
   CHECK(motion.utime_us - motion.utime_start_us ==
-        static_cast<std::int64_t>(std::lround(periods * static_cast<double>(kPeriodUs))));
+        static_cast<std::int64_t>(std::lround(periods * static_cast<double>(Drive::kPeriodUs))));
   const Eigen::Vector3d error = motion.motion - drive.motion_per_period() * periods;
   CAPTURE(motion.motion.transpose(), error.transpose());
   CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
@@ -147,7 +145,7 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
         estimator->update(drive.next());
         drive.set_acceleration(acceleration_mps2);
         estimator->update(drive.next());
-        drive.pass((periods - 1) * kPeriodUs);
+        drive.pass((periods - 1) * Drive::kPeriodUs);
         const EgoMotion motion = estimator->update(drive.next());
         REQUIRE(motion.has_estimate());
         const double span_s = 0.1 * periods;
@@ -220,7 +218,7 @@ TEST_CASE("after a gap or a step back in time the motion restarts") {
     CHECK(motion.status == row.status);
     CHECK(motion.utime_start_us == start_us);
     scan = drive.next();
-    scan.stamp_us = start_us + row.step_us + kPeriodUs;
+    scan.stamp_us = start_us + row.step_us + Drive::kPeriodUs;
     check_motion(estimator->update(scan), drive, 1.0);
   }
 }
@@ -229,7 +227,7 @@ TEST_CASE("extreme stamps are gaps, not motions") {
   constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
   constexpr std::int64_t kBegin = std::numeric_limits<std::int64_t>::min();
   const std::vector<std::array<std::int64_t, 2>> rows = {
-      {kEnd, kBegin + kPeriodUs - 1}, {kEnd, -2}, {kBegin, kEnd}, {kBegin, kBegin}};
+      {kEnd, kBegin + Drive::kPeriodUs - 1}, {kEnd, -2}, {kBegin, kEnd}, {kBegin, kBegin}};
   for (const auto& [from_us, to_us] : rows) {
     CAPTURE(from_us, to_us);
     Drive drive({8.0, 0.0, 0.0}, kFront);

@@ -17,10 +17,8 @@ namespace {
 
 using numeric::radians;
 using simulation::Drive;
+using simulation::kFront;
 using simulation::options_at;
-
-constexpr double kPeriod = 0.1;
-const Pose2 kFront{3.4, 0.0, 0.0};
 
 /// The motion that the estimator returns for the second of two scans.
 EgoMotion estimate(const EgoMotionOptions& options, Drive drive) {
@@ -97,7 +95,8 @@ TEST_CASE("targets in one place are degenerate in three states") {
   const simulation::Points points(10, Eigen::Vector2d(12.0, 3.0));
   for (const std::int64_t stamp_us : {0, 100000, 200000}) {
     const EgoMotion motion = estimator->update(simulation::scan(
-        simulation::observe_all(points, Eigen::Vector3d::Zero(), kPeriod, {}, {}), stamp_us));
+        simulation::observe_all(points, Eigen::Vector3d::Zero(), Drive::kPeriodS, {}, {}),
+        stamp_us));
     CHECK(motion.status == (stamp_us == 0 ? MotionStatus::no_reference : MotionStatus::degenerate));
     CHECK(motion.motion.array().isNaN().all());
   }
@@ -167,7 +166,7 @@ TEST_CASE("every speed of a road vehicle is found at once, also after lost scans
         const EgoMotion motion = estimator->update(drive.next());
         CAPTURE(mount.yaw_rad, speed_mps, lost);
         REQUIRE(motion.status == MotionStatus::ok);
-        CHECK(motion.motion.x() == Approx(speed_mps * kPeriod * (lost + 1)).margin(0.1));
+        CHECK(motion.motion.x() == Approx(speed_mps * Drive::kPeriodS * (lost + 1)).margin(0.1));
         CHECK(std::abs(motion.motion.z()) < 5.0 * std::sqrt(motion.covariance(2, 2)));
       }
     }

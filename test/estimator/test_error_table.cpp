@@ -19,7 +19,7 @@ namespace {
 
 using namespace state_layout;
 
-const std::vector<Pose2> kMounts{{3.4, 0.0, 0.0}, {2.4, 0.8, 1.5}, {-0.6, 0.6, 3.1}};
+const std::vector<Pose2> kFrontLeftRear{{3.4, 0.0, 0.0}, {2.4, 0.8, 1.5}, {-0.6, 0.6, 3.1}};
 
 OdometryOptions with_signals() {
   OdometryOptions options;
@@ -27,16 +27,16 @@ OdometryOptions with_signals() {
   return options;
 }
 
-/// All rows of a state of the radars at kMounts and both signals.
+/// All rows of a state of the radars at kFrontLeftRear and both signals.
 std::vector<StateError> rows(const OdometryOptions& options) {
   std::vector<StateError> result = common_errors(options);
   const auto add = [&](const std::vector<StateError>& errors) {
     result.insert(result.end(), errors.begin(), errors.end());
   };
-  for (std::size_t i = 0; i < kMounts.size(); ++i) {
-    add(radar_errors(options, kMounts[i], radar(static_cast<int>(i)), false));
+  for (std::size_t i = 0; i < kFrontLeftRear.size(); ++i) {
+    add(radar_errors(options, kFrontLeftRear[i], radar(static_cast<int>(i)), false));
   }
-  const int signals = size(static_cast<int>(kMounts.size()));
+  const int signals = size(static_cast<int>(kFrontLeftRear.size()));
   add(signal_errors(options.vehicle, VehicleSignal::speed, signals));
   add(signal_errors(options.vehicle, VehicleSignal::yaw_rate, signals));
   return result;
@@ -44,7 +44,7 @@ std::vector<StateError> rows(const OdometryOptions& options) {
 
 void advance_all(OdometryState& state, double dt_s) {
   state.advance_to(state.time_us() + std::llround(1e6 * dt_s));
-  for (std::size_t i = 0; i < kMounts.size(); ++i) {
+  for (std::size_t i = 0; i < kFrontLeftRear.size(); ++i) {
     state.advance_errors(i, dt_s);
   }
   state.advance_signal(VehicleSignal::speed, dt_s);
@@ -60,7 +60,7 @@ TEST_CASE("every state but pose, motion and clones has one row of the table of e
   std::multiset<int> expected{
       kSlip,        kSlipPerAcceleration, kBodyVelocity, kCommonOffset, kCommonAzimuthScale,
       kCommonScale, kCommonYawPerMetre};
-  for (int i = kFirstRadar; i < OdometryState(options, kMounts).gaussian.size(); ++i) {
+  for (int i = kFirstRadar; i < OdometryState(options, kFrontLeftRear).gaussian.size(); ++i) {
     expected.insert(i);
   }
   CHECK(found == expected);
@@ -68,7 +68,7 @@ TEST_CASE("every state but pose, motion and clones has one row of the table of e
 
 TEST_CASE("every error starts with its prior, and keeps it as long as the vehicle rests") {
   const OdometryOptions options = with_signals();
-  OdometryState state(options, kMounts);
+  OdometryState state(options, kFrontLeftRear);
   state.start();
   constexpr double kAgeS = 3.0;
   for (const StateError& error : rows(options)) {
@@ -85,7 +85,7 @@ TEST_CASE("every error starts with its prior, and keeps it as long as the vehicl
 
 TEST_CASE("the errors of a vehicle that turns grow to the process of their row") {
   const OdometryOptions options = with_signals();
-  OdometryState state(options, kMounts);
+  OdometryState state(options, kFrontLeftRear);
   state.start();
   state.start_motion({12.0, -0.3}, Eigen::Matrix2d::Zero());
   for (int i = 0; i < 200; ++i) {
@@ -101,9 +101,9 @@ TEST_CASE("the errors of a vehicle that turns grow to the process of their row")
 
 TEST_CASE("doubt widens what it should, a restart resets what passes") {
   const OdometryOptions options;
-  OdometryState state(options, kMounts);
+  OdometryState state(options, kFrontLeftRear);
   state.start();
-  const std::vector<StateError> errors = radar_errors(options, kMounts[1], radar(1), false);
+  const std::vector<StateError> errors = radar_errors(options, kFrontLeftRear[1], radar(1), false);
   const auto learn = [&] {
     for (const StateError& error : errors) {
       state.gaussian.set(error.state, 0.01, 1e-12);
@@ -179,7 +179,7 @@ TEST_CASE("README has the table of errors") {
   const std::vector<StateError> all = rows(with_signals());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int state = all[i].state;
-    if (state < radar(1) || state >= size(static_cast<int>(kMounts.size()))) {
+    if (state < radar(1) || state >= size(static_cast<int>(kFrontLeftRear.size()))) {
       table += text(all[i]) + "\n";
     }
   }

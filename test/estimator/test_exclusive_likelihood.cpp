@@ -19,22 +19,14 @@ namespace {
 
 using numeric::radians;
 using simulation::Detections;
+using simulation::kDt;
+using simulation::kStill;
 using simulation::Points;
 using simulation::Random;
 using simulation::uniform;
 
-constexpr double kDt = 0.2;
-const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
-
-/// Points as seen by a radar at the vehicle's origin, with isotropic noise: covariances then do not
-/// depend on yaw.
-TargetSet see(const Points& points, const Eigen::Vector3d& motion, double std_m) {
-  Detections detections = simulation::observe_all(points, motion, kDt, {}, {});
-  for (Detection& detection : detections) {
-    detection.range_std_m = std_m;
-    detection.azimuth_std_rad = std_m / detection.range_m;
-  }
-  return simulation::targets(detections, {});
+TargetSet view_of(const Points& points, const Eigen::Vector3d& motion, double std_m) {
+  return simulation::targets(simulation::isotropic(simulation::see(points, motion), std_m), {});
 }
 
 OutlierRay ray_of(double weight) {
@@ -86,7 +78,7 @@ TEST_CASE("the gradient is the derivative of the cost where covariances do not t
     for (int run = 0; run < 20; ++run) {
       const Points points = clustered(random);
       const Eigen::Vector3d motion(0.3, 0.1, 0.05);
-      Scene scene(see(points, kStill, 0.2), see(points, motion, 0.2), ray_of(weight));
+      Scene scene(view_of(points, kStill, 0.2), view_of(points, motion, 0.2), ray_of(weight));
       const Eigen::Vector3d at =
           motion + Eigen::Vector3d(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2),
                                    uniform(random, -0.01, 0.01));
@@ -110,7 +102,7 @@ TEST_CASE("complete less missing information is the curvature of the cost") {
       const Points points = clustered(random);
       const Points some(points.begin(), points.end() - 3);  // two clusters are partly hidden
       const Eigen::Vector3d motion(0.3, 0.1, 0.05);
-      Scene scene(see(points, kStill, 0.2), see(some, motion, 0.2), ray_of(weight));
+      Scene scene(view_of(points, kStill, 0.2), view_of(some, motion, 0.2), ray_of(weight));
       const Eigen::Matrix3d slope = numeric::central_differences(
           motion, 1e-5, [&](const Eigen::Vector3d& m) { return scene.linearise(m).gradient; });
       const Eigen::Matrix3d complete = scene.linearise(motion).information;
@@ -156,8 +148,8 @@ TEST_CASE("a cluster's motion is that of its centre, as precise as of three targ
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     const Cluster cluster(random);
-    const TargetSet previous = see(cluster.previous, kStill, Cluster::kStdM);
-    const TargetSet current = see(cluster.current, kStill, Cluster::kStdM);
+    const TargetSet previous = view_of(cluster.previous, kStill, Cluster::kStdM);
+    const TargetSet current = view_of(cluster.current, kStill, Cluster::kStdM);
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     centre.head<2>() = Cluster::centre(cluster.previous) - Cluster::centre(cluster.current);
     Scene scene(previous, current, ray_of(0.0));
@@ -195,7 +187,7 @@ TEST_CASE("a pair's ratio follows from the density and share of new targets") {
     previous[0] = place;
     current[0] = place;
     const OutlierRay ray = ray_of(row.weight);
-    Scene scene(see(previous, kStill, kStdM), see(current, kStill, kStdM), ray);
+    Scene scene(view_of(previous, kStill, kStdM), view_of(current, kStill, kStdM), ray);
     const NormalEquations equations = scene.linearise(kStill);
 
     const auto density = [&](const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance) {
@@ -223,15 +215,15 @@ TEST_CASE("a target far from all others is new and adds no information") {
   Points more = near;
   more.emplace_back(25.0, 4.0);
   const OutlierRay ray = ray_of(0.2);
-  Scene alone(see(near, kStill, 0.1), see(near, kStill, 0.1), ray);
+  Scene alone(view_of(near, kStill, 0.1), view_of(near, kStill, 0.1), ray);
   const NormalEquations expected = alone.linearise(kStill);
   const double matched = (*alone).matched();
   CHECK(matched > 2.9);
-  Scene scene(see(near, kStill, 0.1), see(more, kStill, 0.1), ray);
+  Scene scene(view_of(near, kStill, 0.1), view_of(more, kStill, 0.1), ray);
   const NormalEquations actual = scene.linearise(kStill);
   CHECK((*scene).matched() == Approx(matched).epsilon(0.02));
   CHECK((actual.information - expected.information).norm() < 0.02 * expected.information.norm());
-  Scene strange(see({{10.0, 3.0}}, kStill, 0.1), see({{10.0, 5.0}}, kStill, 0.1), ray);
+  Scene strange(view_of({{10.0, 3.0}}, kStill, 0.1), view_of({{10.0, 5.0}}, kStill, 0.1), ray);
   CHECK(strange.linearise(kStill).information.isZero(0.0));
   CHECK((*strange).matched() == 0.0);
 }
@@ -245,8 +237,8 @@ TEST_CASE("with scans of equal size the likelihood is symmetric") {
       point += Eigen::Vector2d(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2));
     }
     // Without a ray and without a turn the density of new targets is uniform.
-    const TargetSet a = see(points, kStill, 0.2);
-    const TargetSet b = see(noisy, kStill, 0.2);
+    const TargetSet a = view_of(points, kStill, 0.2);
+    const TargetSet b = view_of(noisy, kStill, 0.2);
     const Eigen::Vector3d motion(0.1, -0.05, 0.0);
     Scene there(a, b, ray_of(0.0));
     Scene back(b, a, ray_of(0.0));
@@ -261,7 +253,7 @@ TEST_CASE("with scans of equal size the likelihood is symmetric") {
 
 TEST_CASE("more possible pairs than the capacity are ambiguous") {
   const Points crowd(kMaxDetections, Eigen::Vector2d(10.0, 1.0));
-  const TargetSet targets = see(crowd, kStill, 0.1);
+  const TargetSet targets = view_of(crowd, kStill, 0.1);
   const auto likelihood = std::make_unique<ExclusiveLikelihood>();
   likelihood->assign(targets, targets, ray_of(0.2));
   CHECK_FALSE(likelihood->list_pairs(targets, targets, kStill));
@@ -284,7 +276,7 @@ TEST_CASE("pairs are listed up to the capacity") {
   for (int i = 0; i < 256; ++i) {
     places.emplace_back(10.0 + 5.0 * static_cast<double>(i / 8), 0.0);
   }
-  const TargetSet targets = see(places, kStill, 0.1);
+  const TargetSet targets = view_of(places, kStill, 0.1);
   const auto likelihood = std::make_unique<ExclusiveLikelihood>();
   likelihood->assign(targets, targets, ray_of(0.2));
   CHECK(likelihood->list_pairs(targets, targets, kStill));

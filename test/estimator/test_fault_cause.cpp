@@ -11,68 +11,69 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/vehicle/fault_cause.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
-const std::vector<Pose2> kMounts{
-    {3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}, {3.2, 0.8, 0.6}};
+const std::vector<Pose2> kFourMounts{
+    simulation::kFront, simulation::kRearLeft, simulation::kRearRight, {3.2, 0.8, 0.6}};
 
-struct Motion {
+struct Twist {
   double v_mps;
   double w_radps;
 };
-using Drive = std::function<Motion(double time_s)>;
+using Driving = std::function<Twist(double time_s)>;
 
 /// Brakes, accelerates and turns.
-Motion town(double time_s) {
+Twist town(double time_s) {
   return {8.0 + 4.0 * std::sin(0.6 * time_s), 0.3 * std::sin(0.5 * time_s)};
 }
-Motion straight(double /*time_s*/) { return {8.0, 0.0}; }
+Twist straight(double /*time_s*/) { return {8.0, 0.0}; }
 
-Eigen::Vector2d velocity_at(const Motion& motion, const Pose2& mount) {
+Eigen::Vector2d velocity_at(const Twist& motion, const Pose2& mount) {
   return {motion.v_mps - motion.w_radps * mount.y_m, motion.w_radps * mount.x_m};
 }
 
 /// What a radar with a fault measures, in the axes of the vehicle by its configured mount.
-using Fault = std::function<Eigen::Vector2d(const Drive&, double time_s, const Pose2& mount)>;
+using Fault = std::function<Eigen::Vector2d(const Driving&, double time_s, const Pose2& mount)>;
 
-FaultCause found(std::size_t radar, const Drive& drive, double duration_s, const Fault& fault,
+FaultCause found(std::size_t radar, const Driving& drive, double duration_s, const Fault& fault,
                  std::uint32_t at_fault = 0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  FaultCauseSearch search(kMounts, radar);
+  FaultCauseSearch search(kFourMounts, radar);
   for (double time_s = 1000.0; time_s < 1000.0 + duration_s; time_s += 0.15) {
-    const Motion motion = drive(time_s);
+    const Twist motion = drive(time_s);
     search.add_motion(
         std::llround(time_s * 1e6),
         {motion.v_mps + 0.03 * normal(random), motion.w_radps + 0.005 * normal(random), 0.0}, 0.0);
-    search.add_velocity(fault(drive, time_s, kMounts[radar]) +
+    search.add_velocity(fault(drive, time_s, kFourMounts[radar]) +
                         Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)));
   }
   return search.cause(at_fault | 1U << radar);
 }
 
-Fault scaled(double factor) {
-  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+Fault scaled_by(double factor) {
+  return [=](const Driving& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
     return factor * velocity_at(drive(time_s), mount);
   };
 }
 
 Fault late(double delay_s) {
-  return [=](const Drive& drive, double time_s, const Pose2& mount) {
+  return [=](const Driving& drive, double time_s, const Pose2& mount) {
     return velocity_at(drive(time_s - delay_s), mount);
   };
 }
 
 /// The mount's yaw is this much more than the configured one.
-Fault turned(double by_rad) {
-  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+Fault turned_by(double by_rad) {
+  return [=](const Driving& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
     return Eigen::Rotation2Dd(-by_rad) * velocity_at(drive(time_s), mount);
   };
 }
 
-Eigen::Vector2d upside_down(const Drive& drive, double time_s, const Pose2& mount) {
+Eigen::Vector2d upside_down(const Driving& drive, double time_s, const Pose2& mount) {
   const Eigen::Rotation2Dd vehicle_from_radar(mount.yaw_rad);
   Eigen::Vector2d seen = vehicle_from_radar.inverse() * velocity_at(drive(time_s), mount);
   seen.y() *= -1.0;
@@ -80,9 +81,9 @@ Eigen::Vector2d upside_down(const Drive& drive, double time_s, const Pose2& moun
 }
 
 Fault of_mount(std::size_t other) {
-  return [=](const Drive& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
-    return Eigen::Rotation2Dd(mount.yaw_rad - kMounts[other].yaw_rad) *
-           velocity_at(drive(time_s), kMounts[other]);
+  return [=](const Driving& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+    return Eigen::Rotation2Dd(mount.yaw_rad - kFourMounts[other].yaw_rad) *
+           velocity_at(drive(time_s), kFourMounts[other]);
   };
 }
 
@@ -90,12 +91,12 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{3});
   CAPTURE(radar);
   for (const double factor : {0.8, 0.9, 1.1, 1.25}) {
-    const FaultCause cause = found(radar, town, 10.0, scaled(factor));
+    const FaultCause cause = found(radar, town, 10.0, scaled_by(factor));
     CHECK(cause.kind == FaultKind::scale);
     CHECK(cause.value == Approx(1.0 / factor).margin(0.01));
   }
   for (const double by_rad : {-0.3, -0.1, 0.1, 0.3}) {
-    const FaultCause cause = found(radar, town, 10.0, turned(by_rad));
+    const FaultCause cause = found(radar, town, 10.0, turned_by(by_rad));
     CHECK(cause.kind == FaultKind::mount_yaw);
     CHECK(cause.value == Approx(by_rad).margin(0.01));
   }
@@ -104,13 +105,13 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
     CHECK(cause.kind == FaultKind::late);
     CHECK(cause.value == Approx(delay_s).margin(0.06));
   }
-  CHECK(found(radar, town, 10.0, scaled(-1.0)).kind == FaultKind::sign);
+  CHECK(found(radar, town, 10.0, scaled_by(-1.0)).kind == FaultKind::sign);
 }
 
 TEST_CASE("a mount that is further ahead than configured is found in turns") {
   for (const double by_m : {-2.0, 2.0}) {
     const FaultCause cause =
-        found(0, town, 10.0, [=](const Drive& drive, double time_s, const Pose2& mount) {
+        found(0, town, 10.0, [=](const Driving& drive, double time_s, const Pose2& mount) {
           return velocity_at(drive(time_s), {mount.x_m + by_m, mount.y_m, mount.yaw_rad});
         });
     CHECK(cause.kind == FaultKind::mount_x);
@@ -126,17 +127,17 @@ TEST_CASE("upside down is found at each mount that turns tell from another yaw")
 }
 
 TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the cause is clear") {
-  const auto gain = [](const Drive& drive, const Fault& fault) {
-    FaultCauseSearch search(kMounts, 0);
+  const auto gain = [](const Driving& drive, const Fault& fault) {
+    FaultCauseSearch search(kFourMounts, 0);
     for (double time_s = 1000.0; time_s < 1004.0; time_s += 0.15) {
-      const Motion motion = drive(time_s);
+      const Twist motion = drive(time_s);
       search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
-      search.add_velocity(fault(drive, time_s, kMounts[0]));
+      search.add_velocity(fault(drive, time_s, kFourMounts[0]));
     }
     return search.find();
   };
-  const auto braking = [](double time_s) { return Motion{8.0 - 0.6 * (time_s - 1000.0), 0.0}; };
-  CHECK(gain(town, scaled(1.0)).gain < 1.0);
+  const auto braking = [](double time_s) { return Twist{8.0 - 0.6 * (time_s - 1000.0), 0.0}; };
+  CHECK(gain(town, scaled_by(1.0)).gain < 1.0);
   CHECK(gain(braking, late(0.3)).gain > 25.0);
   CHECK_FALSE(gain(braking, late(0.3)).is_clear);
   CHECK(gain(town, late(0.3)).is_clear);
@@ -144,13 +145,13 @@ TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the
 
 TEST_CASE("others that know their yaw rate badly convict no radar by it") {
   const auto gain = [](double yaw_rate_std_radps) {
-    FaultCauseSearch search(kMounts, 0);
+    FaultCauseSearch search(kFourMounts, 0);
     for (double time_s = 1000.0; time_s < 1010.0; time_s += 0.15) {
-      const Motion motion = town(time_s);
+      const Twist motion = town(time_s);
       // A quarter too small: as if the front radar were further ahead.
       search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.75 * motion.w_radps, 0.0},
                         yaw_rate_std_radps * yaw_rate_std_radps);
-      search.add_velocity(velocity_at(motion, kMounts[0]));
+      search.add_velocity(velocity_at(motion, kFourMounts[0]));
     }
     return search.find().gain;
   };
@@ -173,22 +174,22 @@ TEST_CASE("what a straight drive cannot tell apart is unknown") {
 }
 
 TEST_CASE("no fault, and one of another kind, is unknown") {
-  CHECK(found(0, town, 10.0, scaled(1.0)).kind == FaultKind::unknown);
-  CHECK(found(0, town, 10.0, [](const Drive&, double time_s, const Pose2&) {
+  CHECK(found(0, town, 10.0, scaled_by(1.0)).kind == FaultKind::unknown);
+  CHECK(found(0, town, 10.0, [](const Driving&, double time_s, const Pose2&) {
           return Eigen::Vector2d(5.0 * std::sin(3.0 * time_s), 3.0);
         }).kind == FaultKind::unknown);
-  CHECK(found(0, town, 0.5, scaled(0.8)).kind == FaultKind::unknown);
+  CHECK(found(0, town, 0.5, scaled_by(0.8)).kind == FaultKind::unknown);
 }
 
 TEST_CASE("nothing is named before lateness can be told, and after a pause from then on") {
-  const auto braking = [](double time_s) { return Motion{40.0 - 4.0 * (time_s - 1000.0), 0.0}; };
+  const auto braking = [](double time_s) { return Twist{40.0 - 4.0 * (time_s - 1000.0), 0.0}; };
   CHECK(found(0, braking, 1.5, late(0.3)).kind == FaultKind::unknown);
-  FaultCauseSearch search(kMounts, 0);
+  FaultCauseSearch search(kFourMounts, 0);
   const auto drive = [&](double from_s, double until_s, double factor) {
     for (double time_s = from_s; time_s < until_s; time_s += 0.15) {
       search.add_motion(std::llround(time_s * 1e6), {town(time_s).v_mps, town(time_s).w_radps, 0.0},
                         0.0);
-      search.add_velocity(factor * velocity_at(town(time_s), kMounts[0]));
+      search.add_velocity(factor * velocity_at(town(time_s), kFourMounts[0]));
     }
     return search.cause(1U);
   };
@@ -198,19 +199,19 @@ TEST_CASE("nothing is named before lateness can be told, and after a pause from 
 }
 
 TEST_CASE("after the end of a fault the next one is found anew") {
-  FaultCauseSearch search(kMounts, 0);
+  FaultCauseSearch search(kFourMounts, 0);
   const auto drive = [&](double from_s, const Fault& fault) {
     for (double time_s = from_s; time_s < from_s + 5.0; time_s += 0.15) {
-      const Motion motion = town(time_s);
+      const Twist motion = town(time_s);
       search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
-      search.add_velocity(fault(town, time_s, kMounts[0]));
+      search.add_velocity(fault(town, time_s, kFourMounts[0]));
     }
     return search.cause(1U).kind;
   };
-  CHECK(drive(10.0, scaled(0.8)) == FaultKind::scale);
+  CHECK(drive(10.0, scaled_by(0.8)) == FaultKind::scale);
   search.clear();
   CHECK(search.cause(1U).kind == FaultKind::unknown);
-  CHECK(drive(20.0, turned(0.2)) == FaultKind::mount_yaw);
+  CHECK(drive(20.0, turned_by(0.2)) == FaultKind::mount_yaw);
 }
 
 }  // namespace

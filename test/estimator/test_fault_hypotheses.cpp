@@ -9,13 +9,15 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
-const Pose2 kFront{3.4, 0.0, 0.0};
-const Pose2 kRearLeft{-0.6, 0.6, 3.05};
-const Pose2 kRearRight{-0.6, -0.6, -3.05};
+using simulation::kFront;
+using simulation::kRearLeft;
+using simulation::kRearRight;
+
 const Pose2 kLeft{2.4, 0.8, 1.56};
 const Pose2 kRight{2.4, -0.8, -1.56};
 const std::vector<Pose2> kFive{kFront, kRearLeft, kRearRight, kLeft, kRight};
@@ -110,7 +112,7 @@ Comparison::Fault scaled(std::size_t guilty, double factor) {
 }
 
 /// Its targets are turned to the other side, in Doppler and in positions.
-Comparison::Fault upside_down(std::size_t guilty) {
+Comparison::Fault turned_over(std::size_t guilty) {
   return [=](std::size_t radar, Comparison::Measured& measured) {
     if (radar == guilty) {
       measured.velocity_mps.y() *= -1.0;
@@ -136,7 +138,7 @@ TEST_CASE("healthy radars are never at fault, and verified within a second") {
 TEST_CASE("the radar that differs from the others is at fault, and no other") {
   const auto guilty = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
   const Comparison::Fault fault = GENERATE_REF(scaled(guilty, 0.9), scaled(guilty, 1.05),
-                                               scaled(guilty, -1.0), upside_down(guilty));
+                                               scaled(guilty, -1.0), turned_over(guilty));
   Comparison comparison(kFive);
   comparison.drive(5.0);
   comparison.drive(10.0, fault);

@@ -12,8 +12,8 @@ namespace {
 const Eigen::Vector3d kMinimum(0.3, -0.2, 0.05);
 
 /// Complete information, of which the shares 0.3, 0.6 and 0.7 along its own axes are missing.
-struct Problem {
-  Problem() {
+struct CurvatureProblem {
+  CurvatureProblem() {
     complete << 40.0, 5.0, 10.0, 5.0, 30.0, -8.0, 10.0, -8.0, 90.0;
     const Eigen::Matrix3d root = complete.llt().matrixL();
     Eigen::Matrix3d turn;
@@ -31,7 +31,7 @@ struct Problem {
 };
 
 /// Distance from the minimum after some steps.
-double distance_after(const Problem& problem, int steps, bool is_learning) {
+double distance_after(const CurvatureProblem& problem, int steps, bool is_learning) {
   LearnedCurvature curvature(3);
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   for (int i = 0; i < steps; ++i) {
@@ -48,7 +48,7 @@ double distance_after(const Problem& problem, int steps, bool is_learning) {
 const Eigen::Matrix3d kComplete = Eigen::Matrix3d::Identity();
 
 TEST_CASE("three steps tell the curvature of three states: the fourth ends at the minimum") {
-  const Problem problem;
+  const CurvatureProblem problem;
   CHECK(distance_after(problem, 4, true) < 1e-9);
   CHECK(distance_after(problem, 4, false) > 0.01);
 }

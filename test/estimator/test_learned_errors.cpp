@@ -15,14 +15,15 @@ namespace {
 using simulation::OdometryDrive;
 using Learned = std::vector<std::optional<LearnedErrors>>;
 
-const std::vector<Pose2> kMounts{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.05}, {-0.6, -0.6, -3.05}};
+const std::vector<Pose2> kThreeMounts{simulation::kFront, simulation::kRearLeft,
+                                      simulation::kRearRight};
 
 /// True minus configured yaw of the mounts: 1 sigma.
 const std::vector<double> kYawErrorsRad{0.0075, -0.0060, 0.0030};
 
 OdometryDrive a_drive(std::uint64_t seed, const Learned& learned = {}) {
-  OdometryDrive drive(kMounts, seed, {}, learned);
-  for (std::size_t i = 0; i < kMounts.size(); ++i) {
+  OdometryDrive drive(kThreeMounts, seed, {}, learned);
+  for (std::size_t i = 0; i < kThreeMounts.size(); ++i) {
     drive.radar(i).mount.yaw_rad += kYawErrorsRad[i];
   }
   drive.set_motion(10.0, 0.0);

@@ -16,6 +16,7 @@
 #include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 #include "cremed/estimator/fusion/odometry_filter.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
+#include "test/estimator/odometry_drive.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {
@@ -23,11 +24,9 @@ namespace {
 
 using namespace simulation;
 
-constexpr Pose2 kFront{3.4, 0.0, 0.0};
 constexpr std::int64_t kPeriodUs = 75'000;
-constexpr double kPeriodS = 0.075;
 constexpr double kFarM = 80.0;
-const Noise kNoise{0.1, 0.008, 0.1};
+const Noise kWorldNoise{0.1, 0.008, 0.1};
 
 /// Objects in a box in front of the radar, rigid relative to each other. Those of the road repeat
 /// at its end.
@@ -54,10 +53,6 @@ World world(Random& random, std::size_t count, Eigen::Vector2d from, Eigen::Vect
   return result;
 }
 
-bool is_good(OdometryStatus status) {
-  return status == OdometryStatus::ok || status == OdometryStatus::standing_still;
-}
-
 /// A vehicle that drives straight on, its radar, and the estimates.
 class Stage {
  public:
@@ -77,7 +72,7 @@ class Stage {
       world->pass(vehicle_mps);
       for (const Eigen::Vector2d& point : world->points) {
         detections.push_back(
-            observe(point, {vehicle_mps - world->speed_mps, 0.0, 0.0}, kFront, kNoise));
+            observe(point, {vehicle_mps - world->speed_mps, 0.0, 0.0}, kFront, kWorldNoise));
       }
     }
     perturb(detections, random_);
@@ -103,7 +98,7 @@ class Stage {
     }
     odometry_ = filter_->update(0, estimator_->targets(), scan.stamp_us);
     last = odometry_.status;
-    if (is_good(odometry_.status)) {
+    if (is_good(odometry_)) {
       note(odometry_.twist.x(), std::sqrt(odometry_.twist_covariance(0, 0)), vehicle_mps,
            odometry_.status == OdometryStatus::standing_still);
     }

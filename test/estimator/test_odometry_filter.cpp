@@ -13,15 +13,11 @@
 namespace cremed {
 namespace {
 
+using simulation::is_good;
+using simulation::kFront;
+using simulation::kRearLeft;
+using simulation::kRearRight;
 using simulation::OdometryDrive;
-
-const Pose2 kFront{3.4, 0.0, 0.0};
-const Pose2 kRearLeft{-0.6, 0.6, 3.05};
-const Pose2 kRearRight{-0.6, -0.6, -3.05};
-
-bool is_good(const Odometry& odometry) {
-  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
-}
 
 /// Largest error of speed and yaw rate in standard deviations, if the status is ok.
 double twist_error(const Odometry& odometry, const OdometryDrive& drive) {

@@ -23,14 +23,14 @@ namespace cremed {
 namespace {
 
 using namespace state_layout;
+using simulation::kTwoMounts;
 
-const std::vector<Pose2> kMounts{{3.4, 0.1, 0.02}, {2.4, 0.8, 1.54}};
 /// Nodes with a scan.
 constexpr std::size_t kMapNodes = 3;
 
 /// A state in which nothing is zero, of a vehicle in a turn.
 OdometryState busy_state(const OdometryOptions& options) {
-  OdometryState state(options, kMounts);
+  OdometryState state(options, kTwoMounts);
   state.start();
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(-0.02, 0.02);
@@ -117,7 +117,7 @@ class MapScene {
 
   /// Inserts the scan of a node, whose positions moved by (x, y, yaw) in the frame of the node.
   void insert(std::size_t i, const Eigen::Vector3d& shift) {
-    map_->insert(i, simulation::targets(scans_[i], kMounts[0]), kMounts[0], shift);
+    map_->insert(i, simulation::targets(scans_[i], kTwoMounts[0]), kTwoMounts[0], shift);
   }
   /// All reports of azimuths a become scale a + offset_rad.
   void report_azimuths(double scale, double offset_rad) {
@@ -137,7 +137,7 @@ class MapScene {
   MapMatch match() {
     map_->place(measurement().now_from_node());
     const auto match =
-        registration_.solve(simulation::targets(scan_, kMounts[0]), *map_, kMounts[0]);
+        registration_.solve(simulation::targets(scan_, kTwoMounts[0]), *map_, kTwoMounts[0]);
     REQUIRE(match);
     return *match;
   }
@@ -163,7 +163,7 @@ class MapScene {
 
   [[nodiscard]] MapMeasurement measurement() const { return {state_, *map_, 0, kAgeS}; }
   simulation::Detections seen_from(const Eigen::Vector3d& pose) const {
-    return simulation::observe_all(points_, pose, 1.0, kMounts[0], {0.1, 0.003, 0.1});
+    return simulation::observe_all(points_, pose, 1.0, kTwoMounts[0], {0.1, 0.003, 0.1});
   }
 
   OdometryState& state_;
@@ -375,7 +375,7 @@ TEST_CASE("the Jacobian of a relative pose is its derivative") {
 
 TEST_CASE("a new anchor changes no relative pose and no covariance of one") {
   const OdometryOptions options;
-  OdometryState state(options, kMounts);
+  OdometryState state(options, kTwoMounts);
   state.start();
   state.gaussian.set(kSpeed, 8.0, 0.1);
   state.gaussian.set(kYawRate, 0.3, 0.01);

@@ -16,9 +16,8 @@ namespace {
 using namespace simulation;
 using Verdict = ParkedVehicle::Verdict;
 
-constexpr double kPeriodS = 0.075;
-const Noise kNoise{0.1, 0.008, 0.15};
-const std::vector<Pose2> kMounts{{3.4, 0.0, 0.0}, {-0.9, 0.0, 3.14159}};
+const Noise kParkedNoise{0.1, 0.008, 0.15};
+const std::vector<Pose2> kFrontAndRear{{3.4, 0.0, 0.0}, {-0.9, 0.0, 3.14159}};
 
 /// What one radar sees: targets around its axis, of which a share departs.
 struct Sight {
@@ -46,18 +45,18 @@ class Parked {
     TargetSet targets;
     Detections detections;
     for (int i = 0; i < 60; ++i) {
-      const Pose2& mount = kMounts[radar];
+      const Pose2& mount = kFrontAndRear[radar];
       const double bearing_rad = mount.yaw_rad + uniform(random_, -0.9, 0.9);
       const double range_m = uniform(random_, 5.0, 40.0);
       const Eigen::Vector2d point(mount.x_m + range_m * std::cos(bearing_rad),
                                   mount.y_m + range_m * std::sin(bearing_rad));
       const bool departs = uniform(random_, 0.0, 1.0) < sight.share;
       const Eigen::Vector2d mps = departs ? sight.departing_mps : Eigen::Vector2d::Zero();
-      detections.push_back(observe(point, {-mps.x(), -mps.y(), 0.0}, mount, kNoise));
+      detections.push_back(observe(point, {-mps.x(), -mps.y(), 0.0}, mount, kParkedNoise));
     }
     perturb(detections, random_);
     for (const Detection& detection : detections) {
-      targets.add(detection, kMounts[radar]);
+      targets.add(detection, kFrontAndRear[radar]);
     }
     const auto velocity = fit_.fit(targets, DopplerVelocityEstimator::search(targets), 0.15);
     REQUIRE(velocity);
@@ -79,7 +78,7 @@ class Parked {
 
  private:
   Random random_;
-  OdometryState state_{OdometryOptions(), kMounts};
+  OdometryState state_{OdometryOptions(), kFrontAndRear};
   DopplerVelocityEstimator fit_;
   std::int64_t now_us_ = 1'000'000'000;
 

@@ -12,6 +12,7 @@
 namespace cremed {
 namespace {
 
+using simulation::kFront;
 using simulation::Random;
 
 TEST_CASE("the noise of Doppler is that of its residuals, whatever is configured") {
@@ -47,10 +48,9 @@ TEST_CASE("the noise of Doppler is that of its residuals, whatever is configured
 }
 
 /// The vehicle's motion, and that of traffic which differs by no more than the first weights allow.
-const Eigen::Vector3d kStill(3.0, 0.0, 0.45);
+const Eigen::Vector3d kStaticWorld(3.0, 0.0, 0.45);
 const Eigen::Vector3d kSlower(2.0, 0.0, 0.45);
 const Eigen::Vector3d kFaster(4.0, 0.0, 0.45);
-constexpr Pose2 kFront{3.4, 0.0, 0.0};
 const Eigen::Vector2d kVelocityOfFront(3.0, 3.4 * 0.45);
 
 /// The results of `count` scans of 60 static targets and 20 more for each of `others`.
@@ -67,7 +67,7 @@ std::vector<DopplerVelocity> drive_beside(RadarTrack& track,
         detections.back().doppler_mps += noise_mps(random);
       }
     };
-    observe(60, kStill);
+    observe(60, kStaticWorld);
     for (const Eigen::Vector3d& other : others) {
       observe(20, other);
     }

@@ -11,38 +11,22 @@
 
 #include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
+#include "test/estimator/scenario.hpp"
 
 namespace cremed {
 namespace {
 
 using numeric::radians;
 using simulation::Detections;
+using simulation::isotropic;
+using simulation::kDt;
+using simulation::kModels;
 using simulation::Noise;
 using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
+using simulation::solve;
 using simulation::uniform;
-
-constexpr double kDt = 0.2;
-
-constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
-
-RegistrationResult solve(const RegistrationOptions& options, const Pose2& mount,
-                         const Detections& previous, const Detections& current) {
-  const auto registration = std::make_unique<Registration>(options, mount);
-  registration->set_previous(simulation::targets(previous, mount));
-  return registration->solve(simulation::targets(current, mount), kDt);
-}
-
-/// Isotropic noise: covariances then do not depend on yaw.
-Detections isotropic(Detections detections, double std_m) {
-  for (Detection& detection : detections) {
-    detection.range_std_m = std_m;
-    detection.azimuth_std_rad = std_m / detection.range_m;
-  }
-  return detections;
-}
 
 struct Regime {
   std::string name;
@@ -75,7 +59,7 @@ std::vector<Regime> regimes(int degrees_of_freedom) {
 const std::vector<Pose2> kMounts = {{}, {3.4, 0.5, 0.2}, {-0.6, -0.8, radians(150.0)}};
 
 /// Points in the view of a radar at `mount`, far apart.
-Points landmarks(Random& random, const Pose2& mount) {
+Points landmarks_in_view(Random& random, const Pose2& mount) {
   Points points = simulation::scatter(random, 25, 5.0, 35.0, radians(50.0), 4.0);
   for (Eigen::Vector2d& point : points) {
     point = simulation::as_vector(mount).head<2>() + Eigen::Rotation2Dd(mount.yaw_rad) * point;
@@ -90,7 +74,8 @@ Eigen::Vector3d half_way(Eigen::Vector3d motion) {
   return motion;
 }
 
-void set_doppler(Detections& detections, const Eigen::Vector3d& velocity, const Pose2& mount) {
+void set_exact_doppler(Detections& detections, const Eigen::Vector3d& velocity,
+                       const Pose2& mount) {
   const Eigen::Vector2d sensor_velocity(velocity.x() - velocity.z() * mount.y_m,
                                         velocity.y() + velocity.z() * mount.x_m);
   for (Detection& detection : detections) {
@@ -111,14 +96,14 @@ void for_all_regimes(const Check& check) {
         for (const bool has_doppler : {false, true}) {
           CAPTURE(degrees_of_freedom, regime.name, mount.yaw_rad, has_doppler,
                   regime.motion.transpose());
-          const Points points = landmarks(random, mount);
+          const Points points = landmarks_in_view(random, mount);
           const Detections previous =
               simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {});
           for (const Likelihood model : kModels) {
             CAPTURE(model);
             Detections current = simulation::observe_all(points, regime.motion, kDt, mount, {});
             if (degrees_of_freedom == 3 && model == Likelihood::exclusive) {
-              set_doppler(current, half_way(regime.motion) / kDt, mount);
+              set_exact_doppler(current, half_way(regime.motion) / kDt, mount);
             }
             check(paper_options(degrees_of_freedom, has_doppler, model), mount, previous, current,
                   regime.motion);
@@ -133,7 +118,7 @@ TEST_CASE("data without noise give the true motion") {
   for_all_regimes([](const RegistrationOptions& options, const Pose2& mount,
                      const Detections& previous, const Detections& current,
                      const Eigen::Vector3d& motion) {
-    const RegistrationResult result = solve(options, mount, previous, current);
+    const RegistrationResult result = solve(options, previous, current, kDt, mount);
     REQUIRE(result.status == RegistrationStatus::converged);
     CHECK(result.iterations <= 30);
     // A fraction of a standard deviation: bias by neighbouring targets, and the step tolerance.
@@ -150,7 +135,7 @@ TEST_CASE("the covariance is symmetric, positive definite, and zero for states n
   for_all_regimes([](const RegistrationOptions& options, const Pose2& mount,
                      const Detections& previous, const Detections& current,
                      const Eigen::Vector3d&) {
-    const Eigen::Matrix3d covariance = solve(options, mount, previous, current).covariance;
+    const Eigen::Matrix3d covariance = solve(options, previous, current, kDt, mount).covariance;
     const Eigen::Vector3d sigma = covariance.diagonal().cwiseSqrt();
     CHECK(covariance == covariance.transpose());
     const Eigen::Vector3d eigenvalues =
@@ -186,7 +171,7 @@ TEST_CASE("targets far apart have the covariance of known correspondences") {
   for (const Likelihood model : kModels) {
     RegistrationOptions options = paper_options(3, false, model);
     options.outlier_ray.weight = 0.0;
-    const Eigen::Matrix3d actual = solve(options, {}, scan, scan).covariance;
+    const Eigen::Matrix3d actual = solve(options, scan, scan).covariance;
     CHECK((actual - expected).norm() < 1e-6 * expected.norm());
   }
 }
@@ -195,7 +180,7 @@ TEST_CASE("Gauss-Newton's gradient is the derivative of the cost where covarianc
   Random random(3);
   for (const bool has_doppler : {false, true}) {
     for (const Pose2& mount : kMounts) {
-      const Points points = landmarks(random, mount);
+      const Points points = landmarks_in_view(random, mount);
       const Noise noise{0.1, 0.0, 20.0};  // Doppler noise dominates that of the bearing
       const auto observe = [&](const Eigen::Vector3d& motion) {
         return simulation::targets(
@@ -240,7 +225,7 @@ TEST_CASE("swapped scans give the inverse motion") {
   Random random(4);
   for (int i = 0; i < 20; ++i) {
     const Pose2& mount = kMounts[static_cast<std::size_t>(i % 3)];
-    const Points points = landmarks(random, mount);
+    const Points points = landmarks_in_view(random, mount);
     const Eigen::Vector3d motion{uniform(random, -0.5, 1.0), uniform(random, -0.3, 0.3),
                                  radians(uniform(random, -5.0, 5.0))};
     Detections a = simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {});
@@ -249,8 +234,8 @@ TEST_CASE("swapped scans give the inverse motion") {
     simulation::perturb(b, random);
     for (const Likelihood model : kModels) {
       const RegistrationOptions options = paper_options(3, false, model);
-      const RegistrationResult there = solve(options, mount, a, b);
-      const RegistrationResult back = solve(options, mount, b, a);
+      const RegistrationResult there = solve(options, a, b, kDt, mount);
+      const RegistrationResult back = solve(options, b, a, kDt, mount);
       const Eigen::Vector3d error = simulation::inverse(back.motion) - there.motion;
       CAPTURE(model, motion.transpose(), error.transpose());
       CHECK(numeric::normalised_error(error, there.covariance, 3) < 0.2 * 0.2);

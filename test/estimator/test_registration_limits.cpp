@@ -10,7 +10,7 @@
 
 #include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
+#include "test/estimator/scenario.hpp"
 
 namespace cremed {
 namespace {
@@ -19,27 +19,15 @@ using numeric::kInfinity;
 using numeric::kNan;
 using numeric::radians;
 using simulation::Detections;
+using simulation::kDt;
+using simulation::kModels;
+using simulation::kStill;
 using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
+using simulation::see;
+using simulation::solve;
 using simulation::uniform;
-
-constexpr double kDt = 0.2;
-
-constexpr std::array kModels = {Likelihood::exclusive, Likelihood::max_sum_mixture};
-
-RegistrationResult solve(const RegistrationOptions& options, const Detections& previous,
-                         const Detections& current, double dt_s = kDt) {
-  const auto registration = std::make_unique<Registration>(options, Pose2{});
-  registration->set_previous(simulation::targets(previous, {}));
-  return registration->solve(simulation::targets(current, {}), dt_s);
-}
-
-Detections see(const Points& points, const Eigen::Vector3d& motion) {
-  return simulation::observe_all(points, motion, kDt, {}, {});
-}
-
-const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
 TEST_CASE("targets in one place do not observe three states") {
   Random random(1);

@@ -8,32 +8,20 @@
 
 #include "cremed/estimator/registration/registration.hpp"
 #include "test/estimator/numeric.hpp"
-#include "test/estimator/simulation.hpp"
+#include "test/estimator/scenario.hpp"
 
 namespace cremed {
 namespace {
 
 using numeric::radians;
 using simulation::Detections;
+using simulation::kStill;
 using simulation::paper_options;
 using simulation::Points;
 using simulation::Random;
+using simulation::see;
+using simulation::solve;
 using simulation::uniform;
-
-constexpr double kDt = 0.2;
-
-RegistrationResult solve(const RegistrationOptions& options, const Detections& previous,
-                         const Detections& current) {
-  const auto registration = std::make_unique<Registration>(options, Pose2{});
-  registration->set_previous(simulation::targets(previous, {}));
-  return registration->solve(simulation::targets(current, {}), kDt);
-}
-
-Detections see(const Points& points, const Eigen::Vector3d& motion) {
-  return simulation::observe_all(points, motion, kDt, {}, {});
-}
-
-const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
 
 /// Two scans that have no target in common, the nearest of them 135 m apart.
 struct Strangers {

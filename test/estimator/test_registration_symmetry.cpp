@@ -15,10 +15,9 @@ namespace {
 
 using numeric::radians;
 using simulation::Detections;
+using simulation::kDt;
 using simulation::Random;
 using simulation::uniform;
-
-constexpr double kDt = 0.2;
 
 /// Two noisy scans of one radar in its own frame.
 struct ScanPair {
@@ -47,8 +46,8 @@ std::unique_ptr<Registration> prepare(const RegistrationOptions& options, const 
   return registration;
 }
 
-RegistrationResult solve(const RegistrationOptions& options, const Pose2& mount,
-                         const ScanPair& pair) {
+RegistrationResult result_of(const RegistrationOptions& options, const Pose2& mount,
+                             const ScanPair& pair) {
   return prepare(options, mount, pair.previous)
       ->solve(simulation::targets(pair.current, mount), kDt);
 }
@@ -71,8 +70,8 @@ TEST_CASE("the motion of another point of the vehicle follows from the mount") {
     const Pose2 mount{uniform(random, -1.0, 4.0), uniform(random, -1.0, 1.0),
                       uniform(random, -3.1, 3.1)};
     const RegistrationOptions options = simulation::paper_options(3, false);
-    const RegistrationResult at_radar = solve(options, {}, pair);
-    const RegistrationResult at_vehicle = solve(options, mount, pair);
+    const RegistrationResult at_radar = result_of(options, {}, pair);
+    const RegistrationResult at_vehicle = result_of(options, mount, pair);
     // T m T^-1, m being the radar's motion and T the mount.
     const Eigen::Vector3d pose = simulation::as_vector(mount);
     const Eigen::Vector3d expected =
@@ -89,9 +88,9 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
   for (int i = 0; i < 20; ++i) {
     const ScanPair pair = random_pair(random, 0.3);
     const double turn_rad = uniform(random, -3.1, 3.1);
-    const RegistrationResult straight = solve(simulation::paper_options(3, true), {}, pair);
+    const RegistrationResult straight = result_of(simulation::paper_options(3, true), {}, pair);
     const RegistrationResult turned =
-        solve(simulation::paper_options(3, true), {0.0, 0.0, turn_rad}, pair);
+        result_of(simulation::paper_options(3, true), {0.0, 0.0, turn_rad}, pair);
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
     CHECK((turned.motion - rotation * straight.motion).norm() < 1e-9);
@@ -116,9 +115,9 @@ TEST_CASE("mirrored scans give the mirrored motion") {
     const RegistrationOptions options = simulation::paper_options(degrees_of_freedom, true);
     for (int i = 0; i < 10; ++i) {
       const ScanPair pair = random_pair(random, 0.3);
-      const RegistrationResult direct = solve(options, {3.0, 0.7, 0.4}, pair);
+      const RegistrationResult direct = result_of(options, {3.0, 0.7, 0.4}, pair);
       const RegistrationResult mirrored =
-          solve(options, {3.0, -0.7, -0.4}, {mirror(pair.previous), mirror(pair.current)});
+          result_of(options, {3.0, -0.7, -0.4}, {mirror(pair.previous), mirror(pair.current)});
       CHECK((mirrored.motion - direct.motion.cwiseProduct(sign)).norm() < 1e-12);
       const Eigen::Matrix3d covariance = sign.asDiagonal() * direct.covariance * sign.asDiagonal();
       CHECK((mirrored.covariance - covariance).norm() < 1e-9 * covariance.norm());
@@ -130,10 +129,10 @@ TEST_CASE("the order of the targets changes rounding only") {
   Random random(4);
   for (int i = 0; i < 10; ++i) {
     ScanPair pair = random_pair(random, 0.3);
-    const RegistrationResult before = solve(simulation::paper_options(3, true), {}, pair);
+    const RegistrationResult before = result_of(simulation::paper_options(3, true), {}, pair);
     std::shuffle(pair.previous.begin(), pair.previous.end(), random);
     std::shuffle(pair.current.begin(), pair.current.end(), random);
-    const RegistrationResult after = solve(simulation::paper_options(3, true), {}, pair);
+    const RegistrationResult after = result_of(simulation::paper_options(3, true), {}, pair);
     CHECK((after.motion - before.motion).norm() < 1e-9);
     CHECK((after.covariance - before.covariance).norm() < 1e-9 * before.covariance.norm());
   }
@@ -149,7 +148,7 @@ TEST_CASE("the same input gives bit-identical results, independent of earlier ca
     const auto used = prepare(simulation::paper_options(2, true), {}, pair.previous);
     const RegistrationResult first = used->solve(current, kDt);
     CHECK(is_identical(first, used->solve(current, kDt)));
-    CHECK(is_identical(first, solve(simulation::paper_options(2, true), {}, pair)));
+    CHECK(is_identical(first, result_of(simulation::paper_options(2, true), {}, pair)));
 
     Detections broken = other.current;
     broken[0].range_m = numeric::kNan;

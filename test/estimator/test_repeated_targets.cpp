@@ -7,7 +7,7 @@
 namespace cremed {
 namespace {
 
-TargetSet scan(int targets, double x_m, double doppler_mps) {
+TargetSet row_of_targets(int targets, double x_m, double doppler_mps) {
   TargetSet set;
   for (int i = 0; i < targets; ++i) {
     Target target;
@@ -31,16 +31,16 @@ bool is_repeated(const TargetSet& first, const TargetSet& second) {
 }
 
 TEST_CASE("a scan that is the one before again is found while moving") {
-  const TargetSet moving = scan(5, 10.0, -2.0);
+  const TargetSet moving = row_of_targets(5, 10.0, -2.0);
   CHECK(is_repeated(moving, moving));
-  CHECK_FALSE(is_repeated(moving, scan(5, 9.9, -2.0)));
-  CHECK_FALSE(is_repeated(moving, scan(5, 10.0, -1.9)));
-  CHECK_FALSE(is_repeated(moving, scan(6, 10.0, -2.0)));
+  CHECK_FALSE(is_repeated(moving, row_of_targets(5, 9.9, -2.0)));
+  CHECK_FALSE(is_repeated(moving, row_of_targets(5, 10.0, -1.9)));
+  CHECK_FALSE(is_repeated(moving, row_of_targets(6, 10.0, -2.0)));
 }
 
 TEST_CASE("a standing vehicle, or one that sees little, may see the same twice") {
-  CHECK_FALSE(is_repeated(scan(5, 10.0, 0.0), scan(5, 10.0, 0.0)));
-  CHECK_FALSE(is_repeated(scan(4, 10.0, -2.0), scan(4, 10.0, -2.0)));
+  CHECK_FALSE(is_repeated(row_of_targets(5, 10.0, 0.0), row_of_targets(5, 10.0, 0.0)));
+  CHECK_FALSE(is_repeated(row_of_targets(4, 10.0, -2.0), row_of_targets(4, 10.0, -2.0)));
   CHECK_FALSE(is_repeated({}, {}));
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("a radar that repeats is doubted at once, and no longer when it does n
   const auto doubts_after = [&](double x_m) {
     motion.utime_start_us = motion.utime_us;
     motion.utime_us += 75'000;
-    check.add(motion, scan(5, x_m, -2.0));
+    check.add(motion, row_of_targets(5, x_m, -2.0));
     return check.doubts();
   };
   CHECK(doubts_after(10.0) == 0);

@@ -10,7 +10,7 @@
 namespace cremed {
 namespace {
 
-const Pose2 kMount{3.4, 0.5, 0.0};
+const Pose2 kAheadMount{3.4, 0.5, 0.0};
 constexpr double kDopplerStdMps = 0.1;
 
 /// Adds `count` targets on an arc ahead, `spacing_m` apart, that are static if the vehicle's
@@ -21,14 +21,14 @@ void add_targets(TargetSet& targets, int count, double range_m, double spacing_m
     Detection detection;
     detection.range_m = range_m;
     detection.azimuth_rad = first_azimuth_rad + i * spacing_m / range_m;
-    const double x_mps = velocity.x() - velocity.z() * kMount.y_m;
-    const double y_mps = velocity.y() + velocity.z() * kMount.x_m;
+    const double x_mps = velocity.x() - velocity.z() * kAheadMount.y_m;
+    const double y_mps = velocity.y() + velocity.z() * kAheadMount.x_m;
     detection.doppler_mps =
         -x_mps * std::cos(detection.azimuth_rad) - y_mps * std::sin(detection.azimuth_rad);
     detection.range_std_m = 0.2;
     detection.azimuth_std_rad = 0.01;
     detection.doppler_std_mps = kDopplerStdMps;
-    targets.add(detection, kMount);
+    targets.add(detection, kAheadMount);
   }
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("A static target gives the vehicle's speed also in turns and skids") {
     TargetSet targets;
     add_targets(targets, 20, 40.0, 3.0, velocity);
     for (const Target& target : targets) {
-      CHECK(speed_along_x_mps(target, velocity, kMount) == Approx(velocity.x()));
+      CHECK(speed_along_x_mps(target, velocity, kAheadMount) == Approx(velocity.x()));
     }
   }
 }
@@ -68,7 +68,7 @@ TEST_CASE("Two worlds are counted by their places, with the rival's speed") {
     TargetSet targets;
     add_targets(targets, row.own, 60.0, 4.0, own);
     add_targets(targets, row.others, 40.0, row.spacing_m, other);
-    RivalSpeed rival_speed(kMount);
+    RivalSpeed rival_speed(kAheadMount);
     const SpeedVotes votes = rival_speed.count(targets, own, 0.3);
     CHECK(votes.rival == row.rival);
     if (row.rival > 0) {
@@ -81,7 +81,7 @@ TEST_CASE("Two worlds are counted by their places, with the rival's speed") {
 TEST_CASE("Braking does not make a rival of the vehicle's mean speed") {
   TargetSet targets;
   add_targets(targets, 12, 60.0, 4.0, {9.0, 0.0, 0.0}, -0.35);
-  RivalSpeed rival_speed(kMount);
+  RivalSpeed rival_speed(kAheadMount);
   const Eigen::Vector3d mean(9.5, 0.0, 0.0);
   CHECK(rival_speed.count(targets, mean, 0.5).rival == 0);
   CHECK(rival_speed.count(targets, mean, 0.0).rival > 10);
@@ -89,7 +89,7 @@ TEST_CASE("Braking does not make a rival of the vehicle's mean speed") {
 
 TEST_CASE("Targets abeam and an empty scan have no vote") {
   TargetSet targets;
-  RivalSpeed rival_speed(kMount);
+  RivalSpeed rival_speed(kAheadMount);
   CHECK(rival_speed.count(targets, Eigen::Vector3d::Zero(), 0.5).rival == 0);
   add_targets(targets, 10, 40.0, 1.5, {5.0, 0.0, 0.0}, 1.2);
   CHECK(rival_speed.count(targets, Eigen::Vector3d::Zero(), 0.5).rival == 0);

@@ -28,7 +28,7 @@ double yaw_rate(double time_s) {
   return into_s < 4.0 ? side * 0.2 * (1.0 - std::cos(1.5707963 * into_s)) : 0.0;
 }
 
-double turned(double from_s, double to_s) {
+double turned_rad(double from_s, double to_s) {
   constexpr int kSteps = 100;
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
@@ -54,7 +54,7 @@ SignalCheck after(double duration_s, const Wrong& wrong, double walk_radps = 0.0
       walk = walk * std::exp(-kScanS / 2.0) +
              walk_radps * std::sqrt(1.0 - std::exp(-kScanS)) * normal(random);
       const double seen =
-          turned(start_s, next_scan_s) + kYawStdRad * normal(random) + walk * kScanS;
+          turned_rad(start_s, next_scan_s) + kYawStdRad * normal(random) + walk * kScanS;
       check.compare(std::llround(start_s * 1e6), std::llround(next_scan_s * 1e6), seen / kScanS,
                     std::pow(kYawStdRad / kScanS, 2));
       next_scan_s += kScanS;

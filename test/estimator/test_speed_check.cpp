@@ -11,7 +11,7 @@ using namespace cremed::test;
 namespace {
 
 /// The check after some seconds of the drive.
-class CheckedDrive {
+class SpeedCheckedDrive {
  public:
   void go_on(const CircleDrive& drive, double duration_s) {
     view_.go_on(drive, duration_s, [&](const TargetSet& targets, double, std::int64_t stamp_us) {
@@ -31,7 +31,7 @@ TEST_CASE("Speed check: correct data are checked and raise no doubt at any speed
   const double speed_mps = GENERATE(-5.0, 0.0, 1.0, 5.0, 12.0, 25.0, 35.0);
   const double yaw_rate_radps = GENERATE(-0.3, 0.0, 0.15);
   CAPTURE(speed_mps, yaw_rate_radps);
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   for (int second = 0; second < 20; ++second) {
     drive.go_on({.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps}, 1.0);
     CHECK_FALSE(drive.check.is_contradicted());
@@ -43,7 +43,7 @@ TEST_CASE("Speed check: posts of guard rails that repeat raise no doubt") {
   const double speed_mps = GENERATE(10.0, 14.7, 20.0, 30.0);
   const double post_spacing_m = GENERATE(2.0, 3.0, 4.0);
   CAPTURE(speed_mps, post_spacing_m);
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   for (int second = 0; second < 20; ++second) {
     drive.go_on({.speed_mps = speed_mps, .things = 1000, .post_spacing_m = post_spacing_m}, 1.0);
     CHECK_FALSE(drive.check.is_contradicted());
@@ -80,7 +80,7 @@ TEST_CASE("Speed check: stuck Doppler is detected within 1.5 s of driving, its e
   const CircleDrive healthy{.speed_mps = speed_mps, .yaw_rate_radps = yaw_rate_radps};
   CircleDrive stuck = healthy;
   stuck.doppler_factor = 0.0;
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   drive.go_on(healthy, 3.0);
   drive.go_on(stuck, 1.5);
   CHECK(drive.check.is_contradicted());
@@ -89,7 +89,7 @@ TEST_CASE("Speed check: stuck Doppler is detected within 1.5 s of driving, its e
 }
 
 TEST_CASE("Speed check: a doubt lasts where nothing can be compared, and ends soon after") {
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   drive.go_on({}, 3.0);
   drive.go_on({.doppler_factor = 0.0}, 1.5);
   REQUIRE(drive.check.is_contradicted());
@@ -104,7 +104,7 @@ TEST_CASE("Speed check: stamps at half or twice the rate of time are detected wi
   const double pace = GENERATE(0.5, 2.0);
   const double speed_mps = GENERATE(5.0, 12.0);
   CAPTURE(pace, speed_mps);
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   drive.go_on({.speed_mps = speed_mps, .pace = pace}, 2.0);
   CHECK(drive.check.is_contradicted());
 }
@@ -112,14 +112,14 @@ TEST_CASE("Speed check: stamps at half or twice the rate of time are detected wi
 TEST_CASE("Speed check: without matches there is no verdict and no doubt") {
   const auto drive =
       GENERATE(CircleDrive{.things = 0}, CircleDrive{.things = 60}, CircleDrive{.kept = 0.02});
-  CheckedDrive checked;
+  SpeedCheckedDrive checked;
   checked.go_on(drive, 20.0);
   CHECK_FALSE(checked.check.is_contradicted());
   CHECK_FALSE(checked.check.is_checked());
 }
 
 TEST_CASE("Speed check: pauses, stamps that go back and a set clock give no verdict") {
-  CheckedDrive drive;
+  SpeedCheckedDrive drive;
   drive.go_on({}, 3.0);
   drive.go_on({.pace = 40.0}, 0.3);
   drive.go_on({.pace = -40.0}, 0.3);

@@ -14,13 +14,13 @@
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/squared.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
-
-constexpr double kPeriodS = 0.075;
+using simulation::kPeriodS;
 
 /// Speed of a vehicle in town: accelerates, drives, brakes and stands, 10 s each.
 double town_speed_mps(double time_s) {

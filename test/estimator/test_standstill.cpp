@@ -17,12 +17,11 @@ namespace {
 
 using numeric::radians;
 using simulation::Drive;
+using simulation::kFront;
 using simulation::options_at;
 
-const Pose2 kFront{3.4, 0.0, 0.0};
-
 /// The motion that the estimator returns for the second of two scans.
-EgoMotion estimate(const Pose2& mount, Drive drive) {
+EgoMotion estimate_at(const Pose2& mount, Drive drive) {
   const auto estimator = std::make_unique<EgoMotionEstimator>(options_at(mount));
   estimator->update(drive.next());
   return estimator->update(drive.next());
@@ -52,7 +51,7 @@ TEST_CASE("standing still is distinguished from moving for every mount") {
     CAPTURE(row.what);
     Drive drive(row.velocity, row.mount);
     drive.set_noise({0.02, 0.001, 0.02});
-    const EgoMotion motion = estimate(row.mount, drive);
+    const EgoMotion motion = estimate_at(row.mount, drive);
     CHECK(motion.status == row.status);
     const Eigen::Vector3d error = motion.motion - drive.motion_per_period();
     CHECK(numeric::normalised_error(error, motion.covariance, 2) < 25.0);
@@ -65,7 +64,7 @@ TEST_CASE("targets abeam without Doppler are no standstill") {
   Drive drive({0.5, 0.0, 0.0}, left, 3, 1500);
   drive.set_noise({0.02, 0.0005, 0.2});
   drive.set_half_view(radians(4.0));
-  const EgoMotion motion = estimate(left, drive);
+  const EgoMotion motion = estimate_at(left, drive);
   CHECK(motion.status == MotionStatus::ok);
   CHECK(std::sqrt(motion.covariance(0, 0)) < 0.011);  // precise enough for a standstill
   CHECK(motion.motion.x() == Approx(0.05).margin(0.02));

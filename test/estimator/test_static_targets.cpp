@@ -15,7 +15,7 @@ namespace {
 
 using namespace state_layout;
 
-const std::vector<Pose2> kMounts{{3.4, 0.3, 0.0}, {-0.6, 0.6, 2.3}};
+const std::vector<Pose2> kFrontAndAslant{{3.4, 0.3, 0.0}, {-0.6, 0.6, 2.3}};
 /// Slip and mount yaw are linearised: 0.02^2 / 2 of 10 m/s.
 constexpr double kLinearMps = 0.005;
 
@@ -26,10 +26,10 @@ OdometryOptions options(double static_doppler_mps) {
 }
 
 /// What the radars of a vehicle report of points around it, without noise.
-class Scene {
+class StaticScene {
  public:
-  explicit Scene(double static_doppler_mps = kLinearMps)
-      : state_(options(static_doppler_mps), kMounts) {
+  explicit StaticScene(double static_doppler_mps = kLinearMps)
+      : state_(options(static_doppler_mps), kFrontAndAslant) {
     state_.start();
     state_.gaussian.set_mean(kSlipPerAcceleration, 0.0);
     state_.gaussian.set_mean(kSpeed, 10.0);
@@ -42,10 +42,10 @@ class Scene {
   /// Static targets of a scan at a velocity of (m/s forward, m/s left, rad/s).
   [[nodiscard]] TargetSet see(std::size_t radar, const Eigen::Vector3d& velocity,
                               double mount_yaw_error_rad = 0.0) const {
-    Pose2 mount = kMounts[radar];
+    Pose2 mount = kFrontAndAslant[radar];
     mount.yaw_rad += mount_yaw_error_rad;
     return simulation::targets(simulation::observe_all(points_, velocity, 1.0, mount, {}),
-                               kMounts[radar]);
+                               kFrontAndAslant[radar]);
   }
   [[nodiscard]] TargetSet select(std::size_t radar, const TargetSet& targets,
                                  double age_s = 0.0) const {
@@ -67,7 +67,7 @@ class Scene {
 };
 
 TEST_CASE("all static targets are taken, in a turn too, and the result is replaced") {
-  Scene scene;
+  StaticScene scene;
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
   scene.state().set_mean(kYawRate, 0.4);
   const TargetSet targets = scene.see(radar, {10.0, 0.0, 0.4});
@@ -79,7 +79,7 @@ TEST_CASE("all static targets are taken, in a turn too, and the result is replac
 
 TEST_CASE("targets that move by more than the threshold along the line of sight are left out") {
   const double threshold_mps = 0.5;
-  const Scene scene(threshold_mps);
+  const StaticScene scene(threshold_mps);
   TargetSet targets;
   const double moving_mps = GENERATE(-8.0, -0.51, 0.51, 8.0);
   for (const Target& target : scene.see(0, {10.0, 0.0, 0.0})) {
@@ -97,7 +97,7 @@ TEST_CASE("targets that move by more than the threshold along the line of sight 
 }
 
 TEST_CASE("slip and its change with the lateral acceleration are expected") {
-  Scene scene;
+  StaticScene scene;
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
   scene.state().set_mean(kYawRate, 0.4);
   SECTION("slip") {
@@ -115,7 +115,7 @@ TEST_CASE("slip and its change with the lateral acceleration are expected") {
 }
 
 TEST_CASE("the yaw error of the radar's own mount is expected") {
-  Scene scene;
+  StaticScene scene;
   const auto radar = GENERATE(std::size_t{0}, std::size_t{1});
   const TargetSet targets = scene.see(radar, {10.0, 0.0, 0.0}, 0.02);
   CHECK(scene.share(radar, targets) < 0.2);
@@ -126,7 +126,7 @@ TEST_CASE("the yaw error of the radar's own mount is expected") {
 }
 
 TEST_CASE("an older scan is compared with the motion at its time") {
-  Scene scene;
+  StaticScene scene;
   scene.state().set_mean(kAcceleration, -3.0);
   scene.state().set_mean(kYawRate, 0.2);
   scene.state().set_mean(kYawAcceleration, 1.0);
@@ -136,7 +136,7 @@ TEST_CASE("an older scan is compared with the motion at its time") {
 }
 
 TEST_CASE("at rest all that stands is taken, and nothing that passes") {
-  Scene scene(0.5);
+  StaticScene scene(0.5);
   scene.state().set_mean(kSpeed, 0.0);
   CHECK(scene.share(0, scene.see(0, Eigen::Vector3d::Zero())) == 1.0);
   // A world that passes at 10 m/s, but for what is abeam.

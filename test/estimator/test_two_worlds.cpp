@@ -15,13 +15,11 @@ namespace cremed {
 namespace {
 
 using simulation::Drive;
+using simulation::kFront;
 using simulation::options_at;
 
-constexpr double kPeriod = 0.1;
-const Pose2 kFront{3.4, 0.0, 0.0};
-
 /// One radar that sees the targets of two drives.
-RadarScan both(RadarScan scan, const RadarScan& other) {
+RadarScan merged(RadarScan scan, const RadarScan& other) {
   for (std::size_t i = 0; i < other.count; ++i) {
     scan.detections[scan.count++] = other.detections[i];
   }
@@ -51,14 +49,14 @@ TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion de
     }
     EgoMotion motion;
     for (int i = 0; i < 3; ++i) {
-      motion = estimator->update(both(road.next(), jam.next()));
+      motion = estimator->update(merged(road.next(), jam.next()));
     }
     CHECK(motion.status == row.status);
     for (int i = 0; i < 12; ++i) {
       motion = estimator->update(road.next());
     }
     CHECK(motion.status == MotionStatus::ok);
-    CHECK(motion.motion.x() == Approx(row.road.x() * kPeriod).margin(0.03));
+    CHECK(motion.motion.x() == Approx(row.road.x() * Drive::kPeriodS).margin(0.03));
   }
 }
 

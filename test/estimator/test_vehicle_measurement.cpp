@@ -6,13 +6,13 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
+#include "test/estimator/simulation.hpp"
 
 namespace cremed {
 namespace {
 
 using namespace state_layout;
-
-const std::vector<Pose2> kMounts{{3.4, 0.1, 0.02}, {2.4, 0.8, 1.54}};
+using simulation::kTwoMounts;
 
 OdometryOptions with_vehicle() {
   OdometryOptions options;
@@ -23,7 +23,7 @@ OdometryOptions with_vehicle() {
 
 /// In a turn, with nothing zero.
 OdometryState turning_state(double speed_mps) {
-  OdometryState state(with_vehicle(), kMounts);
+  OdometryState state(with_vehicle(), kTwoMounts);
   state.start();
   state.gaussian.set_mean(kSpeed, speed_mps);
   state.gaussian.set_mean(kAcceleration, -1.2);
@@ -119,8 +119,8 @@ TEST_CASE("noise grows with acceleration by the delay's error, with age, and for
 }
 
 TEST_CASE("without signals of the vehicle the state has no places for them") {
-  const OdometryState without(OdometryOptions(), kMounts);
-  const OdometryState with(with_vehicle(), kMounts);
+  const OdometryState without(OdometryOptions(), kTwoMounts);
+  const OdometryState with(with_vehicle(), kTwoMounts);
   CHECK(without.gaussian.size() == size(2));
   CHECK(with.gaussian.size() == size(2) + kVehicleStates);
 }

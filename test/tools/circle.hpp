@@ -77,6 +77,13 @@ struct Circle {
   }
 };
 
+inline constexpr std::int64_t kStepUs = 100'000;
+
+inline TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
+  Random unused(0, 0);
+  return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
+}
+
 inline WheelReference read_wheels(const std::string& csv, const WheelStd& std = {}) {
   std::istringstream input(csv);
   return WheelReference(input, std);

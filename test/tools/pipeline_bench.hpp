@@ -45,11 +45,6 @@ class NoSource final : public FrameSource {
   SourceEvent next(CanFrame&) override { return SourceEvent::end; }
 };
 
-struct Outcome {
-  RecordingSink sink;
-  TrueTrajectory truth;
-};
-
 inline std::int64_t no_clock() { return 0; }
 
 inline Configuration configuration_of(const std::vector<RadarConfiguration>& radars) {

@@ -13,10 +13,9 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr std::int64_t kStepUs = 100'000;
 constexpr std::size_t kSteps = 4000;
 
-Eigen::Matrix3d covariance() {
+Eigen::Matrix3d skewed_covariance() {
   Eigen::Matrix3d matrix = Eigen::Vector3d(0.005, 0.004, 0.001).cwiseAbs2().asDiagonal();
   matrix(1, 2) = matrix(2, 1) = 2e-6;
   return matrix;
@@ -38,7 +37,7 @@ TEST_CASE("True covariances have NEES 1 against true wheels, whatever the noise 
   const Eigen::Vector3d noise{truth_m, truth_m, 0.1 * truth_m};
   const auto truth = circle.truth(kStepUs, kSteps, noise, random);
   const auto wheels = read_wheels(circle.wheels_csv(400.0));
-  const auto estimates = circle.estimates(kStepUs, kSteps, covariance(), random);
+  const auto estimates = circle.estimates(kStepUs, kSteps, skewed_covariance(), random);
   const MotionsAgainstWheels result = against_wheels(estimates, truth, wheels);
   REQUIRE(result.x.count == kSteps);
   check_is_one(result.x.nees);
@@ -63,7 +62,7 @@ TEST_CASE("The split adds up to NEES of the axis against truth") {
   Random random(12, 0);
   const auto truth = circle.truth(kStepUs, 200, {0.01, 0.01, 0.002}, random);
   const auto wheels = read_wheels(circle.wheels_csv(20.0, {0.03, 0.002}));
-  const auto estimates = circle.estimates(kStepUs, 200, covariance(), random);
+  const auto estimates = circle.estimates(kStepUs, 200, skewed_covariance(), random);
   const MotionsAgainstWheels result = against_wheels(estimates, truth, wheels);
   double nees_x = 0.0;
   double nees_yaw = 0.0;
@@ -71,8 +70,8 @@ TEST_CASE("The split adds up to NEES of the axis against truth") {
   for (const RecordedEstimate& estimate : estimates) {
     const Eigen::Vector3d error =
         estimate.motion - *truth.motion(estimate.start_us, estimate.end_us);
-    nees_x += error.x() * error.x() / covariance()(0, 0) / 200.0;
-    nees_yaw += error.z() * error.z() / covariance()(2, 2) / 200.0;
+    nees_x += error.x() * error.x() / skewed_covariance()(0, 0) / 200.0;
+    nees_yaw += error.z() * error.z() / skewed_covariance()(2, 2) / 200.0;
     squares_m2ps2 += 100.0 * error.x() * error.x() / 200.0;
   }
   CHECK(result.x.nees_against_truth() == Approx(nees_x));
@@ -88,7 +87,7 @@ TEST_CASE("What the wheels may be off widens the covariance, but not the split")
   const WheelStd off{0.05, 0.01};
   const auto exact = circle.estimates(kStepUs, 100, 1e-12 * Eigen::Matrix3d::Identity(), random);
   auto estimates = exact;
-  for (RecordedEstimate& estimate : estimates) estimate.covariance = covariance();
+  for (RecordedEstimate& estimate : estimates) estimate.covariance = skewed_covariance();
   const auto result =
       against_wheels(estimates, truth, read_wheels(circle.wheels_csv(10.0, off), off));
   // Errors of 5 mm and 1 mrad, where estimate and wheels have 5 mm and 1 mrad each.
@@ -104,7 +103,7 @@ TEST_CASE("Only motions that truth and wheels cover are compared, the others hav
   Random random(14, 0);
   const auto truth = circle.truth(kStepUs, 50, Eigen::Vector3d::Zero(), random);
   const auto wheels = read_wheels(circle.wheels_csv(3.0));
-  const auto estimates = circle.estimates(kStepUs, 100, covariance(), random);
+  const auto estimates = circle.estimates(kStepUs, 100, skewed_covariance(), random);
   CHECK(against_wheels(estimates, truth, wheels).x.count == 30);
   CHECK(std::isnan(against_wheels(std::vector<RecordedEstimate>{}, truth, wheels).x.nees));
 }

@@ -22,7 +22,7 @@ using namespace cremed::test;
 
 namespace {
 
-Configuration parse(const std::string& text) {
+Configuration parse_ars404(const std::string& text) {
   Configuration configuration = parse_configuration(text, "ars404.toml");
   configuration.output.lcm_url = "none";
   return configuration;
@@ -39,8 +39,8 @@ HeardBus with_clusters(const std::string& interface, std::uint32_t sensor_id) {
 
 TEST_CASE("An ARS404 is configured by its type, with limits of its own") {
   const Configuration configuration =
-      parse(radar_text("front", "ars404", "can0") + "sensor_id = 3\n" +
-            radar_text("rear", "ars408", "can1"));
+      parse_ars404(radar_text("front", "ars404", "can0") + "sensor_id = 3\n" +
+                   radar_text("rear", "ars408", "can1"));
   const RadarConfiguration& front = configuration.radars.at(0);
   const auto* options = front.decoder.as<Ars408Options>();
   REQUIRE(options != nullptr);
@@ -54,7 +54,7 @@ TEST_CASE("An ARS404 is configured by its type, with limits of its own") {
   CHECK(configuration.radars[1].ego_motion.limits.max_range_m == DetectionLimits{}.max_range_m);
   CHECK_THAT(configuration_summary(configuration), Catch::Contains("front           ars404 "));
   const std::string nearer = radar_text("front", "ars404", "can0") + "limits.max_range_m = 50.0\n";
-  CHECK(parse(nearer).radars[0].ego_motion.limits.max_range_m == 50.0);
+  CHECK(parse_ars404(nearer).radars[0].ego_motion.limits.max_range_m == 50.0);
 }
 
 TEST_CASE("It shares identifiers with an ARS408, and a search cannot distinguish them") {
@@ -67,7 +67,7 @@ TEST_CASE("It shares identifiers with an ARS408, and a search cannot distinguish
 }
 
 TEST_CASE("interface = \"auto\" finds it by what an ARS408 sends") {
-  Configuration configuration = parse(radar_text("front", "ars404", "auto"));
+  Configuration configuration = parse_ars404(radar_text("front", "ars404", "auto"));
   CHECK(find_interfaces({with_clusters("can0", 1)}, configuration).at(0).place.problem ==
         "no CAN interface shows an ARS404 with sensor id 0 (can0: an ARS404 with sensor id 1)");
   const auto sightings =
@@ -78,7 +78,7 @@ TEST_CASE("interface = \"auto\" finds it by what an ARS408 sends") {
 }
 
 TEST_CASE("Its drive becomes odometry, and the doctor has no finding") {
-  Configuration configuration = parse(radar_text("front", "ars404", "can0"));
+  Configuration configuration = parse_ars404(radar_text("front", "ars404", "can0"));
   Recording traffic = recording_of(configuration.radars);
   report_state(traffic, "can0", good_state());
   CHECK(diagnose(configuration, observe(configuration, traffic)).empty());
@@ -103,7 +103,7 @@ TEST_CASE("Its drive becomes odometry, and the doctor has no finding") {
 TEST_CASE("One radar is recognised on its bus, and the suggestion names both types") {
   Configuration nothing;
   nothing.odometry.enabled = false;
-  const Configuration configuration = parse(radar_text("front", "ars404", "can0"));
+  const Configuration configuration = parse_ars404(radar_text("front", "ars404", "can0"));
   const Observation observation = observe(nothing, recording_of(configuration.radars));
   const std::vector<RadarSettings> seen = seen_radars(observation.buses.at(0).traffic);
   REQUIRE(seen.size() == 1);

@@ -13,18 +13,19 @@ using namespace cremed::test;
 
 namespace {
 
-const std::string kHead = "[[radar]]\nname = \"front\"\ntype = \"ars408\"\ninterface = \"can0\"\n";
+const std::string kFrontHead =
+    "[[radar]]\nname = \"front\"\ntype = \"ars408\"\ninterface = \"can0\"\n";
 
 /// A configuration with one radar; `rest` are lines of its table.
 std::string write_configuration(const TemporaryFolder& folder, const std::string& name,
                                 const std::string& rest) {
-  std::ofstream(folder.file(name)) << kHead << rest;
+  std::ofstream(folder.file(name)) << kFrontHead << rest;
   return folder.file(name);
 }
 
 /// The log of a simulated drive with bends.
-std::string write_log(const TemporaryFolder& folder, const std::string& config, int duration_s,
-                      const std::string& scenario = "bends") {
+std::string simulate_log(const TemporaryFolder& folder, const std::string& config, int duration_s,
+                         const std::string& scenario = "bends") {
   const std::string log = folder.file("drive.log");
   REQUIRE(run_tool("cremed-simulate", folder,
                    "--scenario " + scenario + " --duration " + std::to_string(duration_s) +
@@ -40,7 +41,7 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   const std::string wrong = write_configuration(
       folder, "wrong.toml",
       "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 }\ncalibration.doppler_std_factor = 0.5");
-  const std::string log = write_log(folder, right, 30);
+  const std::string log = simulate_log(folder, right, 30);
   const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
@@ -66,19 +67,19 @@ TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") 
       write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
   const std::string mount = "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.07 } # by tape\n";
   const std::string file = write_configuration(folder, "c.toml", mount);
-  const std::string log = write_log(folder, right, 15);
+  const std::string log = simulate_log(folder, right, 15);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
   CHECK_THAT(content(file),
-             Catch::StartsWith(kHead + "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = "));
+             Catch::StartsWith(kFrontHead + "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = "));
   CHECK_THAT(content(file), Catch::Contains(" } # by tape\n"));
   CHECK_THAT(result.error, Catch::Contains("checked on each fifth of the drive"));
   const auto yaw_rad = [](const std::string& text) {
     return parse_configuration(text, "c").radars.at(0).ego_motion.vehicle_from_radar.yaw_rad;
   };
-  CHECK(yaw_rad(content(file)) == yaw_rad(kHead + mount + result.output));
+  CHECK(yaw_rad(content(file)) == yaw_rad(kFrontHead + mount + result.output));
   CHECK(yaw_rad(content(file)) == Approx(0.1).margin(0.01));
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("cremed-eval calibrate refuses what fits the rest of the drive no bett
   const TemporaryFolder folder;
   const std::string file =
       write_configuration(folder, "c.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }");
-  const std::string log = write_log(folder, file, 15);
+  const std::string log = simulate_log(folder, file, 15);
   const std::string before = content(file);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + file);
@@ -105,7 +106,7 @@ TEST_CASE("cremed-eval calibrate finds the same yaw, however often its angle wen
       write_configuration(folder, "right.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.03 }");
   const std::string around = write_configuration(
       folder, "around.toml", "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 6.283 }");
-  const std::string log = write_log(folder, right, 15);
+  const std::string log = simulate_log(folder, right, 15);
   const ToolRun result =
       run_tool("cremed-eval", folder, "calibrate " + log + " --write --config " + around);
   CAPTURE(result.error, result.output);
@@ -144,11 +145,11 @@ TEST_CASE("cremed-eval calibrate refuses what is too far from the configuration,
   const auto calibrate = [&](const std::string& log, const std::string& config) {
     return run_tool("cremed-eval", folder, "calibrate " + log + " --config " + config);
   };
-  const ToolRun far = calibrate(write_log(folder, right, 15), reversed);
+  const ToolRun far = calibrate(simulate_log(folder, right, 15), reversed);
   CHECK(far.status == 1);
   CHECK_THAT(far.error, Catch::Contains("rear: its yaw or the sign of its Doppler is wrong"));
   CHECK(far.output.empty());
-  const ToolRun still = calibrate(write_log(folder, right, 3, "standing"), right);
+  const ToolRun still = calibrate(simulate_log(folder, right, 3, "standing"), right);
   CHECK(still.status == 1);
   CHECK_THAT(still.error, Catch::Contains("the vehicle does not move"));
 }

@@ -22,9 +22,9 @@ struct Vehicle {
 };
 
 /// A minute of three radars with independent noise; `truths` are their true states.
-class Drive {
+class RadarMinute {
  public:
-  Drive(std::vector<CalibrationVector> truths, unsigned seed)
+  RadarMinute(std::vector<CalibrationVector> truths, unsigned seed)
       : truths_(std::move(truths)), random_(seed) {
     for (std::size_t radar = 0; radar < truths_.size(); ++radar) {
       for (std::int64_t us = 20'000 * static_cast<std::int64_t>(radar + 1); us < 60'000'000;
@@ -90,7 +90,7 @@ TEST_CASE("the fit finds every state of every radar, as well as it says") {
   double worst = 0.0;
   int count = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
-    CalibrationFit fit = Drive(kTruths, seed).fit(error);
+    CalibrationFit fit = RadarMinute(kTruths, seed).fit(error);
     for (int round = 0; round < 4; ++round) {
       fit.solve();  // Time offsets need the fitted motion.
     }
@@ -116,7 +116,7 @@ TEST_CASE("the fit finds every state of every radar, as well as it says") {
 }
 
 TEST_CASE("what is held stays, and the vehicle's motion comes out") {
-  CalibrationFit fit = Drive(kTruths, 1).fit({});
+  CalibrationFit fit = RadarMinute(kTruths, 1).fit({});
   fit.limit(1, kX, 0.0);
   fit.solve();
   CHECK(fit.radars()[1].value[kX] == Approx(2.4).margin(1e-6));
@@ -135,7 +135,7 @@ TEST_CASE("what is found is held against parts of the drive in which it was not 
   int refused = 0;
   constexpr int kDrives = 10;
   for (unsigned seed = 1; seed <= kDrives; ++seed) {
-    const Drive drive(kTruths, seed);
+    const RadarMinute drive(kTruths, seed);
     CalibrationFit right = drive.fit({});
     right.minimise();
     refused += check_held_out(right, yaws).is_better ? 0 : 1;
@@ -157,7 +157,7 @@ TEST_CASE("what is found is held against parts of the drive in which it was not 
 }
 
 TEST_CASE("a part of a drive has the measurements of its time") {
-  CalibrationFit fit = Drive(kTruths, 1).fit({});
+  CalibrationFit fit = RadarMinute(kTruths, 1).fit({});
   fit.minimise();
   const CalibrationFit second = fit.part(1, 5, true);
   CHECK(second.motion(0, kBeginUs + 18'000'000));

@@ -20,7 +20,7 @@ Eigen::Matrix3d correlated() {
 }
 
 /// Estimates whose errors have `scale` times the claimed standard deviation.
-Credibility draw(int degrees_of_freedom, double scale, int count) {
+Credibility draw_estimates(int degrees_of_freedom, double scale, int count) {
   Eigen::Matrix3d covariance = correlated();
   if (degrees_of_freedom == 2) {
     covariance.row(1).setZero();
@@ -46,7 +46,7 @@ Credibility draw(int degrees_of_freedom, double scale, int count) {
 TEST_CASE("Honest estimates have ANEES 1 and Gaussian coverage") {
   for (const int degrees_of_freedom : {2, 3}) {
     constexpr int kCount = 20000;
-    const Credibility credibility = draw(degrees_of_freedom, 1.0, kCount);
+    const Credibility credibility = draw_estimates(degrees_of_freedom, 1.0, kCount);
     // ANEES is chi-square(n d) / (n d): standard deviation sqrt(2 / (n d)).
     const double sigma = std::sqrt(2.0 / (kCount * degrees_of_freedom));
     CHECK(credibility.anees() == Approx(1.0).margin(4.0 * sigma));
@@ -60,7 +60,7 @@ TEST_CASE("Honest estimates have ANEES 1 and Gaussian coverage") {
 }
 
 TEST_CASE("Claims of half the true standard deviation are found out") {
-  const Credibility credibility = draw(3, 2.0, 5000);
+  const Credibility credibility = draw_estimates(3, 2.0, 5000);
   CHECK(credibility.anees() == Approx(4.0).epsilon(0.05));
   CHECK(credibility.coverage(0, 2) == Approx(0.6827).margin(0.03));
 }

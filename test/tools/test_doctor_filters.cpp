@@ -15,7 +15,7 @@ using namespace cremed::test;
 
 namespace {
 
-struct Outcome {
+struct FilterTalk {
   TalkResult result;
   std::string text;
   std::vector<std::string> sent;
@@ -30,7 +30,7 @@ std::string hex(const CanFrame& frame) {
   return text.str();
 }
 
-Outcome talk(const Ars408Manners& manners, const std::vector<std::string>& wanted) {
+FilterTalk talk(const Ars408Manners& manners, const std::vector<std::string>& wanted) {
   FakeArs408s sensors({factory_state(0)}, manners, {});
   const Configuration configuration = two_ars408s();
   const Input input(Input::Kind::terminal, "y\n");
@@ -43,7 +43,7 @@ Outcome talk(const Ars408Manners& manners, const std::vector<std::string>& wante
   std::ostringstream out;
   const TalkResult result = talk_about_filters(
       {configuration, configuration.radars[0], options, sensors.socket(), out}, filters);
-  Outcome outcome{result, out.str(), {}};
+  FilterTalk outcome{result, out.str(), {}};
   for (const CanFrame& frame : sensors.all_received()) {
     outcome.sent.push_back(hex(frame));
   }
@@ -53,7 +53,7 @@ Outcome talk(const Ars408Manners& manners, const std::vector<std::string>& wante
 }  // namespace
 
 TEST_CASE("Filters are asked for one after the other, and nothing is changed") {
-  const Outcome outcome = talk({}, {});
+  const FilterTalk outcome = talk({}, {});
   CAPTURE(outcome.text);
   CHECK(outcome.result == TalkResult::took);
   CHECK(outcome.sent == std::vector<std::string>{"202#0000000000", "202#0800000000",
@@ -64,7 +64,7 @@ TEST_CASE("Filters are asked for one after the other, and nothing is changed") {
 }
 
 TEST_CASE("Filters are set, each once, and read back") {
-  const Outcome outcome = talk({}, {"range=5..100", "rcs=-10..30", "rcs=off"});
+  const FilterTalk outcome = talk({}, {"range=5..100", "rcs=-10..30", "rcs=off"});
   CAPTURE(outcome.text);
   CHECK(outcome.result == TalkResult::took);
   CHECK(outcome.sent ==
@@ -76,18 +76,18 @@ TEST_CASE("Filters are set, each once, and read back") {
 }
 
 TEST_CASE("After a filter that does not take nothing more is sent") {
-  const Outcome refused = talk({.obeys = false}, {"range=5..100", "rcs=-10..30"});
+  const FilterTalk refused = talk({.obeys = false}, {"range=5..100", "rcs=-10..30"});
   CHECK(refused.result == TalkResult::not_taken);
   CHECK(refused.sent.size() == 1);
   CHECK_THAT(refused.text, Catch::EndsWith("  range: off, not set: expected range: 5 to 100 m\n"));
-  const Outcome silent = talk({.falls_silent = true}, {});
+  const FilterTalk silent = talk({.falls_silent = true}, {});
   CHECK(silent.result == TalkResult::not_taken);
   CHECK(silent.sent.size() == 1);
   CHECK_THAT(silent.text, Catch::EndsWith("no 0x204 came after it: the sensor does not answer\n"));
 }
 
 TEST_CASE("Filters that were written to flash are named when a later one fails") {
-  const Outcome outcome =
+  const FilterTalk outcome =
       talk({.filters_taken = 2}, {"range=5..100", "rcs=-10..30", "count=0..90", "azimuth=-9..9"});
   CHECK(outcome.result == TalkResult::not_taken);
   CHECK(outcome.sent.size() == 3);

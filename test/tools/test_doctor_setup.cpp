@@ -20,7 +20,7 @@ using namespace cremed::test;
 
 namespace {
 
-struct Outcome {
+struct SetupTalk {
   TalkResult result;
   std::string text;
   std::vector<CanFrame> sent;
@@ -33,9 +33,9 @@ struct Said {
   std::string typed = "y\n";
 };
 
-Outcome set_up(const std::vector<Ars408RadarState>& states, const Ars408Manners& manners,
-               const Said& said, const Configuration& configuration = two_ars408s(),
-               const std::vector<CanFrame>& traffic = {}) {
+SetupTalk set_up(const std::vector<Ars408RadarState>& states, const Ars408Manners& manners,
+                 const Said& said, const Configuration& configuration = two_ars408s(),
+                 const std::vector<CanFrame>& traffic = {}) {
   FakeArs408s sensors(states, manners, traffic);
   const Input input(Input::Kind::terminal, said.typed);
   Ars408TalkOptions options = quick_talk(manners);
@@ -60,7 +60,7 @@ class WhenFlushed final : public std::stringbuf {
   std::function<void()> then_;
 };
 
-void check_sent(const Outcome& outcome, const std::string& expected) {
+void check_sent(const SetupTalk& outcome, const std::string& expected) {
   CAPTURE(outcome.text);
   const CanFrame frame = hex_frame(expected);
   REQUIRE(outcome.sent.size() == 1);
@@ -72,7 +72,7 @@ void check_sent(const Outcome& outcome, const std::string& expected) {
 }  // namespace
 
 TEST_CASE("A sensor is set to clusters with quality, and confirms it") {
-  const Outcome outcome = set_up({factory_state(0)}, {}, {});
+  const SetupTalk outcome = set_up({factory_state(0)}, {}, {});
   CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#3A00000010040000");
   CHECK_THAT(outcome.text, Catch::Contains("output: objects -> clusters"));
@@ -85,7 +85,7 @@ TEST_CASE("A sensor is set to clusters with quality, and confirms it") {
 TEST_CASE("Nothing is sent unless the user says yes") {
   const auto answer = GENERATE(as<std::string>{}, "", "\n", "n\n", "no\n", "maybe\n", "Yup\n");
   CAPTURE(answer);
-  const Outcome outcome = set_up({factory_state(0)}, {}, {.typed = answer});
+  const SetupTalk outcome = set_up({factory_state(0)}, {}, {.typed = answer});
   CHECK(outcome.result == TalkResult::not_sent);
   CHECK(outcome.sent.empty());
   CHECK_THAT(outcome.text, Catch::Contains("[y/N]"));
@@ -93,7 +93,7 @@ TEST_CASE("Nothing is sent unless the user says yes") {
 }
 
 TEST_CASE("Range and storing are set only if asked for") {
-  const Outcome outcome =
+  const SetupTalk outcome =
       set_up({factory_state(0)}, {}, {.setup = {.max_distance_m = 249.0, .store = true}});
   CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#BB1F400010840000");
@@ -103,7 +103,7 @@ TEST_CASE("Range and storing are set only if asked for") {
 }
 
 TEST_CASE("A sensor with another id is addressed by that, and confirms under the new one") {
-  const Outcome outcome =
+  const SetupTalk outcome =
       set_up({factory_state(5), factory_state(3)}, {}, {.address = {.said_id = std::uint8_t{5}}});
   CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "250#3A00000010040000");
@@ -115,7 +115,7 @@ TEST_CASE("A sensor with another id is addressed by that, and confirms under the
 TEST_CASE("A radar that is to send objects is set to objects") {
   Ars408RadarState state = factory_state(0);
   state.output_code = 2;
-  const Outcome outcome = set_up({state}, {}, {}, two_ars408s(Ars408Output::objects));
+  const SetupTalk outcome = set_up({state}, {}, {}, two_ars408s(Ars408Output::objects));
   CHECK(outcome.result == TalkResult::took);
   check_sent(outcome, "200#3A00000008040000");
 }
@@ -132,7 +132,7 @@ TEST_CASE("What did not take is named") {
                Case{{.obeys = false}, 5, "sensor id: 5, not set: expected 0"},
                Case{{.falls_silent = true}, 0, "no 0x201 came after it"});
   CAPTURE(row.text);
-  const Outcome outcome =
+  const SetupTalk outcome =
       set_up({factory_state(row.sensor_id)}, row.manners,
              {.setup = {.max_distance_m = 260.0}, .address = {.said_id = row.sensor_id}});
   CHECK(outcome.result == TalkResult::not_taken);
@@ -144,13 +144,13 @@ TEST_CASE("A sensor that is set as wanted is left alone, unless it has not store
   Ars408RadarState state = factory_state(0);
   state.output_code = 2;
   state.sends_extended = false;
-  const Outcome outcome = set_up({state}, {}, {});
+  const SetupTalk outcome = set_up({state}, {}, {});
   CHECK(outcome.result == TalkResult::took);
   CHECK(outcome.sent.empty());
   CHECK_THAT(outcome.text, Catch::Contains("It already has these settings"));
   CHECK(set_up({state}, {}, {.setup = {.store = true}}).sent.size() == 1);
   state.nvm_written = true;
-  const Outcome repeated = set_up({state}, {}, {.setup = {.store = true}});
+  const SetupTalk repeated = set_up({state}, {}, {.setup = {.store = true}});
   CHECK(repeated.result == TalkResult::took);
   CHECK(repeated.sent.empty());
   CHECK_THAT(repeated.text, Catch::Contains("in its flash too; nothing was sent"));
@@ -200,7 +200,7 @@ TEST_CASE("Nothing is sent where it is not certain which sensor is meant") {
            "sensor id 0, which it would get, is on can0 too"},
       Case{"two with one id", {factory_state(0), other}, {}, "two sensors with id 0"});
   CAPTURE(row.name);
-  const Outcome outcome = set_up(row.states, {}, {.address = {.said_id = row.said_id}});
+  const SetupTalk outcome = set_up(row.states, {}, {.address = {.said_id = row.said_id}});
   CAPTURE(outcome.text);
   CHECK(outcome.result == TalkResult::not_sent);
   CHECK(outcome.sent.empty());
@@ -213,11 +213,11 @@ TEST_CASE("Nothing is sent to what is no ARS408") {
   for (std::uint32_t i = 0; i < 96; ++i) {
     gpr.push_back({.id = 0x200 + i, .length = 8});
   }
-  const Outcome among = set_up({factory_state(0)}, {}, {}, two_ars408s(), gpr);
+  const SetupTalk among = set_up({factory_state(0)}, {}, {}, two_ars408s(), gpr);
   CHECK(among.sent.empty());
   CHECK_THAT(among.text, Catch::Contains("a Bosch GPR is on can0"));
   // A report whose sensor id contradicts its identifier comes from another device.
-  const Outcome stranger = set_up({}, {}, {}, two_ars408s(), {hex_frame("201#4019000013F40000")});
+  const SetupTalk stranger = set_up({}, {}, {}, two_ars408s(), {hex_frame("201#4019000013F40000")});
   CHECK(stranger.sent.empty());
   CHECK_THAT(stranger.text, Catch::Contains("no 0x201 of an ARS408 with sensor id 0 on can0"));
 }

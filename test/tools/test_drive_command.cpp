@@ -18,7 +18,7 @@ using cremed::TemporaryFolder;
 
 namespace {
 
-ToolRun run(const TemporaryFolder& folder, const std::string& arguments) {
+ToolRun run_eval(const TemporaryFolder& folder, const std::string& arguments) {
   return run_tool("cremed-eval", folder, arguments);
 }
 
@@ -80,7 +80,7 @@ std::vector<std::string> words(const std::string& output, const std::string& beg
 
 TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands in comments") {
   const TemporaryFolder folder;
-  const ToolRun result = run(folder, write_drive(folder, {"front", "sideways"}));
+  const ToolRun result = run_eval(folder, write_drive(folder, {"front", "sideways"}));
   REQUIRE(result.status == 0);
   const auto rows = cells(result.output);
   REQUIRE(rows.size() == 2);
@@ -102,7 +102,7 @@ TEST_CASE("cremed-eval drive prints a line a source; drift over distance stands 
 
 TEST_CASE("cremed-eval drive tells how true the motions are when they are chained") {
   const TemporaryFolder folder;
-  const ToolRun result = run(folder, write_drive(folder, {"sideways"}));
+  const ToolRun result = run_eval(folder, write_drive(folder, {"sideways"}));
   REQUIRE(result.status == 0);
   // 1 % of the path, chained: 10 motions of 0.01 m each, their sigma of 0.01 m added as
   // independent. From 0.5 s on, a chain and a window every 0.5 s.
@@ -118,13 +118,13 @@ TEST_CASE("cremed-eval drive tells how true the motions are when they are chaine
 TEST_CASE("cremed-eval drive compares with the wheels and splits NEES") {
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"front"});
-  const ToolRun result = run(folder, drive + write_wheels(folder));
+  const ToolRun result = run_eval(folder, drive + write_wheels(folder));
   CAPTURE(result.error);
   REQUIRE(result.status == 0);
   const std::vector<std::string> x = words(result.output, "front           x m/s ");
   CHECK(x == std::vector<std::string>{"20", "1.000", "1.000", "0.000", "0.000", "1.000", "0.1000",
                                       "0.0000", "0.1000"});
-  const ToolRun doubted = run(folder, drive + write_wheels(folder) + " --wheels-std 0.1,0");
+  const ToolRun doubted = run_eval(folder, drive + write_wheels(folder) + " --wheels-std 0.1,0");
   CHECK(words(doubted.output, "front           x m/s ")[1] == "0.500");
   CHECK(doubted.output.find("their std 0.1 m/s, 0 rad/s") != std::string::npos);
 }
@@ -133,12 +133,12 @@ TEST_CASE("cremed-eval drive adds truth's own noise and says so in each table it
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"sideways"});
   const auto anees = [&](const std::string& options) {
-    return cells(run(folder, drive + options).output)[0][4];
+    return cells(run_eval(folder, drive + options).output)[0][4];
   };
   CHECK(anees("") == "0.3333");
   CHECK(anees(" --truth-std 0.01,0") == "0.1667");
   CHECK(anees(" --truth-std 0.01,0.5,0,0.1 --truth-std 3,3,3,20") == "0.1667");
-  const std::string output = run(folder, drive + " --truth-std 0.01,0").output;
+  const std::string output = run_eval(folder, drive + " --truth-std 0.01,0").output;
   const std::string note = "truth's own std added to the covariance: 0.01, 0.01 m, 0 rad";
   CHECK(output.find(note) < output.find("\nsideways"));
   CHECK(output.find(note, output.find("pose after")) != std::string::npos);
@@ -147,7 +147,7 @@ TEST_CASE("cremed-eval drive adds truth's own noise and says so in each table it
 TEST_CASE("cremed-eval drive knows the vehicle's state by its header") {
   const TemporaryFolder folder;
   write_drive(folder, {"front"});
-  const ToolRun result = run(folder, write_states(folder) + write_wheels(folder));
+  const ToolRun result = run_eval(folder, write_states(folder) + write_wheels(folder));
   CAPTURE(result.error);
   REQUIRE(result.status == 0);
   const auto rows = cells(result.output);
@@ -175,8 +175,8 @@ TEST_CASE("cremed-eval drive --json says the same to scripts") {
   const std::string drive = write_drive(folder, {"front", "blind"});
   const std::string options =
       write_wheels(folder) + " --wheels-std 0,0.1 --truth-std 0.01,0.02,0.3,1";
-  const auto json = nlohmann::json::parse(run(folder, drive + options + " --json").output);
-  const std::string text = run(folder, drive + options).output;
+  const auto json = nlohmann::json::parse(run_eval(folder, drive + options + " --json").output);
+  const std::string text = run_eval(folder, drive + options).output;
   const auto& front = json["sources"][0];
   CHECK(front["source"] == "front");
   CHECK(front["n"] == 20);
@@ -195,7 +195,7 @@ TEST_CASE("cremed-eval drive --json says the same to scripts") {
   CHECK(json["wheels_std"]["yaw_rate_radps"] == 0.1);
   CHECK(json["truth_against_wheels"][0]["intervals"] == 193);
   const auto states = nlohmann::json::parse(
-      run(folder, write_states(folder) + write_wheels(folder) + " --json").output);
+      run_eval(folder, write_states(folder) + write_wheels(folder) + " --json").output);
   CHECK(states["sources"][0]["twist"]["nees_speed"].get<double>() == Approx(4.0));
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("cremed-eval drive draws one source and many, without an estimate too"
       std::vector<std::string>{"front"}, std::vector<std::string>{"blind"},
       std::vector<std::string>{"a", "b", "blind", "sideways", "d", "e", "f", "g", "h", "fused"});
   const std::string picture = folder.file("picture.svg");
-  const ToolRun result = run(folder, write_drive(folder, sources) + " --plot " + picture);
+  const ToolRun result = run_eval(folder, write_drive(folder, sources) + " --plot " + picture);
   CAPTURE(sources.size(), result.error);
   const bool has_estimates = sources.front() != "blind";
   CHECK(result.status == (has_estimates ? 0 : 1));
@@ -221,7 +221,7 @@ TEST_CASE("cremed-eval drive draws one source and many, without an estimate too"
 TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input") {
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"front"});
-  REQUIRE(run(folder, drive + " --tables " + folder.file("")).status == 0);
+  REQUIRE(run_eval(folder, drive + " --tables " + folder.file("")).status == 0);
   CHECK(content(folder.file("sources.csv")).starts_with("source,dof,estimates,"));
   // A drive of 2 s has no window of 10 s.
   CHECK_THAT(content(folder.file("sources.csv")),
@@ -232,10 +232,10 @@ TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input
   for (const char* name : {"path.csv", "drift.csv"}) {
     CHECK(std::filesystem::file_size(folder.file(name)) > 0);
   }
-  CHECK(run(folder, drive + " --tables /no/such/folder").status == 1);
+  CHECK(run_eval(folder, drive + " --tables /no/such/folder").status == 1);
   const ToolRun refused =
-      run(folder, "drive " + folder.file("path.csv") + " " + folder.file("truth.csv") +
-                      " --tables " + folder.file(""));
+      run_eval(folder, "drive " + folder.file("path.csv") + " " + folder.file("truth.csv") +
+                           " --tables " + folder.file(""));
   CHECK(refused.status == 2);
   CHECK(refused.error.find("--tables") != std::string::npos);
 }
@@ -243,7 +243,7 @@ TEST_CASE("cremed-eval drive writes what it draws as tables, never over an input
 TEST_CASE("cremed-eval drive writes truth at the times of the estimates, as TUM") {
   const TemporaryFolder folder;
   const std::string tum = folder.file("truth.tum");
-  REQUIRE(run(folder, write_drive(folder, {"front"}) + " --truth-tum " + tum).status == 0);
+  REQUIRE(run_eval(folder, write_drive(folder, {"front"}) + " --truth-tum " + tum).status == 0);
   std::istringstream lines(content(tum));
   std::string line;
   std::getline(lines, line);
@@ -266,7 +266,8 @@ TEST_CASE("cremed-eval drive says what is wrong") {
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
   write_drive(folder, {"front"});
-  check(run(folder, "drive " + with_file(row.arguments, "TRUTH", folder.file("truth.csv"))), row);
+  check(run_eval(folder, "drive " + with_file(row.arguments, "TRUTH", folder.file("truth.csv"))),
+        row);
 }
 
 TEST_CASE(
@@ -288,7 +289,7 @@ TEST_CASE(
                        folder.file("odometry.csv"))
               .status == 0);
   const std::string drive = "drive " + folder.file("odometry.csv") + " " + folder.file("true.csv");
-  const ToolRun result = run(folder, drive + config + " --baselines " + log);
+  const ToolRun result = run_eval(folder, drive + config + " --baselines " + log);
   CAPTURE(result.error, result.output);
   REQUIRE(result.status == 0);
   const auto rows = cells(result.output);
@@ -308,8 +309,8 @@ TEST_CASE(
     CHECK(std::stod(rows[baseline][3]) < 0.4);
     CHECK(std::stod(rows[baseline][2]) > 0.0);
   }
-  CHECK(run(folder, drive + " --baselines " + log).status == 2);
-  CHECK(run(folder, drive + config).status == 2);
+  CHECK(run_eval(folder, drive + " --baselines " + log).status == 2);
+  CHECK(run_eval(folder, drive + config).status == 2);
 }
 
 TEST_CASE("Truth that cannot be that of the drive is asked about") {
@@ -330,7 +331,7 @@ TEST_CASE("Truth that cannot be that of the drive is asked about") {
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"front"});
   std::ofstream(folder.file("truth.csv")) << header << row.truth;
-  const ToolRun result = run(folder, drive);
+  const ToolRun result = run_eval(folder, drive);
   CHECK(result.status == 1);
   CHECK(result.output.empty());
   CHECK_THAT(result.error, Catch::Contains(folder.file("truth.csv")));
@@ -341,7 +342,7 @@ TEST_CASE("Odometry and truth in the wrong order are recognised") {
   const TemporaryFolder folder;
   write_drive(folder, {"front"});
   const ToolRun result =
-      run(folder, "drive " + folder.file("truth.csv") + " " + folder.file("odometry.csv"));
+      run_eval(folder, "drive " + folder.file("truth.csv") + " " + folder.file("odometry.csv"));
   CHECK(result.status == 1);
   CHECK_THAT(result.error, Catch::Contains("ODOMETRY comes before TRUTH"));
 }
@@ -349,17 +350,17 @@ TEST_CASE("Odometry and truth in the wrong order are recognised") {
 TEST_CASE("A byte order mark is no part of a table") {
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"front"});
-  const std::string plain = run(folder, drive).output;
+  const std::string plain = run_eval(folder, drive).output;
   for (const char* name : {"truth.csv", "odometry.csv"}) {
     const std::string text = content(folder.file(name));
     std::ofstream(folder.file(name)) << "\xEF\xBB\xBF" << text;
   }
-  CHECK(run(folder, drive).output == plain);
+  CHECK(run_eval(folder, drive).output == plain);
 }
 
 TEST_CASE("Odometry without an estimate is no result") {
   const TemporaryFolder folder;
-  const ToolRun result = run(folder, write_drive(folder, {"blind"}));
+  const ToolRun result = run_eval(folder, write_drive(folder, {"blind"}));
   CHECK(result.status == 1);
   CHECK_THAT(result.error, Catch::Contains("no estimate in it"));
 }
@@ -367,13 +368,13 @@ TEST_CASE("Odometry without an estimate is no result") {
 TEST_CASE("A picture that cannot be drawn is a line that says why") {
   const TemporaryFolder folder;
   const std::string drive = write_drive(folder, {"front"});
-  const ToolRun other = run(folder, drive + " --plot " + folder.file("picture.xyz"));
+  const ToolRun other = run_eval(folder, drive + " --plot " + folder.file("picture.xyz"));
   CHECK(other.status == 2);
   CHECK_THAT(other.error, Catch::Contains(".png, .svg"));
 
   std::ofstream(folder.file("matplotlib.py")) << "raise ImportError('no', name='matplotlib')\n";
   REQUIRE(::setenv("PYTHONPATH", folder.file("").c_str(), 1) == 0);
-  const ToolRun without = run(folder, drive + " --plot " + folder.file("picture.png"));
+  const ToolRun without = run_eval(folder, drive + " --plot " + folder.file("picture.png"));
   ::unsetenv("PYTHONPATH");
   CHECK(without.status == 1);
   CHECK_THAT(without.error, Catch::Contains("matplotlib is missing: install python3-matplotlib"));

@@ -12,12 +12,12 @@ using namespace cremed;
 
 namespace {
 
-constexpr const char* kHeader =
+constexpr const char* kMotionHeader =
     "utime_start,utime,source,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
     "status,targets,iterations,solve_us\n";
 
 /// Drives 10 m/s to the north-east, turning left by 0.1 rad/s (numbers, not a real arc).
-TrueTrajectory truth() {
+TrueTrajectory turning_truth() {
   std::istringstream csv(
       "utime,x_m,y_m,yaw_rad\n"
       "1000000,100,200,0.785398163397448\n"
@@ -26,25 +26,25 @@ TrueTrajectory truth() {
 }
 
 std::vector<SourceEvaluation> evaluate(const std::string& rows) {
-  std::istringstream csv(kHeader + rows);
-  return evaluate_drive(csv, {truth(), {}, {}});
+  std::istringstream csv(kMotionHeader + rows);
+  return evaluate_drive(csv, {turning_truth(), {}, {}});
 }
 
 }  // namespace
 
 TEST_CASE("Truth is interpolated and turned into the start's frame") {
-  const auto pose = truth().at(1'250'000);
+  const auto pose = turning_truth().at(1'250'000);
   REQUIRE(pose);
   CHECK(pose->x_m == Approx(101.76776695));
   CHECK(pose->yaw_rad == Approx(0.810398163397448));
-  const auto motion = truth().motion(1'000'000, 1'100'000);
+  const auto motion = turning_truth().motion(1'000'000, 1'100'000);
   REQUIRE(motion);
   CHECK(motion->x() == Approx(1.0));
   CHECK(motion->y() == Approx(0.0).margin(1e-6));
   CHECK(motion->z() == Approx(0.01));
-  CHECK_FALSE(truth().at(999'999));
-  CHECK(truth().at(2'000'000));
-  CHECK_FALSE(truth().at(2'000'001));
+  CHECK_FALSE(turning_truth().at(999'999));
+  CHECK(turning_truth().at(2'000'000));
+  CHECK_FALSE(turning_truth().at(2'000'001));
 }
 
 TEST_CASE("Yaw is interpolated the short way round") {

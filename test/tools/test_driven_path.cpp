@@ -13,7 +13,7 @@ using namespace cremed;
 namespace {
 
 /// East at 10 m/s for 10 s.
-TrueTrajectory truth() {
+TrueTrajectory straight_truth() {
   std::istringstream csv("utime,x_m,y_m,yaw_rad\n0,5,7,0\n10000000,105,7,0\n");
   return TrueTrajectory(csv);
 }
@@ -37,7 +37,7 @@ TEST_CASE("Estimates that join add up from the first true pose, beside the true 
   const double right_angle_rad = std::acos(0.0);
   const auto path = driven_path({estimate(1'000'000, 2'000'000, 9.0, right_angle_rad),
                                  estimate(2'000'000, 3'000'000, 4.0, 0.0)},
-                                truth());
+                                straight_truth());
   REQUIRE(path.size() == 3);
   CHECK(path[0].estimate.x_m == Approx(15.0));
   CHECK(path[1].utime_us == 2'000'000);
@@ -50,8 +50,9 @@ TEST_CASE("Estimates that join add up from the first true pose, beside the true 
 }
 
 TEST_CASE("A gap is crossed as truth did, and counted") {
-  const auto path = driven_path(
-      {estimate(0, 1'000'000, 11.0, 0.0), estimate(4'000'000, 5'000'000, 12.0, 0.0)}, truth());
+  const auto path =
+      driven_path({estimate(0, 1'000'000, 11.0, 0.0), estimate(4'000'000, 5'000'000, 12.0, 0.0)},
+                  straight_truth());
   REQUIRE(path.size() == 4);
   CHECK(path[2].utime_us == 4'000'000);
   CHECK(path[2].estimate.x_m == Approx(5.0 + 11.0 + 30.0));
@@ -66,7 +67,7 @@ TEST_CASE("Estimates outside of truth's time are no part of the path") {
   const auto path =
       driven_path({estimate(-1'000'000, 0, 10.0, 0.0), estimate(0, 1'000'000, 10.0, 0.0),
                    estimate(9'500'000, 10'500'000, 10.0, 0.0)},
-                  truth());
+                  straight_truth());
   CHECK(path.size() == 2);
-  CHECK(driven_path({}, truth()).empty());
+  CHECK(driven_path({}, straight_truth()).empty());
 }

@@ -69,7 +69,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
 }
 
 /// Those of two targets are scans, the others odometry.
-void write_log(const std::string& path, std::vector<std::vector<std::uint8_t>>& payloads) {
+void write_heard(const std::string& path, std::vector<std::vector<std::uint8_t>>& payloads) {
   lcm::LogFile log(path, "w");
   for (auto& payload : payloads) {
     lcm::LogEvent event{};
@@ -227,7 +227,7 @@ TEST_CASE("What LCM brings is taken, what is cut off or lies about its size is n
   payloads[0].pop_back();
   // The number of its targets, behind the source "front".
   std::fill_n(payloads[1].begin() + 24 + 4 + 6 + 33, 4, std::uint8_t{0x7F});
-  write_log(path, payloads);
+  write_heard(path, payloads);
   HeardState state;
   LcmListener listener("file://" + path + "?speed=0", state);
   while (listener.listen()) {

@@ -58,16 +58,16 @@ ego_motion_t message() {
   return result;
 }
 
-std::vector<std::uint8_t> encoded(const ego_motion_t& message) {
+std::vector<std::uint8_t> encoded_motion(const ego_motion_t& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
 }
 
-void write_log(const std::string& path, const std::vector<std::uint8_t>& bytes,
-               const std::string& channel = "CREMED_EGO_MOTION") {
+void write_motions(const std::string& path, const std::vector<std::uint8_t>& bytes,
+                   const std::string& channel = "CREMED_EGO_MOTION") {
   lcm::LogFile log(path, "w");
-  for (std::vector<std::uint8_t> data : {encoded(message()), bytes}) {
+  for (std::vector<std::uint8_t> data : {encoded_motion(message()), bytes}) {
     lcm::LogEvent event{};
     event.channel = channel;
     event.datalen = static_cast<int>(data.size());
@@ -116,13 +116,13 @@ TEST_CASE("Messages that are none of ours are left out and counted") {
     const char* what;
     std::vector<std::uint8_t> bytes;
   };
-  std::vector<std::uint8_t> other_type = encoded(message());
+  std::vector<std::uint8_t> other_type = encoded_motion(message());
   other_type[0] ^= 1U;
-  std::vector<std::uint8_t> cut = encoded(message());
+  std::vector<std::uint8_t> cut = encoded_motion(message());
   cut.pop_back();
-  std::vector<std::uint8_t> longer = encoded(message());
+  std::vector<std::uint8_t> longer = encoded_motion(message());
   longer.push_back(0);
-  std::vector<std::uint8_t> no_string = encoded(message());
+  std::vector<std::uint8_t> no_string = encoded_motion(message());
   constexpr std::size_t kLowByteOfSourceLength = 8 + 3 * 8 + 3;
   no_string[kLowByteOfSourceLength] = 0;
   ego_motion_t unknown_status = message();
@@ -134,12 +134,12 @@ TEST_CASE("Messages that are none of ours are left out and counted") {
                                  {"too long", longer},
                                  {"empty", {}},
                                  {"string of no length", no_string},
-                                 {"unknown status", encoded(unknown_status)},
-                                 {"a name that breaks the row", encoded(two_columns)}};
+                                 {"unknown status", encoded_motion(unknown_status)},
+                                 {"a name that breaks the row", encoded_motion(two_columns)}};
   const TemporaryFolder folder;
   for (const Row& row : rows) {
     CAPTURE(row.what);
-    write_log(folder.file("log"), row.bytes);
+    write_motions(folder.file("log"), row.bytes);
     const Converted converted = convert(folder.file("log"));
     CHECK(converted.counters.motions == 1);
     CHECK(converted.counters.bad_messages == 1);
@@ -161,9 +161,9 @@ TEST_CASE("A log that cannot be good is a failure that says why") {
   };
   CHECK(error_of("/no/such.lcm", 1).find("cannot read /no/such.lcm") != std::string::npos);
   CHECK(error_of("", 2).find("LOG is required") != std::string::npos);
-  write_log(log, encoded(message()), "CREMED_STATUS");
+  write_motions(log, encoded_motion(message()), "CREMED_STATUS");
   CHECK(error_of(log, 1).find("no motion") != std::string::npos);
-  write_log(log, encoded(message()));
+  write_motions(log, encoded_motion(message()));
   CHECK(error_of(log, 0).empty());
   CHECK(error_of(log + " --output " + log, 2).find("name another file") != std::string::npos);
   CHECK(error_of(log + " --odometry " + log, 2).find("name another file") != std::string::npos);
@@ -192,7 +192,7 @@ TEST_CASE("Of a damaged log what comes before is converted, and where the damage
       {"beyond the end", 24, 0x0FFFFFFF, ": ends inside a message, which begins at byte 200"}};
   const TemporaryFolder folder;
   const std::string log = folder.file("log");
-  write_log(log, encoded(message()));
+  write_motions(log, encoded_motion(message()));
   const std::string good = content(log);
   const std::size_t second = good.size() / 2;
   for (const Row& row : rows) {

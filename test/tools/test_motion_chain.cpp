@@ -17,8 +17,8 @@ Eigen::Matrix3d some_covariance(double scale) {
 }
 
 /// Exact states relative to anchors that are renewed every `rows` rows.
-std::vector<RecordedEstimate> since_anchors(const Circle& circle, std::size_t count,
-                                            std::size_t rows) {
+std::vector<RecordedEstimate> exact_since_anchors(const Circle& circle, std::size_t count,
+                                                  std::size_t rows) {
   std::vector<RecordedEstimate> result;
   for (std::size_t i = 0; i < count; ++i) {
     const auto anchor_us = static_cast<std::int64_t>(i / rows * rows) * 100'000;
@@ -59,7 +59,7 @@ TEST_CASE("Motions that join make the way, motions since anchors make the same w
   const auto rows = GENERATE(std::size_t{1}, std::size_t{7}, std::size_t{1000});
   CAPTURE(rows);
   MotionChain chain(0);
-  for (const RecordedEstimate& estimate : since_anchors(circle, 100, rows)) {
+  for (const RecordedEstimate& estimate : exact_since_anchors(circle, 100, rows)) {
     REQUIRE(chain.add(estimate));
   }
   CHECK(chain.end_us() == 10'000'000);
@@ -69,7 +69,7 @@ TEST_CASE("Motions that join make the way, motions since anchors make the same w
 
 TEST_CASE("Only the ends of the anchors' intervals are chained, with their covariances") {
   const Circle circle;
-  const auto states = since_anchors(circle, 25, 10);
+  const auto states = exact_since_anchors(circle, 25, 10);
   MotionChain chain(0);
   for (const RecordedEstimate& state : states) REQUIRE(chain.add(state));
   const auto piece = [&](std::size_t i) {
@@ -81,7 +81,7 @@ TEST_CASE("Only the ends of the anchors' intervals are chained, with their covar
 
 TEST_CASE("A motion that does not join is a gap") {
   const Circle circle;
-  const auto estimates = since_anchors(circle, 30, 10);
+  const auto estimates = exact_since_anchors(circle, 30, 10);
   MotionChain chain(0);
   REQUIRE(chain.add(estimates[0]));
   CHECK_FALSE(chain.add({1'000'000, 1'100'000, {}, {}}));

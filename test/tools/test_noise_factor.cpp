@@ -12,13 +12,13 @@
 namespace cremed {
 namespace {
 
-struct Row {
+struct Noise {
   double factor;
   double other_std;
   double nonsense;
 };
 
-std::vector<ScaledError> draw(const Row& row, unsigned seed) {
+std::vector<ScaledError> draw_errors(const Noise& row, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(-kErrorGate, kErrorGate);
@@ -33,12 +33,12 @@ std::vector<ScaledError> draw(const Row& row, unsigned seed) {
 }
 
 TEST_CASE("the noise factor is that of the errors, whatever nonsense is among them") {
-  const auto row = GENERATE(Row{1.0, 0.0, 0.0}, Row{0.4, 0.0, 0.0}, Row{0.7, 0.0, 0.2},
-                            Row{1.3, 0.0, 0.1}, Row{1.0, 1.0, 0.1}, Row{0.5, 0.5, 0.0});
+  const auto row = GENERATE(Noise{1.0, 0.0, 0.0}, Noise{0.4, 0.0, 0.0}, Noise{0.7, 0.0, 0.2},
+                            Noise{1.3, 0.0, 0.1}, Noise{1.0, 1.0, 0.1}, Noise{0.5, 0.5, 0.0});
   CAPTURE(row.factor, row.other_std, row.nonsense);
   double squares = 0.0;
   for (unsigned seed = 1; seed <= 10; ++seed) {
-    const StdFactor found = noise_factor(draw(row, seed));
+    const StdFactor found = noise_factor(draw_errors(row, seed));
     CHECK(found.value == Approx(row.factor).epsilon(0.15));
     squares += std::pow((found.value - row.factor) / found.std, 2);
   }
@@ -49,10 +49,10 @@ TEST_CASE("the noise factor is that of the errors, whatever nonsense is among th
 TEST_CASE("too few errors, or none that are the sensor's, tell no factor") {
   CHECK(noise_factor({}).std == 0.0);
   CHECK(noise_factor(std::vector<ScaledError>(100, {0, 1.0, 0.0})).std == 0.0);
-  CHECK(noise_factor(draw({0.0, 0.8, 0.0}, 1)).value == 1.0);
+  CHECK(noise_factor(draw_errors({0.0, 0.8, 0.0}, 1)).value == 1.0);
 }
 
-Target target_at(double x_m, double y_m) {
+Target placed_at(double x_m, double y_m) {
   Target target;
   target.x_m = x_m;
   target.y_m = y_m;
@@ -72,9 +72,9 @@ TEST_CASE("targets found again show their errors in both scans' standard deviati
     const double s = std::sin(motion.yaw_rad);
     const double range_m = std::hypot(x_m - 1.0, y_m);
     const double scale = (range_m + more_m) / range_m;
-    return target_at(scale * (c * (x_m - 1.0) + s * y_m), scale * (c * y_m - s * (x_m - 1.0)));
+    return placed_at(scale * (c * (x_m - 1.0) + s * y_m), scale * (c * y_m - s * (x_m - 1.0)));
   };
-  const RecordedScan previous{0, {target_at(20.0, 0.0), target_at(30.0, 1.0)}};
+  const RecordedScan previous{0, {placed_at(20.0, 0.0), placed_at(30.0, 1.0)}};
   const RecordedScan current{70'000, {seen(20.0, 0.0, 0.0), seen(30.0, 1.0, 0.3)}};
   MatchErrors errors;
   add_match_errors(previous, current, motion, {}, errors);
@@ -87,8 +87,8 @@ TEST_CASE("targets found again show their errors in both scans' standard deviati
 }
 
 TEST_CASE("a target with two candidates is no match") {
-  const RecordedScan previous{0, {target_at(20.0, 0.0), target_at(20.5, 0.1)}};
-  const RecordedScan current{70'000, {target_at(20.2, 0.0)}};
+  const RecordedScan previous{0, {placed_at(20.0, 0.0), placed_at(20.5, 0.1)}};
+  const RecordedScan current{70'000, {placed_at(20.2, 0.0)}};
   MatchErrors errors;
   add_match_errors(previous, current, {}, {}, errors);
   add_match_errors(current, previous, {}, {}, errors);

@@ -14,13 +14,13 @@ using namespace cremed;
 namespace {
 
 /// Steps of a drive: true and estimated motion.
-struct Drive {
+struct DriveSteps {
   Eigen::Vector3d truth;
   Eigen::Vector3d estimate;
   int steps = 0;
 };
 
-std::vector<PathPose> path_of(const Drive& drive) {
+std::vector<PathPose> path_of(const DriveSteps& drive) {
   std::vector<PathPose> path{{0, {3.0, 4.0, 2.0}, {3.0, 4.0, 2.0}, 0.0, 0}};
   for (int i = 0; i < drive.steps; ++i) {
     PathPose pose = path.back();

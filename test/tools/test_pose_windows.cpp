@@ -13,13 +13,6 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr std::int64_t kStepUs = 100'000;
-
-TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
-  Random unused(0, 0);
-  return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
-}
-
 /// Without errors.
 std::vector<RecordedEstimate> exact_steps(const Circle& circle, std::int64_t step_us,
                                           std::size_t steps) {

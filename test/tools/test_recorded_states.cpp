@@ -14,25 +14,25 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr const char* kHeader =
+constexpr const char* kStateHeader =
     "utime,utime_anchor,status,x_m,y_m,yaw_rad,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw,"
     "odom_x_m,odom_y_m,odom_yaw_rad,vx_mps,vy_mps,yaw_rate_radps,"
     "cov_vxvx,cov_vxvy,cov_vxw,cov_vyvy,cov_vyw,cov_ww\n";
 
-RecordedStates read(const std::string& rows) {
-  std::istringstream csv(kHeader + rows);
+RecordedStates read_rows(const std::string& rows) {
+  std::istringstream csv(kStateHeader + rows);
   return read_states(CsvTable(csv));
 }
 
 }  // namespace
 
 TEST_CASE("The vehicle's state is told by its header and read with its covariances") {
-  std::istringstream states(kHeader);
+  std::istringstream states(kStateHeader);
   std::istringstream motions("utime_start,utime,source\n");
   CHECK(holds_states(CsvTable(states)));
   CHECK_FALSE(holds_states(CsvTable(motions)));
 
-  const auto recorded = read(
+  const auto recorded = read_rows(
       "1000,1000,initialising,nan,nan,nan,nan,nan,nan,nan,nan,nan,0,0,0,"
       "nan,nan,nan,nan,nan,nan,nan,nan,nan\n"
       "2000,2000,ok,0,0,0,0,0,0,0,0,0,0,0,0,8,0.1,0.2,1,2,3,4,5,6\n"
@@ -62,7 +62,7 @@ TEST_CASE("The vehicle's state is told by its header and read with its covarianc
 
 TEST_CASE("A state that is said to be one and is not finite is refused with the place") {
   CHECK_THROWS_WITH(
-      read("3000,2000,ok,0.1,0.2,0.3,11,12,13,14,15,16,7,7,7,nan,0.1,0.2,1,2,3,4,5,6\n"),
+      read_rows("3000,2000,ok,0.1,0.2,0.3,11,12,13,14,15,16,7,7,7,nan,0.1,0.2,1,2,3,4,5,6\n"),
       Catch::Contains("row 1, vx_mps"));
 }
 

@@ -18,9 +18,9 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 3;
+constexpr std::uint64_t kDrives = 3;
 
-std::vector<RadarConfiguration> radars_in(int degrees_of_freedom, bool with_doppler = true) {
+std::vector<RadarConfiguration> radars_with(int degrees_of_freedom, bool with_doppler = true) {
   std::vector<RadarConfiguration> radars = default_radars();
   for (RadarConfiguration& radar : radars) {
     radar.ego_motion.registration.degrees_of_freedom = degrees_of_freedom;
@@ -52,9 +52,9 @@ struct Joined {
 std::vector<Joined> drives(const char* name, int degrees_of_freedom = 2, bool with_doppler = true,
                            double duration_s = 0.0) {
   constexpr std::int64_t kCycleUs = 110'000;
-  const auto radars = radars_in(degrees_of_freedom, with_doppler);
+  const auto radars = radars_with(degrees_of_freedom, with_doppler);
   std::vector<Joined> joined(kFused + 1, Joined(degrees_of_freedom));
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
     SimulationOptions options;
     options.seed = seed;
     options.duration_s = duration_s;
@@ -101,7 +101,7 @@ struct Regime {
   Bound rear;
 };
 
-void check(const Joined& joined, const Bound& bound) {
+void check_bound(const Joined& joined, const Bound& bound) {
   check_credible(joined.all);
   CHECK(joined.all.rmse_m() <= bound.rmse_m);
   CHECK(joined.all.rmse_deg() <= bound.rmse_deg);
@@ -123,8 +123,8 @@ TEST_CASE("Regimes: the covariance is that of the errors") {
       Regime{"skid", 3, Status::ok, 0.99, 0.0, {0.024, 0.34}, {0.021, 0.28}});
   CAPTURE(regime.name);
   const auto joined = drives(regime.name, regime.degrees_of_freedom, true, regime.duration_s);
-  check(joined[kFront], regime.front);
-  check(joined[kRear], regime.rear);
+  check_bound(joined[kFront], regime.front);
+  check_bound(joined[kRear], regime.rear);
   CHECK(joined[kFront].share(regime.status) >= regime.share);
   CHECK(joined[kRear].share(regime.status) >= regime.share);
 }
@@ -147,7 +147,7 @@ TEST_CASE("Regimes: empty scans and gaps are spanned, and what spans them is cre
   const auto all = drives(name, 2, true, 90.0);
   for (const std::size_t radar : {kFront, kRear}) {
     const Joined& joined = all[radar];
-    check(joined, {0.028, 0.26});
+    check_bound(joined, {0.028, 0.26});
     CHECK(joined.all.count() >= joined.motions.size() * 8 / 10);
     CHECK(joined.spanning.count() >= 100);
     CHECK(joined.spanning.anees() <= 1.25);
@@ -159,7 +159,7 @@ TEST_CASE("Regimes: empty scans and gaps are spanned, and what spans them is cre
 TEST_CASE("Regimes: a silence longer than max_gap_s is not spanned") {
   const auto all = drives("silent", 2, true, 50.0);
   for (const Joined& joined : {all[kFront], all[kRear]}) {
-    check(joined, {0.013, 0.27});
+    check_bound(joined, {0.013, 0.27});
     CHECK(joined.count(MotionStatus::gap_too_long) == 6);
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("Regimes: a tunnel's walls alone do not tell how far") {
 TEST_CASE("Regimes: among cars that drive as we do, a radar without a motion flag refuses") {
   const auto* const name = GENERATE("jam", "crowd");
   const auto joined = drives(name);
-  check(joined[kFront], {0.010, 0.25});
+  check_bound(joined[kFront], {0.010, 0.25});
   CHECK(joined[kFront].all.count() >= joined[kFront].motions.size() * 95 / 100);
   const Joined& rear = joined[kRear];
   CHECK(rear.share(MotionStatus::ambiguous) >= 0.7);

@@ -13,7 +13,7 @@ using cremed::TemporaryFolder;
 
 namespace {
 
-ToolRun run(const TemporaryFolder& folder, const std::string& arguments) {
+ToolRun run_simulate(const TemporaryFolder& folder, const std::string& arguments) {
   return run_tool("cremed-simulate", folder, arguments);
 }
 
@@ -49,23 +49,24 @@ TEST_CASE("cremed-simulate writes log and truth") {
   const TemporaryFolder folder;
   const std::string log = folder.file("drive.log");
   const std::string truth = folder.file("truth.csv");
-  const ToolRun result = run(folder, "--scenario bends --duration 3 --seed 9 --start 1600000000" +
-                                         (" --output " + log) + " --truth " + truth);
+  const ToolRun result =
+      run_simulate(folder, "--scenario bends --duration 3 --seed 9 --start 1600000000" +
+                               (" --output " + log) + " --truth " + truth);
   CHECK(result.status == 0);
   CHECK(result.error.empty());
   CHECK(content(log).rfind("(16000000", 0) == 0);
   CHECK(content(truth).rfind("utime,x_m,y_m,yaw_rad\n1600000000000000,", 0) == 0);
 
-  const ToolRun piped = run(folder,
-                            "--scenario bends --duration 3 --seed 9 --start 1600000000 "
-                            "--output -");
+  const ToolRun piped = run_simulate(folder,
+                                     "--scenario bends --duration 3 --seed 9 --start 1600000000 "
+                                     "--output -");
   CHECK(piped.status == 0);
   CHECK(piped.output == content(log));
 }
 
 TEST_CASE("cremed-simulate names its scenarios") {
   const TemporaryFolder folder;
-  const ToolRun result = run(folder, "--scenario list");
+  const ToolRun result = run_simulate(folder, "--scenario list");
   CHECK(result.status == 0);
   for (const auto& scenario : cremed::scenarios()) {
     CHECK(result.output.find(std::string(scenario.name) + " ") != std::string::npos);
@@ -83,7 +84,7 @@ interface = "can7"
 sensor_id = 2
 mount = { x_m = 2.0, y_m = 0.9, yaw_rad = 1.5 }
 )";
-  const ToolRun result = run(
+  const ToolRun result = run_simulate(
       folder, "--scenario standing --duration 2 --output - --config " + folder.file("radars.toml"));
   CAPTURE(result.error);
   CHECK(result.status == 0);
@@ -127,5 +128,5 @@ TEST_CASE("cremed-simulate says what is wrong") {
               "line 1 could not be written: No space left"});
   CAPTURE(row.arguments);
   const TemporaryFolder folder;
-  check(run(folder, row.arguments), row);
+  check(run_simulate(folder, row.arguments), row);
 }

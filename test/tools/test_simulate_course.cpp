@@ -22,13 +22,13 @@ using cremed::VehicleState;
 using cremed::test::TruthTable;
 
 /// Displacement from one pose to the next, in the frame of their mean heading.
-struct Motion {
+struct Pace {
   double forward_mps;
   double left_mps;
   double yaw_rate_radps;
 };
 
-Motion motion(const Pose2& from, const Pose2& to, double dt_s) {
+Pace pace(const Pose2& from, const Pose2& to, double dt_s) {
   const double yaw = 0.5 * (from.yaw_rad + to.yaw_rad);
   const double dx = to.x_m - from.x_m;
   const double dy = to.y_m - from.y_m;
@@ -115,11 +115,11 @@ TEST_CASE("every scenario drives as a car can") {
   double jerk_mps3 = 0.0;
   double curvature_1pm = 0.0;
   double slowest_mps = 0.0;
-  std::vector<Motion> motions;
+  std::vector<Pace> motions;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     REQUIRE(rows[i].stamp_us - rows[i - 1].stamp_us == 10'000);
-    motions.push_back(motion(rows[i - 1].pose, rows[i].pose, 0.01));
-    const Motion& m = motions.back();
+    motions.push_back(pace(rows[i - 1].pose, rows[i].pose, 0.01));
+    const Pace& m = motions.back();
     sideways_mps = std::max(sideways_mps, std::abs(m.left_mps));
     slowest_mps = std::min(slowest_mps, m.forward_mps);
     across_mps2 = std::max(across_mps2, std::abs(m.forward_mps * m.yaw_rate_radps));

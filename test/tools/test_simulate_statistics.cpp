@@ -117,7 +117,7 @@ void check_standard_normal(const Moments& moments, double slack) {
 
 constexpr std::array<const char*, 3> kComponents{"range", "azimuth", "doppler"};
 constexpr std::size_t kClusters = 0;  // Indices in one_of_each_kind().
-constexpr std::size_t kGpr = 1;
+constexpr std::size_t kGprRadar = 1;
 
 constexpr double kSharedMps = 0.15;
 constexpr double kReportedMps = 0.125;  // For every target of the simulated GPR.
@@ -169,7 +169,7 @@ TEST_CASE("errors of standing targets have the standard deviations that are repo
 
 TEST_CASE("errors of one target are not the same from scan to scan") {
   const std::string name = GENERATE("standing", "bends");
-  const std::size_t radar = GENERATE(kClusters, kGpr);
+  const std::size_t radar = GENERATE(kClusters, kGprRadar);
   CAPTURE(name, radar);
   const auto scans = errors_over_seeds(name, radar);
   for (std::size_t component = 0; component < kComponents.size(); ++component) {
@@ -190,7 +190,7 @@ TEST_CASE("errors of one target are not the same from scan to scan") {
 
 TEST_CASE("errors of range, azimuth and Doppler are independent") {
   const std::string name = GENERATE("bends", "standing");
-  const std::size_t radar = GENERATE(kClusters, kGpr);
+  const std::size_t radar = GENERATE(kClusters, kGprRadar);
   CAPTURE(name, radar);
   Moments range_azimuth;
   Moments range_doppler;
@@ -212,7 +212,7 @@ TEST_CASE("a shared Doppler error is in all targets of a scan and changes slowly
   Moments squares;
   Moments products;
   double previous = 0.0;
-  for (const ScanErrors& scan : errors_over_seeds("bends", kGpr, kSharedMps)) {
+  for (const ScanErrors& scan : errors_over_seeds("bends", kGprRadar, kSharedMps)) {
     const auto count = static_cast<double>(scan.errors.size());
     if (scan.errors.size() < 20) continue;
     const double mean_mps = kReportedMps * sum_of(scan, 2) / count;

@@ -25,7 +25,7 @@ using namespace cremed::test;
 namespace {
 
 constexpr double kLeadS = 0.04;
-const Pose2 kMount{3.4, 0.6, 0.4};
+const Pose2 kLeftMount{3.4, 0.6, 0.4};
 
 /// A target and its position in the world, by the truth file alone. Positions are in the radar's
 /// frame, 10 ms before the stamp, at it and 10 ms after.
@@ -63,20 +63,20 @@ Seen seen_at(const Detection& detection, const Echo& echo, const TruthTable& tru
     return truth.at(static_cast<double>(stamp_us) + offset_us);
   };
   const auto place = [&](double offset_us) {
-    return seen_from(vehicle(offset_us), kMount, echo.x_m, echo.y_m);
+    return seen_from(vehicle(offset_us), kLeftMount, echo.x_m, echo.y_m);
   };
   return {detection,        echo.kind,
           place(-10'000.0), place(0.0),
           place(10'000.0),  (vehicle(10'000.0).yaw_rad - vehicle(-10'000.0).yaw_rad) / 0.02};
 }
 
-Drive drive_of(const char* name, bool is_told, double duration_s = 40.0,
-               double azimuth_scale = 1.0) {
+Drive told_drive(const char* name, bool is_told, double duration_s = 40.0,
+                 double azimuth_scale = 1.0) {
   SimulationOptions options;
   options.is_told_motion = is_told;
   options.duration_s = duration_s;
   options.body_velocity_std_mps = 0.0;
-  RadarConfiguration front = radar("front", "can0", kMount, Ars408Options{});
+  RadarConfiguration front = radar("front", "can0", kLeftMount, Ars408Options{});
   front.ego_motion.correction.azimuth_scale = azimuth_scale;
   return drive(scenario(name), {front}, exactly_mounted(options));
 }
@@ -131,13 +131,13 @@ TEST_CASE("The velocity across is how a standing point moves in the radar's fram
       const VehicleState state = course.at(time_s);
       const double x_m = state.pose.x_m + 20.0 * std::cos(bearing_rad);
       const double y_m = state.pose.y_m + 20.0 * std::sin(bearing_rad);
-      const Polar before = seen_from(course.at(time_s - 1e-3).pose, kMount, x_m, y_m);
-      const Polar now = seen_from(state.pose, kMount, x_m, y_m);
-      const Polar after = seen_from(course.at(time_s + 1e-3).pose, kMount, x_m, y_m);
+      const Polar before = seen_from(course.at(time_s - 1e-3).pose, kLeftMount, x_m, y_m);
+      const Polar now = seen_from(state.pose, kLeftMount, x_m, y_m);
+      const Polar after = seen_from(course.at(time_s + 1e-3).pose, kLeftMount, x_m, y_m);
       const double expected_mps =
           now.range_m * std::remainder(after.azimuth_rad - before.azimuth_rad, 2.0 * M_PI) / 2e-3;
-      const double across_mps = static_across_mps({state.speed_mps, state.yaw_rate_radps}, kMount,
-                                                  now.range_m, now.azimuth_rad);
+      const double across_mps = static_across_mps({state.speed_mps, state.yaw_rate_radps},
+                                                  kLeftMount, now.range_m, now.azimuth_rad);
       REQUIRE(across_mps == Approx(expected_mps).margin(1e-3));
     }
   }
@@ -163,14 +163,14 @@ TEST_CASE("What a vehicle tells is what it measured 10 to 20 ms ago, nearly") {
 }
 
 TEST_CASE("An ARS408 that is told tells how a standing target moves across, of moving ones too") {
-  const auto all = all_seen(drive_of("garage", true, 58.0));
+  const auto all = all_seen(told_drive("garage", true, 58.0));
   const auto across = [](const Seen& seen) {
     return seen.across_mps(seen.detection.azimuth_rad + kLeadS * seen.yaw_rate_radps);
   };
   CHECK(slope(all, static_across, across, turns_left) == Approx(1.0).margin(0.01));
   CHECK(slope(all, static_across, across, turns_right) == Approx(1.0).margin(0.01));
 
-  const auto city = all_seen(drive_of("crowd", true, 60.0));
+  const auto city = all_seen(told_drive("crowd", true, 60.0));
   const auto moves = [](const Seen& seen) { return seen.kind == EchoKind::vehicle; };
   const auto stands = [](const Seen& seen) { return seen.kind == EchoKind::fixed; };
   CHECK(slope(city, static_across, across, moves) == Approx(1.0).margin(0.02));
@@ -178,7 +178,7 @@ TEST_CASE("An ARS408 that is told tells how a standing target moves across, of m
 }
 
 TEST_CASE("Positions are turned ahead, against the vehicle's turn, by 40 ms; ranges are not") {
-  const auto all = all_seen(drive_of("garage", true, 58.0));
+  const auto all = all_seen(told_drive("garage", true, 58.0));
   CHECK(slope(all, yaw_rate, azimuth_error, turns_left) == Approx(-kLeadS).margin(0.004));
   CHECK(slope(all, yaw_rate, azimuth_error, turns_right) == Approx(-kLeadS).margin(0.004));
   const auto range = [](const Seen& seen) { return seen.now.range_m; };
@@ -187,7 +187,7 @@ TEST_CASE("Positions are turned ahead, against the vehicle's turn, by 40 ms; ran
 }
 
 TEST_CASE("On the reported line of sight Doppler has too much by tau w^2 r") {
-  const auto all = all_seen(drive_of("roundabout", true, 30.0));
+  const auto all = all_seen(told_drive("roundabout", true, 30.0));
   const auto predicted = [](const Seen& seen) {
     return kLeadS * seen.yaw_rate_radps * seen.yaw_rate_radps * seen.now.range_m;
   };
@@ -207,7 +207,7 @@ TEST_CASE("On the reported line of sight Doppler has too much by tau w^2 r") {
 
 TEST_CASE(
     "An ARS408 that is told nothing sends radial velocities, unturned, and all seems to move") {
-  const Drive drive = drive_of("garage", false, 58.0);
+  const Drive drive = told_drive("garage", false, 58.0);
   const auto all = all_seen(drive);
   for (const Seen& seen : all) {
     // Half a step of both grids, in the worst direction.
@@ -227,7 +227,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Straight on nothing is turned") {
-  const auto all = all_seen(drive_of("straight", true, 20.0));
+  const auto all = all_seen(told_drive("straight", true, 20.0));
   const auto one = [](const Seen&) { return 1.0; };
   CHECK(slope(all, one, azimuth_error, drives_straight) == Approx(0.0).margin(3e-4));
 }
@@ -282,7 +282,7 @@ TEST_CASE("What a radar sees is seen from where it really is") {
 TEST_CASE(
     "A radar with an azimuth scale measures smaller azimuths, and Doppler where the target is") {
   constexpr double kScale = 1.05;
-  const auto all = all_seen(drive_of("city", true, 40.0, kScale));
+  const auto all = all_seen(told_drive("city", true, 40.0, kScale));
   const auto azimuth = [](const Seen& seen) { return seen.now.azimuth_rad; };
   const auto reported = [](const Seen& seen) { return seen.detection.azimuth_rad; };
   const auto doppler = [](const Seen& seen) { return seen.detection.doppler_mps; };

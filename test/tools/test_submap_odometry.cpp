@@ -23,7 +23,7 @@ struct Driven {
 };
 
 /// Along a bend; the velocity's yaw rate is too large by `yaw_rate_error_radps`.
-Driven drive(unsigned seed, const Eigen::Vector3d& twist, double yaw_rate_error_radps) {
+Driven drive_bend(unsigned seed, const Eigen::Vector3d& twist, double yaw_rate_error_radps) {
   constexpr int kSweeps = 60;
   DrawnWorld world(seed, 400);
   SubmapOdometry odometry{{}};
@@ -52,7 +52,7 @@ TEST_CASE("A submap keeps the way that a wrong yaw rate leaves") {
       GENERATE(Eigen::Vector3d(10.0, 0.0, 0.0), Eigen::Vector3d(8.0, 0.0, 0.3));
   double submap_rad = 0.0;
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Driven driven = drive(seed, twist, 0.03);
+    const Driven driven = drive_bend(seed, twist, 0.03);
     const double velocity_rad = driven.velocity.yaw_rad - driven.truth.yaw_rad;
     CHECK(std::abs(velocity_rad) > 0.1);
     submap_rad = std::max(submap_rad, std::abs(driven.submap.yaw_rad - driven.truth.yaw_rad));

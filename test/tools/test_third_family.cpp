@@ -155,7 +155,7 @@ channel = 2
 mount = { x_m = 0.0, y_m = 0.0, yaw_rad = 0.0 }
 )";
 
-Configuration parse(const std::string& text) {
+Configuration parse_fan(const std::string& text) {
   Configuration configuration = parse_configuration(text, "fan.toml", three_families());
   configuration.output.lcm_url = "none";
   return configuration;
@@ -163,7 +163,7 @@ Configuration parse(const std::string& text) {
 
 std::string refusal(const std::string& text) {
   try {
-    parse(text);
+    parse_fan(text);
   } catch (const ConfigurationError& error) {
     return error.what();
   }
@@ -205,7 +205,7 @@ std::vector<CanFrame> fan_drive() {
 }  // namespace
 
 TEST_CASE("A third family is configured by its type") {
-  const Configuration configuration = parse(kText + "invert_doppler = true\n");
+  const Configuration configuration = parse_fan(kText + "invert_doppler = true\n");
   const auto* options = configuration.radars.at(0).decoder.as<fan::FanOptions>();
   REQUIRE(options != nullptr);
   CHECK(options->channel == 2);
@@ -238,7 +238,7 @@ TEST_CASE("Its keys are checked and told from those of others") {
 }
 
 TEST_CASE("--check-config shows it, and its identifiers are let through") {
-  const Configuration configuration = parse(kText);
+  const Configuration configuration = parse_fan(kText);
   CHECK_THAT(
       configuration_summary(configuration),
       Catch::Contains("front           fan       can3               0.000    0.000     0.00  "
@@ -248,7 +248,7 @@ TEST_CASE("--check-config shows it, and its identifiers are let through") {
 }
 
 TEST_CASE("Of its keys only those are advised that it has") {
-  const Configuration configuration = parse(kText);
+  const Configuration configuration = parse_fan(kText);
   RadarStatus status;
   const auto remedy_of = [&](FaultKind kind) {
     status.odometry.cause = {kind};
@@ -259,7 +259,7 @@ TEST_CASE("Of its keys only those are advised that it has") {
 }
 
 TEST_CASE("Its frames become odometry") {
-  const Configuration configuration = parse(kText);
+  const Configuration configuration = parse_fan(kText);
   const RecordingSink sink = run_pipeline(configuration.radars, fan_drive());
   REQUIRE(sink.scans[0].size() == 20);
   for (const RadarScan& scan : sink.scans[0]) {
@@ -277,7 +277,7 @@ TEST_CASE("The doctor recognises it, suggests it and says how it does") {
   for (const CanFrame& frame : fan_drive()) {
     traffic.push_back({"can3", frame});
   }
-  const Configuration configuration = parse(kText);
+  const Configuration configuration = parse_fan(kText);
   const Observation observation = observe(configuration, traffic);
   const auto seen = seen_radars(observation.buses.at(0).traffic, three_families());
   REQUIRE(seen.size() == 1);

@@ -15,25 +15,18 @@ using namespace cremed::test;
 
 namespace {
 
-constexpr std::int64_t kStepUs = 100'000;
-
-Eigen::Matrix3d covariance() {
+Eigen::Matrix3d diagonal_covariance() {
   return Eigen::Vector3d(0.01, 0.005, 0.001).cwiseAbs2().asDiagonal();
 }
 
-TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
-  Random unused(0, 0);
-  return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
-}
-
-std::vector<SegmentErrors> segments(const RecordedOdometry& odometry, const TrueTrajectory& truth,
-                                    const TruthNoise& noise = {}) {
+std::vector<SegmentErrors> segments_of(const RecordedOdometry& odometry,
+                                       const TrueTrajectory& truth, const TruthNoise& noise = {}) {
   return trajectory_segments(odometry, truth, noise, first_window_us({odometry}, truth));
 }
 
-std::vector<SegmentErrors> segments(const std::vector<RecordedEstimate>& estimates,
-                                    const TrueTrajectory& truth, const TruthNoise& noise = {}) {
-  return segments(RecordedOdometry{"front", estimates, 0}, truth, noise);
+std::vector<SegmentErrors> segments_of(const std::vector<RecordedEstimate>& estimates,
+                                       const TrueTrajectory& truth, const TruthNoise& noise = {}) {
+  return segments_of(RecordedOdometry{"front", estimates, 0}, truth, noise);
 }
 
 const SegmentErrors& of(const std::vector<SegmentErrors>& all, const std::string& length) {
@@ -44,7 +37,7 @@ const SegmentErrors& of(const std::vector<SegmentErrors>& all, const std::string
 }
 
 /// The number of segments without overlap determines the accuracy of a mean.
-void check_is_one(double nees, double apart, int degrees_of_freedom) {
+void check_mean_is_one(double nees, double apart, int degrees_of_freedom) {
   const Interval interval =
       anees_interval(static_cast<std::size_t>(apart), degrees_of_freedom, 0.999);
   CHECK(nees > interval.low);
@@ -77,13 +70,13 @@ TEST_CASE("Independent errors of true covariance give ANEES 1 at every length, a
   const Circle circle{8.0, 0.05};
   constexpr std::size_t kSteps = 20'000;  // 2000 s, 16 km
   Random random(21, 0);
-  const auto steps = circle.estimates(kStepUs, kSteps, covariance(), random);
+  const auto steps = circle.estimates(kStepUs, kSteps, diagonal_covariance(), random);
   const bool anchored = rows_per_anchor != 0;
   const auto all =
-      anchored
-          ? segments(RecordedOdometry{"odometry", since_anchors(steps, rows_per_anchor), 0, steps},
+      anchored ? segments_of(
+                     RecordedOdometry{"odometry", since_anchors(steps, rows_per_anchor), 0, steps},
                      exact_truth(circle, kSteps))
-          : segments(steps, exact_truth(circle, kSteps));
+               : segments_of(steps, exact_truth(circle, kSteps));
   REQUIRE(all.size() == 7);
   const std::size_t begins = rows_per_anchor == 0 ? kSteps / 5 : kSteps / rows_per_anchor;
   for (const SegmentErrors& errors : all) {
@@ -96,10 +89,10 @@ TEST_CASE("Independent errors of true covariance give ANEES 1 at every length, a
     const auto windows = static_cast<std::size_t>((2000.0 - seconds) / 0.5);
     CHECK(errors.segments == (by_time ? windows : errors.chains));
     const double apart = std::min(1999.5 / seconds, static_cast<double>(begins));
-    check_is_one(errors.anees, apart, 3);
-    check_is_one(errors.nees.x(), apart, 1);
-    check_is_one(errors.nees.y(), apart, 1);
-    check_is_one(errors.nees.z(), apart, 1);
+    check_mean_is_one(errors.anees, apart, 3);
+    check_mean_is_one(errors.nees.x(), apart, 1);
+    check_mean_is_one(errors.nees.y(), apart, 1);
+    check_mean_is_one(errors.nees.z(), apart, 1);
     CHECK(errors.rmse.z() ==
           Approx(0.001 * std::sqrt(std::ceil(10.0 * seconds - 1e-9))).epsilon(0.25));
   }
@@ -111,9 +104,9 @@ TEST_CASE("An error that stays shows in the chain, though each motion's is withi
   auto estimates = circle.estimates(kStepUs, 400, 1e-12 * Eigen::Matrix3d::Identity(), random);
   for (RecordedEstimate& estimate : estimates) {
     estimate.motion.z() += 0.001;
-    estimate.covariance = covariance();
+    estimate.covariance = diagonal_covariance();
   }
-  const auto all = segments(estimates, exact_truth(circle, 400));
+  const auto all = segments_of(estimates, exact_truth(circle, 400));
   // 100 motions: 0.1 rad at a sigma of 0.01.
   CHECK(of(all, "10 s").nees.z() == Approx(100.0).epsilon(1e-3));
   CHECK(of(all, "10 s").rmse.z() == Approx(0.1).epsilon(1e-3));
@@ -126,9 +119,9 @@ TEST_CASE("An error of scale is its share of the way; ways end at or beyond thei
   auto estimates = straight.estimates(kStepUs, 400, 1e-12 * Eigen::Matrix3d::Identity(), random);
   for (RecordedEstimate& estimate : estimates) {
     estimate.motion.x() *= 1.02;
-    estimate.covariance = covariance();
+    estimate.covariance = diagonal_covariance();
   }
-  const auto all = segments(estimates, exact_truth(straight, 400));
+  const auto all = segments_of(estimates, exact_truth(straight, 400));
   for (const SegmentErrors& errors : all) {
     CAPTURE(to_text(errors.length));
     // Of the estimated way, after a time of the true one.
@@ -147,7 +140,7 @@ TEST_CASE("Truth's noise is added at the end, by the time that the segment takes
   auto estimates = circle.estimates(kStepUs, 400, 1e-12 * Eigen::Matrix3d::Identity(), random);
   for (RecordedEstimate& estimate : estimates) estimate.motion.z() += 0.001;
   const TruthNoise noise({{0.01, 0.01, 0.01, 1.0}, {0.01, 0.01, 0.1, 10.0}});
-  const auto all = segments(estimates, exact_truth(circle, 400), noise);
+  const auto all = segments_of(estimates, exact_truth(circle, 400), noise);
   CHECK(of(all, "1 s").nees.z() == Approx(1.0).epsilon(1e-3));
   CHECK(of(all, "10 s").nees.z() == Approx(1.0).epsilon(1e-3));
 }
@@ -155,16 +148,16 @@ TEST_CASE("Truth's noise is added at the end, by the time that the segment takes
 TEST_CASE("Segments across a gap and beyond truth are left out") {
   const Circle circle;
   Random random(25, 0);
-  auto estimates = circle.estimates(kStepUs, 400, covariance(), random);
+  auto estimates = circle.estimates(kStepUs, 400, diagonal_covariance(), random);
   const auto truth = exact_truth(circle, 300);
-  CHECK(of(segments(estimates, truth), "10 s").segments == 40);
-  CHECK(of(segments(estimates, truth), "10 s").chains == 40);
+  CHECK(of(segments_of(estimates, truth), "10 s").segments == 40);
+  CHECK(of(segments_of(estimates, truth), "10 s").chains == 40);
   estimates.erase(estimates.begin() + 150);
   // Begins at 0.5, 1, ... 5 s before the gap, and at 15.5 to 20 s after it; the window of 15 s has
   // its first motion at 15.1 s.
-  CHECK(of(segments(estimates, truth), "10 s").segments == 10 + 10);
-  CHECK(of(segments(estimates, truth), "10 s").chains == 10 + 11);
-  const auto none = segments(std::vector<RecordedEstimate>{}, truth);
+  CHECK(of(segments_of(estimates, truth), "10 s").segments == 10 + 10);
+  CHECK(of(segments_of(estimates, truth), "10 s").chains == 10 + 11);
+  const auto none = segments_of(std::vector<RecordedEstimate>{}, truth);
   CHECK(of(none, "50 m").segments == 0);
   CHECK(std::isnan(of(none, "50 m").anees));
 }
@@ -172,12 +165,12 @@ TEST_CASE("Segments across a gap and beyond truth are left out") {
 TEST_CASE("Motions of two degrees of freedom are chained in three") {
   const Circle circle;
   Random random(26, 0);
-  auto estimates = circle.estimates(kStepUs, 100, covariance(), random);
+  auto estimates = circle.estimates(kStepUs, 100, diagonal_covariance(), random);
   for (RecordedEstimate& estimate : estimates) {
     estimate.motion.y() = 0.0;
     estimate.covariance(1, 1) = 0.0;
   }
-  const auto all = segments(estimates, exact_truth(circle, 100));
+  const auto all = segments_of(estimates, exact_truth(circle, 100));
   CHECK(std::isfinite(of(all, "1 s").anees));
   CHECK(of(all, "1 s").nees.y() > 0.0);
 }
@@ -188,9 +181,9 @@ TEST_CASE("A chain ends at the estimate nearest to its time") {
   auto estimates = circle.estimates(300'000, 100, 1e-12 * Eigen::Matrix3d::Identity(), random);
   for (RecordedEstimate& estimate : estimates) {
     estimate.motion.z() += 0.001;
-    estimate.covariance = covariance();
+    estimate.covariance = diagonal_covariance();
   }
-  const auto all = segments(estimates, exact_truth(circle, 300));
+  const auto all = segments_of(estimates, exact_truth(circle, 300));
   // An error of one sigma each: NEES of yaw is the number of motions. 0.9 s are nearer to 1 s than
   // 1.2 s are, and 5.1 s nearer to 5 s than 4.8 s.
   CHECK(of(all, "1 s").nees.z() == Approx(3.0).epsilon(1e-3));

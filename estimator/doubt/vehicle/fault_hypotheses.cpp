@@ -111,8 +111,7 @@ void FaultHypotheses::judge() {
   if (is_start_open_) {
     return;
   }
-  const bool is_known =
-      judged() == 0 || (best.radars != 0 && best.rivals == 0 && !evidence_.contradicts_positions());
+  const bool is_known = judged() == 0 || (best.radars != 0 && best.rivals == 0);
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
     allow_for_scale();

@@ -43,8 +43,6 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Speed along x of a radar that looks sideways: that of the reflections of passed objects.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
-/// Bound of the difference of two speeds. False-alarm rate: 1 in 16000.
-constexpr double kMaxSpeedSigmas = 4.0;
 
 }  // namespace
 
@@ -287,20 +285,6 @@ RadarSet MotionEvidence::present() const {
   RadarSet present = 0;
   for_each(judged_, [&](std::size_t i) { present |= velocity(i) ? set_of(i) : 0U; });
   return present;
-}
-
-bool MotionEvidence::contradicts_positions() const {
-  int refuted = 0;
-  for_each(present(), [&](std::size_t i) {
-    const auto& speed = tracks_[i].speed;
-    const Velocity& velocity = tracks_[i].velocities[1];
-    refuted +=
-        speed && speed->stamp_us == velocity.stamp_us &&
-                squared(velocity.mps.x() - speed->mps) > squared(kMaxSpeedSigmas) * speed->variance
-            ? 1
-            : 0;
-  });
-  return refuted > 1 && 2 * refuted > std::popcount(present());
 }
 
 bool MotionEvidence::is_supported(RadarSet set) const {

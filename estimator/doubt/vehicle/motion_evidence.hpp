@@ -110,9 +110,6 @@ class MotionEvidence {
   [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
     return by_doppler(radar, *velocity(radar));
   }
-  /// The speeds of two radars or more, and of most, contradict their own positions: a fault that
-  /// all may share.
-  [[nodiscard]] bool contradicts_positions() const;
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
   /// Since a step of all radars (add_step()) one that is heard in the set had no other.

@@ -18,7 +18,7 @@ void BusClocks::Offset::note(std::uint32_t other, bool shows_it, int least_buses
 }
 
 void BusClocks::note(const CanFrame& frame) {
-  const std::uint32_t bit = bit_of(frame.interface);
+  const std::uint32_t bit = set_of(frame.interface);
   Clock& own = clocks_[frame.interface];
   buses_ |= bit;
   // Two others that agree: of two buses that differ one may be wrong, or the other. If no delay
@@ -26,15 +26,14 @@ void BusClocks::note(const CanFrame& frame) {
   constexpr int kOthers = 2;
   const int ahead_of = std::min(std::popcount(buses_) - 1, kOthers);
   const std::int64_t offset_us = ahead_of == kOthers ? kOffsetUs : kOffsetOfTwoUs;
-  for (std::uint32_t others = buses_ & ~bit; others != 0; others &= others - 1) {
-    Clock& other = clocks_[static_cast<std::size_t>(std::countr_zero(others))];
-    if (other.last_us - frame.stamp_us > offset_us) {
-      other.ahead.by |= bit;
-      own.behind.by |= others & -others;
+  for_each(buses_ & ~bit, [&](std::size_t i) {
+    if (clocks_[i].last_us - frame.stamp_us > offset_us) {
+      clocks_[i].ahead.by |= bit;
+      own.behind.by |= set_of(i);
     }
-  }
+  });
   if (last_interface_ && *last_interface_ != frame.interface) {
-    const std::uint32_t before = bit_of(*last_interface_);
+    const std::uint32_t before = set_of(*last_interface_);
     Clock& last = clocks_[*last_interface_];
     const std::int64_t back_us = last.last_us - frame.stamp_us;
     own.followed = (own.followed & ~before) | (back_us <= kMaxDifferenceUs ? before : 0U);

@@ -9,6 +9,7 @@
 
 #include "cremed/can_decoders/can_frame.hpp"
 #include "cremed/can_decoders/radar_scan.hpp"
+#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "daemon/configuration/configuration.hpp"
 
 namespace cremed {
@@ -25,7 +26,7 @@ class BusClocks {
   }
   /// The half of it that frames of `interface` have shown: a frame of `other` tells its time.
   [[nodiscard]] bool follows(std::uint8_t interface, std::uint8_t other) const {
-    return interface == other || (clocks_[interface].followed & bit_of(other)) != 0;
+    return interface == other || contains(clocks_[interface].followed, other);
   }
 
   /// Notes a frame of a radar. True if its stamp and those of the frames before it
@@ -78,7 +79,6 @@ class BusClocks {
   /// One a radar, and the vehicle's.
   static constexpr std::size_t kMaxBuses = kMaxRadars + 1;
   static_assert(kMaxBuses <= 32);
-  static constexpr std::uint32_t bit_of(std::uint8_t interface) { return 1U << interface; }
 
   std::array<Clock, kMaxBuses> clocks_{};
   std::uint32_t buses_ = 0;  // That have sent.

@@ -97,9 +97,7 @@ inline Run run(const Scenario& scenario, Random& random) {
     keep_visible(*detections, scenario.half_view_rad);
     add_clutter(*detections, scenario, random);
   }
-  Registration registration(scenario.options, {});
-  registration.set_previous(targets(previous, {}));
-  const RegistrationResult result = registration.solve(targets(current, {}), kDt);
+  const RegistrationResult result = solve(scenario.options, previous, current);
   return {result.motion - motion, result};
 }
 

@@ -3,6 +3,7 @@
 #include "tools/eval/drive/running_nees.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace cremed {
@@ -10,6 +11,7 @@ namespace cremed {
 std::vector<RunningNees> running_nees(const std::vector<TimedNees>& estimates,
                                       int degrees_of_freedom, std::int64_t window_us) {
   std::vector<RunningNees> result;
+  std::map<std::size_t, Interval> intervals;  // By count: of a few sizes, and slow to compute.
   auto begin = estimates.begin();
   auto end = begin;
   for (const TimedNees& centre : estimates) {
@@ -22,8 +24,11 @@ std::vector<RunningNees> running_nees(const std::vector<TimedNees>& estimates,
     const auto count = static_cast<std::size_t>(end - begin);
     const double sum = std::accumulate(
         begin, end, 0.0, [](double total, const TimedNees& e) { return total + e.nees; });
-    result.push_back(
-        {sum / static_cast<double>(count), anees_interval(count, degrees_of_freedom, 0.95)});
+    const auto [interval, is_new] = intervals.try_emplace(count);
+    if (is_new) {
+      interval->second = anees_interval(count, degrees_of_freedom, 0.95);
+    }
+    result.push_back({sum / static_cast<double>(count), interval->second});
   }
   return result;
 }

@@ -361,6 +361,9 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
                               rounded(cause.value * ego_motion.correction.doppler_scale, 1e3),
                               kDopplerScales)})};
     }
+    case FaultKind::offset:
+      return {concat({"all its Doppler is ", decimal(std::abs(cause.value)), " m/s off"}),
+              "the sensor or the offset of its signal is wrong"};
     case FaultKind::sign:
       return {"its Doppler has the wrong sign, or it looks the other way", remedy_of_sign(radar)};
     case FaultKind::upside_down:

@@ -138,6 +138,7 @@ TEST_CASE("status_t numbers the faults as the odometry does") {
   CHECK(status_t::CAUSE_MOUNT_X == static_cast<int>(FaultKind::mount_x));
   CHECK(status_t::CAUSE_LATE == static_cast<int>(FaultKind::late));
   CHECK(status_t::CAUSE_EXCHANGED == static_cast<int>(FaultKind::exchanged));
+  CHECK(status_t::CAUSE_OFFSET == static_cast<int>(FaultKind::offset));
 }
 
 TEST_CASE("status_t says what the odometry filter knows of the radar") {

@@ -235,6 +235,7 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
       Case{{FaultKind::mount_x, -2.0}, "2.0 m further back", "mount.x_m = 1.6"},
       Case{{FaultKind::mount_yaw, 3.0}, "171.8 degrees further left", "mount.yaw_rad = -3.033"},
       Case{{FaultKind::late, 0.3}, "0.3 s late", "stamp_offset_s = -0.25"},
+      Case{{FaultKind::offset, -0.5}, "all its Doppler is 0.5 m/s off", "sensor"},
       Case{{FaultKind::exchanged, 0.0, 1}, "at the mount of rear", "interfaces"});
   RadarConfiguration radar = front();
   radar.ego_motion.vehicle_from_radar.yaw_rad = 0.25;

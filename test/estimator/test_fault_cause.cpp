@@ -60,6 +60,14 @@ Fault scaled_by(double factor) {
   };
 }
 
+/// In the direction of view.
+Fault shifted_by(double mps) {
+  return [=](const Driving& drive, double time_s, const Pose2& mount) -> Eigen::Vector2d {
+    return velocity_at(drive(time_s), mount) +
+           mps * Eigen::Vector2d(std::cos(mount.yaw_rad), std::sin(mount.yaw_rad));
+  };
+}
+
 Fault late(double delay_s) {
   return [=](const Driving& drive, double time_s, const Pose2& mount) {
     return velocity_at(drive(time_s - delay_s), mount);
@@ -105,7 +113,17 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
     CHECK(cause.kind == FaultKind::late);
     CHECK(cause.value == Approx(delay_s).margin(0.06));
   }
+  for (const double by_mps : {-0.8, -0.4, 0.4, 0.8}) {
+    const FaultCause cause = found(radar, town, 10.0, shifted_by(by_mps));
+    CHECK(cause.kind == FaultKind::offset);
+    CHECK(cause.value == Approx(-by_mps).margin(0.06));
+  }
   CHECK(found(radar, town, 10.0, scaled_by(-1.0)).kind == FaultKind::sign);
+}
+
+TEST_CASE("At one speed a scale is not told from an offset") {
+  CHECK(found(0, straight, 10.0, scaled_by(1.05)).kind == FaultKind::unknown);
+  CHECK(found(0, straight, 10.0, shifted_by(0.5)).kind == FaultKind::unknown);
 }
 
 TEST_CASE("a mount that is further ahead than configured is found in turns") {

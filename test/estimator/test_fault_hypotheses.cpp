@@ -279,11 +279,12 @@ TEST_CASE("with a radar found at fault the motion by the others is told, once") 
   CHECK_FALSE(comparison.faults().take_correction());
 }
 
-TEST_CASE("of two radars only positions tell which is at fault; without them it is not known") {
+TEST_CASE(
+    "of two radars only positions tell which is at fault from the start; without them it is not "
+    "known") {
   const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
   const bool has_positions = GENERATE(true, false);
   Comparison comparison({kFront, kRearLeft});
-  comparison.drive(5.0);
   comparison.drive(3.0, scaled(guilty, 0.9), has_positions);
   if (has_positions) {
     CHECK(comparison.faults().at_fault() == 1U << guilty);
@@ -306,9 +307,9 @@ TEST_CASE("a scale of a few percent between two radars is in dispute once, then 
   comparison.drive(10.0, scaled(guilty, 0.96), false);
   CHECK_FALSE(comparison.faults().take_scale_in_dispute());
   CHECK(comparison.faults().at_fault() == 0U);
-  // More than that is not known.
+  // With more than that it jumps.
   comparison.drive(3.0, scaled(guilty, 0.8), false);
-  CHECK(comparison.faults().is_unknown());
+  CHECK(comparison.faults().at_fault() == set_of(guilty));
 }
 
 TEST_CASE("what all radars share is refuted by their positions") {
@@ -470,6 +471,25 @@ TEST_CASE("positions do not verify what agrees with a radar that is wrong by its
   CHECK_FALSE(comparison.faults().is_verified());
   comparison.drive(8.0);
   CHECK(comparison.faults().is_verified());
+}
+
+TEST_CASE("of two radars the one that jumps is wrong, not both if both do") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  CAPTURE(guilty);
+  Comparison comparison({kFront, kRearLeft});
+  comparison.drive(3.0);
+  comparison.drive(0.4, scaled(guilty, 0.8));
+  CHECK(comparison.faults().at_fault() == set_of(guilty));
+  comparison.drive(2.0, scaled(guilty, 0.8));
+  CHECK(comparison.faults().at_fault() == set_of(guilty));
+  CHECK_FALSE(comparison.faults().is_unknown());
+  comparison.drive(8.0);
+  CHECK(comparison.faults().at_fault() == 0U);
+  Comparison both({kFront, kRearLeft});
+  both.drive(3.0);
+  both.drive(0.4,
+             [](std::size_t, Comparison::Measured& measured) { measured.velocity_mps *= 0.8; });
+  CHECK(both.faults().at_fault() == 0U);
 }
 
 }  // namespace

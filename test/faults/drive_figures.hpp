@@ -34,7 +34,7 @@ struct RadarFigures {
   std::uint32_t doubts = 0;             ///< All doubts it had.
   double availability = 0.0;            ///< Share of its scans with an estimate.
   std::optional<double> named_after_s;  ///< First time named since the fault began.
-  std::array<int, 8> causes{};          ///< Statuses that name a cause, by FaultKind.
+  std::array<int, 9> causes{};          ///< Statuses that name a cause, by FaultKind.
   FaultCause cause;                     ///< Last named.
 };
 

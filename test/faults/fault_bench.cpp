@@ -46,8 +46,8 @@ CREMED_SHARED names the folder with the recorded data.
   --case TEXT  only cases whose name and radar contain it
   --random N   so many faults of random kind, size, radar and time (--seed) instead
   --reversed   recorded drives backwards (ReversedDrive)
-  --healthy    no fault, and only
-  --radars A,B these radars
+  --healthy    no fault
+  --radars A,B recorded drives with these radars only (not with the faults of a list, which name all)
   --seeds N    so many of the latter two (default 20)
   --seed N     only this one
 
@@ -116,7 +116,7 @@ FaultDrive drive_of(const std::string& name, const Options& options) {
     return simulated_fault_drive(name, options.seconds,
                                  configuration_of_car("nuscenes-singapore").radars);
   }
-  const FaultDrive drive = recorded_drive_of(name, options);
+  const FaultDrive drive = with_radars(recorded_drive_of(name, options), options.radars);
   return options.is_reversed ? ReversedDrive::of(drive) : drive;
 }
 
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
       } else if (name == "own-start") {
         run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options.seed, options.seeds);
       } else if (options.is_healthy) {
-        const FaultDrive drive = with_radars(drive_of(name, options), options.radars);
+        const FaultDrive drive = drive_of(name, options);
         const FaultCase none{"none", options.radars, {drive.start_us(), kNever}};
         if (options.are_rows_printed) {
           print_rows(drive, none);

@@ -39,7 +39,8 @@ inline void append_radar(std::string& line, const std::string& name, bool is_gui
   append(line, " %s%s %.0f/%.0f", name.c_str(), is_guilty ? "*" : "", 100.0 * radar.left_out,
          100.0 * radar.doubted);
   if (radar.named_after_s) append(line, " at %.1f (%x)", *radar.named_after_s, radar.doubts);
-  constexpr std::array kCauses{"", "scale", "sign", "upside down", "yaw", "x", "late", "exchanged"};
+  constexpr std::array kCauses{"",  "scale", "sign",      "upside down", "yaw",
+                               "x", "late",  "exchanged", "offset"};
   for (std::size_t i = 0; i < radar.causes.size(); ++i) {
     if (radar.causes[i] != 0) append(line, " %d %s", radar.causes[i], kCauses[i]);
   }

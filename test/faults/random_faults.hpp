@@ -34,8 +34,8 @@ class RandomFaults {
       const FaultTime time = draw_time();
       const std::size_t first = random_.index(drive_.radars.size());
       FaultCase fault = of(first, time);
-      if (random_.chance(kTwoShare)) {
-        const std::size_t others = drive_.radars.size() - 1;
+      const std::size_t others = drive_.radars.size() - 1;
+      if (random_.chance(kTwoShare) && others > 0) {
         const FaultCase second = of((first + 1 + random_.index(others)) % (others + 1), time);
         fault = both(fault, second);
       }
@@ -130,7 +130,7 @@ class RandomFaults {
 
   Fault offset(std::size_t radar) {
     const double mps = either_sign(0.05, 1.0);
-    return {fault_kind("offset %.2f", mps), FaultKind::unknown,
+    return {fault_kind("offset %.2f", mps), FaultKind::offset,
             drive_.is_side(radar) || std::abs(mps) < 0.4,
             clusters(radar, [mps](Ars408General& cluster, Random&) { add_doppler(cluster, mps); })};
   }

@@ -32,10 +32,10 @@ constexpr std::array<std::string_view, 7> kDoubtNames{"registration contradicts 
                                                       "stamps run ahead",
                                                       "stamps run behind"};
 /// status_t.CAUSE_*
-constexpr std::array<std::string_view, 8> kCauseNames{
-    "cause unknown", "scale of Doppler",      "sign of Doppler",
-    "upside down",   "yaw of the mount",      "place of the mount",
-    "late",          "exchanged with another"};
+constexpr std::array<std::string_view, 9> kCauseNames{
+    "cause unknown", "scale of Doppler",       "sign of Doppler",
+    "upside down",   "yaw of the mount",       "place of the mount",
+    "late",          "exchanged with another", "offset of Doppler"};
 
 /// A message may hold anything.
 std::string ascii(std::string text) {

@@ -60,7 +60,8 @@ function showRates(id, ylabel, color, name, xlabel) {
 
 // status_t.CAUSE_*
 const FAULTS = ["yes", "yes: scale of Doppler", "yes: sign of Doppler", "yes: upside down",
-                "yes: yaw of the mount", "yes: place of the mount", "yes: late", "yes: exchanged with another"];
+                "yes: yaw of the mount", "yes: place of the mount", "yes: late", "yes: exchanged with another",
+                "yes: offset of Doppler"];
 
 function named(doubts) {
   return DOUBTS.filter((_, bit) => doubts & (1 << bit)).join(", ") || "none";

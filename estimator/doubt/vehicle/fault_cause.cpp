@@ -36,7 +36,7 @@ constexpr Noise kNoise{{0.05, 0.004}, {0.1, 0.01}};
 /// Of a radar that looks sideways.
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
-constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1};
+constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
@@ -49,12 +49,15 @@ constexpr double kMaxShareExchanged = 0.1;
 /// By how much chi-square is more with any other cause and with none: 3.5 sigma. Of a scale 5.5:
 /// for seconds a late radar seems to have one while the vehicle brakes (0061, 500 ms).
 constexpr double kMinDifference = 12.0;
-constexpr double kMinDifferenceOfScale = 30.0;
+constexpr double kMinDifferenceOfScale =
+    30.0;  // And of an offset, which differs by the change of speed.
 /// One motion may be missing. After a longer time lags are not those of the others.
 constexpr double kMaxStepS = 0.5;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.
 constexpr double kMaxMountYawRad = 0.6;
 constexpr double kMaxMountM = 3.0;
+/// A larger one is Doppler that is stuck.
+constexpr double kMaxOffsetMps = 2.0;
 /// Shorter ones are healthy.
 constexpr double kMinDelayS = 0.05;
 constexpr double kMinScale = 0.3;
@@ -139,8 +142,10 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps) {
 /// The delay with the least cost, by a parabola through the lag with the least and its neighbours.
 void FaultCauseSearch::try_late(Candidates& candidates) const {
   const double count = at_mount_[radar_].count();
+  const double view_rad = mounts_[radar_].yaw_rad;
   const auto chi_square = [&](const VelocityMoments& moments) {
-    return count / moments.count() * moments.fit(Eigen::Matrix2d::Identity(), kHealthy).chi_square;
+    return count / moments.count() *
+           moments.fit(Eigen::Matrix2d::Identity(), view_rad, kHealthy).chi_square;
   };
   std::array<double, kLags + 1> costs{chi_square(at_mount_[radar_])};
   for (std::size_t i = 0; i < kLags; ++i) {
@@ -168,7 +173,8 @@ void FaultCauseSearch::try_mount_yaw(Candidates& candidates) const {
   double yaw_rad = 0.0;
   VelocityMoments::Fit fit;
   for (int i = 0; i < 3; ++i) {
-    fit = at_mount_[radar_].fit(turn(yaw_rad), {kHealthy.scale, kAny, kHealthy.x_m});
+    fit = at_mount_[radar_].fit(turn(yaw_rad), mounts_[radar_].yaw_rad + yaw_rad,
+                                {kHealthy.scale, kAny, kHealthy.x_m, kHealthy.offset_mps});
     yaw_rad += fit.yaw_rad;
   }
   if (std::abs(yaw_rad) < kMaxMountYawRad) {
@@ -189,23 +195,31 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
   const Eigen::Matrix2d mirrored =
       turn(yaw_rad) * Eigen::Vector2d(1.0, -1.0).asDiagonal() * turn(-yaw_rad);
   Candidates result;
-  const double healthy = own.fit(one, kHealthy).chi_square;
+  const double healthy = own.fit(one, yaw_rad, kHealthy).chi_square;
   result.add({FaultKind::unknown}, healthy);
-  result.add({FaultKind::sign, -1.0}, own.fit(-one, kHealthy).chi_square);
-  result.add({FaultKind::upside_down}, own.fit(mirrored, kHealthy).chi_square);
-  const auto scaled = own.fit(one, {kAny, kHealthy.yaw_rad, kHealthy.x_m});
+  result.add({FaultKind::sign, -1.0}, own.fit(-one, yaw_rad, kHealthy).chi_square);
+  result.add({FaultKind::upside_down}, own.fit(mirrored, yaw_rad, kHealthy).chi_square);
+  const auto scaled =
+      own.fit(one, yaw_rad, {kAny, kHealthy.yaw_rad, kHealthy.x_m, kHealthy.offset_mps});
   if (scaled.scale > kMinScale - 1.0 && scaled.scale < kMaxScale - 1.0) {
     result.add({FaultKind::scale, 1.0 + scaled.scale}, scaled.chi_square);
   }
-  const auto ahead = own.fit(one, {kHealthy.scale, kHealthy.yaw_rad, kAny});
+  const auto ahead =
+      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kAny, kHealthy.offset_mps});
   if (std::abs(ahead.x_m) < kMaxMountM) {
     result.add({FaultKind::mount_x, ahead.x_m}, ahead.chi_square);
+  }
+  const auto shifted =
+      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
+  if (std::abs(shifted.offset_mps) < kMaxOffsetMps) {
+    result.add({FaultKind::offset, shifted.offset_mps}, shifted.chi_square);
   }
   try_mount_yaw(result);
   try_late(result);
   const bool explains = result.chi_square < kMaxExplained * own.count();
-  const double least =
-      result.best.kind == FaultKind::scale ? kMinDifferenceOfScale : kMinDifference;
+  const double least = result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset
+                           ? kMinDifferenceOfScale
+                           : kMinDifference;
   return {result.best, explains ? healthy - result.chi_square : 0.0,
           explains && result.next > result.chi_square + least};
 }
@@ -213,7 +227,7 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
 double FaultCauseSearch::gain_at(std::size_t mount) const {
   const auto chi_square = [&](std::size_t i) {
     return at_mount_[i]
-        .fit(turn(mounts_[i].yaw_rad - mounts_[radar_].yaw_rad), kHealthy)
+        .fit(turn(mounts_[i].yaw_rad - mounts_[radar_].yaw_rad), mounts_[i].yaw_rad, kHealthy)
         .chi_square;
   };
   const double own = chi_square(radar_);

@@ -21,11 +21,11 @@ namespace cremed {
 ///
 /// The velocity m of the sensor by its Doppler is compared with e by the other radars over ten
 /// seconds, (e - f(m))^2 by the noise of healthy radars, which may also have a small error of scale
-/// and mount: f(m) is k m (scale), -m (sign), m turned (mount yaw), m with left and right exchanged
-/// in the sensor's frame (upside down), m + w d across the vehicle (mount x); or e is that at an
-/// earlier time (late), or at the mount of another radar (exchanged). A cause is named if it alone
-/// explains them. Data that fit the mount of another radar at fault are taken for exchanged,
-/// whatever else would explain them.
+/// and mount: f(m) is k m (scale), m + o u (offset, in the direction of view), -m (sign), m turned
+/// (mount yaw), m with left and right exchanged in the sensor's frame (upside down), m + w d across
+/// the vehicle (mount x); or e is that at an earlier time (late), or at the mount of another radar
+/// (exchanged). A cause is named if it alone explains them. Data that fit the mount of another
+/// radar at fault are taken for exchanged, whatever else would explain them.
 class FaultCauseSearch {
  public:
   /// `mounts` of all radars, which must outlive this object.

@@ -35,6 +35,8 @@ bool is_grave(const FaultCause& cause) {
   switch (cause.kind) {
     case FaultKind::scale:
       return std::abs(cause.value - 1.0) > 0.02;
+    case FaultKind::offset:
+      return std::abs(cause.value) > 0.2;
     case FaultKind::late:
       return cause.value > 0.15;
     case FaultKind::mount_x:
@@ -73,9 +75,19 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
-  if (evidence_.add_velocity(radar, stamp_us, velocity) && evidence_.epochs() >= kMinEpochs) {
+  const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
+  convict_jumped(evidence_.take_jumped(), stamp_us);
+  if (is_due && evidence_.epochs() >= kMinEpochs) {
     judge();
   }
+}
+
+/// The vehicle did not jump: others do not tell so.
+void FaultHypotheses::convict_jumped(RadarSet jumped, std::int64_t time_us) {
+  for_each(jumped & ~at_fault(), [&](std::size_t i) {
+    begin_search(i);
+    convictions_.convict(i, time_us);
+  });
 }
 
 std::optional<Eigen::Vector3d> FaultHypotheses::take_correction() {

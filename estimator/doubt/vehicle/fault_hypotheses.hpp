@@ -97,6 +97,7 @@ class FaultHypotheses {
   /// So that one scan decides nothing.
   static constexpr std::size_t kMinEpochs = 3;
 
+  void convict_jumped(RadarSet jumped, std::int64_t time_us);
   void judge();
   void verify(const ConsistentSet& best, bool is_known);
   void convict_others(RadarSet believed);

@@ -20,6 +20,8 @@ namespace {
 constexpr double kEpochS = 0.15;
 /// Two missing scans. Between scans further apart the velocity is not interpolated.
 constexpr double kMaxScanPeriodS = 0.3;
+/// Of the times at which two radars see the same jump: a scan period.
+constexpr double kMaxSkewS = 0.08;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.
 constexpr double kMaxNoiseMps = 0.75;
 /// Largest standard deviation of a speed by positions that confirms the Doppler. With it 10 % are 3
@@ -86,6 +88,9 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   track.velocities[0] = track.velocities[1];
   track.velocities[1] = {stamp_us, velocity.velocity_mps, velocity.covariance};
   track.count = std::min(track.count + 1, 2);
+  if (const auto jump_us = track.jumps.add(stamp_us, velocity)) {
+    track.jump_us = jump_us;
+  }
   if (track.is_after_step && is_step(radar)) {
     track.is_after_step = false;
     has_stepped_back_ = !is_after_step(judged_);
@@ -109,6 +114,26 @@ void MotionEvidence::set_after_step(bool value) {
 bool MotionEvidence::is_after_step(RadarSet set) const {
   return any_of(set,
                 [&](std::size_t i) { return tracks_[i].is_after_step && is_heard(tracks_[i]); });
+}
+
+RadarSet MotionEvidence::take_jumped() {
+  RadarSet heard = 0;
+  RadarSet jumped = 0;
+  std::int64_t last_us = std::numeric_limits<std::int64_t>::min();
+  for_each(judged_, [&](std::size_t i) {
+    const Track& track = tracks_[i];
+    heard |= is_heard(track) ? set_of(i) : 0U;
+    jumped |= track.jump_us ? set_of(i) : 0U;
+    last_us = std::max(last_us, track.jump_us.value_or(last_us));
+  });
+  const RadarSet others = heard & ~jumped;
+  if (any_of(others, [&](std::size_t i) {
+        return seconds_between(last_us, tracks_[i].velocities[0].stamp_us) < kMaxSkewS;
+      })) {
+    return 0;
+  }
+  for_each(jumped, [&](std::size_t i) { tracks_[i].jump_us.reset(); });
+  return others != 0 ? jumped : 0U;
 }
 
 /// It measured a velocity lately.

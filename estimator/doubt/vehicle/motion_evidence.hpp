@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/doubt/radar/velocity_jump.hpp"
 #include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
@@ -63,6 +64,9 @@ class MotionEvidence {
   bool take_step_back() { return std::exchange(has_stepped_back_, false); }
   /// True if this completes an epoch.
   bool add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
+  /// Radars whose velocity jumped (VelocityJump) while that of another did not. Each jump once,
+  /// when all that are heard have measured since.
+  RadarSet take_jumped();
   /// From now on the scales of the radars that are judged may be off by that much.
   void allow_for_scale(double share) {
     disputed_scale_ = share;
@@ -146,7 +150,9 @@ class MotionEvidence {
     std::optional<std::int64_t> too_few_targets_us;
     std::optional<std::int64_t> accused_us;
     bool is_after_step = false;
-    int count = 0;  // Of velocities.
+    VelocityJump jumps;
+    std::optional<std::int64_t> jump_us;  // Of a jump that is not yet judged.
+    int count = 0;                        // Of velocities.
   };
 
   void set_after_step(bool value);

@@ -69,12 +69,14 @@ enum class FaultKind : std::uint8_t {
   mount_x,      ///< It is further ahead or back.
   late,         ///< Its scans have later stamps than they were measured at.
   exchanged,    ///< Its data are those of a radar at another radar's mount.
+  offset,       ///< The same in all Doppler.
 };
 
 struct FaultCause {
   FaultKind kind = FaultKind::unknown;
   /// What corrects it: factor on Doppler (scale), to be added to the mount's yaw in rad
-  /// (mount_yaw) or x in m (mount_x); delay in s (late).
+  /// (mount_yaw) or x in m (mount_x), or to the velocity in the direction of view in m/s (offset);
+  /// delay in s (late).
   double value = 0.0;
   std::size_t other = 0;  ///< The other radar, if exchanged.
 };

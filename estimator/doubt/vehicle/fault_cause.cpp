@@ -49,8 +49,9 @@ constexpr double kMaxShareExchanged = 0.1;
 /// By how much chi-square is more with any other cause and with none: 3.5 sigma. Of a scale 5.5:
 /// for seconds a late radar seems to have one while the vehicle brakes (0061, 500 ms).
 constexpr double kMinDifference = 12.0;
-constexpr double kMinDifferenceOfScale =
-    30.0;  // And of an offset, which differs by the change of speed.
+constexpr double kMinDifferenceOfScale = 30.0;  // And of an offset.
+/// Rarer than a scale, which differs from it by the changes of speed only: 2.4 sigma.
+constexpr double kMinDifferenceToOffset = 6.0;
 /// One motion may be missing. After a longer time lags are not those of the others.
 constexpr double kMaxStepS = 0.5;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.
@@ -209,19 +210,21 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
   if (std::abs(ahead.x_m) < kMaxMountM) {
     result.add({FaultKind::mount_x, ahead.x_m}, ahead.chi_square);
   }
-  const auto shifted =
-      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
-  if (std::abs(shifted.offset_mps) < kMaxOffsetMps) {
-    result.add({FaultKind::offset, shifted.offset_mps}, shifted.chi_square);
-  }
   try_mount_yaw(result);
   try_late(result);
+  const auto shifted =
+      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
+  bool is_apart = shifted.chi_square > result.chi_square + kMinDifferenceToOffset;
+  if (shifted.chi_square < result.chi_square && std::abs(shifted.offset_mps) < kMaxOffsetMps) {
+    result.add({FaultKind::offset, shifted.offset_mps}, shifted.chi_square);
+    is_apart = true;
+  }
   const bool explains = result.chi_square < kMaxExplained * own.count();
-  const double least = result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset
-                           ? kMinDifferenceOfScale
-                           : kMinDifference;
+  const bool is_scale_or_offset =
+      result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset;
+  const double least = is_scale_or_offset ? kMinDifferenceOfScale : kMinDifference;
   return {result.best, explains ? healthy - result.chi_square : 0.0,
-          explains && result.next > result.chi_square + least};
+          explains && result.next > result.chi_square + least && is_apart};
 }
 
 double FaultCauseSearch::gain_at(std::size_t mount) const {

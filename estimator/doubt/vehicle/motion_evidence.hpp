@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/doubt/radar/velocity_jump.hpp"
+#include "cremed/estimator/doubt/radar/speed_jump.hpp"
 #include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
@@ -64,7 +64,7 @@ class MotionEvidence {
   bool take_step_back() { return std::exchange(has_stepped_back_, false); }
   /// True if this completes an epoch.
   bool add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
-  /// Radars whose velocity jumped (VelocityJump) while that of another did not. Each jump once,
+  /// Radars whose speed jumped (SpeedJump) while that of another did not. Each jump once,
   /// when all that are heard have measured since.
   RadarSet take_jumped();
   /// From now on the scales of the radars that are judged may be off by that much.
@@ -150,7 +150,7 @@ class MotionEvidence {
     std::optional<std::int64_t> too_few_targets_us;
     std::optional<std::int64_t> accused_us;
     bool is_after_step = false;
-    VelocityJump jumps;
+    SpeedJump jumps;
     std::optional<std::int64_t> jump_us;  // Of a jump that is not yet judged.
     int count = 0;                        // Of velocities.
   };

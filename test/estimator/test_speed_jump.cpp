@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/estimator/doubt/radar/velocity_jump.hpp"
+#include "cremed/estimator/doubt/radar/speed_jump.hpp"
 
 namespace cremed {
 namespace {
@@ -22,7 +22,7 @@ using SpeedAt = std::function<double(double time_s)>;
 std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0.0, kNoiseMps);
-  VelocityJump check;
+  SpeedJump check;
   std::vector<double> result;
   for (int i = 1; i < 134; ++i) {
     DopplerVelocity velocity;
@@ -46,7 +46,7 @@ SpeedAt braking(double from_s, double mps2, double jerk_mps3) {
   };
 }
 
-TEST_CASE("A velocity that jumps is found with the next scan, there and back") {
+TEST_CASE("A speed that jumps is found with the next scan, there and back") {
   const double by_mps = GENERATE(-8.0, -1.2, 1.2, 8.0);
   CAPTURE(by_mps);
   const auto found =

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/doubt/radar/speed_jump.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/scan/stamps.hpp"
+
+namespace cremed {
+namespace {
+
+constexpr double kMinJumpMps = 0.45;
+constexpr double kSigmas = 5.0;
+/// Of the jump: change per scan before and after.
+constexpr double kMaxShareBeside = 0.4;
+/// A missing scan: over a longer time a vehicle changes its speed as well.
+constexpr double kMaxPeriodS = 0.16;
+
+}  // namespace
+
+std::optional<std::int64_t> SpeedJump::add(std::int64_t stamp_us, const DopplerVelocity& velocity) {
+  std::shift_left(speeds_.begin(), speeds_.end(), 1);
+  speeds_.back() = {stamp_us, velocity.velocity_mps.x(), velocity.covariance(0, 0)};
+  count_ = std::min(count_ + 1, speeds_.size());
+  if (count_ < speeds_.size()) {
+    return std::nullopt;
+  }
+  std::array<double, 3> changes_mps{};
+  std::array<double, 3> periods_s{};
+  for (std::size_t i = 0; i < changes_mps.size(); ++i) {
+    periods_s[i] = seconds_between(speeds_[i].stamp_us, speeds_[i + 1].stamp_us);
+    if (!(periods_s[i] > 0.0 && periods_s[i] <= kMaxPeriodS)) {
+      return std::nullopt;
+    }
+    changes_mps[i] = speeds_[i + 1].mps - speeds_[i].mps;
+  }
+  const double steady_mps =
+      0.5 * periods_s[1] * (changes_mps[0] / periods_s[0] + changes_mps[2] / periods_s[2]);
+  const double jump_mps = std::abs(changes_mps[1] - steady_mps);
+  const double beside_mps = std::max(std::abs(changes_mps[0]), std::abs(changes_mps[2]));
+  const auto& [a, b, c, d] = speeds_;
+  const double variance = 2.25 * (b.variance + c.variance) + 0.25 * (a.variance + d.variance);
+  const bool is_jump = jump_mps > kMinJumpMps + kSigmas * std::sqrt(variance) &&
+                       beside_mps < kMaxShareBeside * jump_mps;
+  return is_jump ? std::optional(c.stamp_us) : std::nullopt;
+}
+
+}  // namespace cremed

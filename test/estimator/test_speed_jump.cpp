@@ -14,7 +14,7 @@
 namespace cremed {
 namespace {
 
-constexpr double kPeriodS = 0.075;
+constexpr double kCycleS = 0.075;
 constexpr double kNoiseMps = 0.03;
 using SpeedAt = std::function<double(double time_s)>;
 
@@ -26,10 +26,10 @@ std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000) {
   std::vector<double> result;
   for (int i = 1; i < 134; ++i) {
     DopplerVelocity velocity;
-    velocity.velocity_mps = {speed_at(i * kPeriodS) + normal(random), normal(random)};
+    velocity.velocity_mps = {speed_at(i * kCycleS) + normal(random), normal(random)};
     velocity.covariance.diagonal().setConstant(kNoiseMps * kNoiseMps);
     const auto jump =
-        i % lost == 0 ? std::nullopt : check.add(std::llround(i * kPeriodS * 1e6), velocity);
+        i % lost == 0 ? std::nullopt : check.add(std::llround(i * kCycleS * 1e6), velocity);
     if (jump) result.push_back(1e-6 * static_cast<double>(*jump));
   }
   return result;
@@ -52,8 +52,8 @@ TEST_CASE("A speed that jumps is found with the next scan, there and back") {
   const auto found =
       jumps_of([&](double time_s) { return 8.0 + (time_s > 4.0 && time_s < 7.0 ? by_mps : 0.0); });
   REQUIRE(found.size() == 2);
-  CHECK(found[0] == Approx(4.0).margin(kPeriodS));
-  CHECK(found[1] == Approx(7.0).margin(kPeriodS));
+  CHECK(found[0] == Approx(4.0).margin(kCycleS));
+  CHECK(found[1] == Approx(7.0).margin(kCycleS));
 }
 
 TEST_CASE("No vehicle jumps: emergency braking, a stop, lost scans") {

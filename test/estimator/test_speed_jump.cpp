@@ -36,7 +36,7 @@ std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000) {
 }
 
 /// From `from_s` on the acceleration grows to `mps2` with that jerk, and lasts.
-SpeedAt braking(double from_s, double mps2, double jerk_mps3) {
+SpeedAt braking_speed(double from_s, double mps2, double jerk_mps3) {
   return [=](double time_s) {
     const double since_s = std::max(0.0, time_s - from_s);
     const double growing_s = mps2 / jerk_mps3;
@@ -60,8 +60,8 @@ TEST_CASE("No vehicle jumps: emergency braking, a stop, lost scans") {
   const double from_s = 2.0 + GENERATE(0.0, 0.02, 0.04, 0.06);
   const int lost = GENERATE(3, 5, 1000);
   CAPTURE(from_s, lost);
-  CHECK(jumps_of(braking(from_s, 9.0, 90.0), lost).empty());
-  CHECK(jumps_of(braking(from_s, 4.0, 20.0), lost).empty());
+  CHECK(jumps_of(braking_speed(from_s, 9.0, 90.0), lost).empty());
+  CHECK(jumps_of(braking_speed(from_s, 4.0, 20.0), lost).empty());
   CHECK(jumps_of([](double time_s) { return 10.0 + 3.0 * std::sin(time_s); }, lost).empty());
 }
 

@@ -10,9 +10,10 @@
 namespace cremed {
 namespace {
 
+/// A third more than the most of healthy drives, see SpeedJump.
 constexpr double kMinJumpMps = 0.45;
 constexpr double kSigmas = 5.0;
-/// Of the jump: change per scan before and after.
+/// Of the jump: change per scan before and after. Beside one scan that is wrong it is 1.
 constexpr double kMaxShareBeside = 0.4;
 /// A missing scan: over a longer time a vehicle changes its speed as well.
 constexpr double kMaxPeriodS = 0.16;

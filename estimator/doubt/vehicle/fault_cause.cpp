@@ -36,6 +36,7 @@ constexpr Noise kNoise{{0.05, 0.004}, {0.1, 0.01}};
 /// Of a radar that looks sideways.
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
+/// What they have of an offset is in the noise.
 constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Of the sums, seven times a second: they remember ten seconds.

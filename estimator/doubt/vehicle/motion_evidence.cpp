@@ -126,6 +126,9 @@ RadarSet MotionEvidence::take_jumped() {
     jumped |= track.jump_us ? set_of(i) : 0U;
     last_us = std::max(last_us, track.jump_us.value_or(last_us));
   });
+  if (jumped == 0) {
+    return 0;
+  }
   const RadarSet others = heard & ~jumped;
   if (any_of(others, [&](std::size_t i) {
         return seconds_between(last_us, tracks_[i].velocities[0].stamp_us) < kMaxSkewS;

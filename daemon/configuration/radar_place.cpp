@@ -31,7 +31,7 @@ std::string heard_text(const std::vector<HeardBus>& buses, const RadarSettings& 
   return text.empty() ? "no CAN interface is up" : text;
 }
 
-RadarPlace absent(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
+RadarPlace not_there(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
   return {PlaceStatus::absent, "",
           concat({"no CAN interface shows ", radar.decoder.describe(), " (",
                   heard_text(buses, radar.decoder), ")"}),
@@ -68,7 +68,7 @@ RadarPlace place_of(std::size_t radar, const Configuration& configuration,
     }
   }
   if (names.empty()) {
-    return absent(wanted, buses);
+    return not_there(wanted, buses);
   }
   if (names != name) {
     return {PlaceStatus::ambiguous, "", concat({wanted.decoder.describe(), " is on ", names}),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -17,16 +16,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/process/environment.hpp"
+
 namespace cremed {
 namespace {
 
 /// RuntimeDirectory= of the unit, and of whoever is root without it.
 constexpr const char* kSystemFolder = "/run/cremed";
-
-std::string_view environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string_view() : value;
-}
 
 /// systemd's, else one that only this user can write; empty: there is none.
 std::string runtime_folder() {

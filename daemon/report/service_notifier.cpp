@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 
 #include <spdlog/fmt/fmt.h>
@@ -15,17 +14,13 @@
 #include <unistd.h>
 
 #include "daemon/process/clocks.hpp"
+#include "daemon/process/environment.hpp"
 
 namespace cremed {
 namespace {
 
 /// systemd ignores longer messages; 16 radars need 2000.
 constexpr std::size_t kMaxMessage = 4096;
-
-std::string_view environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string_view() : value;
-}
 
 std::int64_t number(std::string_view text) {
   std::int64_t value = 0;

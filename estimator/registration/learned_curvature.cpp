@@ -9,7 +9,7 @@ namespace {
 
 /// Least share of the complete information, in every direction, that is left after the missing
 /// information. Steps are at most five times as long as those of EM.
-constexpr double kMinObservedShare = 0.2;
+constexpr double kMinCurvatureShare = 0.2;
 /// A change of the gradient that differs less than this from the expected one, relative to the
 /// step's information, is rounding and the rest of unfinished inner iterations.
 constexpr double kMinShare = 1e-3;
@@ -34,7 +34,7 @@ void LearnedCurvature::stop() {
 }
 
 Eigen::Matrix3d LearnedCurvature::of(const Eigen::Matrix3d& complete) const {
-  Eigen::Matrix3d bounded = (1.0 - kMinObservedShare) * complete - missing_;
+  Eigen::Matrix3d bounded = (1.0 - kMinCurvatureShare) * complete - missing_;
   if (degrees_of_freedom_ == 2) {
     bounded.row(1).setZero();
     bounded.col(1).setZero();

@@ -12,6 +12,9 @@ inline double seconds_between(std::int64_t from_us, std::int64_t to_us) {
   return (static_cast<double>(to_us) - static_cast<double>(from_us)) * 1e-6;
 }
 
+/// Two missing scans. Over a longer pause Doppler is neither interpolated nor summed to a way.
+inline constexpr double kMaxScanPeriodS = 0.3;
+
 /// The first whole multiple of 1 / rate_hz s, rounded up to microseconds, after a stamp.
 inline std::int64_t next_multiple_us(std::int64_t after_us, std::int64_t rate_hz) {
   constexpr std::int64_t kSecondUs = 1'000'000;

@@ -76,7 +76,7 @@ class ModelDrive {
     for (int i = 0; i < Size; ++i) {
       white(i) = normal_(random_);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> solver(covariance);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
     return solver.eigenvectors() *
            solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().cwiseProduct(white);
   }

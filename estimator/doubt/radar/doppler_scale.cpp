@@ -23,8 +23,6 @@ constexpr double kWayM = 5.0;
 /// Below this way the votes are too wide; above this time too few targets are found again.
 constexpr double kMinWayM = 1.5;
 constexpr double kMaxIntervalS = 1.0;
-/// A longer pause breaks the way by Doppler.
-constexpr double kMaxScanPeriodS = 0.3;
 /// Votes fade with this time.
 constexpr double kVotesMemoryS = 3.0;
 /// Difference of a target's range between two scans.

@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-constexpr std::size_t kMinTargets = 5;
+constexpr std::size_t kMinRepeatedTargets = 5;
 /// Mean square of the Doppler of a moving vehicle: five times an ARS408's noise.
 constexpr double kMinDopplerMps = 0.5;
 
@@ -23,7 +23,7 @@ void RepeatedTargets::add(const TargetSet& targets) {
     squares += squared(target.doppler_mps);
   }
   const bool is_moving = squares > squared(kMinDopplerMps) * static_cast<double>(targets.size());
-  is_repeated_ = targets.size() >= kMinTargets && is_moving && sums == last_;
+  is_repeated_ = targets.size() >= kMinRepeatedTargets && is_moving && sums == last_;
   last_ = sums;
 }
 

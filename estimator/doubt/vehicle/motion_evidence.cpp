@@ -18,8 +18,6 @@ namespace cremed {
 namespace {
 
 constexpr double kEpochS = 0.15;
-/// Two missing scans. Between scans further apart the velocity is not interpolated.
-constexpr double kMaxScanPeriodS = 0.3;
 /// Of the times at which two radars see the same jump: a scan period.
 constexpr double kMaxSkewS = 0.08;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.

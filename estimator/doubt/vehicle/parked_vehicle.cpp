@@ -22,7 +22,7 @@ constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
 /// Limits of q / (1 - q): beyond the first there are two worlds, below the second one, with errors
 /// in standard deviations; the last is that of each radar.
-constexpr double kMaxShare = 0.04;
+constexpr double kMaxTwoWorldsShare = 0.04;
 constexpr double kMaxSureShare = 0.06;
 constexpr double kMaxShareOfRadar = 0.08;
 constexpr double kShareSigmas = 2.0;
@@ -225,7 +225,7 @@ ParkedVehicle::Verdict ParkedVehicle::judge_all() const {
                   look.rests_beside(departing_mps, kMayRestSigmas);
     all.add(share);
   }
-  if (all.value() - all.error() > kMaxShare) {
+  if (all.value() - all.error() > kMaxTwoWorldsShare) {
     return Verdict::two_worlds;
   }
   return all.value() + all.error() <= kMaxSureShare && !is_doubtful ? Verdict::started

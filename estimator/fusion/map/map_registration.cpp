@@ -16,12 +16,12 @@ namespace {
 
 /// Clutter, 1/m^2: the density of an ARS408's targets within 50 m. From 0.005 to 0.1 the yaw error
 /// on scenes 0061, 0103, 1094 and RadarScenes 105 changes by less than a tenth.
-constexpr double kClutterPerM2 = 0.02;
+constexpr double kMapClutterPerM2 = 0.02;
 /// Of the predicted pose, which is better: 0.05 m, 0.1 degrees. It keeps the search in its basin.
 const Eigen::Vector3d kPriorStd(0.1, 0.3, 0.02);
 /// Most matches of RadarScenes use all. With steps 1.5 or 1.8 times as long, nearer to the optimum,
 /// its path errs by 0.78 and 0.81 % instead of 0.74, and those of nuScenes not otherwise.
-constexpr int kMaxIterations = 8;
+constexpr int kMaxSteps = 8;
 /// Squared step over the standard deviation: 1 % of it.
 constexpr double kConverged = 1e-4;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -31,7 +31,7 @@ constexpr double kOutOfReach = 49.0;
 /// Least share of the complete information, in every direction, that is left after the missing
 /// information, for a step and for a result. Where less is left neighbours are confused.
 constexpr double kMinObservedShareOfStep = 0.2;
-constexpr double kMinObservedShare = 0.1;
+constexpr double kMinObservedShareOfResult = 0.1;
 
 /// J'f of a force f on a point, with J = [1, 0, -y; 0, 1, x], the derivative of the point.
 Eigen::Vector3d gradient_of(const Eigen::Vector2d& force, const Eigen::Vector2d& at) {
@@ -142,12 +142,12 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
 std::optional<MapMatch> MapRegistration::solve(const TargetSet& targets, const TargetMap& map,
                                                const Pose2& mount) {
   find_pairs(targets, map);
-  const double clutter = kClutterPerM2 * map.scans();
+  const double clutter = kMapClutterPerM2 * map.scans();
   const Eigen::Matrix3d prior = kPriorStd.cwiseAbs2().cwiseInverse().asDiagonal();
   MapMatch match;
   Eigen::Vector3d& motion = match.correction;
   Sums sums = sum_up(targets, motion, clutter);
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Eigen::Matrix3d complete = sums.complete + prior;
     const Eigen::Matrix3d observed = complete - sums.missing;
     const bool is_observed = is_positive(observed - kMinObservedShareOfStep * complete);
@@ -162,7 +162,7 @@ std::optional<MapMatch> MapRegistration::solve(const TargetSet& targets, const T
   Eigen::Matrix3d complete = sums.complete;
   complete(0, 0) += prior(0, 0);
   const Eigen::Matrix3d observed = complete - sums.missing;
-  if (!is_positive(observed - kMinObservedShare * complete)) {
+  if (!is_positive(observed - kMinObservedShareOfResult * complete)) {
     return std::nullopt;
   }
   match.covariance = observed.inverse();

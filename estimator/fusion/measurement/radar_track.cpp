@@ -21,8 +21,8 @@ constexpr double kLearningTargetsInTraffic = 10'000.0;
 constexpr double kShareWithoutTraffic = 0.8;
 /// Bounds of the adapted value. The grid of an ARS408 alone gives 0.25 / sqrt(12) = 0.07 m/s; above
 /// 0.6 m/s Tukey's weights extend beyond 2.8 m/s and no longer reject moving targets.
-constexpr double kMinDopplerStdMps = 0.05;
-constexpr double kMaxDopplerStdMps = 0.6;
+constexpr double kMinAdaptedStdMps = 0.05;
+constexpr double kMaxAdaptedStdMps = 0.6;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
   const double learning_targets =
       static_share > kShareWithoutTraffic ? kLearningTargets : kLearningTargetsInTraffic;
   const double share = std::min(kMaxLearningShare, best->targets / learning_targets);
-  const double std = std::clamp(best->residual_std_mps, kMinDopplerStdMps, kMaxDopplerStdMps);
+  const double std = std::clamp(best->residual_std_mps, kMinAdaptedStdMps, kMaxAdaptedStdMps);
   doppler_std_mps_ =
       std::sqrt((1.0 - share) * doppler_std_mps_ * doppler_std_mps_ + share * std * std);
   return ScanVelocity{*best, static_share > 0.5};

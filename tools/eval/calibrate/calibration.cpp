@@ -149,13 +149,19 @@ class Calibrator {
   std::optional<HeldOutCheck> check_;
 };
 
+/// Scans and registrations do not depend on it.
+Configuration without_odometry(Configuration configuration) {
+  configuration.odometry.enabled = false;
+  return configuration;
+}
+
 Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
                        const TrueTrajectory* truth, const SystematicErrors& errors)
     : configuration_(configuration),
       logs_(logs),
       has_truth_(truth != nullptr),
       errors_(errors),
-      recorded_(record_drive(configuration, logs)),
+      recorded_(record_drive(without_odometry(configuration), logs)),
       fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
            motion_prior(configuration)),
       radars_(configuration.radars.size()) {
@@ -205,7 +211,7 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
 /// first round, because a wrong mount would otherwise turn into yaw; later it would only make yaw
 /// less precise.
 Configuration Calibrator::trial() const {
-  Configuration result = calibrated(configuration_, radars_);
+  Configuration result = without_odometry(calibrated(configuration_, radars_));
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     EgoMotionOptions& options = result.radars[i].ego_motion;
     options.registration.doppler.enabled = false;

@@ -28,7 +28,7 @@ constexpr std::array kLengths{SegmentLength{10.0, kNoLimit},  SegmentLength{50.0
                               SegmentLength{kNoLimit, 30.0}};
 
 /// In 2 degrees of freedom y has no variance; a micrometre makes the matrix invertible.
-constexpr double kLeastVariance = 1e-12;
+constexpr double kLeastVarianceM2 = 1e-12;
 
 /// First motion of each begin.
 std::vector<std::size_t> begins(const std::vector<RecordedEstimate>& estimates) {
@@ -109,7 +109,7 @@ class LengthErrors {
     const Eigen::Vector3d& pose = chain.end().pose;
     const Eigen::Matrix3d covariance = chain.end().covariance +
                                        noise.covariance(chain.end_us() - begin_us) +
-                                       kLeastVariance * Eigen::Matrix3d::Identity();
+                                       kLeastVarianceM2 * Eigen::Matrix3d::Identity();
     const Eigen::Vector3d error = estimation_error(pose, *motion);
     ++errors_.chains;
     errors_.anees += normalised_error_squared(pose, covariance, *motion, 3) / 3.0;

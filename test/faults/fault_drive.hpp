@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,11 @@ inline FaultDrive with_radars(FaultDrive drive, const std::string& names) {
     const bool is_kept = ("," + names + ",").find("," + radar.name + ",") != std::string::npos;
     index.push_back(is_kept ? static_cast<int>(kept.size()) : -1);
     if (is_kept) kept.push_back(radar);
+  }
+  if (kept.size() != 1U + static_cast<std::size_t>(std::ranges::count(names, ','))) {
+    std::string known;
+    for (const RadarConfiguration& radar : drive.radars) known += " " + radar.name;
+    throw std::runtime_error("radars: " + names + ": must be some of" + known);
   }
   drive.radars = kept;
   std::erase_if(drive.frames, [&](const CanFrame& frame) { return index[frame.interface] < 0; });

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <climits>
-#include <cstdlib>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -13,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/process/environment.hpp"
 #include "daemon/process/plain_text.hpp"
 #include "daemon/process/signals.hpp"
 
@@ -41,8 +41,7 @@ LevelText text_of(spdlog::level::level_enum level) {
 
 /// systemd names the stream it connected; a redirected stream is another.
 bool is_journal(const struct stat& status) {
-  const char* const stream = std::getenv("JOURNAL_STREAM");
-  return stream != nullptr && fmt::format("{}:{}", status.st_dev, status.st_ino) == stream;
+  return fmt::format("{}:{}", status.st_dev, status.st_ino) == environment("JOURNAL_STREAM");
 }
 
 }  // namespace

@@ -111,6 +111,12 @@ double above_one(const StdFactor& factor) {
   return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
 }
 
+/// Scans do not depend on it; motions do: it withdraws those that it does not believe.
+Configuration without_odometry(Configuration configuration) {
+  configuration.odometry.enabled = false;
+  return configuration;
+}
+
 /// State of one calibration.
 class Calibrator {
  public:
@@ -148,12 +154,6 @@ class Calibrator {
   std::vector<RadarCalibration> radars_;
   std::optional<HeldOutCheck> check_;
 };
-
-/// Scans and registrations do not depend on it.
-Configuration without_odometry(Configuration configuration) {
-  configuration.odometry.enabled = false;
-  return configuration;
-}
 
 Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
                        const TrueTrajectory* truth, const SystematicErrors& errors)
@@ -211,7 +211,7 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
 /// first round, because a wrong mount would otherwise turn into yaw; later it would only make yaw
 /// less precise.
 Configuration Calibrator::trial() const {
-  Configuration result = without_odometry(calibrated(configuration_, radars_));
+  Configuration result = calibrated(configuration_, radars_);
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     EgoMotionOptions& options = result.radars[i].ego_motion;
     options.registration.doppler.enabled = false;

@@ -1,4 +1,0 @@
-// SPDX-FileCopyrightText: 2026 the cremed authors
-// SPDX-License-Identifier: BSD-3-Clause
-#define CATCH_CONFIG_MAIN
-#include <catch2/catch.hpp>

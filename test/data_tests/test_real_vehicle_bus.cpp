@@ -20,7 +20,7 @@ using namespace cremed::test;
 
 namespace {
 
-struct RealDrive {
+struct DriveOfCar {
   const char* name;
   const char* configuration;
 };
@@ -59,7 +59,7 @@ struct Result {
   VehicleStatus yaw_rate;
 };
 
-Result result_of(const RealDrive& scene, bool with_vehicle) {
+Result result_of(const DriveOfCar& scene, bool with_vehicle) {
   const std::string folder = std::string("data/nuscenes/") + scene.name;
   Configuration configuration = configuration_of_car(scene.configuration);
   if (with_vehicle) {
@@ -98,15 +98,15 @@ void check_sound(const VehicleStatus& status) {
 
 TEST_CASE("Real drives: with speed and yaw rate of the car's bus, errors after 10 s") {
   // Settings on the first three, checked on the others.
-  const std::vector<RealDrive> scenes = {{"scene-0061", "nuscenes-singapore"},
-                                         {"scene-0103", "nuscenes-boston"},
-                                         {"scene-1094", "nuscenes-singapore"},
-                                         {"scene-0655", "nuscenes-boston"},
-                                         {"scene-0796", "nuscenes-singapore"}};
+  const std::vector<DriveOfCar> scenes = {{"scene-0061", "nuscenes-singapore"},
+                                          {"scene-0103", "nuscenes-boston"},
+                                          {"scene-1094", "nuscenes-singapore"},
+                                          {"scene-0655", "nuscenes-boston"},
+                                          {"scene-0796", "nuscenes-singapore"}};
   double yaw_deg = 0.0;
   double yaw_alone_deg = 0.0;
   double path = 0.0;
-  for (const RealDrive& scene : scenes) {
+  for (const DriveOfCar& scene : scenes) {
     CAPTURE(scene.name);
     const Result alone = result_of(scene, false);
     const Result with = result_of(scene, true);

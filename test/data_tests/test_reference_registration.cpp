@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/scan/median.hpp"
 #include "test/data_tests/shared_data.hpp"
 #include "test/estimator/simulation.hpp"
 #include "tools/eval/csv_table.hpp"
@@ -17,7 +18,7 @@ using namespace cremed;
 
 namespace {
 
-struct Row {
+struct ReferencePairs {
   const char* pairs;
   const char* reference;
   const char* profile;
@@ -40,12 +41,6 @@ std::vector<RegistrationResult> read_reference(const std::string& name) {
     results.push_back(result);
   }
   return results;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Our cost at another implementation's motion.
@@ -82,8 +77,8 @@ Differences compare(const std::vector<RegistrationPair>& pairs, const std::vecto
       result.better += our.cost <= cost_at(pairs[i], options, theirs[i].motion) ? 1U : 0U;
     }
   }
-  result.median_m = median(metres);
-  result.median_rad = median(radians);
+  result.median_m = median_or(INFINITY, metres.begin(), metres.end());
+  result.median_rad = median_or(INFINITY, radians.begin(), radians.end());
   return result;
 }
 
@@ -91,15 +86,17 @@ Differences compare(const std::vector<RegistrationPair>& pairs, const std::vecto
 
 TEST_CASE("Registration agrees with the reference implementation, pair by pair") {
   const std::string folder = "data/registration/";
-  const auto row = GENERATE(
-      Row{"psr.csv", "psr.msm.reference.csv", "psr", false, 3e-3},
-      Row{"psr-c.csv", "psr-c.msm.reference.csv", "psr", false, 3e-3},
-      Row{"sim.csv", "sim.msm.reference.csv", "sim", false, 3e-4},
-      Row{"sim.csv", "sim.msm-d.reference.csv", "sim", true, 3e-4},
-      Row{"sim-c.csv", "sim-c.msm.reference.csv", "sim", false, 3e-4},
-      Row{"sim-c.csv", "sim-c.msm-d.reference.csv", "sim", true, 3e-4},
-      Row{"nuscenes-front.csv.xz", "nuscenes-front.msm.reference.csv", "nuscenes", false, 3e-4},
-      Row{"nuscenes-front.csv.xz", "nuscenes-front.msm-d.reference.csv", "nuscenes", true, 3e-4});
+  const auto row =
+      GENERATE(ReferencePairs{"psr.csv", "psr.msm.reference.csv", "psr", false, 3e-3},
+               ReferencePairs{"psr-c.csv", "psr-c.msm.reference.csv", "psr", false, 3e-3},
+               ReferencePairs{"sim.csv", "sim.msm.reference.csv", "sim", false, 3e-4},
+               ReferencePairs{"sim.csv", "sim.msm-d.reference.csv", "sim", true, 3e-4},
+               ReferencePairs{"sim-c.csv", "sim-c.msm.reference.csv", "sim", false, 3e-4},
+               ReferencePairs{"sim-c.csv", "sim-c.msm-d.reference.csv", "sim", true, 3e-4},
+               ReferencePairs{"nuscenes-front.csv.xz", "nuscenes-front.msm.reference.csv",
+                              "nuscenes", false, 3e-4},
+               ReferencePairs{"nuscenes-front.csv.xz", "nuscenes-front.msm-d.reference.csv",
+                              "nuscenes", true, 3e-4});
   CAPTURE(row.reference);
   std::istringstream text(read_shared(folder + row.pairs));
   const auto pairs = read_registration_pairs(text);

@@ -177,12 +177,14 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
         "`cremed-eval calibrate`"}});
 }
 
-/// Usable detections, but few complete scans gave an estimate.
+/// Usable detections, but few complete scans gave an estimate. A lateral radar that sees few
+/// targets at a time gives none by itself, and is of use to the odometry.
 void add_few_estimates(const RadarStatus& status, Findings& findings) {
   constexpr std::uint64_t kMinScans = 10;
   const std::uint64_t whole = status.assembler.scans - status.assembler.incomplete_scans;
   const std::uint64_t good = estimates(status);
-  if (status.selection.used != 0 && whole >= kMinScans && 2 * good < whole) {
+  const bool is_of_use = good != 0 && 2 * status.scans_in_odometry >= whole;
+  if (status.selection.used != 0 && whole >= kMinScans && 2 * good < whole && !is_of_use) {
     findings.push_back({good == 0 ? Severity::error : Severity::warning,
                         concat({"few scans give an estimate: ", summary(status)}),
                         std::string(remedy_of_most_motions(status))});

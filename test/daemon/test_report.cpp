@@ -167,6 +167,20 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
   CHECK(radar_findings(front(), status, {}).empty());
 }
 
+TEST_CASE("Few estimates of its own are no trouble of a radar that the odometry uses") {
+  RadarStatus status = healthy();
+  no_estimate_but(status, MotionStatus::too_few_targets);
+  count(status, MotionStatus::ok) = 20;
+  status.scans_in_odometry = 50;
+  CHECK(radar_findings(front(), status, {}).empty());
+  status.scans_in_odometry = 49;
+  CHECK(radar_findings(front(), status, {}).size() == 1);
+  // None at all are: something in the configuration lets none pass.
+  status.scans_in_odometry = 100;
+  count(status, MotionStatus::ok) = 0;
+  CHECK(radar_findings(front(), status, {}).size() == 1);
+}
+
 TEST_CASE("Each fault that a radar reports is named") {
   struct Case {
     RadarHealth::Fault fault;

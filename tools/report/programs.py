@@ -99,8 +99,11 @@ def evaluate(programs, lcm_log, drive, folder):
     for rows in states, motions:
         tables = folder / rows.stem
         tables.mkdir()
-        told = run([programs / "cremed-eval", "drive", rows, drive.truth, "--json", "--tables", tables,
-                    *stds])
+        try:
+            told = run([programs / "cremed-eval", "drive", rows, drive.truth, "--json", "--tables", tables,
+                        *stds])
+        except ValueError as error:  # It knows the temporary file only.
+            raise ValueError(str(error).replace(str(rows), drive.logs[0])) from error
         figures += json.loads(told)["sources"]
         errors |= read_table(tables / "errors.csv")
         drift |= read_table(tables / "drift.csv")

@@ -38,19 +38,19 @@ struct PolarError {
   double azimuth_std_rad = 0.0;
 };
 
-/// None outside of the gate.
+/// None outside of the gate, or of what is not finite.
 std::optional<PolarError> error_of(const PolarTarget& previous, const PolarTarget& current) {
   const double way_m = current.range_m - previous.range_m;
   const double range_variance_m2 = previous.range_variance_m2 + current.range_variance_m2;
   // Most pairs end here, without a root.
-  if (way_m * way_m >= kErrorGate * kErrorGate * range_variance_m2) {
+  if (!(way_m * way_m < kErrorGate * kErrorGate * range_variance_m2)) {
     return std::nullopt;
   }
   const double turn_rad =
       std::remainder(current.azimuth_rad - previous.azimuth_rad, 2.0 * std::numbers::pi);
   const double azimuth_std_rad =
       std::sqrt(previous.azimuth_variance_rad2 + current.azimuth_variance_rad2);
-  if (std::abs(turn_rad) >= kErrorGate * azimuth_std_rad) {
+  if (!(std::abs(turn_rad) < kErrorGate * azimuth_std_rad)) {
     return std::nullopt;
   }
   return PolarError{way_m / std::sqrt(range_variance_m2), turn_rad / azimuth_std_rad,

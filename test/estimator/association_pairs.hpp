@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -17,28 +16,11 @@ using Ratios = Eigen::MatrixXd;                  // 0: no such pair
 using Gradients = std::vector<Eigen::Vector3d>;  // of each pair, row by row
 
 /// The pairs whose ratios are not 0; without `gradients` these are 0.
-inline void fill(Association& association, const Ratios& ratios, const Gradients& gradients = {}) {
-  association.clear(static_cast<std::size_t>(ratios.cols()));
-  for (Eigen::Index i = 0; i < ratios.rows(); ++i) {
-    association.begin_row();
-    for (Eigen::Index j = 0; j < ratios.cols(); ++j) {
-      const auto k = static_cast<std::size_t>(i * ratios.cols() + j);
-      if (ratios(i, j) != 0.0) {
-        association.add(
-            static_cast<std::size_t>(j), ratios(i, j),
-            gradients.empty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : gradients[k]);
-      }
-    }
-  }
-}
+void fill(Association& association, const Ratios& ratios, const Gradients& gradients = {});
 
 /// Ratios 10^-decades .. 10^decades.
-inline Ratios random_ratios(Random& random, Eigen::Index rows, Eigen::Index columns,
-                            double decades) {
-  return Ratios::NullaryExpr(rows, columns,
-                             [&] { return std::pow(10.0, uniform(random, -decades, decades)); });
-}
+Ratios random_ratios(Random& random, Eigen::Index rows, Eigen::Index columns, double decades);
 
-inline std::unique_ptr<Association> make_association() { return std::make_unique<Association>(); }
+std::unique_ptr<Association> make_association();
 
 }  // namespace cremed::simulation

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,15 +11,11 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/fusion/odometry_filter.hpp"
-#include "cremed/estimator/fusion/state/pose_chain.hpp"
-#include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed::simulation {
 
-inline bool is_good(const Odometry& odometry) {
-  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
-}
+bool is_good(const Odometry& odometry);
 
 /// A vehicle with radars that drives through static points, and its filter.
 class OdometryDrive {
@@ -40,17 +34,7 @@ class OdometryDrive {
 
   OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t seed,
                 const OdometryOptions& options = {},
-                const std::vector<std::optional<LearnedErrors>>& learned = {})
-      : random_(seed) {
-    std::vector<OdometryRadar> radars;
-    for (const Pose2& mount : mounts) {
-      radars_.push_back({mount, mount});
-      const std::size_t i = radars.size();
-      radars.push_back({mount, i < learned.size() ? learned[i] : std::nullopt});
-    }
-    filter_ = std::make_unique<OdometryFilter>(options, radars);
-    points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);
-  }
+                const std::vector<std::optional<LearnedErrors>>& learned = {});
 
   /// Sets speed and yaw rate.
   void set_motion(double speed_mps, double yaw_rate_radps) {
@@ -61,54 +45,15 @@ class OdometryDrive {
   [[nodiscard]] OdometryFilter& filter() { return *filter_; }
 
   /// Drives on to the next scan of a radar that is not silent, and updates the filter.
-  Odometry next() {
-    do {
-      pass(kPeriodUs / static_cast<std::int64_t>(radars_.size()));
-      turn_ = (turn_ + 1) % radars_.size();
-    } while (radars_[turn_].is_silent);
-    return filter_->update(turn_, see(turn_), stamp_us_);
-  }
+  Odometry next();
 
   /// Drives for a time; returns the last odometry.
-  Odometry drive(double time_s) {
-    Odometry odometry;
-    const std::int64_t end_us = stamp_us_ + static_cast<std::int64_t>(time_s * 1e6);
-    while (stamp_us_ < end_us) {
-      odometry = next();
-    }
-    return odometry;
-  }
+  Odometry drive(double time_s);
 
-  void pass(std::int64_t time_us) {
-    constexpr std::int64_t kStepUs = 1000;
-    for (std::int64_t left_us = time_us; left_us > 0; left_us -= kStepUs) {
-      const double dt_s = static_cast<double>(std::min(left_us, kStepUs)) * 1e-6;
-      const double yaw_rad = yaw_rate_radps_ * dt_s;
-      pose_ = composed_pose(pose_, {speed_mps_ * dt_s * std::cos(0.5 * yaw_rad),
-                                    speed_mps_ * dt_s * std::sin(0.5 * yaw_rad), yaw_rad});
-    }
-    stamp_us_ += time_us;
-  }
+  void pass(std::int64_t time_us);
 
   /// The targets of a radar at the present pose.
-  TargetSet see(std::size_t which) {
-    const Radar& radar = radars_[which];
-    const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps, 0.0, yaw_rate_radps_);
-    Detections detections;
-    for (const Eigen::Vector2d& point : points_) {
-      const Detection detection =
-          observe(seen_from(pose_, point), velocity, radar.mount, {0.1, 0.008, 0.1});
-      if (std::abs(detection.azimuth_rad) < numeric::radians(60.0) && detection.range_m < 50.0 &&
-          detections.size() < 100) {
-        detections.push_back(detection);
-      }
-    }
-    perturb(detections, random_);
-    for (Detection& detection : detections) {
-      detection.doppler_mps *= radar.doppler_scale;
-    }
-    return targets(detections, radar.configured);
-  }
+  TargetSet see(std::size_t which);
 
   [[nodiscard]] std::int64_t stamp_us() const { return stamp_us_; }
   [[nodiscard]] const Eigen::Vector3d& pose() const { return pose_; }

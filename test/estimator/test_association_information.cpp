@@ -100,8 +100,7 @@ double smallest_eigenvalue(double decades) {
     const Eigen::Matrix3d missing =
         missing_information(*association, random_problem(random, rows, columns, decades));
     CHECK(missing == missing.transpose());
-    const double least =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(missing).eigenvalues().minCoeff();
+    const double least = numeric::eigenvalues(missing).minCoeff();
     smallest = std::min(smallest, least / complete_information(*association).norm());
   }
   return smallest;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/fusion/map/map_registration.hpp"
@@ -76,9 +76,7 @@ class ModelDrive {
     for (int i = 0; i < Size; ++i) {
       white(i) = normal_(random_);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-    return solver.eigenvectors() *
-           solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().cwiseProduct(white);
+    return numeric::coloured(white, covariance);
   }
 
   static void advance(OdometryState& state, double dt_s) {
@@ -239,8 +237,7 @@ TEST_CASE("on its own model every state's covariance is and stays true") {
     const Eigen::VectorXd error = drive.estimate().mean() - drive.truth().mean();
     const Eigen::MatrixXd& covariance = drive.estimate().covariance();
     REQUIRE(covariance == covariance.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, Eigen::EigenvaluesOnly);
-    REQUIRE(solver.eigenvalues().minCoeff() > -1e-12);
+    REQUIRE(numeric::eigenvalues(covariance).minCoeff() > -1e-12);
     if (squares.size() == 0) {
       squares.setZero(error.size());
     }

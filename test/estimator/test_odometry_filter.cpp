@@ -5,9 +5,12 @@
 #include <map>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "test/estimator/numeric.hpp"
 #include "test/estimator/odometry_drive.hpp"
 
 namespace cremed {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/fusion/map/map_registration.hpp"

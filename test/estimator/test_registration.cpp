@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/registration/registration.hpp"
@@ -138,8 +139,7 @@ TEST_CASE("the covariance is symmetric, positive definite, and zero for states n
     const Eigen::Matrix3d covariance = solve(options, previous, current, kDt, mount).covariance;
     const Eigen::Vector3d sigma = covariance.diagonal().cwiseSqrt();
     CHECK(covariance == covariance.transpose());
-    const Eigen::Vector3d eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
+    const Eigen::Vector3d eigenvalues = numeric::eigenvalues(covariance);
     if (options.degrees_of_freedom == 2) {
       CHECK(covariance.row(1).isZero(0.0));
       CHECK(covariance.col(1).isZero(0.0));

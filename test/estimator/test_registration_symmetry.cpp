@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/registration/registration.hpp"

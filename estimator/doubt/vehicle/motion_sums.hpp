@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace cremed {
@@ -16,20 +13,10 @@ struct MotionSums {
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double squares = 0.0;
 
-  void add(const Eigen::Vector3d& derivative, double value, double variance) {
-    information += derivative * derivative.transpose() / variance;
-    weighted += derivative * (value / variance);
-    squares += value * value / variance;
-  }
-  void add(const MotionSums& other) {
-    information += other.information;
-    weighted += other.weighted;
-    squares += other.squares;
-  }
-  [[nodiscard]] Eigen::Vector3d solution() const { return information.ldlt().solve(weighted); }
-  [[nodiscard]] double chi_square() const {
-    return std::max(0.0, squares - weighted.dot(solution()));
-  }
+  void add(const Eigen::Vector3d& derivative, double value, double variance);
+  void add(const MotionSums& other);
+  [[nodiscard]] Eigen::Vector3d solution() const;
+  [[nodiscard]] double chi_square() const;
 };
 
 }  // namespace cremed

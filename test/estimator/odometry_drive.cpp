@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "test/estimator/odometry_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "test/estimator/numeric.hpp"
+
+namespace cremed::simulation {
+
+bool is_good(const Odometry& odometry) {
+  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
+}
+
+OdometryDrive::OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t seed,
+                             const OdometryOptions& options,
+                             const std::vector<std::optional<LearnedErrors>>& learned)
+    : random_(seed) {
+  std::vector<OdometryRadar> radars;
+  for (const Pose2& mount : mounts) {
+    radars_.push_back({mount, mount});
+    const std::size_t i = radars.size();
+    radars.push_back({mount, i < learned.size() ? learned[i] : std::nullopt});
+  }
+  filter_ = std::make_unique<OdometryFilter>(options, radars);
+  points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);
+}
+
+Odometry OdometryDrive::next() {
+  do {
+    pass(kPeriodUs / static_cast<std::int64_t>(radars_.size()));
+    turn_ = (turn_ + 1) % radars_.size();
+  } while (radars_[turn_].is_silent);
+  return filter_->update(turn_, see(turn_), stamp_us_);
+}
+
+Odometry OdometryDrive::drive(double time_s) {
+  Odometry odometry;
+  const std::int64_t end_us = stamp_us_ + static_cast<std::int64_t>(time_s * 1e6);
+  while (stamp_us_ < end_us) {
+    odometry = next();
+  }
+  return odometry;
+}
+
+void OdometryDrive::pass(std::int64_t time_us) {
+  constexpr std::int64_t kStepUs = 1000;
+  for (std::int64_t left_us = time_us; left_us > 0; left_us -= kStepUs) {
+    const double dt_s = static_cast<double>(std::min(left_us, kStepUs)) * 1e-6;
+    const double yaw_rad = yaw_rate_radps_ * dt_s;
+    pose_ = composed_pose(pose_, {speed_mps_ * dt_s * std::cos(0.5 * yaw_rad),
+                                  speed_mps_ * dt_s * std::sin(0.5 * yaw_rad), yaw_rad});
+  }
+  stamp_us_ += time_us;
+}
+
+TargetSet OdometryDrive::see(std::size_t which) {
+  const Radar& radar = radars_[which];
+  const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps, 0.0, yaw_rate_radps_);
+  Detections detections;
+  for (const Eigen::Vector2d& point : points_) {
+    const Detection detection =
+        observe(seen_from(pose_, point), velocity, radar.mount, {0.1, 0.008, 0.1});
+    if (std::abs(detection.azimuth_rad) < numeric::radians(60.0) && detection.range_m < 50.0 &&
+        detections.size() < 100) {
+      detections.push_back(detection);
+    }
+  }
+  perturb(detections, random_);
+  for (Detection& detection : detections) {
+    detection.doppler_mps *= radar.doppler_scale;
+  }
+  return targets(detections, radar.configured);
+}
+
+}  // namespace cremed::simulation

@@ -24,6 +24,7 @@ void CircleView::go_on(const CircleDrive& drive, double duration_s, const Add& a
 double CircleView::uniform(double least, double most) {
   return std::uniform_real_distribution<double>(least, most)(random_);
 }
+
 double CircleView::normal(double std) {
   return std::normal_distribution<double>(0.0, std)(random_);
 }
@@ -51,14 +52,18 @@ TargetSet CircleView::seen(const std::vector<Eigen::Vector2d>& world, const Circ
   TargetSet targets;
   for (const Eigen::Vector2d& thing : world) {
     const Eigen::Vector2d p = to_radar * (to_vehicle * wrapped(thing - place_) - sensor_m);
+    const double range_m = p.norm();
+    if (range_m > 60.0) {
+      continue;
+    }
     Detection detection;
-    detection.range_m = p.norm() + normal(0.15);
+    detection.range_m = range_m + normal(0.15);
     detection.azimuth_rad = std::atan2(p.y(), p.x()) + normal(0.008);
     detection.doppler_mps = -drive.doppler_factor * velocity.dot(p.normalized()) + normal(0.1);
     detection.range_std_m = 0.15;
     detection.azimuth_std_rad = 0.008;
     detection.doppler_std_mps = 0.1;
-    const bool is_in_view = std::abs(detection.azimuth_rad) < 0.9 && p.norm() < 60.0;
+    const bool is_in_view = std::abs(detection.azimuth_rad) < 0.9;
     if (is_in_view && uniform(0.0, 1.0) < drive.kept && targets.size() < 120) {
       targets.add(detection, mount);
     }

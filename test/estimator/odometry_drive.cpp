@@ -57,13 +57,18 @@ void OdometryDrive::pass(std::int64_t time_us) {
 }
 
 TargetSet OdometryDrive::see(std::size_t which) {
+  constexpr double kRangeM = 50.0;
+  constexpr double kFarM = kRangeM + 10.0;  // From the vehicle: no radar sees that far.
   const Radar& radar = radars_[which];
   const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps, 0.0, yaw_rate_radps_);
   Detections detections;
   for (const Eigen::Vector2d& point : points_) {
+    if ((point - pose_.head<2>()).squaredNorm() > kFarM * kFarM) {
+      continue;
+    }
     const Detection detection =
         observe(seen_from(pose_, point), velocity, radar.mount, {0.1, 0.008, 0.1});
-    if (std::abs(detection.azimuth_rad) < numeric::radians(60.0) && detection.range_m < 50.0 &&
+    if (std::abs(detection.azimuth_rad) < numeric::radians(60.0) && detection.range_m < kRangeM &&
         detections.size() < 100) {
       detections.push_back(detection);
     }

@@ -27,6 +27,18 @@ double damping_factor(double gain) {
   return std::max(1.0 / kMostDecrease, 1.0 - std::pow(2.0 * gain - 1.0, 3));
 }
 
+/// Calls `use(i, j)` for each product of columns in the lower part of a matrix.
+template <typename Use>
+void each_product(const std::vector<int>& columns, const Use& use) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      if (columns[i] >= columns[j]) {
+        use(i, j);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double Loss::cost(double square) const {
@@ -55,10 +67,9 @@ double Loss::weight(double square) const {
   return 1.0;
 }
 
-LeastSquares::Linearised LeastSquares::linearise() const {
-  Linearised result;
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> residuals;
+template <typename Use>
+double LeastSquares::evaluate(const Use& use) const {
+  double cost = 0.0;
   Rows rows;
   RowsJacobian jacobian;
   for (const Term& term : terms_) {
@@ -67,20 +78,63 @@ LeastSquares::Linearised LeastSquares::linearise() const {
     term.evaluate(rows, jacobian);
     const double square = rows.squaredNorm();
     const double root = std::sqrt(term.loss.weight(square));
-    result.cost += 0.5 * term.loss.cost(square);
+    cost += 0.5 * term.loss.cost(square);
+    rows *= root;
+    jacobian *= root;
+    use(term, rows, jacobian);
+  }
+  return cost;
+}
+
+LeastSquares::Linearised LeastSquares::linearise() const {
+  Linearised result;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> residuals;
+  result.cost = evaluate([&](const Term& term, const Rows& rows, const RowsJacobian& jacobian) {
     for (int row = 0; row < term.rows; ++row) {
       const int number = static_cast<int>(residuals.size());
-      residuals.push_back(root * rows[row]);
+      residuals.push_back(rows[row]);
       for (std::size_t i = 0; i < term.columns.size(); ++i) {
-        entries.emplace_back(number, term.columns[i],
-                             root * jacobian(row, static_cast<Eigen::Index>(i)));
+        entries.emplace_back(number, term.columns[i], jacobian(row, static_cast<Eigen::Index>(i)));
       }
     }
-  }
+  });
   const auto count = static_cast<Eigen::Index>(residuals.size());
   result.residuals = Eigen::Map<const Eigen::VectorXd>(residuals.data(), count);
   result.jacobian.resize(count, count_);
   result.jacobian.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+LeastSquares::Pattern LeastSquares::pattern() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Term& term : terms_) {
+    each_product(term.columns, [&](std::size_t i, std::size_t j) {
+      entries.emplace_back(term.columns[i], term.columns[j], 0.0);
+    });
+  }
+  Pattern pattern{Eigen::SparseMatrix<double>(count_, count_), {}};
+  pattern.information.setFromTriplets(entries.begin(), entries.end());
+  for (const Eigen::Triplet<double>& entry : entries) {
+    const double& value = pattern.information.coeffRef(entry.row(), entry.col());
+    pattern.places.push_back(static_cast<int>(&value - pattern.information.valuePtr()));
+  }
+  return pattern;
+}
+
+LeastSquares::NormalEquations LeastSquares::normal_equations(const Pattern& pattern) const {
+  NormalEquations result{pattern.information, Eigen::VectorXd::Zero(count_)};
+  double* const information = result.information.valuePtr();
+  auto place = pattern.places.begin();
+  result.cost = evaluate([&](const Term& term, const Rows& rows, const RowsJacobian& jacobian) {
+    for (std::size_t i = 0; i < term.columns.size(); ++i) {
+      result.gradient[term.columns[i]] += jacobian.col(static_cast<Eigen::Index>(i)).dot(rows);
+    }
+    each_product(term.columns, [&](std::size_t i, std::size_t j) {
+      information[*place++] += jacobian.col(static_cast<Eigen::Index>(i))
+                                   .dot(jacobian.col(static_cast<Eigen::Index>(j)));
+    });
+  });
   return result;
 }
 
@@ -103,21 +157,23 @@ void LeastSquares::set_values(const Eigen::VectorXd& values) {
 }
 
 void LeastSquares::solve() {
-  Linearised now = linearise();
+  const Pattern pattern = this->pattern();
+  NormalEquations now = normal_equations(pattern);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+  factors.analyzePattern(pattern.information);
   double damping = kFirstDamping;
   double increase = kFirstIncrease;
   for (int i = 0; i < kMaxSteps; ++i) {
-    const Eigen::SparseMatrix<double> information = now.jacobian.transpose() * now.jacobian;
-    const Eigen::VectorXd gradient = now.jacobian.transpose() * now.residuals;
-    Eigen::SparseMatrix<double> damped = information;
+    Eigen::SparseMatrix<double> damped = now.information;
     damped.diagonal() *= 1.0 + damping;
-    const Eigen::VectorXd step =
-        Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(damped).solve(-gradient);
+    factors.factorize(damped);
+    const Eigen::VectorXd step = factors.solve(-now.gradient);
     const Eigen::VectorXd before = values();
     set_values(before + step);
-    Linearised next = linearise();
+    NormalEquations next = normal_equations(pattern);
     const double decrease = now.cost - next.cost;
-    const double expected = -step.dot(gradient) - 0.5 * step.dot(information * step);
+    const double expected = -step.dot(now.gradient) -
+                            0.5 * step.dot(now.information.selfadjointView<Eigen::Lower>() * step);
     const bool is_there = std::abs(decrease) <= kTolerance * now.cost;
     if (is_there || !(decrease > kLeastGain * expected)) {
       set_values(before);

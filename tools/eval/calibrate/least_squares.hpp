@@ -38,7 +38,8 @@ class LeastSquares {
     count_ += static_cast<int>(N);
   }
 
-  /// `residual(const T* block, ..., T* rows)` has Rows rows and depends on these unknowns.
+  /// `residual(const T* block, ..., T* rows)` has Rows rows and depends on these unknowns, each
+  /// named once.
   template <int Rows, typename Residual, std::size_t... N>
   void add(const Residual& residual, Loss loss, std::array<double, N>&... unknowns);
 
@@ -66,6 +67,22 @@ class LeastSquares {
     double* values;
     std::size_t size;
   };
+  /// Sum over the terms of J'J, of which it is the lower part, of J'r and of the cost.
+  struct NormalEquations {
+    Eigen::SparseMatrix<double> information;
+    Eigen::VectorXd gradient;
+    double cost = 0.0;
+  };
+  /// Where the terms' products of columns stand in the information, term by term.
+  struct Pattern {
+    Eigen::SparseMatrix<double> information;
+    std::vector<int> places;
+  };
+  [[nodiscard]] Pattern pattern() const;
+  [[nodiscard]] NormalEquations normal_equations(const Pattern& pattern) const;
+  /// Calls `use(term, rows, jacobian)` for each term, both weighted; returns the cost.
+  template <typename Use>
+  double evaluate(const Use& use) const;
   [[nodiscard]] Eigen::VectorXd values() const;
   void set_values(const Eigen::VectorXd& values);
 

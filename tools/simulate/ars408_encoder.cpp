@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/ars408_encoder.hpp"
 
-#include <algorithm>
-#include <ranges>
-
 #include "cremed/can_decoders/ars408_signals.hpp"
 
 namespace cremed {
@@ -23,11 +20,9 @@ CanFrame encoded(Ars408Message message, std::uint8_t sensor_id, std::uint8_t len
 }  // namespace
 
 std::uint8_t ars408_rms_code(double standard_deviation) {
-  const auto codes = std::views::iota(0, 30);
-  const auto is_less = [&](int code) {
-    return ars408_rms(static_cast<std::uint8_t>(code)).value_or(0.0) < standard_deviation;
-  };
-  return static_cast<std::uint8_t>(std::ranges::partition_point(codes, is_less) - codes.begin());
+  std::uint8_t code = 0;
+  while (code < 30 && ars408_rms(code).value_or(0.0) < standard_deviation) ++code;
+  return code;
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterStatus& status) {

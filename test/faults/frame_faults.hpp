@@ -173,6 +173,16 @@ inline Frames with_late_stamps(const Frames& frames, FaultTime time, std::size_t
   return arrivals.in_order();
 }
 
+/// The computer stands still for a while each period: what came meanwhile is stamped at its end.
+inline Frames with_halts(Frames frames, FaultTime time, std::int64_t period_us,
+                         std::int64_t halt_us) {
+  for (CanFrame& frame : frames) {
+    const std::int64_t since_us = (frame.stamp_us - time.from_us) % period_us;
+    if (time.has(frame) && since_us < halt_us) frame.stamp_us += halt_us - since_us;
+  }
+  return frames;
+}
+
 /// The clock of all buses is set; frames arrive as before.
 inline Frames with_clock_step(Frames frames, FaultTime time, std::int64_t step_us) {
   for (CanFrame& frame : frames) {

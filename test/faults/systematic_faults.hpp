@@ -206,15 +206,12 @@ class SystematicFaults {
       }
     }
     // As an overloaded computer does, or a USB adapter. Nobody is at fault.
-    for (const bool is_alone : {false, true}) {
-      cases_.push_back({is_alone ? "alone, halts of 50 ms" : "halts of 50 ms", "", onwards(),
-                        [](const FaultDrive& d, FaultTime t) {
-                          return with_halts(d.frames, t, 1'600'000, 50'000);
-                        }});
-      if (is_alone) {
-        cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
-      }
-    }
+    const auto halts = [](const FaultDrive& d, FaultTime t) {
+      return with_halts(d.frames, t, 1'600'000, 50'000);
+    };
+    cases_.push_back({"halts of 50 ms", "", onwards(), halts});
+    cases_.push_back({"alone, halts of 50 ms", "", onwards(), halts});
+    cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);
       cases_.push_back({fault_kind("clock step %+.1f s", step_s), "", onwards(),

@@ -132,7 +132,7 @@ class Vehicle:
                       f"an end within {SLOWEST_END_S} s, not {took_s:.2f} s")
 
 
-# With few targets: a guest takes 45 us or more a system call, and each frame takes several.
+# In the field are few targets: the frames of others fill a slow guest's processor.
 DRIVES = {  # Name: scenario, seconds, radars.
     "field": ("field", 15, FRONT + REAR),
     "long": ("field", 60, FRONT),

@@ -57,26 +57,43 @@ bool BusClocks::is_set_back(const CanFrame& frame) {
   return is_back;
 }
 
-bool ScanClock::is_set_forward(const RadarScan& scan) {
-  const auto last = std::exchange(last_, Scan{scan.stamp_us, scan.counter});
-  if (!last || modulus_ < kMinModulus) {
-    return false;
+void ScanClock::forget() {
+  last_.reset();
+  late_scans_ = 0;
+}
+
+ScanTiming ScanClock::judge(const RadarScan& scan) {
+  const Scan now{scan.stamp_us, scan.counter};
+  const Scan last = last_.value_or(now);
+  const std::uint32_t counts =
+      modulus_ == 0 ? 0 : (now.counter + modulus_ - last.counter) % modulus_;
+  const double passed_s = seconds_between(last.stamp_us, now.stamp_us);
+  if (modulus_ < kMinModulus || counts == 0 || !(passed_s > 0.0)) {
+    last_ = now;
+    return ScanTiming::steady;
   }
-  const std::uint32_t counts = (scan.counter + modulus_ - last->counter) % modulus_;
-  const double passed_s = seconds_between(last->stamp_us, scan.stamp_us);
-  if (counts == 0 || !(passed_s > 0.0)) {
-    return false;
+  const double late_s = passed_s - counts * period_s_;
+  if (late_s > kStepS && confirmations_ == kMinConfirmations && !is_as_late(late_s)) {
+    return ScanTiming::late;  // Those that follow are compared with the scan before it.
   }
-  const double excess_s = passed_s - counts * period_s_;
-  if (std::abs(excess_s) <= kStepS) {
+  last_ = now;
+  late_scans_ = 0;
+  if (std::abs(late_s) <= kStepS) {
     confirmations_ = std::min(confirmations_ + 1, kMinConfirmations);
-    return false;
+    return ScanTiming::steady;
   }
   // Without a steady counter (a sensor that starts anew, two sensors with one id) nothing is known.
-  const bool is_step = excess_s > kStepS && confirmations_ == kMinConfirmations;
+  const bool is_step = late_s > kStepS && confirmations_ == kMinConfirmations;
   period_s_ = passed_s / counts;
   confirmations_ = 0;
-  return is_step;
+  return is_step ? ScanTiming::set_forward : ScanTiming::steady;
+}
+
+/// As the scan before was, or for too long.
+bool ScanClock::is_as_late(double late_s) {
+  const bool is_alike = late_scans_ > 0 && std::abs(late_s - late_s_) <= kStepS;
+  late_s_ = late_s;
+  return is_alike || ++late_scans_ > kMaxLate;
 }
 
 }  // namespace cremed

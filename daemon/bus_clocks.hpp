@@ -85,21 +85,29 @@ class BusClocks {
   std::optional<std::uint8_t> last_interface_;
 };
 
-/// The stamps of one radar's scans compared with its cycle counter: shows that the clock was set
-/// forward, where a log has only a pause.
+/// A scan's stamp by the radar's cycle counter.
+enum class ScanTiming : std::uint8_t {
+  steady,       ///< Or not known.
+  late,         ///< The computer stood still, or its clock was set: the next scans tell.
+  set_forward,  ///< The clock was set, where a log has only a pause.
+};
+
+/// The stamps of one radar's scans compared with its cycle counter.
 class ScanClock {
  public:
   explicit ScanClock(std::uint32_t counter_modulus) : modulus_(counter_modulus) {}
 
-  /// True if a scan comes more than kStepS later than its counter says.
-  bool is_set_forward(const RadarScan& scan);
-  void forget() { last_.reset(); }
+  ScanTiming judge(const RadarScan& scan);
+  void forget();
 
  private:
   /// On recorded drives (nuScenes, RadarScenes, 9000 scans of ARS408) that is 0.008 s at most.
   static constexpr double kStepS = 0.05;
   /// Scans in a row with one period before a step is believed.
   static constexpr int kMinConfirmations = 10;
+  /// Frames that waited while the computer stood still are stamped at one time: each scan is less
+  /// late. After a step all are late alike, with another period of the sensor more and more.
+  static constexpr int kMaxLate = 3;
   /// Shorter counters pass through zero in a pause.
   static constexpr std::uint32_t kMinModulus = 4096;
   struct Scan {
@@ -107,10 +115,14 @@ class ScanClock {
     std::uint16_t counter;
   };
 
+  bool is_as_late(double late_s);
+
   std::uint32_t modulus_;
   std::optional<Scan> last_;
   double period_s_ = 0.0;  // Of one count.
   int confirmations_ = 0;
+  double late_s_ = 0.0;  // The scan before,
+  int late_scans_ = 0;   // of so many in a row.
 };
 
 }  // namespace cremed

@@ -79,11 +79,13 @@ void Pipeline::use_scans(RadarChannel& radar, std::int64_t begin_us) {
 
 void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us) {
   odometry_.make_room(radar.index);
-  if (radar.scan_clock.is_set_forward(scan)) {
+  const ScanTiming timing = radar.scan_clock.judge(scan);
+  if (timing == ScanTiming::set_forward) {
     forget_motions();
   }
   const std::int64_t solve_begin_us = clock_.now_us();
-  EgoMotion motion = radar.estimator.update(scan);
+  EgoMotion motion =
+      timing == ScanTiming::late ? radar.estimator.reject(scan) : radar.estimator.update(scan);
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   check(radar, motion);
   radar.count(motion);

@@ -81,7 +81,6 @@ class Association {
   /// The pairs of row i are those from row_begin(i) to before row_begin(i + 1).
   [[nodiscard]] std::size_t row_begin(std::size_t i) const { return row_begin_[i]; }
   [[nodiscard]] std::size_t column(std::size_t k) const { return column_of_[k]; }
-  [[nodiscard]] double ratio(std::size_t k) const { return ratio_[k]; }
   [[nodiscard]] double probability(std::size_t k) const { return probability_[k]; }
   [[nodiscard]] const Eigen::Vector3d& gradient(std::size_t k) const { return gradient_[k]; }
 

@@ -88,7 +88,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   was_ok_ = was_ok_ || result.status == OdometryStatus::ok;
   traffic_.parked.add_output(odometry);
   if (condition_.settle() || believed) {
-    output_.renew_anchor();
+    output_.end_anchor();
   }
   return result;
 }
@@ -126,14 +126,18 @@ Odometry OdometryFilter::with_condition(Odometry odometry) const {
 
 void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
+  const bool is_reversed = faults_.take_reversal();
+  const bool has_stepped_back = faults_.take_step_back();
   const bool is_lost = (condition_.is_lost() && is_trusted && !traffic_.parked.is_in_doubt() &&
                         gap_s > -state_.options().max_lateness_s) ||
-                       faults_.take_reversal() || faults_.take_step_back();
+                       is_reversed || has_stepped_back;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
       faults_.require_positions(majority_.has_stepped());
     }
-    restart(stamp_us, seconds_between(condition_.used_us(), stamp_us));
+    // What was published is not taken back by a scan that comes late.
+    const std::int64_t from_us = std::max(stamp_us, state_.time_us());
+    restart(from_us, seconds_between(condition_.used_us(), from_us));
   } else if (!has_started_) {
     restart(stamp_us, 0.0);
   }
@@ -169,10 +173,12 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// Of the Doppler of each radar that is judged, and of the way since the anchor.
+/// Of the Doppler of each radar that is judged, of the speed, and of the way since the anchor.
 void OdometryFilter::allow_for_scale(double scale) {
   for_each(faults_.judged(), [&](std::size_t i) { state_.widen_scale(i, scale); });
-  const double way_m = scale * state_.gaussian.mean(kSpeed) * output_.anchor_age_s();
+  const double speed_mps = scale * state_.gaussian.mean(kSpeed);
+  const double way_m = speed_mps * output_.anchor_age_s();
+  state_.gaussian.add_variance(kSpeed, squared(speed_mps));
   state_.gaussian.add_variance(kX, squared(way_m));
 }
 

@@ -25,11 +25,23 @@ EgoMotionEstimator::EgoMotionEstimator(const EgoMotionOptions& options)
       registration_(options.registration, options.vehicle_from_radar),
       two_worlds_(options.vehicle_from_radar) {}
 
-EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
+EgoMotion EgoMotionEstimator::begin(const RadarScan& scan) const {
   EgoMotion motion;
   motion.utime_us = scan.stamp_us;
   motion.utime_start_us = has_reference_ ? reference_stamp_us_ : scan.stamp_us;
   motion.incomplete = scan.status != ScanStatus::complete;
+  return motion;
+}
+
+EgoMotion EgoMotionEstimator::reject(const RadarScan& scan) {
+  EgoMotion motion = begin(scan);
+  motion.status = MotionStatus::incomplete_scan;
+  targets_.clear();
+  return motion;
+}
+
+EgoMotion EgoMotionEstimator::update(const RadarScan& scan) {
+  EgoMotion motion = begin(scan);
   // 1. The usable targets, corrected.
   motion.status = select_targets(scan);
   motion.targets = static_cast<int>(targets_.size());

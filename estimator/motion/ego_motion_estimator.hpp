@@ -26,7 +26,8 @@ enum class MotionStatus : std::uint8_t {
   standing_still = 1,   ///< An estimate; speed, and sigma of x and y over dt, <= standstill_mps,
                         ///< |yaw| <= 3 sigma, median |Doppler| / sigma <= 1.
   no_reference = 2,     ///< The first usable scan.
-  incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status).
+  incomplete_scan = 3,  ///< The scan contradicts itself or is over capacity (RadarScan::status), or
+                        ///< its stamp is wrong.
   gap_too_long = 4,     ///< Time since the reference scan > max_gap_s, or not > 0.
   too_few_targets = 5,  ///< Usable targets < min_targets.
   degenerate = 6,       ///< J'J not positive definite, or a sigma > max_std_m, max_std_rad.
@@ -70,6 +71,8 @@ class EgoMotionEstimator {
   explicit EgoMotionEstimator(const EgoMotionOptions& options);
 
   EgoMotion update(const RadarScan& scan);
+  /// For a scan whose stamp is wrong: incomplete_scan.
+  EgoMotion reject(const RadarScan& scan);
 
   /// To be called when the clock of the stamps was set: the next scan has no reference.
   void forget_reference();
@@ -79,6 +82,7 @@ class EgoMotionEstimator {
   [[nodiscard]] const SelectionCounters& selection() const { return selection_; }
 
  private:
+  [[nodiscard]] EgoMotion begin(const RadarScan& scan) const;
   MotionStatus select_targets(const RadarScan& scan);
   MotionStatus solve(double dt_s, EgoMotion& motion);
   MotionStatus judge(const RegistrationResult& result, double dt_s);

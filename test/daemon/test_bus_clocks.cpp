@@ -103,13 +103,13 @@ TEST_CASE("clocks agree until a frame is stamped before an earlier one of anothe
 /// Scans every 75 ms that count by two.
 class Scans {
  public:
-  bool next(ScanClock& clock, double later_s = 0.0, std::uint16_t lost = 0) {
+  ScanTiming next(ScanClock& clock, double later_s = 0.0, std::uint16_t lost = 0) {
     counter_ = static_cast<std::uint16_t>(counter_ + 2 * (1 + lost));
     stamp_us_ += 75'000 * (1 + lost) + static_cast<std::int64_t>(1e6 * later_s);
     RadarScan scan;
     scan.stamp_us = stamp_us_;
     scan.counter = counter_;
-    return clock.is_set_forward(scan);
+    return clock.judge(scan);
   }
   void skip_count() { counter_ = static_cast<std::uint16_t>(counter_ + 1000); }
 
@@ -118,32 +118,61 @@ class Scans {
   std::int64_t stamp_us_ = kStartUs;
 };
 
-TEST_CASE("a stamp that is later than its counter says shows a clock that was set forward") {
+void expect_steady(Scans& scans, ScanClock& clock, int count, double jitter_s = 0.0) {
+  for (int i = 0; i < count; ++i) {
+    CHECK(scans.next(clock, i % 2 == 0 ? jitter_s : -jitter_s) == ScanTiming::steady);
+  }
+}
+
+TEST_CASE("stamps that are later than the counter says show a clock that was set forward") {
   const double step_s = GENERATE(0.1, 0.5, 30.0);
   ScanClock clock(65536);
   Scans scans;
-  for (int i = 0; i < 400; ++i) {
-    CHECK_FALSE(scans.next(clock, i % 2 == 0 ? 0.008 : -0.008));
+  expect_steady(scans, clock, 400, 0.008);
+  CHECK(scans.next(clock, step_s) == ScanTiming::late);
+  CHECK(scans.next(clock) == ScanTiming::set_forward);
+  expect_steady(scans, clock, 20);
+}
+
+TEST_CASE("scans that waited while the computer stood still are late, and the clock was not set") {
+  const double halt_s = GENERATE(0.06, 0.1, 0.2);
+  ScanClock clock(65536);
+  Scans scans;
+  expect_steady(scans, clock, 40, 0.008);
+  for (int halt = 0; halt < 10; ++halt) {
+    double late_s = halt_s;
+    CHECK(scans.next(clock, late_s) == ScanTiming::late);
+    for (; late_s > 0.075; late_s -= 0.0749) {
+      CHECK(scans.next(clock, -0.0749) != ScanTiming::set_forward);
+    }
+    CHECK(scans.next(clock, -late_s) == ScanTiming::steady);
+    expect_steady(scans, clock, 20);
   }
-  CHECK(scans.next(clock, step_s));
+}
+
+TEST_CASE("a sensor that is set to a longer period is not late for ever") {
+  ScanClock clock(65536);
+  Scans scans;
+  expect_steady(scans, clock, 40);
+  int late = 0;
   for (int i = 0; i < 20; ++i) {
-    CHECK_FALSE(scans.next(clock));
+    late += scans.next(clock, 0.075) == ScanTiming::late ? 1 : 0;
   }
+  CHECK(late == 3);
+  expect_steady(scans, clock, 20, 0.0);
 }
 
 TEST_CASE("lost scans, a counter that begins anew, and short counters show no step") {
   ScanClock clock(65536);
   Scans scans;
   for (int i = 0; i < 50; ++i) {
-    CHECK_FALSE(scans.next(clock, 0.0, i % 10 == 9 ? 20 : 0));
+    CHECK(scans.next(clock, 0.0, i % 10 == 9 ? 20 : 0) == ScanTiming::steady);
   }
   scans.skip_count();
-  for (int i = 0; i < 20; ++i) {
-    CHECK_FALSE(scans.next(clock));
-  }
+  expect_steady(scans, clock, 20);
   ScanClock of_short_counter(16);
   for (int i = 0; i < 50; ++i) {
-    CHECK_FALSE(scans.next(of_short_counter, i == 30 ? 0.5 : 0.0));
+    CHECK(scans.next(of_short_counter, i == 30 ? 0.5 : 0.0) == ScanTiming::steady);
   }
 }
 
@@ -154,7 +183,7 @@ TEST_CASE("two sensors with one id have no steady counter: nothing is known") {
     RadarScan scan;
     scan.stamp_us = kStartUs + 37'500 * i;
     scan.counter = static_cast<std::uint16_t>(i % 2 == 0 ? i : 30'000 + i);
-    steps += clock.is_set_forward(scan) ? 1 : 0;
+    steps += clock.judge(scan) == ScanTiming::steady ? 0 : 1;
   }
   CHECK(steps == 0);
 }

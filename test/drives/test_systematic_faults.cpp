@@ -21,6 +21,17 @@ TEST_CASE("Simulated drive of the nuScenes car: each systematic fault", "[long]"
   matrix.check();
 }
 
+TEST_CASE("Regimes of the nuScenes car, simulated: nobody is named while nothing is wrong",
+          "[long]") {
+  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
+  SystematicMatrix matrix(&NotYet::simulated);
+  for (const char* regime : {"stop-and-go", "standing", "crowd", "field", "tunnel", "jam",
+                             "reversing", "braking", "garage", "campus"}) {
+    matrix.run_healthy(regime, simulated_fault_drive(regime, 50.0, car.radars));
+  }
+  matrix.check();
+}
+
 TEST_CASE("A parked vehicle stays parked beside a train, a convoy, a jam that starts", "[long]") {
   SystematicMatrix matrix(&NotYet::simulated);
   for (const auto& [name, neighbour] : kNeighbours) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -35,6 +36,10 @@ Eigen::Vector2d velocity_at(const Twist& motion, const Pose2& mount) {
   return {motion.v_mps - motion.w_radps * mount.y_m, motion.w_radps * mount.x_m};
 }
 
+Eigen::Matrix3d variances(double speed_std_mps, double yaw_rate_std_radps) {
+  return Eigen::Vector3d(speed_std_mps, yaw_rate_std_radps, 0.0).cwiseAbs2().asDiagonal();
+}
+
 /// What a radar with a fault measures, in the axes of the vehicle by its configured mount.
 using Fault = std::function<Eigen::Vector2d(const Driving&, double time_s, const Pose2& mount)>;
 
@@ -47,9 +52,11 @@ FaultCause found(std::size_t radar, const Driving& drive, double duration_s, con
     const Twist motion = drive(time_s);
     search.add_motion(
         std::llround(time_s * 1e6),
-        {motion.v_mps + 0.03 * normal(random), motion.w_radps + 0.005 * normal(random), 0.0}, 0.0);
+        {motion.v_mps + 0.03 * normal(random), motion.w_radps + 0.005 * normal(random), 0.0},
+        Eigen::Matrix3d::Zero());
     search.add_velocity(fault(drive, time_s, kFourMounts[radar]) +
-                        Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)));
+                            Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
+                        Eigen::Matrix2d::Zero());
   }
   return search.cause(at_fault | 1U << radar);
 }
@@ -149,8 +156,9 @@ TEST_CASE("what a cause gains is nothing to a healthy radar, and much before the
     FaultCauseSearch search(kFourMounts, 0);
     for (double time_s = 1000.0; time_s < 1004.0; time_s += 0.15) {
       const Twist motion = drive(time_s);
-      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
-      search.add_velocity(fault(drive, time_s, kFourMounts[0]));
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0},
+                        Eigen::Matrix3d::Zero());
+      search.add_velocity(fault(drive, time_s, kFourMounts[0]), Eigen::Matrix2d::Zero());
     }
     return search.find();
   };
@@ -168,13 +176,48 @@ TEST_CASE("others that know their yaw rate badly convict no radar by it") {
       const Twist motion = town(time_s);
       // A quarter too small: as if the front radar were further ahead.
       search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.75 * motion.w_radps, 0.0},
-                        yaw_rate_std_radps * yaw_rate_std_radps);
-      search.add_velocity(velocity_at(motion, kFourMounts[0]));
+                        variances(0.0, yaw_rate_std_radps));
+      search.add_velocity(velocity_at(motion, kFourMounts[0]), Eigen::Matrix2d::Zero());
     }
     return search.find().gain;
   };
   CHECK(gain(0.0) > 25.0);
   CHECK(gain(0.08) < 25.0);
+}
+
+/// What a cause gains within 30 s with few targets: random errors of 0.1 m/s along and 0.25 across,
+/// and 0.03 rad/s of the others.
+double most_gained(const Driving& drive, const Fault& fault, std::uint64_t seed) {
+  const Eigen::Vector2d own_std(0.1, 0.25);
+  const Eigen::Vector2d others_std(0.05, 0.03);  // m/s, rad/s
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  FaultCauseSearch search(kFourMounts, 0);
+  double most = 0.0;
+  for (double time_s = 1000.0; time_s < 1030.0; time_s += 0.15) {
+    const Twist motion = drive(time_s);
+    search.add_motion(std::llround(time_s * 1e6),
+                      {motion.v_mps + others_std.x() * normal(random),
+                       motion.w_radps + others_std.y() * normal(random), 0.0},
+                      variances(others_std.x(), others_std.y()));
+    const Eigen::Vector2d noise(own_std.x() * normal(random), own_std.y() * normal(random));
+    search.add_velocity(fault(drive, time_s, kFourMounts[0]) + noise,
+                        own_std.cwiseAbs2().asDiagonal());
+    most = std::max(most, search.find().gain);
+  }
+  return most;
+}
+
+TEST_CASE("the noise of radars with few targets is no fault, at rest, straight and in turns") {
+  const auto rest = [](double /*time_s*/) { return Twist{0.0, 0.0}; };
+  for (const Driving& drive : {Driving(rest), Driving(straight), Driving(town)}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CHECK(most_gained(drive, scaled_by(1.0), seed) < 25.0);
+    }
+  }
+  CHECK(most_gained(town, scaled_by(0.9), 1) > 25.0);
+  CHECK(most_gained(town, upside_down, 1) > 25.0);
+  CHECK(most_gained(town, late(0.3), 1) > 25.0);
 }
 
 TEST_CASE("data of a radar at another mount are found with its number") {
@@ -206,8 +249,9 @@ TEST_CASE("nothing is named before lateness can be told, and after a pause from 
   const auto drive = [&](double from_s, double until_s, double factor) {
     for (double time_s = from_s; time_s < until_s; time_s += 0.15) {
       search.add_motion(std::llround(time_s * 1e6), {town(time_s).v_mps, town(time_s).w_radps, 0.0},
-                        0.0);
-      search.add_velocity(factor * velocity_at(town(time_s), kFourMounts[0]));
+                        Eigen::Matrix3d::Zero());
+      search.add_velocity(factor * velocity_at(town(time_s), kFourMounts[0]),
+                          Eigen::Matrix2d::Zero());
     }
     return search.cause(1U);
   };
@@ -221,8 +265,9 @@ TEST_CASE("after the end of a fault the next one is found anew") {
   const auto drive = [&](double from_s, const Fault& fault) {
     for (double time_s = from_s; time_s < from_s + 5.0; time_s += 0.15) {
       const Twist motion = town(time_s);
-      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0}, 0.0);
-      search.add_velocity(fault(town, time_s, kFourMounts[0]));
+      search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, motion.w_radps, 0.0},
+                        Eigen::Matrix3d::Zero());
+      search.add_velocity(fault(town, time_s, kFourMounts[0]), Eigen::Matrix2d::Zero());
     }
     return search.cause(1U).kind;
   };

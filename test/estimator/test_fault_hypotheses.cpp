@@ -50,6 +50,11 @@ class Comparison {
       }
     }
   }
+  /// From now on.
+  void brake(double by_mps2) {
+    braking_mps2_ = by_mps2;
+    braking_since_s_ = time_s_;
+  }
   void silence(std::size_t radar) { is_silent_[radar] = true; }
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
@@ -67,7 +72,8 @@ class Comparison {
     const auto stamp_us = static_cast<std::int64_t>(std::llround(time_s_ * 1e6));
     const double time_s = time_s_ - delays_s_[radar];
     const double w = 0.2 * std::sin(0.5 * time_s);
-    const double v = 8.0 + std::sin(0.3 * time_s);
+    const double v =
+        std::max(0.0, 8.0 + std::sin(0.3 * time_s) - braking_mps2_ * (time_s - braking_since_s_));
     const Pose2& mount = mounts_[radar];
     const double forward = v - w * mount.y_m;
     Measured measured{{forward + 0.03 * normal_(random_), w * mount.x_m + 0.1 * normal_(random_)},
@@ -84,15 +90,15 @@ class Comparison {
     motion.covariance.setZero();
     motion.covariance(2, 2) = std::pow(0.075 * 0.01, 2);
     faults_.add_motion(radar, motion);
+    DopplerVelocity velocity;
+    velocity.velocity_mps = measured.velocity_mps;
+    velocity.covariance = Eigen::Vector2d(0.001, 0.01).asDiagonal();
+    faults_.add_velocity(radar, stamp_us, velocity);
     if (has_positions) {
       faults_.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0, 0.0);
     } else {
       faults_.add_too_few_targets(radar, stamp_us);
     }
-    DopplerVelocity velocity;
-    velocity.velocity_mps = measured.velocity_mps;
-    velocity.covariance = Eigen::Vector2d(0.001, 0.01).asDiagonal();
-    faults_.add_velocity(radar, stamp_us, velocity);
   }
 
   std::vector<Pose2> mounts_;
@@ -103,6 +109,8 @@ class Comparison {
   std::mt19937_64 random_{1};
   std::normal_distribution<double> normal_;
   double time_s_ = 1000.0;
+  double braking_mps2_ = 0.0;
+  double braking_since_s_ = 0.0;
 };
 
 Comparison::Fault scaled(std::size_t guilty, double factor) {
@@ -161,6 +169,65 @@ TEST_CASE("one registration that went wrong convicts nobody, one a second later 
     measured.yaw_rate_radps += radar == 1 ? 0.5 : 0.0;
   });
   CHECK(comparison.faults().at_fault() == 0b10);
+}
+
+TEST_CASE("who brakes hard is not contradicted by the positions of the scan before") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft}, kFive);
+  Comparison comparison(mounts);
+  comparison.drive(3.0);
+  comparison.brake(8.7);
+  for (int i = 0; i < 40; ++i) {
+    comparison.drive(0.05);
+    CHECK(comparison.faults().at_fault() == 0U);
+    CHECK_FALSE(comparison.faults().is_unknown());
+  }
+}
+
+TEST_CASE("what a radar measured last is not continued into the time that it is silent") {
+  const std::vector<Pose2> mounts{kFront, kRearLeft, kRearRight};
+  const OdometryState state(OdometryOptions(), mounts);
+  MotionEvidence evidence(state);
+  DopplerVelocity velocity;
+  velocity.velocity_mps = {8.0, 0.0};
+  velocity.covariance = Eigen::Vector2d(0.001, 0.01).asDiagonal();
+  constexpr int kSilentFrom = 30;
+  int silent_epochs = 0;
+  for (int scan = 0; scan < 40; ++scan) {
+    const std::int64_t stamp_us = 1'000'000'000 + 75'000 * scan;
+    if (scan < kSilentFrom) {
+      evidence.add_velocity(0, stamp_us, velocity);
+    }
+    evidence.add_velocity(1, stamp_us + 10'000, velocity);
+    evidence.add_velocity(2, stamp_us + 70'000, velocity);
+    if (evidence.epochs() > 0 && evidence.time_us() > 1'000'000'000 + 75'000 * kSilentFrom) {
+      ++silent_epochs;
+      CHECK_FALSE(evidence.velocity(0));
+      CHECK(evidence.velocity(1));
+    }
+  }
+  CHECK(silent_epochs > 0);
+}
+
+TEST_CASE("three of seven with the same fault are found: most of the radars agree") {
+  const std::vector<Pose2> seven{kFront,          kRearLeft,         kRearRight,
+                                 {3.4, 0.6, 0.2}, {3.4, -0.6, -0.2}, {-0.8, 0.0, 3.1},
+                                 {-0.8, 0.3, 3.0}};
+  Comparison comparison(seven);
+  comparison.drive(3.0);
+  comparison.drive(5.0, [](std::size_t radar, Comparison::Measured& measured) {
+    measured.velocity_mps *= radar < 3 ? 0.85 : 1.0;
+  });
+  CHECK(comparison.faults().at_fault() == 0b111);
+  CHECK_FALSE(comparison.faults().is_unknown());
+}
+
+TEST_CASE("radars that look aside verify nothing while those that are judged are silent") {
+  Comparison comparison({kFront, kLeft, kRight});
+  comparison.drive(3.0);
+  comparison.lose(true);
+  comparison.silence(0);
+  comparison.drive(3.0);
+  CHECK_FALSE(comparison.faults().is_verified());
 }
 
 TEST_CASE("of two radars no cause is found again while the other is silent") {

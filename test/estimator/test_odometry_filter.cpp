@@ -175,6 +175,43 @@ TEST_CASE(
   CHECK(is_good(drive.next()));
 }
 
+TEST_CASE("vehicles on both sides do not outvote the only radar that looks ahead") {
+  const double passing_mps = GENERATE(2.0, 4.0);
+  OdometryDrive drive({kFront, {2.4, 0.8, 1.56}, {2.4, -0.8, -1.56}}, 6);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  drive.radar(1).world_mps = drive.radar(2).world_mps = passing_mps;
+  int good = 0;
+  for (int i = 0; i < 180; ++i) {
+    const Odometry odometry = drive.next();
+    good += is_good(odometry) ? 1 : 0;
+    CHECK((is_good(odometry) ? twist_error(odometry, drive) : 0.0) < 5.0);
+  }
+  // 4 m/s on both sides are more than one radar tells of itself: ambiguous.
+  CHECK(good > (passing_mps < 3.0 ? 170 : 30));
+}
+
+TEST_CASE("with a rate a message at each anchor's time refers to the anchor before") {
+  OdometryOptions options;
+  options.rate_hz = 50;
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 5, options);
+  std::vector<Odometry> predictions;
+  for (int i = 0; i < 300; ++i) {
+    drive.radar(0).world_mps = i > 100 ? 3.0 : 0.0;  // A radar is found at fault.
+    drive.next();
+    while (const auto odometry = drive.filter().predict_next(drive.stamp_us())) {
+      predictions.push_back(*odometry);
+    }
+  }
+  int anchors = 0;
+  for (std::size_t i = 1; i < predictions.size(); ++i) {
+    if (predictions[i].utime_anchor_us != predictions[i - 1].utime_anchor_us) {
+      CHECK(predictions[i].utime_anchor_us == predictions[i - 1].utime_us);
+      ++anchors;
+    }
+  }
+  CHECK(anchors > 3);
+}
+
 TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   OdometryDrive drive({kFront}, 8);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);

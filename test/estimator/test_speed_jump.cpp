@@ -18,8 +18,9 @@ constexpr double kCycleS = 0.075;
 constexpr double kNoiseMps = 0.03;
 using SpeedAt = std::function<double(double time_s)>;
 
-/// Times of the jumps of a speed in 10 s, of which every `lost`th scan is missing.
-std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000) {
+/// Times of the jumps of a speed in 10 s, of which every `lost`th scan is missing, and whose stamps
+/// wait for the end of a halt of the computer every 1.6 s.
+std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000, double halt_s = 0.0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0.0, kNoiseMps);
   SpeedJump check;
@@ -28,8 +29,11 @@ std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000) {
     DopplerVelocity velocity;
     velocity.velocity_mps = {speed_at(i * kCycleS) + normal(random), normal(random)};
     velocity.covariance.diagonal().setConstant(kNoiseMps * kNoiseMps);
-    const auto jump =
-        i % lost == 0 ? std::nullopt : check.add(std::llround(i * kCycleS * 1e6), velocity);
+    const double since_halt_s = std::fmod(i * kCycleS, 1.6);
+    const double late_s = std::max(0.0, halt_s - since_halt_s);
+    const auto jump = i % lost == 0
+                          ? std::nullopt
+                          : check.add(std::llround((i * kCycleS + late_s) * 1e6), velocity);
     if (jump) result.push_back(1e-6 * static_cast<double>(*jump));
   }
   return result;
@@ -63,6 +67,13 @@ TEST_CASE("No vehicle jumps: emergency braking, a stop, lost scans") {
   CHECK(jumps_of(braking_speed(from_s, 9.0, 90.0), lost).empty());
   CHECK(jumps_of(braking_speed(from_s, 4.0, 20.0), lost).empty());
   CHECK(jumps_of([](double time_s) { return 10.0 + 3.0 * std::sin(time_s); }, lost).empty());
+}
+
+TEST_CASE("Stamps that are late while braking are no jump") {
+  const double from_s = 2.0 + GENERATE(0.0, 0.02, 0.04, 0.06);
+  const double halt_s = GENERATE(0.05, 0.06, 0.07);
+  CAPTURE(from_s, halt_s);
+  CHECK(jumps_of(braking_speed(from_s, 5.0, 25.0), 1000, halt_s).empty());
 }
 
 TEST_CASE("One scan that is wrong is no jump") {

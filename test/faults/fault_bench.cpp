@@ -47,9 +47,10 @@ CREMED_SHARED names the folder with the recorded data.
   --random N   so many faults of random kind, size, radar and time (--seed) instead
   --reversed   recorded drives backwards (ReversedDrive)
   --healthy    no fault
+  --car NAME   of simulated drives: config/NAME.toml (default nuscenes-singapore)
   --radars A,B recorded drives with these radars only (not with the faults of a list, which name all)
   --seeds N    so many of the latter two (default 20)
-  --seed N     only this one
+  --seed N     only this one; of simulated drives
 
 )";
 
@@ -62,6 +63,7 @@ struct Options {
   bool is_reversed = false;
   std::size_t random_faults = 0;
   std::string radars;
+  std::string car = "nuscenes-singapore";
   std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
   std::string filter;
@@ -90,6 +92,8 @@ Options options_of(int argc, char** argv) {
       options.is_healthy = true;
     } else if (argument == "--radars" && i + 1 < argc) {
       options.radars = argv[++i];
+    } else if (argument == "--car" && i + 1 < argc) {
+      options.car = argv[++i];
     } else if (argument == "--rows") {
       options.are_rows_printed = true;
     } else if (argument == "--case" && i + 1 < argc) {
@@ -113,8 +117,8 @@ FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
 
 FaultDrive drive_of(const std::string& name, const Options& options) {
   if (find_scenario(name) != nullptr) {
-    return simulated_fault_drive(name, options.seconds,
-                                 configuration_of_car("nuscenes-singapore").radars);
+    return simulated_fault_drive(name, options.seconds, configuration_of_car(options.car).radars,
+                                 options.seed);
   }
   const FaultDrive drive = with_radars(recorded_drive_of(name, options), options.radars);
   return options.is_reversed ? ReversedDrive::of(drive) : drive;

@@ -73,9 +73,9 @@ inline FaultDrive with_radars(FaultDrive drive, const std::string& names) {
 
 inline FaultDrive simulated_fault_drive(
     const std::string& name, double duration_s,
-    const std::vector<RadarConfiguration>& radars = four_radars()) {
+    const std::vector<RadarConfiguration>& radars = four_radars(), std::uint64_t seed = 1) {
   SimulationOptions options;
-  options.seed = 1;
+  options.seed = seed;
   options.duration_s = duration_s;
   const Drive simulated = drive(scenario(name), radars, options);
   return {name, simulated.radars, simulated.frames, truth_of(simulated), TruthNoise()};

@@ -24,7 +24,6 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
      "105, both ambiguous, are named one at a time"},
     {"buses rotated", "B", "", "two that agree are believed below 1 m/s"},
     {"alone, scale 0.90", "B", "", "the first 0.6 s of 105, at 22 m/s"},
-    {"late 100 ms", "", "I", "0.3 s in which it is not known who is wrong"},
     {"late 200 ms", "", "BU", "a bend that begins in the first second tells too little of it"},
     {"late 300 ms", "", "BU", "likewise"},
     {"late 500 ms", "", "BU", "noticed when braking or turning only"},

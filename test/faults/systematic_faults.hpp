@@ -206,12 +206,14 @@ class SystematicFaults {
       }
     }
     // As an overloaded computer does, or a USB adapter. Nobody is at fault.
-    const auto halts = [](const FaultDrive& d, FaultTime t) {
-      return with_halts(d.frames, t, 1'600'000, 50'000);
-    };
-    cases_.push_back({"halts of 50 ms", "", onwards(), halts});
-    cases_.push_back({"alone, halts of 50 ms", "", onwards(), halts});
-    cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
+    for (const int halt_ms : {50, 80}) {
+      const auto halts = [halt_ms](const FaultDrive& d, FaultTime t) {
+        return with_halts(d.frames, t, 1'600'000, 1000 * halt_ms);
+      };
+      cases_.push_back({fault_kind("halts of %.0f ms", halt_ms), "", onwards(), halts});
+      cases_.push_back({fault_kind("alone, halts of %.0f ms", halt_ms), "", onwards(), halts});
+      cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
+    }
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);
       cases_.push_back({fault_kind("clock step %+.1f s", step_s), "", onwards(),

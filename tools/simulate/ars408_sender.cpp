@@ -99,7 +99,7 @@ Ars408Sender::Ars408Sender(const Ars408Options& options, const Scene& scene,
       options_(options) {}
 
 double Ars408Sender::reported_azimuth_rad(double measured_rad) const {
-  return measured_rad - setup().rotation_lead_s * told().yaw_rate_radps;
+  return measured_rad - setup().correction.rotation_lead_s * told().yaw_rate_radps;
 }
 
 double Ars408Sender::static_across(double range_m, double azimuth_rad) const {

@@ -73,12 +73,14 @@ void RadarSender::measure(const std::vector<Echo>& echoes) {
   targets_.clear();
   for (const Echo& echo : echoes) {
     const PolarStd std = noise(echo.view);
+    const DetectionCorrection& factors = setup_.correction;
     Measurement target{echo, echo.view.range_m, echo.view.azimuth_rad, echo.view.doppler_mps};
-    target.range_m = std::max(kLeastMeasuredM, target.range_m + std.range_m * random_.normal());
-    target.azimuth_rad =
-        measured_azimuth_rad(target.azimuth_rad + std.azimuth_rad * random_.normal());
-    target.doppler_mps =
-        with_shared_errors(target.doppler_mps) + std.doppler_mps * random_.normal();
+    target.range_m = std::max(kLeastMeasuredM, target.range_m + factors.range_std_factor *
+                                                                    std.range_m * random_.normal());
+    target.azimuth_rad = measured_azimuth_rad(
+        target.azimuth_rad + factors.azimuth_std_factor * std.azimuth_rad * random_.normal());
+    target.doppler_mps = with_shared_errors(target.doppler_mps) +
+                         factors.doppler_std_factor * std.doppler_mps * random_.normal();
     if (can_report(target)) targets_.push_back(target);
   }
   std::ranges::stable_sort(targets_, {}, &Measurement::range_m);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/estimator/scan/detection_options.hpp"
 #include "tools/simulate/can_bus.hpp"
 #include "tools/simulate/radar_model.hpp"
 #include "tools/simulate/random.hpp"
@@ -37,11 +38,11 @@ struct DopplerErrors {
 /// Settings common to all radars of a simulation.
 struct SenderSetup {
   std::size_t radar = 0;
-  Pose2 vehicle_from_radar;      ///< True mount.
-  Pose2 stated_mount;            ///< Mount in the configuration.
-  bool is_told_motion = true;    ///< Receives speed and yaw rate, if its family supports that.
-  double rotation_lead_s = 0.0;  ///< DetectionCorrection::rotation_lead_s
-  double azimuth_scale = 1.0;    ///< DetectionCorrection::azimuth_scale
+  Pose2 vehicle_from_radar;    ///< True mount.
+  Pose2 stated_mount;          ///< Mount in the configuration.
+  bool is_told_motion = true;  ///< Receives speed and yaw rate, if its family supports that.
+  /// Of the configuration: the radar has the errors that this corrects, and its noise.
+  DetectionCorrection correction;
   std::uint64_t seed = 1;
   std::size_t max_targets = 0;
   DopplerErrors doppler;
@@ -97,7 +98,7 @@ class RadarSender : public BusSender {
 
   /// The azimuth at which the radar measures a target that is at this one.
   [[nodiscard]] double measured_azimuth_rad(double azimuth_rad) const {
-    return azimuth_rad / setup_.azimuth_scale;
+    return azimuth_rad / setup_.correction.azimuth_scale;
   }
   [[nodiscard]] Random& random() { return random_; }
   [[nodiscard]] const SenderSetup& setup() const { return setup_; }

@@ -17,7 +17,7 @@ namespace cremed {
 class RepeatedTargets {
  public:
   void add(const TargetSet& targets);
-  void forget() { last_ = {}; }
+  void forget() { *this = RepeatedTargets(); }
   [[nodiscard]] bool is_repeated() const { return is_repeated_; }
 
  private:

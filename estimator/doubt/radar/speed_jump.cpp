@@ -38,7 +38,10 @@ std::optional<std::int64_t> SpeedJump::add(std::int64_t stamp_us, const DopplerV
   }
   const double steady_mps =
       0.5 * periods_s[1] * (changes_mps[0] / periods_s[0] + changes_mps[2] / periods_s[2]);
-  const double jump_mps = std::abs(changes_mps[1] - steady_mps);
+  // A late stamp makes one period long and the next short, and no change larger.
+  const double jump_mps =
+      std::min(std::abs(changes_mps[1] - steady_mps),
+               std::abs(changes_mps[1] - 0.5 * (changes_mps[0] + changes_mps[2])));
   const double beside_mps = std::max(std::abs(changes_mps[0]), std::abs(changes_mps[2]));
   const auto& [a, b, c, d] = speeds_;
   const double variance = 2.25 * (b.variance + c.variance) + 0.25 * (a.variance + d.variance);

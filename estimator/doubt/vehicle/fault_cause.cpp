@@ -22,7 +22,7 @@ struct Noise {
     double mps;
     double share;  // Of the speed.
 
-    [[nodiscard]] double weight(double speed_mps, double more_variance = 0.0) const {
+    [[nodiscard]] double weight(double speed_mps, double more_variance) const {
       return 1.0 / (squared(mps) + squared(share * speed_mps) + more_variance);
     }
   };
@@ -32,7 +32,7 @@ struct Noise {
 /// On healthy drives 0.02 to 0.06 m/s RMS along (nuScenes at 5 to 12 m/s, RadarScenes 105 at 18
 /// m/s), 0.04 to 0.14 across. Where the others have few targets their yaw rate adds to that: with
 /// 0.3 of its targets 0103 then seemed to have a mount 2.8 m off (gain 27).
-constexpr Noise kNoise{{0.05, 0.004}, {0.1, 0.01}};
+constexpr Noise kNoise{{0.04, 0.003}, {0.08, 0.007}};
 /// Of a radar that looks sideways.
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
@@ -41,6 +41,8 @@ constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
+/// What another sign gains by chance, 16 e^2 m^2 where both are noise: 2.5 sigma.
+constexpr double kChance = 10.0;
 /// A second.
 constexpr double kMinCount = 7.0;
 /// Of the mean of chi-square of two measurements with the cause.
@@ -100,6 +102,7 @@ FaultCauseSearch::FaultCauseSearch(std::span<const Pose2> mounts, std::size_t ra
 void FaultCauseSearch::clear() {
   std::fill(at_mount_.begin(), at_mount_.end(), VelocityMoments());
   lags_.fill(Lag());
+  chance_ = 0.0;
 }
 
 void FaultCauseSearch::forget() {
@@ -108,7 +111,7 @@ void FaultCauseSearch::forget() {
 }
 
 void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& motion,
-                                  double yaw_rate_variance) {
+                                  const Eigen::Matrix3d& covariance) {
   if (motions_ > 0) {
     const double step_s = seconds_between(past_[(motions_ - 1) % past_.size()].time_us, time_us);
     const bool is_step = std::abs(motion.x() - motion_.x()) > kMaxAccelerationMps2 * step_s;
@@ -117,17 +120,25 @@ void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& m
     }
   }
   motion_ = motion;
-  yaw_rate_variance_ = yaw_rate_variance;
+  motion_covariance_ = covariance;
   past_[motions_++ % past_.size()] = {time_us, expected(motion, mounts_[radar_])};
 }
 
-void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps) {
+void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
+                                    const Eigen::Matrix2d& covariance) {
   const double speed_mps = std::max(velocity_mps.norm(), std::abs(motion_.x()));
   const Noise& noise = looks_across_ ? kNoiseOfSide : kNoise;
-  const double turn_variance = yaw_rate_variance_ * squared(mounts_[radar_].x_m);
-  const Eigen::Vector2d weight(noise.along.weight(speed_mps),
-                               noise.across.weight(speed_mps, turn_variance));
-  const double w = motion_.y();
+  Eigen::Matrix<double, 2, 3> by_motion;
+  by_motion << 1.0, -mounts_[radar_].y_m, 0.0, motion_.z(), mounts_[radar_].x_m, motion_.x();
+  const Eigen::Array2d own = covariance.diagonal();
+  const Eigen::Array2d of_others =
+      (by_motion * motion_covariance_ * by_motion.transpose()).diagonal();
+  const Eigen::Array2d variance = own + of_others;
+  const Eigen::Vector2d weight(noise.along.weight(speed_mps, variance.x()),
+                               noise.across.weight(speed_mps, variance.y()));
+  chance_ = kFade * chance_ + (own * of_others * weight.array().square()).sum();
+  const bool turns = squared(motion_.y()) > 9.0 * motion_covariance_(1, 1);
+  const double w = turns ? motion_.y() : 0.0;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     at_mount_[i].fade(kFade);
     at_mount_[i].add(expected(motion_, mounts_[i]), velocity_mps, w, weight);
@@ -224,8 +235,9 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
   const bool is_scale_or_offset =
       result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset;
   const double least = is_scale_or_offset ? kMinDifferenceOfScale : kMinDifference;
-  return {result.best, explains ? healthy - result.chi_square : 0.0,
-          explains && result.next > result.chi_square + least && is_apart};
+  const double chance = kChance * std::sqrt(chance_);
+  return {result.best, explains ? std::max(0.0, healthy - result.chi_square - chance) : 0.0,
+          explains && result.next > result.chi_square + least + chance && is_apart};
 }
 
 double FaultCauseSearch::gain_at(std::size_t mount) const {

@@ -31,10 +31,12 @@ class FaultCauseSearch {
   /// `mounts` of all radars, which must outlive this object.
   FaultCauseSearch(std::span<const Pose2> mounts, std::size_t radar);
 
-  /// The motion by the other radars, x = (v, w, slip), and the variance of w; seven times a second.
-  void add_motion(std::int64_t time_us, const Eigen::Vector3d& motion, double yaw_rate_variance);
+  /// The motion by the other radars, x = (v, w, slip), and its covariance by random errors; seven
+  /// times a second.
+  void add_motion(std::int64_t time_us, const Eigen::Vector3d& motion,
+                  const Eigen::Matrix3d& covariance);
   /// The radar's velocity at the time of the last motion, in the axes of the vehicle.
-  void add_velocity(const Eigen::Vector2d& velocity_mps);
+  void add_velocity(const Eigen::Vector2d& velocity_mps, const Eigen::Matrix2d& covariance);
   /// Starts again: a fault has begun or ended.
   void clear();
   /// To be called when the clock of the stamps was set.
@@ -75,9 +77,10 @@ class FaultCauseSearch {
   std::array<Past, kLags + 1> past_;
   std::size_t motions_ = 0;
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
-  double yaw_rate_variance_ = 0.0;
+  Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<VelocityMoments> at_mount_;  // By radar whose mount it is.
   std::array<Lag, kLags> lags_;
+  double chance_ = 0.0;
 };
 
 }  // namespace cremed

@@ -139,7 +139,8 @@ void FaultHypotheses::judge() {
 }
 
 void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
-  const bool is_supported = is_known && evidence_.is_supported(best.radars) &&
+  const bool is_heard = judged() == 0 || evidence_.present() != 0;
+  const bool is_supported = is_known && is_heard && evidence_.is_supported(best.radars) &&
                             !(needs_positions_ && is_refuted(best.radars)) &&
                             !(evidence_.is_after_step(best.radars) && is_at_rest(best.radars));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
@@ -232,9 +233,9 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
     if (others != 0) {
       const MotionSums by_others = evidence_.sum(others);
       causes_[i].add_motion(evidence_.time_us(), by_others.solution(),
-                            by_others.information.inverse()(1, 1));
+                            by_others.random_covariance());
       if (evidence_.velocity(i)) {
-        causes_[i].add_velocity(evidence_.velocity(i)->mps);
+        causes_[i].add_velocity(evidence_.velocity(i)->mps, evidence_.velocity(i)->covariance);
         compared |= set_of(i);
       }
     }
@@ -272,8 +273,9 @@ void FaultHypotheses::convict_by_cause(RadarSet compared) {
       next = std::max(next, found.gain);
     }
   });
-  if (best.gain > 2.0 * next && is_grave(best.cause)) {
-    note_lateness(guilty, best);
+  const bool is_found = best.gain > 2.0 * next && is_grave(best.cause);
+  note_lateness(guilty, is_found ? best : FaultCauseSearch::Finding());
+  if (is_found) {
     if (std::popcount(evidence_.present() & ~at_fault()) > 2 ||
         lateness_.epochs >= kEpochsOfLateness) {
       convictions_.convict(guilty, evidence_.time_us());

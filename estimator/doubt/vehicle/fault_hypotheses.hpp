@@ -69,9 +69,9 @@ class FaultHypotheses {
   /// The radars in use were compared and are consistent, a single one with its positions, if it has
   /// targets for that.
   [[nodiscard]] bool is_verified() const {
-    return is_verified_ ||
-           (!needs_positions_ && !is_start_open_ && !std::has_single_bit(judged()) &&
-            !is_unknown() && evidence_.epochs() >= kMinEpochs);
+    return is_verified_ || (!needs_positions_ && !is_start_open_ && !is_unknown() &&
+                            evidence_.epochs() >= kMinEpochs &&
+                            (judged() == 0 || std::popcount(evidence_.present()) > 1));
   }
   /// The odometry was lost since the beginning: see require_positions().
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }

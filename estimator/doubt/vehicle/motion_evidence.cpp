@@ -26,8 +26,8 @@ constexpr double kMaxNoiseMps = 0.75;
 /// sigma.
 constexpr double kSupportingStdMps = 0.1;
 constexpr double kSupportingShare = 0.02;
-/// Age of the speed by positions: of the same scan or the one before.
-constexpr double kMaxPositionsAgeS = 0.1;
+/// Age of the speed by positions, in periods of the radar: of the same scan or the one before.
+constexpr double kMaxPeriodsOfPositions = 1.2;
 /// Change of the velocity between two scans other than linear.
 constexpr double kBetweenScansMps = 0.05;
 /// Errors by positions: of the way, 1.1 % over 2 s on these drives, and that of one scan; of the
@@ -55,7 +55,11 @@ MotionEvidence::MotionEvidence(const OdometryState& state)
 }
 
 void MotionEvidence::clear() {
-  std::fill(tracks_.begin(), tracks_.end(), Track());
+  for (Track& track : tracks_) {
+    const bool is_after_step = track.is_after_step;
+    track = Track();
+    track.is_after_step = is_after_step;
+  }
   newest_us_ = std::numeric_limits<std::int64_t>::min();
   count_ = 0;
   disputed_scale_ = 0.0;
@@ -192,8 +196,13 @@ std::optional<MotionEvidence::Velocity> MotionEvidence::velocity_at(std::size_t 
     return std::nullopt;
   }
   const double part = seconds_between(a.stamp_us, time_us) / period_s;
-  return Velocity{time_us, a.mps + part * (b.mps - a.mps),
-                  a.covariance + std::clamp(part, 0.0, 1.0) * (b.covariance - a.covariance)};
+  if (part < -1.0 || part > 1.0) {
+    return std::nullopt;
+  }
+  const double of_a = 1.0 - part;
+  return Velocity{
+      time_us, of_a * a.mps + part * b.mps,
+      std::max(of_a, squared(of_a)) * a.covariance + std::max(part, squared(part)) * b.covariance};
 }
 
 MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velocity) const {
@@ -217,6 +226,7 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   sums.information = by.transpose() * weight * by;
   sums.weighted = by.transpose() * weight * velocity.mps;
   sums.squares = velocity.mps.dot(weight * velocity.mps);
+  sums.scatter = by.transpose() * weight * velocity.covariance * weight * by;
   return sums;
 }
 
@@ -227,15 +237,21 @@ MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& veloc
   }
   const Track& track = tracks_[radar];
   const Eigen::Vector3d along(1.0, -state_.mount(radar).y_m, 0.0);
-  if (track.speed &&
-      std::abs(seconds_between(track.speed->stamp_us, time_us_)) <= kMaxPositionsAgeS) {
-    sums.add(along, track.speed->mps, track.speed->variance);
+  const auto& [a, b] = track.velocities;
+  const double part = !track.speed ? 0.0
+                                   : seconds_between(track.speed->stamp_us, time_us_) /
+                                         seconds_between(a.stamp_us, b.stamp_us);
+  if (track.speed && std::abs(part) <= kMaxPeriodsOfPositions) {
+    sums.add(along, track.speed->mps + part * (b.mps - a.mps).x(),
+             track.speed->variance + squared(part) * (a.covariance + b.covariance)(0, 0),
+             track.speed->variance - track.speed->variance_of_method);
   }
   for (const YawRate& rate : track.yaw_rates) {
     if (rate.start_us < time_us_ && time_us_ <= rate.end_us) {
-      sums.add(Eigen::Vector3d::UnitY(), rate.radps,
-               rate.variance + squared(kPositionYawRateRadps) +
-                   squared(kPositionTurnShare * rate.radps));
+      sums.add(
+          Eigen::Vector3d::UnitY(), rate.radps,
+          rate.variance + squared(kPositionYawRateRadps) + squared(kPositionTurnShare * rate.radps),
+          rate.variance);
     }
   }
   return sums;
@@ -322,7 +338,10 @@ bool MotionEvidence::is_supported(RadarSet set) const {
     }
     if (track.speed && is_fresh(track.speed->stamp_us)) {
       const double limit_mps = kSupportingStdMps + kSupportingShare * std::abs(track.speed->mps);
-      return track.speed->variance_of_method <= squared(limit_mps);
+      if (track.speed->variance_of_method <= squared(limit_mps)) {
+        return true;
+      }
+      has_targets = true;
     }
     has_targets = has_targets || !(track.too_few_targets_us && is_fresh(*track.too_few_targets_us));
   }

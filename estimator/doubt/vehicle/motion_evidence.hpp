@@ -73,7 +73,6 @@ class MotionEvidence {
     count_ = 0;
   }
 
-  [[nodiscard]] const OdometryState& state() const { return state_; }
   /// The radars that do not look sideways,
   [[nodiscard]] RadarSet judged() const { return judged_; }
   /// and those that do: witnesses.

@@ -5,23 +5,34 @@
 #include <algorithm>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
 
-void MotionSums::add(const Eigen::Vector3d& derivative, double value, double variance) {
+void MotionSums::add(const Eigen::Vector3d& derivative, double value, double variance,
+                     double random_variance) {
   information += derivative * derivative.transpose() / variance;
   weighted += derivative * (value / variance);
   squares += value * value / variance;
+  scatter += derivative * derivative.transpose() * (random_variance / squared(variance));
 }
 
 void MotionSums::add(const MotionSums& other) {
   information += other.information;
   weighted += other.weighted;
   squares += other.squares;
+  scatter += other.scatter;
 }
 
 Eigen::Vector3d MotionSums::solution() const { return information.ldlt().solve(weighted); }
 
 double MotionSums::chi_square() const { return std::max(0.0, squares - weighted.dot(solution())); }
+
+Eigen::Matrix3d MotionSums::random_covariance() const {
+  const Eigen::Matrix3d covariance = information.inverse();
+  return covariance * scatter * covariance;
+}
 
 }  // namespace cremed

@@ -32,13 +32,15 @@ int RadarConsensus::count(std::int64_t time_us, bool agree) const {
 
 std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
   JointVelocity joint(state_.options());
+  bool are_all_witnesses = true;  // They see passing vehicles, on both sides alike.
   for (std::size_t i = 0; i < trusts_.size(); ++i) {
     const RadarTrust& trust = trusts_[i];
     if (trust.votes(time_us) && !trust.agrees) {
       joint.add(trust.velocity, state_.mount(i), seconds_between(trust.verdict_us, time_us));
+      are_all_witnesses = are_all_witnesses && state_.is_witness(i);
     }
   }
-  if (joint.radars() < 2 || joint.radars() <= agreeing(time_us) ||
+  if (are_all_witnesses || joint.radars() < 2 || joint.radars() <= agreeing(time_us) ||
       joint.disagreement() > kMaxDisagreement) {
     return std::nullopt;
   }

@@ -59,6 +59,7 @@ void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
   anchor_.pose = odom_pose_;
   anchor_.utime_us = output_us_ = time_us;
   next_anchor_us_.reset();
+  is_anchor_over_ = false;
   predicted_us_ = std::max(predicted_us_, time_us);
   state_.restart(time_us);
 }
@@ -89,10 +90,19 @@ void OdometryOutput::advance_to(std::int64_t stamp_us) {
   state_.advance_to(stamp_us);
 }
 
+void OdometryOutput::end_anchor() {
+  if (state_.options().rate_hz == 0) {
+    renew_anchor();
+  } else {
+    is_anchor_over_ = true;
+  }
+}
+
 void OdometryOutput::renew_anchor() {
   anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
   state_.renew_anchor();
   next_anchor_us_.reset();
+  is_anchor_over_ = false;
 }
 
 Odometry OdometryOutput::at_scan() {
@@ -155,7 +165,9 @@ std::optional<Odometry> OdometryOutput::predict_next(std::int64_t now_us) {
   predicted_us_ = utime_us;
   predicted_odom_pose_ = result.odom_pose;
   radars_since_prediction_ = 0;
-  if (!next_anchor_us_ && seconds_between(anchor_.utime_us, utime_us) >= options.anchor_period_s) {
+  const bool is_over =
+      is_anchor_over_ || seconds_between(anchor_.utime_us, utime_us) >= options.anchor_period_s;
+  if (!next_anchor_us_ && is_over) {
     next_anchor_us_ = utime_us;
   }
   return result;

@@ -39,8 +39,8 @@ class OdometryOutput {
 
   /// Propagates the state and renews the anchor on the way if it is due.
   void advance_to(std::int64_t stamp_us);
-  /// Makes the present pose the anchor.
-  void renew_anchor();
+  /// Makes the present pose the anchor, with options().rate_hz that of the next prediction.
+  void end_anchor();
   [[nodiscard]] double anchor_age_s() const {
     return seconds_between(anchor_.utime_us, state_.time_us());
   }
@@ -64,6 +64,7 @@ class OdometryOutput {
 
   [[nodiscard]] static Odometry odometry(const VehicleEstimate& vehicle, const Anchor& anchor,
                                          std::int64_t utime_us);
+  void renew_anchor();
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
   [[nodiscard]] Eigen::Vector3d predicted_odom_pose(std::int64_t time_us) const;
@@ -72,6 +73,7 @@ class OdometryOutput {
   Anchor anchor_;
   /// Time of the next anchor, if published predictions refer to it already.
   std::optional<std::int64_t> next_anchor_us_;
+  bool is_anchor_over_ = false;
   /// Of the last output: time, pose since the start, and radars used since.
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();

@@ -58,7 +58,7 @@ std::vector<StateError> radar_errors(const OdometryOptions& o, const Pose2& moun
       {"r yaw, rad/m", kYawPerMetre, o.yaw_per_metre, scene},
       {"q lateral, m/m", kLateralPerMetre, o.lateral_per_metre, scene},
       {"b Doppler scale", kDopplerScale, scale, doubt, is_single ? S::kAllButX : S::kAtRest},
-      {"d mount yaw, rad", kMountYaw, yaw, doubt, is_single ? S::kNone : S::kAtRest},
+      {"d mount yaw, rad", kMountYaw, yaw, doubt, S::kAtRest},
       {"g azimuth scale", kAzimuthScale, {o.position_azimuth_scale_std}, never, S::kAll},
       {"e_x mount, m", kLeverX, {o.lever_std_m}, doubt, S::kAll},
       {"e_y mount, m", kLeverY, {o.lever_std_m}, doubt, S::kAll},

@@ -166,7 +166,6 @@ void OdometryState::widen_errors(std::size_t radar) {
 
 void OdometryState::widen_scale(std::size_t radar, double std) {
   gaussian.add_variance(error(radar, kDopplerScale), squared(std));
-  gaussian.add_variance(kSpeed, squared(std * gaussian.mean(kSpeed)));
 }
 
 void OdometryState::advance_to(std::int64_t time_us) {

@@ -235,9 +235,9 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
   const bool is_scale_or_offset =
       result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset;
   const double least = is_scale_or_offset ? kMinDifferenceOfScale : kMinDifference;
-  const double chance = kChance * std::sqrt(chance_);
-  return {result.best, explains ? std::max(0.0, healthy - result.chi_square - chance) : 0.0,
-          explains && result.next > result.chi_square + least + chance && is_apart};
+  const double gain = healthy - result.chi_square - kChance * std::sqrt(chance_);
+  return {result.best, explains ? std::max(0.0, gain) : 0.0,
+          explains && result.next > result.chi_square + least && is_apart};
 }
 
 double FaultCauseSearch::gain_at(std::size_t mount) const {

@@ -144,6 +144,9 @@ void log_odometry(const OdometryTally& tally) {
       tally.count(OdometryStatus::ok) + tally.count(OdometryStatus::standing_still) != 0;
   spdlog::log(is_usable ? spdlog::level::info : spdlog::level::warn, "odometry: {}",
               is_usable ? text : concat({"never usable: ", text.empty() ? "no scan" : text}));
+  if (const auto finding = unusable_odometry(tally); finding && is_usable) {
+    spdlog::warn("{}", to_text(*finding));
+  }
 }
 
 }  // namespace

@@ -2,31 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <string>
 
 #include "daemon/configuration/configuration.hpp"
-#include "daemon/output/odometry_sink.hpp"
 #include "daemon/pipeline.hpp"
+#include "daemon/report/odometry_tally.hpp"
 #include "daemon/source/replay.hpp"
 
 namespace cremed {
-
-/// Counts the odometry's states by their status.
-class OdometryTally final : public OdometrySink {
- public:
-  void on_odometry(const Odometry& odometry) override {
-    ++count_[static_cast<std::size_t>(odometry.status)];
-  }
-  [[nodiscard]] std::uint64_t count(OdometryStatus status) const {
-    return count_[static_cast<std::size_t>(status)];
-  }
-
- private:
-  std::array<std::uint64_t, kOdometryStatusCount> count_{};
-};
 
 /// What is to be told of.
 struct Replayed {

@@ -59,8 +59,8 @@ const LoggedMessage* LcmLogReader::next() {
     return nullptr;
   }
   if (!begins_a_message(bytes_)) {
-    return end(at_ == 0 ? "is no LCM log; of a candump log `cremed --replay LOG --lcm-url "
-                          "'file://OUT?mode=w'` makes one"
+    return end(at_ == 0 ? "is no LCM log; of a candump log `cremed --config FILE --replay LOG "
+                          "--publish-scans --lcm-url 'file://OUT?mode=w'` makes one"
                         : concat({"damaged at byte ", place, ": no message begins there"}));
   }
   const std::size_t cut = kHeaderBytes - bytes_.size();

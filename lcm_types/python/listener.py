@@ -101,8 +101,8 @@ def events_in(log):
     while header := log.read(28):
         if not MAGIC_EVENT.startswith(header[:4]):
             raise DamagedLog(f"{path}: damaged at byte {at}: no message begins there" if at else
-                             f"{path}: is no LCM log; of a candump log `cremed --replay LOG --lcm-url "
-                             "'file://OUT?mode=w'` makes one")
+                             f"{path}: is no LCM log; of a candump log `cremed --config FILE --replay LOG "
+                             "--publish-scans --lcm-url 'file://OUT?mode=w'` makes one")
         _, received_us, channel_length, length = struct.unpack(">qqII", header[4:].ljust(24, b"\0"))
         if channel_length > LONGEST_CHANNEL or length > LONGEST_PAYLOAD:
             raise DamagedLog(f"{path}: damaged at byte {at}: the message there has impossible lengths")

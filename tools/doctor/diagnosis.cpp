@@ -111,6 +111,9 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     }
     add_buses(configuration, observation, findings);
     add_vehicle(configuration.vehicle, observation, findings);
+    if (const auto finding = unusable_odometry(observation.odometry)) {
+      findings.push_back(*finding);
+    }
   }
   if (!observation.malformed_lines.empty()) {
     findings.push_back({Severity::warning, observation.malformed_lines,

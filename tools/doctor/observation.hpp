@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/output/radar_status.hpp"
+#include "daemon/report/odometry_tally.hpp"
 #include "daemon/report/vehicle_findings.hpp"
 #include "tools/doctor/bus_observation.hpp"
 
@@ -54,6 +55,7 @@ struct Observation {
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
   std::uint64_t frames_left_out = 0;     ///< Of interfaces beyond kMaxBuses.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
+  OdometryTally odometry;
   std::array<VehicleStatus, kVehicleSignals> vehicle{};  ///< Signals of [vehicle].
 };
 

@@ -23,7 +23,8 @@ std::int64_t no_clock() { return 0; }
 Observer::Observer(const Configuration& configuration)
     : configured_buses_(interface_names(configuration).size()),
       sink_(observation_),
-      pipeline_(configuration, source_, {&sink_}, PipelineClock{&no_clock}) {
+      pipeline_(configuration, source_, {&sink_, &observation_.odometry},
+                PipelineClock{&no_clock}) {
   observation_.radars.resize(configuration.radars.size());
   for (const std::string& name : interface_names(configuration)) {
     bus(name);

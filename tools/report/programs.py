@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 import time
 
@@ -41,6 +42,17 @@ def part_read(process, paths):
     return done / max(sum(os.path.getsize(path) for path in paths), 1)
 
 
+def errors_of(said):
+    """The errors, each with the lines that go on with it."""
+    errors, is_error = [], False
+    for line in said:
+        if re.match("(error|warning|info): ", line):
+            is_error = line.startswith("error: ")
+        if is_error:
+            errors.append(line)
+    return errors
+
+
 def replay(cremed, logs, config, folder, told):
     """Runs candump logs through cremed; returns the LCM log, what cremed warned of, and its errors where
     it failed: the log has what is good. `told` is called with the part that is done."""
@@ -63,7 +75,7 @@ def replay(cremed, logs, config, folder, told):
     said = words.read_text(encoding="utf-8", errors="replace").splitlines()
     troubles = []
     if process.returncode != 0:
-        errors = [line for line in said if line.startswith("error: ")] or said[-5:]
+        errors = errors_of(said) or said[-5:]
         troubles = ["cremed said:\n" + "\n".join(errors)]
         if not lcm_log.exists():
             raise ValueError(*troubles)

@@ -13,9 +13,9 @@ namespace {
 /// Scale of Doppler that the filter learns by positions if two radars dispute it. Larger ones are
 /// told by each radar's own positions (DopplerScale).
 constexpr double kMaxDisputedScale = 0.05;
-/// By how much a cause lowers chi-square over ten seconds. Healthy radars of nuScenes 0061, 0103,
-/// 0655, 0796, 1094 and RadarScenes 105 have 10.3 at most (mount x), 6.2 by scale and 3.9 by
-/// lateness; 0.3 s late gives 34 after 2.6 s of gentle braking.
+/// By how much a cause lowers chi-square over ten seconds, beyond chance. Healthy radars of
+/// nuScenes 0061, 0103, 0655, 0796, 1094 and RadarScenes 105 have 7.0 at most (mount x), and 6.9
+/// backwards; of simulated regimes with few targets 5.7 (lateness).
 constexpr double kMinGain = 25.0;
 
 /// Of chi-square in one epoch; of a set that is consistent 1 to 5. What contradicts itself more

@@ -73,7 +73,9 @@ ScanTiming ScanClock::judge(const RadarScan& scan) {
     return ScanTiming::steady;
   }
   const double late_s = passed_s - counts * period_s_;
-  if (late_s > kStepS && confirmations_ == kMinConfirmations && !is_as_late(late_s)) {
+  // Without a steady counter (a sensor that starts anew, two sensors with one id) nothing is known.
+  const bool is_late = late_s > kStepS && confirmations_ == kMinConfirmations;
+  if (is_late && !is_as_late(late_s)) {
     return ScanTiming::late;  // Those that follow are compared with the scan before it.
   }
   last_ = now;
@@ -82,11 +84,9 @@ ScanTiming ScanClock::judge(const RadarScan& scan) {
     confirmations_ = std::min(confirmations_ + 1, kMinConfirmations);
     return ScanTiming::steady;
   }
-  // Without a steady counter (a sensor that starts anew, two sensors with one id) nothing is known.
-  const bool is_step = late_s > kStepS && confirmations_ == kMinConfirmations;
   period_s_ = passed_s / counts;
   confirmations_ = 0;
-  return is_step ? ScanTiming::set_forward : ScanTiming::steady;
+  return is_late ? ScanTiming::set_forward : ScanTiming::steady;
 }
 
 /// As the scan before was, or for too long.

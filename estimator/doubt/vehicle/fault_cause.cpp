@@ -53,8 +53,8 @@ constexpr double kMaxShareExchanged = 0.1;
 /// for seconds a late radar seems to have one while the vehicle brakes (0061, 500 ms).
 constexpr double kMinDifference = 12.0;
 constexpr double kMinDifferenceOfScale = 30.0;  // And of an offset.
-/// Rarer than a scale, which differs from it by the changes of speed only: 2.4 sigma.
-constexpr double kMinDifferenceToOffset = 6.0;
+/// Rarer than a scale, which differs from it by the changes of speed only: 2 sigma.
+constexpr double kMinDifferenceToOffset = 4.0;
 /// One motion may be missing. After a longer time lags are not those of the others.
 constexpr double kMaxStepS = 0.5;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.

@@ -39,7 +39,7 @@ class OdometryState {
   void start_motion(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance);
   /// Widens the errors of a radar to the variance of their prior, around the present estimate.
   void widen_errors(std::size_t radar);
-  /// The Doppler scale of a radar may be off by `std`, and so the speed.
+  /// The Doppler scale of a radar may be off by `std`.
   void widen_scale(std::size_t radar, double std);
 
   /// Propagates the vehicle to `time_us`, if that is later.

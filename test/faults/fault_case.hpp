@@ -46,10 +46,16 @@ struct FaultCase {
   std::uint32_t guilty = 0;
   /// What is wrong with them, if it is one of these.
   FaultKind cause = FaultKind::unknown;
+  /// Those of `guilty` with another cause, and it.
+  std::uint32_t others_guilty = 0;
+  FaultKind cause_of_others = FaultKind::unknown;
   /// So small that it may be learned, or cannot be told: the guilty radar need not be named if
   /// poses are right.
   bool may_be_learned = false;
 
+  [[nodiscard]] FaultKind cause_of(std::size_t radar) const {
+    return (others_guilty >> radar & 1U) != 0 ? cause_of_others : cause;
+  }
   /// A step of the clock is over at once.
   [[nodiscard]] std::int64_t end_us() const {
     return clock_step_us != 0 ? time.from_us : time.until_us;

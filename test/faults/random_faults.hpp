@@ -57,13 +57,13 @@ class RandomFaults {
     return random_.uniform(low, high) * (random_.chance(0.5) ? 1.0 : -1.0);
   }
 
-  /// Which cause belongs to which radar is not told: with two faults a named cause counts as wrong.
   static FaultCase both(const FaultCase& first, const FaultCase& second) {
     FaultCase result = first;
     result.kind += " & " + second.kind;
     result.of += "+" + second.of;
     result.guilty |= second.guilty;
-    result.cause = FaultKind::unknown;
+    result.others_guilty = second.guilty;
+    result.cause_of_others = second.cause;
     result.may_be_learned = first.may_be_learned || second.may_be_learned;
     result.put_in = [first, second](const FaultDrive& drive, FaultTime time) {
       FaultDrive changed = drive;

@@ -74,6 +74,11 @@ class OdometryFilter {
   /// A radar's own motion, with which other radars and these values are compared; before its scan.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
 
+  /// Whether others have the speed of a radar whose own check finds it wrong: that was chance.
+  bool is_speed_shared(std::size_t radar, std::int64_t stamp_us) {
+    return faults_.is_speed_shared(radar, stamp_us);
+  }
+
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
   /// first scan, or more than max_gap_s after the last. Each prediction is returned once, in order;
   /// it may be later than a scan that arrives after it.

@@ -91,6 +91,19 @@ TEST_CASE("Doppler scale: a wrong sign is found in 2 s, and its end too") {
   CHECK_FALSE(drive.check.is_wrong());
 }
 
+TEST_CASE("Doppler scale: once acquitted it is not doubted, until the votes say so again") {
+  ScaleCheckedDrive drive;
+  const CircleDrive faulty{.speed_mps = 12.0, .doppler_factor = 0.9};
+  drive.go_on(faulty, 2.0);
+  REQUIRE(drive.check.is_wrong());
+  drive.check.acquit();
+  CHECK_FALSE(drive.check.is_wrong());
+  drive.go_on(faulty, 0.1);
+  CHECK_FALSE(drive.check.is_wrong());
+  drive.go_on(faulty, 2.0);
+  CHECK(drive.check.is_wrong());
+}
+
 TEST_CASE("Doppler scale: without matches nothing is known, and nothing doubted") {
   const auto drive = GENERATE(CircleDrive{.doppler_factor = 0.9, .things = 0},
                               CircleDrive{.doppler_factor = 0.9, .kept = 0.02});

@@ -59,6 +59,9 @@ class Comparison {
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
+  bool is_speed_shared(std::size_t radar) {
+    return faults_.is_speed_shared(radar, std::llround(time_s_ * 1e6));
+  }
   void lose(bool is_after_step = false) { faults_.require_positions(is_after_step); }
   void set_clock(double by_s) {
     time_s_ += by_s;
@@ -332,6 +335,36 @@ TEST_CASE("a radar that found itself wrong is not acquitted by the others") {
   comparison.drive(2.0, backwards(0b00011U));
   CHECK((comparison.faults().at_fault() & 0b100U) != 0);
   CHECK_FALSE(comparison.faults().take_reversal());
+}
+
+TEST_CASE("two others with a radar's speed tell that its own check found it wrong by chance") {
+  const auto scale = GENERATE(1.0, 0.95);
+  const std::size_t radar = GENERATE(0U, 1U, 2U);
+  Comparison comparison(kFive);
+  CHECK_FALSE(comparison.is_speed_shared(radar));  // Nobody is heard yet.
+  comparison.drive(6.0);
+  comparison.drive(1.0, scaled(radar, scale));
+  CHECK(comparison.is_speed_shared(radar) == (scale == 1.0));
+}
+
+TEST_CASE("one other tells nothing of a radar's own check, nor do those that look aside") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft},
+                               std::vector<Pose2>{kFront, kRearLeft, kLeft, kRight});
+  Comparison comparison(mounts);
+  comparison.drive(2.0);
+  CHECK_FALSE(comparison.is_speed_shared(0));
+}
+
+TEST_CASE("radars whose own checks find them wrong within five seconds do not excuse each other") {
+  Comparison comparison(kFive);
+  comparison.drive(2.0);
+  CHECK(comparison.is_speed_shared(0));
+  comparison.drive(1.0);
+  CHECK_FALSE(comparison.is_speed_shared(1));
+  comparison.drive(1.0);
+  CHECK_FALSE(comparison.is_speed_shared(0));
+  comparison.drive(6.0);
+  CHECK(comparison.is_speed_shared(0));
 }
 
 TEST_CASE("with a radar found at fault the motion by the others is told, once") {

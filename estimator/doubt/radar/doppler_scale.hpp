@@ -35,6 +35,11 @@ class DopplerScale {
   void add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us);
   /// To be called when the clock of the stamps was set.
   void forget();
+  /// Others have the speed of the Doppler: the votes were chance.
+  void acquit() {
+    forget();
+    is_wrong_ = false;
+  }
 
   /// The Doppler has another scale or sign than the positions: begins and ends with clear votes.
   [[nodiscard]] bool is_wrong() const { return is_wrong_; }

@@ -60,6 +60,11 @@ void SelfCheck::forget() {
   repeated_.forget();
 }
 
+void SelfCheck::acquit_speed() {
+  speed_.forget();
+  scale_.acquit();
+}
+
 void SelfCheck::compare_with_last(const EgoMotion& motion) {
   if (last_.status != MotionStatus::ok || last_.utime_us != motion.utime_start_us) {
     return;
@@ -97,7 +102,7 @@ std::uint32_t SelfCheck::doubts() const {
       (doppler_.exceeds(kMaxMeanByDoppler) && next_.exceeds(kMaxMeanByNext))) {
     result |= motions_contradict_each_other;
   }
-  if (speed_.is_contradicted() || scale_.is_wrong()) {
+  if (contradicts_speed()) {
     result |= positions_contradict_speed;
   }
   if (doppler_.is_enough() && doppler_.mean() < kMinMeanByDoppler && next_.is_enough() &&

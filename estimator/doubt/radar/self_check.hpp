@@ -39,6 +39,13 @@ class SelfCheck {
   /// nothing of the radar.
   void forget();
 
+  /// The positions tell another speed than the Doppler.
+  [[nodiscard]] bool contradicts_speed() const {
+    return speed_.is_contradicted() || scale_.is_wrong();
+  }
+  /// They told so by chance.
+  void acquit_speed();
+
   /// NIS of positions against Doppler (EgoMotion::doppler_nis).
   [[nodiscard]] const NisMean& doppler() const { return doppler_; }
   /// NIS of a motion's velocity against that of the previous motion, with the accelerations of

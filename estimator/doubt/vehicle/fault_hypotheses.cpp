@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "cremed/estimator/scan/stamps.hpp"
+
 namespace cremed {
 namespace {
 
@@ -30,6 +32,11 @@ constexpr double kMinGainOfTwo = 37.5;
 constexpr std::size_t kEpochsOfLateness = 7;
 constexpr double kMaxChangeOfDelayS = 0.05;
 
+/// Of the speed: a larger scale is a radar's fault by its own check (DopplerScale).
+constexpr double kMaxShareShared = 0.03;
+/// What all radars share (a scale) the check of each finds within this time.
+constexpr double kSharedFoundS = 5.0;
+
 /// Larger than those of healthy radars, and than what is learned.
 bool is_grave(const FaultCause& cause) {
   switch (cause.kind) {
@@ -52,7 +59,10 @@ bool is_grave(const FaultCause& cause) {
 }  // namespace
 
 FaultHypotheses::FaultHypotheses(const OdometryState& state)
-    : state_(state), evidence_(state), convictions_(state.radars(), evidence_.judged()) {
+    : state_(state),
+      evidence_(state),
+      convictions_(state.radars(), evidence_.judged()),
+      speed_doubted_us_(state.radars()) {
   for (std::size_t i = 0; i < state.radars(); ++i) {
     causes_.emplace_back(state.mounts(), i);
   }
@@ -64,7 +74,25 @@ void FaultHypotheses::clear() {
   for (FaultCauseSearch& cause : causes_) {
     cause.forget();
   }
+  std::fill(speed_doubted_us_.begin(), speed_doubted_us_.end(), std::nullopt);
   unknown_epochs_ = 0;
+}
+
+bool FaultHypotheses::is_speed_shared(std::size_t radar, std::int64_t time_us) {
+  speed_doubted_us_[radar] = time_us;
+  RadarSet others = evidence_.epochs() == 0 ? 0U : evidence_.present() & ~at_fault();
+  for_each(others, [&](std::size_t i) {
+    const auto& doubted_us = speed_doubted_us_[i];
+    if (doubted_us && seconds_between(*doubted_us, time_us) < kSharedFoundS) {
+      others &= ~set_of(i);
+    }
+  });
+  if (std::popcount(others) < 2) {
+    return false;
+  }
+  const auto shared = evidence_.speed_difference(radar, others);
+  return std::abs(shared.difference_mps) + 2.0 * shared.std_mps <
+         kMaxShareShared * std::abs(shared.speed_mps);
 }
 
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {

@@ -40,6 +40,9 @@ class FaultHypotheses {
   void clear();
   /// A radar's own check found it wrong (SelfCheck).
   void accuse(std::size_t radar, std::int64_t time_us);
+  /// Whether a radar whose own check found its speed wrong (SelfCheck) has the speed of at least
+  /// two others for which that did not happen lately: then it was chance.
+  bool is_speed_shared(std::size_t radar, std::int64_t time_us);
   /// Speed along x of the radar by its positions, over the last `since_s`. `variance_m2`: of the
   /// way, by the noise of the targets.
   void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,
@@ -114,6 +117,7 @@ class FaultHypotheses {
   MotionEvidence evidence_;
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
+  std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By its own check, by radar.
   /// The radar that seems to be late, by how much, and for how long by the same.
   struct Lateness {
     std::size_t radar = 0;

@@ -323,6 +323,30 @@ MotionEvidence::ChiSquares MotionEvidence::chi_squares(RadarSet set,
   return result;
 }
 
+MotionEvidence::SpeedDifference MotionEvidence::speed_difference(std::size_t radar,
+                                                                 RadarSet set) const {
+  const Eigen::Vector3d along(1.0, -state_.mount(radar).y_m, 0.0);
+  double speeds_mps = 0.0;
+  double differences_mps = 0.0;
+  double variances = 0.0;
+  double count = 0.0;
+  for (std::size_t k = 0; k < epochs(); ++k) {
+    const Epoch& epoch = epochs_[k];
+    const auto& velocity = epoch[radar].velocity;
+    if (velocity && !any_of(set, [&](std::size_t i) { return !epoch[i].velocity; })) {
+      const MotionSums others = sum(set, epoch, {});
+      speeds_mps += velocity->mps.x();
+      differences_mps += velocity->mps.x() - along.dot(others.solution());
+      variances += velocity->covariance(0, 0) + along.dot(others.random_covariance() * along);
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) {
+    return {};
+  }
+  return {speeds_mps / count, differences_mps / count, std::sqrt(variances) / count};
+}
+
 RadarSet MotionEvidence::present() const {
   RadarSet present = 0;
   for_each(judged_, [&](std::size_t i) { present |= velocity(i) ? set_of(i) : 0U; });

@@ -107,6 +107,13 @@ class MotionEvidence {
   [[nodiscard]] const std::optional<Velocity>& velocity(std::size_t radar) const {
     return newest_epoch()[radar].velocity;
   }
+  /// A radar's speed by Doppler, less that by the set: means over the last second.
+  struct SpeedDifference {
+    double speed_mps = 0.0;
+    double difference_mps = 0.0;
+    double std_mps = 0.0;  ///< By the noise of the targets.
+  };
+  [[nodiscard]] SpeedDifference speed_difference(std::size_t radar, RadarSet set) const;
   /// All measurements of the radars in the set, with the prior.
   [[nodiscard]] MotionSums sum(RadarSet set) const { return sum(set, newest_epoch(), {}); }
   /// Doppler of a radar that is present.

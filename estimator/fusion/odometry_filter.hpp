@@ -46,10 +46,10 @@ struct OdometryRadar {
 /// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and one
 /// of lateral motion and yaw since the nodes by positions (MapMeasurement).
 ///
-/// `doubt/`: a measurement that fails its chi-square gate is not used. A radar that repeatedly
-/// fails it is left out until it agrees again. If a majority of radars contradicts the filter and
-/// agrees with each other, the velocity is reset to theirs. A vehicle that stood is not moved by
-/// what departs beside it (ParkedVehicle).
+/// `doubt/`: a radar that contradicts the others or itself is left out for some time
+/// (FaultHypotheses). A measurement that fails its chi-square gate is not used; if a majority of
+/// radars contradicts the filter and agrees with each other, the velocity is reset to theirs
+/// (RadarConsensus). A vehicle that stood is not moved by what departs beside it (ParkedVehicle).
 ///
 /// `output/`: poses relative to an anchor and since the start, and predictions between scans.
 ///

@@ -23,7 +23,8 @@ class FilterCondition {
   void start();
   /// Records that a scan's Doppler was used. `is_clear`: most of its targets are static.
   void use_scan(bool is_clear);
-  /// Records a scan that showed two worlds (TwoWorlds).
+  /// Records a scan that is not used since it is not known what tells the vehicle's motion: it
+  /// shows two worlds (TwoWorlds), or which radars are right is unknown.
   void doubt() { doubt_us_ = state_.time_us(); }
 
   /// Ends the start if the state is known; true if it ends now.
@@ -49,7 +50,7 @@ class FilterCondition {
   int used_scans_ = 0;
   std::int64_t used_us_ = 0;   // Last scan used.
   std::int64_t clear_us_ = 0;  // Last clear scan used.
-  std::int64_t doubt_us_ = 0;  // Last scan that showed two worlds.
+  std::int64_t doubt_us_ = 0;  // Last scan in doubt.
 };
 
 }  // namespace cremed

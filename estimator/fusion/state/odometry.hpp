@@ -56,7 +56,7 @@ struct Odometry {
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Zero();
 
   std::uint32_t radars = 0;    ///< Bit i: radar i was used since the previous output.
-  std::uint32_t left_out = 0;  ///< Bit i: radar i contradicts the filter.
+  std::uint32_t left_out = 0;  ///< Bit i: radar i is not believed (`doubt/`).
 };
 
 /// A systematic error that explains the velocities of a radar that is at fault.
@@ -90,7 +90,7 @@ struct MapCounters {
 
 /// Diagnostics of one radar.
 struct RadarReport {
-  bool is_left_out = false;  ///< It contradicts the filter.
+  bool is_left_out = false;  ///< It is not believed (`doubt/`).
   FaultCause cause;          ///< If it is left out.
   /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
   /// without measurements.

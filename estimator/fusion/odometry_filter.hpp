@@ -74,9 +74,10 @@ class OdometryFilter {
   /// A radar's own motion, with which other radars and these values are compared; before its scan.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
 
-  /// Whether others have the speed of a radar whose own check finds it wrong: that was chance.
-  bool is_speed_shared(std::size_t radar, std::int64_t stamp_us) {
-    return faults_.is_speed_shared(radar, stamp_us);
+  /// Notes that a radar's own check finds its speed wrong. True if that is chance: two others have
+  /// the same.
+  bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us) {
+    return faults_.refutes_speed_doubt(radar, stamp_us);
   }
 
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the

@@ -59,8 +59,8 @@ class Comparison {
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
-  bool is_speed_shared(std::size_t radar) {
-    return faults_.is_speed_shared(radar, std::llround(time_s_ * 1e6));
+  bool refutes_speed_doubt(std::size_t radar) {
+    return faults_.refutes_speed_doubt(radar, std::llround(time_s_ * 1e6));
   }
   void lose(bool is_after_step = false) { faults_.require_positions(is_after_step); }
   void set_clock(double by_s) {
@@ -341,10 +341,10 @@ TEST_CASE("two others with a radar's speed tell that its own check found it wron
   const auto scale = GENERATE(1.0, 0.95);
   const std::size_t radar = GENERATE(0U, 1U, 2U);
   Comparison comparison(kFive);
-  CHECK_FALSE(comparison.is_speed_shared(radar));  // Nobody is heard yet.
+  CHECK_FALSE(comparison.refutes_speed_doubt(radar));  // Nobody is heard yet.
   comparison.drive(6.0);
   comparison.drive(1.0, scaled(radar, scale));
-  CHECK(comparison.is_speed_shared(radar) == (scale == 1.0));
+  CHECK(comparison.refutes_speed_doubt(radar) == (scale == 1.0));
 }
 
 TEST_CASE("one other tells nothing of a radar's own check, nor do those that look aside") {
@@ -352,19 +352,19 @@ TEST_CASE("one other tells nothing of a radar's own check, nor do those that loo
                                std::vector<Pose2>{kFront, kRearLeft, kLeft, kRight});
   Comparison comparison(mounts);
   comparison.drive(2.0);
-  CHECK_FALSE(comparison.is_speed_shared(0));
+  CHECK_FALSE(comparison.refutes_speed_doubt(0));
 }
 
 TEST_CASE("radars whose own checks find them wrong within five seconds do not excuse each other") {
   Comparison comparison(kFive);
   comparison.drive(2.0);
-  CHECK(comparison.is_speed_shared(0));
+  CHECK(comparison.refutes_speed_doubt(0));
   comparison.drive(1.0);
-  CHECK_FALSE(comparison.is_speed_shared(1));
+  CHECK_FALSE(comparison.refutes_speed_doubt(1));
   comparison.drive(1.0);
-  CHECK_FALSE(comparison.is_speed_shared(0));
+  CHECK_FALSE(comparison.refutes_speed_doubt(0));
   comparison.drive(6.0);
-  CHECK(comparison.is_speed_shared(0));
+  CHECK(comparison.refutes_speed_doubt(0));
 }
 
 TEST_CASE("with a radar found at fault the motion by the others is told, once") {

@@ -78,7 +78,7 @@ void FaultHypotheses::clear() {
   unknown_epochs_ = 0;
 }
 
-bool FaultHypotheses::is_speed_shared(std::size_t radar, std::int64_t time_us) {
+bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us) {
   speed_doubted_us_[radar] = time_us;
   RadarSet others = evidence_.epochs() == 0 ? 0U : evidence_.present() & ~at_fault();
   for_each(others, [&](std::size_t i) {

@@ -40,9 +40,9 @@ class FaultHypotheses {
   void clear();
   /// A radar's own check found it wrong (SelfCheck).
   void accuse(std::size_t radar, std::int64_t time_us);
-  /// Whether a radar whose own check found its speed wrong (SelfCheck) has the speed of at least
-  /// two others for which that did not happen lately: then it was chance.
-  bool is_speed_shared(std::size_t radar, std::int64_t time_us);
+  /// Notes that a radar's own check finds its speed wrong (SelfCheck). True if that is chance: at
+  /// least two others have the same speed, and their own checks found nothing wrong for 5 s.
+  bool refutes_speed_doubt(std::size_t radar, std::int64_t time_us);
   /// Speed along x of the radar by its positions, over the last `since_s`. `variance_m2`: of the
   /// way, by the noise of the targets.
   void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,

@@ -396,8 +396,8 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
       break;
   }
   return {"it contradicts the other radars or its own positions",
-          "its mount, the scale or sign of its Doppler, or its bus is wrong: `cremed-doctor`, "
-          "`cremed-eval calibrate`"};
+          "its mount, the scale or sign of its Doppler, or its bus is wrong: compare them with the "
+          "vehicle; `cremed-eval calibrate` finds errors of some degrees or percent"};
 }
 
 void add_left_out(const RadarConfiguration& radar, const RadarStatus& status,

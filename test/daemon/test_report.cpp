@@ -282,6 +282,9 @@ TEST_CASE("No key is advised that the radar does not have, and no value that it 
   CHECK_THAT(remedy_of(front(), {FaultKind::scale, kDopplerScales.max}),
              Catch::Contains("doppler_scale = 2"));
   CHECK(remedy_of(front(), {FaultKind::late, 0.6}) == "find what delays its bus or its stamps");
+  CHECK_THAT(remedy_of(front(), {FaultKind::unknown}),
+             Catch::Contains("compare them with the vehicle") &&
+                 !Catch::Contains("cremed-doctor"));  // Which prints it.
 }
 
 TEST_CASE("A speed by positions that is not Doppler's is named with its causes") {

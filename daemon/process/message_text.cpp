@@ -12,8 +12,20 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kMaxPrintable = 60;
+/// What no shell takes for anything but itself.
+constexpr std::string_view kUnquoted =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+,:@%";
 
 bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+std::string one_line(std::string_view text) {
+  std::string line = plain_text(text);
+  std::ranges::replace_if(
+      line, [](char c) { return c == '\n' || c == '\t'; }, '?');
+  return line;
+}
+
+bool needs_no_quotes(char c) { return kUnquoted.find(c) != std::string_view::npos; }
 
 template <typename Number>
 std::string shortest_digits(Number value) {
@@ -29,9 +41,7 @@ std::string printable(std::string_view text) {
   while (size < text.size() && size > 0 && continues_utf8(text[size])) {
     --size;
   }
-  std::string shown = plain_text(text.substr(0, size));
-  std::ranges::replace_if(
-      shown, [](char c) { return c == '\n' || c == '\t'; }, '?');
+  const std::string shown = one_line(text.substr(0, size));
   return size < text.size() ? shown + "..." : shown;
 }
 
@@ -63,9 +73,15 @@ std::string counted(std::uint64_t count, std::string_view noun) {
 std::string in_quotes(std::string_view text) { return concat({"\"", printable(text), "\""}); }
 
 std::string in_shell(std::string_view path) {
-  const std::string text = printable(path);
-  return text.find_first_of(" '\"$`\\()&;<>|*?") == std::string::npos ? text
-                                                                      : concat({"\"", text, "\""});
+  std::string text = one_line(path);
+  if (!text.empty() && std::ranges::all_of(text, needs_no_quotes)) {
+    return text;
+  }
+  std::string quoted = "'";
+  for (const char c : text) {
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return quoted + "'";
 }
 
 std::string range_text(std::string_view what, std::string_view min, std::string_view max) {

@@ -33,7 +33,7 @@ std::string counted(std::uint64_t count, std::string_view noun);
 /// Printable, in double quotes.
 std::string in_quotes(std::string_view text);
 
-/// A path as an argument of a shell's command.
+/// A path as an argument of a shell's command: whole, and in single quotes where it needs some.
 std::string in_shell(std::string_view path);
 
 /// "a number from 0 to 1"

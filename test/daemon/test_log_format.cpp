@@ -18,7 +18,7 @@ TEST_CASE("What is no candump log is answered with the command that makes one of
     const char* answer;
   };
   const Row row = GENERATE(
-      Row{"\x1F\x8B\x08\0\0"sv, "a b.x is compressed by gzip; `zcat \"a b.x\" >drive.log`"},
+      Row{"\x1F\x8B\x08\0\0"sv, "a b.x is compressed by gzip; `zcat 'a b.x' >drive.log`"},
       Row{"\xFD"
           "7zXZ\0\0"sv,
           "`xzcat "},
@@ -45,6 +45,20 @@ TEST_CASE("Logs, comments, nothing and noise are not taken for another format") 
   const auto* begin = GENERATE("(1436509052.249713) can0 123#11", "# a, b, c, d", "", "\x01\x02",
                                "  can0  123   [2]  11 22", "DROPCOUNT: dropped 1");
   CHECK(foreign_format(std::string_view(begin), "-").empty());
+}
+
+TEST_CASE("The command takes a path as it is, however long and whatever a shell does with it") {
+  const auto command = [](const std::string& path) {
+    const std::string answer = foreign_format("BZh91AY", path);
+    const std::size_t begin = answer.find("`bzcat ");
+    REQUIRE(begin != std::string::npos);
+    return answer.substr(begin);
+  };
+  CHECK(command("logs/a-1_2.bz2") == "`bzcat logs/a-1_2.bz2 >drive.log`");
+  CHECK(command("$HOME `id`") == "`bzcat '$HOME `id`' >drive.log`");
+  CHECK(command("~it's") == "`bzcat '~it'\\''s' >drive.log`");
+  const std::string longest(200, 'x');
+  CHECK(command(longest) == "`bzcat " + longest + " >drive.log`");
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
     known->name = interface;
   } else {
     ++steps_;
+    steps_still_ += stamp_us == known->last_us ? 1 : 0;
     steps_back_ += stamp_us < known->last_us ? 1 : 0;
   }
   known->last_us = stamp_us;
@@ -36,6 +37,11 @@ void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
 }
 
 std::string StampOrder::problem(const std::string& path) const {
+  if (steps_ > kFewSteps && steps_still_ == steps_) {
+    return concat({printable(path), ": the stamps stand still: in ", counted(steps_, "step"),
+                   " none differs from the one before; without times there is no odometry, record "
+                   "with `candump -l`"});
+  }
   if (steps_back_ <= kFewSteps || 100 * steps_back_ <= kMostStepsBackPercent * steps_) {
     return {};
   }

@@ -11,7 +11,8 @@
 namespace cremed {
 
 /// Whether the stamps of a log are times. Those of one interface never run backwards, unless the
-/// clock was set; the times between frames of `candump -td` do, and so do shuffled lines.
+/// clock was set; the times between frames of `candump -td` do, and so do shuffled lines. A log
+/// that was written without times may have one stamp throughout.
 class StampOrder {
  public:
   void add(std::string_view interface, std::int64_t stamp_us);
@@ -29,6 +30,7 @@ class StampOrder {
   std::array<Interface, kMostInterfaces> interfaces_;
   std::size_t count_ = 0;
   std::uint64_t steps_ = 0;
+  std::uint64_t steps_still_ = 0;
   std::uint64_t steps_back_ = 0;
   std::int64_t latest_us_ = 0;
 };

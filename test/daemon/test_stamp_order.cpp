@@ -37,3 +37,21 @@ TEST_CASE("Times between frames, and lines out of order, are told apart") {
                                            Catch::Contains("record with `candump -l`"));
   CHECK_THAT(shuffled.problem("x.log"), Catch::Contains("`sort -s -k1,1 LOG`"));
 }
+
+TEST_CASE("Stamps that stand still are no times, but those of a few frames at once are") {
+  StampOrder still;
+  StampOrder burst;
+  StampOrder coarse;
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    still.add(i % 2 == 0 ? "can0" : "can1", kSince1970Us);
+    coarse.add("can0", kSince1970Us + 10'000 * (i / 100));
+  }
+  for (std::int64_t i = 0; i < 10; ++i) {
+    burst.add("can0", kSince1970Us);
+  }
+  CHECK_THAT(still.problem("x.log"),
+             Catch::StartsWith("x.log: the stamps stand still: in 998 steps ") &&
+                 Catch::EndsWith("record with `candump -l`"));
+  CHECK(burst.problem("x.log").empty());
+  CHECK(coarse.problem("x.log").empty());
+}

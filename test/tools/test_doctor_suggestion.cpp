@@ -93,6 +93,41 @@ TEST_CASE("A GPR is suggested with its base id") {
   CHECK(radars_in(text) == std::vector<std::string>{"can1: a Bosch GPR with base id 0x480"});
 }
 
+/// A frame of each identifier of a GPR's targets.
+Recording gpr_targets(const std::string& interface, std::uint32_t base_id) {
+  Recording traffic;
+  for (std::uint32_t i = 0; i < 96; ++i) {
+    traffic.push_back({interface, {.id = base_id + i, .length = 8}});
+  }
+  return traffic;
+}
+
+TEST_CASE("GPRs of one bus are suggested with an info_id each, which none of their targets has") {
+  Recording traffic = gpr_targets("can0", 0x300);
+  for (const std::uint32_t base_id : {0x480U, 0xC0U}) {
+    const Recording more = gpr_targets("can0", base_id);
+    traffic.insert(traffic.end(), more.begin(), more.end());
+  }
+  const std::string text = suggested(traffic);
+  CAPTURE(text);
+  CHECK(radars_in(text) == std::vector<std::string>{"can0: a Bosch GPR with base id 0xC0",
+                                                    "can0: a Bosch GPR with base id 0x300",
+                                                    "can0: a Bosch GPR with base id 0x480"});
+  CHECK(examined_configuration(observed(traffic)).radars.size() == 3);
+}
+
+TEST_CASE("A radar that shares an identifier with another of its bus is left out, and told") {
+  Recording traffic = gpr_targets("can0", 0x300);
+  traffic.push_back({"can0", {.id = 0x630, .length = 5}});
+  traffic.push_back({"can1", {.id = 0x630, .length = 5}});
+  const std::string text = suggested(traffic);
+  CAPTURE(text);
+  CHECK(radars_in(text) == std::vector<std::string>{"can0: a Bosch GPR with base id 0x300",
+                                                    "can1: an ARS408 with sensor id 3"});
+  CHECK_THAT(text, Catch::Contains("# Left out: an ARS408 with sensor id 3 on can0, which shares "
+                                   "CAN identifier 0x330 with a radar above; "));
+}
+
 TEST_CASE("An ARS408 that sends objects, or nothing, is suggested with what sets it right") {
   RadarConfiguration objects = default_radars()[0];
   objects.decoder = Ars408Options{.output = Ars408Output::objects};
@@ -113,9 +148,10 @@ TEST_CASE("Where nothing is known there is nothing to suggest, and what was seen
   CHECK_THAT(text, Catch::Contains("can1: frames, but none of a radar (0x7); "));
 }
 
-TEST_CASE("The name of an interface that TOML would not take as it is is left out") {
+TEST_CASE("The name of an interface that a configuration would not take as it is is left out") {
+  const char* const name = GENERATE("a\"b\\c\x1B", "can0:1", "a/b", "auto", "..");
   Recording traffic = recording_of({ars408("a", "can0", 0)});
-  rename(traffic, "can0", "a\"b\\c\x1B");
+  rename(traffic, "can0", name);
   CHECK(suggested(traffic).empty());
 }
 

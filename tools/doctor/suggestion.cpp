@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/configuration/configuration_radar.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
 
@@ -32,10 +36,10 @@ constexpr std::string_view kNoMount = "mount = { x_m = 0, y_m = 0, yaw_rad = 0 }
 constexpr std::string_view kExamined =
     "odometry.enabled = false\nestimator.degrees_of_freedom = 3\n";
 
-/// A name that needs no escapes in a TOML string.
+/// A name that the configuration takes as it is.
 bool is_suggestible(const std::string& interface) {
-  return std::ranges::all_of(interface,
-                             [](char c) { return c > ' ' && c < '\x7F' && c != '"' && c != '\\'; });
+  return is_interface_name(interface) && interface != kAutoInterface &&
+         interface.find_first_of("\"\\") == std::string::npos;
 }
 
 std::vector<const BusObservation*> by_name(const Observation& observation) {
@@ -77,12 +81,74 @@ std::string others_like(const RadarFamily& family, RadarFamilies families) {
   return types.empty() ? "" : types + " (see the label of the sensor): the frames are the same";
 }
 
+/// What it uses of a bus, without a GPR's info_id, which is not observed.
+IdSet observed_ids(const RadarSettings& radar) {
+  if (const auto* const gpr = radar.as<BoschGprOptions>()) {
+    BoschGprOptions targets = *gpr;
+    targets.info_id = targets.base_id;
+    return RadarSettings(targets).sent_ids();
+  }
+  return radar.sent_ids() | radar.obeyed_ids();
+}
+
+/// With an info_id that nothing on the bus uses: the usual one, if that is free.
+RadarSettings with_free_info_id(const RadarSettings& radar, IdSet& used) {
+  const auto* const gpr = radar.as<BoschGprOptions>();
+  if (gpr == nullptr) {
+    return radar;
+  }
+  BoschGprOptions options = *gpr;
+  while (used[options.info_id]) {
+    options.info_id = (options.info_id + 1) % static_cast<std::uint32_t>(used.size());
+  }
+  used.set(options.info_id);
+  return options;
+}
+
+std::string info_line(const RadarSettings& radar) {
+  const auto* const gpr = radar.as<BoschGprOptions>();
+  return gpr == nullptr || gpr->info_id == BoschGprOptions().info_id
+             ? ""
+             : concat({"info_id = ", hexadecimal(gpr->info_id),
+                       "  # free here; the sensor's own is in its setup\n"});
+}
+
 std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number,
                   RadarFamilies families, std::string_view mount) {
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
                  radar.family().type, "\"", others_like(radar.family(), families),
-                 "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n",
+                 "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n", info_line(radar),
                  mount == kMount ? output_line(bus, radar) : "", mount});
+}
+
+/// A configuration refuses radars of one bus that share an identifier.
+std::string left_out(const BusObservation& bus, const RadarSettings& radar, const IdSet& shared) {
+  return concat({"\n# Left out: ", radar.describe(), " on ", bus.interface, ", which shares CAN ",
+                 "identifier ", hexadecimal(shared._Find_first()),
+                 " with a radar above; give it other identifiers, or a bus of its own.\n"});
+}
+
+std::string tables_of(const BusObservation& bus, RadarFamilies families, std::string_view mount,
+                      std::size_t& count) {
+  std::string comments;
+  IdSet used;
+  std::vector<RadarSettings> radars;
+  for (const RadarSettings& radar : seen_radars(bus.traffic, families)) {
+    const IdSet ids = observed_ids(radar);
+    if ((used & ids).any()) {
+      comments += left_out(bus, radar, used & ids);
+    } else {
+      used |= ids;
+      radars.push_back(radar);
+    }
+  }
+  std::string tables;
+  for (const RadarSettings& radar : radars) {
+    tables += count < kMaxRadars
+                  ? table(bus, with_free_info_id(radar, used), ++count, families, mount)
+                  : "";
+  }
+  return tables + comments;
 }
 
 std::string tables_of(const Observation& observation, RadarFamilies families,
@@ -90,9 +156,7 @@ std::string tables_of(const Observation& observation, RadarFamilies families,
   std::string tables;
   std::size_t count = 0;
   for (const BusObservation* bus : by_name(observation)) {
-    for (const RadarSettings& radar : seen_radars(bus->traffic, families)) {
-      tables += count < kMaxRadars ? table(*bus, radar, ++count, families, mount) : "";
-    }
+    tables += tables_of(*bus, families, mount, count);
   }
   return tables;
 }

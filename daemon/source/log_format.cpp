@@ -55,8 +55,9 @@ constexpr std::array kFormats = {
     Format{"utime,utime_anchor,"sv, "cremed's own odometry", Way::odometry, ""},
 };
 
-/// python-can's CSV begins with "timestamp,arbitration_id,extended,remote,error,dlc,data".
-constexpr std::string_view kCsv = "CSV";
+/// What python-can writes, and reads.
+constexpr std::string_view kCsvColumns = "timestamp,arbitration_id,extended,remote,error,dlc,data";
+constexpr std::string_view kCsvFrame = "timestamp,arbitration_id,";
 constexpr long kMinCommas = 3;
 
 std::string remedy(Way way, std::string_view command, const std::string& path) {
@@ -83,6 +84,13 @@ bool is_csv(std::string_view line) {
          line.find_first_of("(#") == std::string_view::npos;
 }
 
+std::string csv_text(std::string_view header, const std::string& path) {
+  return header.starts_with(kCsvFrame)
+             ? concat({"CSV; ", remedy(Way::convert, "", path)})
+             : concat({"CSV without the columns of frames, which are ", in_quotes(kCsvColumns),
+                       " as python3-can writes them; ", remedy(Way::record, "", path)});
+}
+
 }  // namespace
 
 std::string foreign_format(std::string_view begin, const std::string& path) {
@@ -92,8 +100,8 @@ std::string foreign_format(std::string_view begin, const std::string& path) {
   if (found != kFormats.end()) {
     return concat({what, found->name, "; ", remedy(found->way, found->command, path)});
   }
-  const bool is_table = is_csv(begin.substr(0, begin.find('\n')));
-  return is_table ? concat({what, kCsv, "; ", remedy(Way::convert, "", path)}) : std::string();
+  const std::string_view line = begin.substr(0, begin.find('\n'));
+  return is_csv(line) ? concat({what, csv_text(line, path)}) : std::string();
 }
 
 void refuse_foreign_format(std::string_view begin, const std::string& path) {

@@ -35,7 +35,11 @@ TEST_CASE("What is no candump log is answered with the command that makes one of
       Row{"SQLite format 3\0"sv, "an SQLite database (db3); "},
       Row{"\x89MCAP0\r\n"sv, "an MCAP file; "},
       Row{"utime_start,utime,source,x_m\n"sv, "`cremed-eval drive`"},
-      Row{"timestamp,arbitration_id,extended,remote\n1,"sv, "is CSV; `python3 -m can.logconvert "});
+      Row{"timestamp,arbitration_id,extended,remote\n1,"sv, "is CSV; `python3 -m can.logconvert "},
+      Row{"time,x,y,z\n1,"sv,
+          "is CSV without the columns of frames, which are "
+          "\"timestamp,arbitration_id,extended,remote,error,dlc,data\" as python3-can writes them; "
+          "frames are read from candump logs"});
   const std::string answer = foreign_format(row.begin, "a b.x");
   CAPTURE(answer);
   CHECK(answer.find(row.answer) != std::string::npos);

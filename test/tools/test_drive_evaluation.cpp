@@ -119,11 +119,17 @@ TEST_CASE("Each estimate's error, sigma and NEES are told, with the path they ma
 TEST_CASE("What is no odometry or no truth is refused with the place") {
   CHECK_THROWS_WITH(evaluate("1,2,3\n"), Catch::Contains("line 2"));
   CHECK_THROWS_WITH(evaluate("1000000,1100000,front,x,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n"),
-                    Catch::Contains("row 1, x_m: 'x' is not a number"));
+                    Catch::Contains("line 2, x_m: 'x' is not a number"));
   CHECK_THROWS_WITH(evaluate("1000000,1100000,front,nan,0,0.01,0.01,0,0,0.04,0,0.0001,ok,50,6,0\n"),
                     Catch::Contains("not finite"));
   std::istringstream unsorted("utime,x_m,y_m,yaw_rad\n5,0,0,0\n5,0,0,0\n");
   CHECK_THROWS_WITH(TrueTrajectory(unsorted), Catch::Contains("row 2: utime does not increase"));
+  for (const char* const number : {"nan", "inf", "-inf"}) {
+    std::istringstream infinite(std::string("utime,x_m,y_m,yaw_rad\n5,0,0,0\n# lost\n6,0,") +
+                                number + ",0\n");
+    CHECK_THROWS_WITH(TrueTrajectory(infinite),
+                      Catch::Contains(std::string("line 4, y_m: '") + number + "' is not finite"));
+  }
   std::istringstream incomplete("utime,x_m,y_m\n5,0,0\n");
   CHECK_THROWS_WITH(TrueTrajectory(incomplete), Catch::Contains("no column yaw_rad"));
 }

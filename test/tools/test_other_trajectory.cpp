@@ -151,6 +151,7 @@ TEST_CASE("A trajectory that cannot be read is told with its line") {
   };
   refused("1 2 3\n", "line 1: 3 numbers where 8 are expected");
   refused("# no pose\n\n1 0 0 0 0 0 0 one\n", "line 3: 'one' is no number");
+  refused("1 nan 0 0 0 0 0 1\n", "line 1: 'nan' is no number");
   refused("1000 0 0 0 0 0 0 1\n", "fewer than two poses");
   refused("1000 0 0 0 0 0 0 1\n1000 1 0 0 0 0 0 1\n", "pose 2: its time is not later");
   refused("1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n", "no pose within truth's time");

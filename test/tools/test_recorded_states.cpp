@@ -63,7 +63,7 @@ TEST_CASE("The vehicle's state is told by its header and read with its covarianc
 TEST_CASE("A state that is said to be one and is not finite is refused with the place") {
   CHECK_THROWS_WITH(
       read_rows("3000,2000,ok,0.1,0.2,0.3,11,12,13,14,15,16,7,7,7,nan,0.1,0.2,1,2,3,4,5,6\n"),
-      Catch::Contains("row 1, vx_mps"));
+      Catch::Contains("line 2, vx_mps"));
 }
 
 TEST_CASE("The twist is compared with the wheels at the same time, by both variances") {

@@ -53,4 +53,6 @@ TEST_CASE("Wheels tell nothing outside of their time, and bad files are refused 
                     Catch::Contains("row 2: utime does not increase"));
   CHECK_THROWS_WITH(read_wheels("utime,speed_mps,yaw_rate_radps\n5,fast,0\n"),
                     Catch::Contains("'fast' is not a number"));
+  CHECK_THROWS_WITH(read_wheels("utime,speed_mps,yaw_rate_radps\n5,nan,0\n"),
+                    Catch::Contains("line 2, speed_mps: 'nan' is not finite"));
 }

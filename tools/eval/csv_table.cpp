@@ -30,15 +30,6 @@ std::string_view without_mark(std::string_view line) {
   return line.substr(line.starts_with(kMark) ? kMark.size() : 0);
 }
 
-double finite_number(const CsvTable& table, std::size_t row, const char* name) {
-  const double value = table.number(row, table.column(name));
-  if (!std::isfinite(value)) {
-    throw std::runtime_error("row " + std::to_string(row + 1) + ", " + name +
-                             ": an estimate that is not finite");
-  }
-  return value;
-}
-
 }  // namespace
 
 CsvTable::CsvTable(std::istream& input) {
@@ -52,6 +43,7 @@ CsvTable::CsvTable(std::istream& input) {
       continue;
     }
     rows_.push_back(split(line));
+    lines_.push_back(number);
     if (rows_.back().size() != header_.size()) {
       throw std::runtime_error("line " + std::to_string(number) + ": " +
                                std::to_string(rows_.back().size()) + " cells, the header has " +
@@ -78,8 +70,8 @@ Number CsvTable::parse(std::size_t row, std::size_t column) const {
   Number value{};
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) {
-    throw std::runtime_error("row " + std::to_string(row + 1) + ", " + header_[column] + ": '" +
-                             cell + "' is not a number");
+    throw std::runtime_error(line(row) + ", " + header_[column] + ": '" + cell +
+                             "' is not a number");
   }
   return value;
 }
@@ -88,6 +80,17 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
   return parse<double>(row, column);
 }
 
+double CsvTable::finite(std::size_t row, std::size_t column) const {
+  const double value = number(row, column);
+  if (!std::isfinite(value)) {
+    throw std::runtime_error(line(row) + ", " + header_[column] + ": '" + text(row, column) +
+                             "' is not finite; must be a number");
+  }
+  return value;
+}
+
+std::string CsvTable::line(std::size_t row) const { return "line " + std::to_string(lines_[row]); }
+
 long long CsvTable::integer(std::size_t row, std::size_t column) const {
   return parse<long long>(row, column);
 }
@@ -95,14 +98,14 @@ long long CsvTable::integer(std::size_t row, std::size_t column) const {
 Eigen::Vector3d read_vector(const CsvTable& table, std::size_t row, const VectorColumns& names) {
   Eigen::Vector3d vector;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    vector(static_cast<Eigen::Index>(i)) = finite_number(table, row, names[i]);
+    vector(static_cast<Eigen::Index>(i)) = table.finite(row, table.column(names[i]));
   }
   return vector;
 }
 
 Eigen::Matrix3d read_symmetric(const CsvTable& table, std::size_t row,
                                const SymmetricColumns& names) {
-  const auto number = [&](std::size_t i) { return finite_number(table, row, names[i]); };
+  const auto number = [&](std::size_t i) { return table.finite(row, table.column(names[i])); };
   Eigen::Matrix3d matrix;
   matrix << number(0), number(1), number(2),  //
       number(1), number(3), number(4),        //

@@ -13,7 +13,8 @@
 
 namespace cremed {
 
-/// A CSV file with a header line, as text cells. Throws std::runtime_error "line N: ...".
+/// A CSV file with a header line, as text cells. Throws std::runtime_error "line N: ..."; lines are
+/// those of the file, with its header and comments.
 class CsvTable {
  public:
   explicit CsvTable(std::istream& input);
@@ -25,8 +26,12 @@ class CsvTable {
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const {
     return rows_[row][column];
   }
+  /// "line 3" of the file.
+  [[nodiscard]] std::string line(std::size_t row) const;
   /// A cell as a number ("nan" is one); throws std::runtime_error.
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  /// A cell as a number that is finite; throws std::runtime_error.
+  [[nodiscard]] double finite(std::size_t row, std::size_t column) const;
   /// A cell as an integer, for time stamps; throws std::runtime_error.
   [[nodiscard]] long long integer(std::size_t row, std::size_t column) const;
 
@@ -36,6 +41,7 @@ class CsvTable {
 
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_;  // Of each row.
 };
 
 /// Names of the columns of a symmetric matrix: first row, second from its diagonal, last.

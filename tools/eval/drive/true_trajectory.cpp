@@ -62,7 +62,7 @@ void check_kind(const CsvTable& table) {
 
 std::int64_t read_utime_us(const CsvTable& table, std::size_t row, std::size_t column) {
   if (const std::string& cell = table.text(row, column); cell.find('.') != std::string::npos) {
-    throw std::runtime_error("row " + std::to_string(row + 1) + ", utime: '" + cell +
+    throw std::runtime_error(table.line(row) + ", utime: '" + cell +
                              "': is it in seconds? Whole microseconds are expected");
   }
   return table.integer(row, column);
@@ -79,7 +79,7 @@ TrueTrajectory::TrueTrajectory(std::istream& input) {
   const std::size_t yaw = table.column("yaw_rad");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     utime_us_.push_back(read_utime_us(table, row, utime));
-    poses_.push_back({table.number(row, x), table.number(row, y), table.number(row, yaw)});
+    poses_.push_back({table.finite(row, x), table.finite(row, y), table.finite(row, yaw)});
   }
   check_order(utime_us_);
   check_unit(poses_);

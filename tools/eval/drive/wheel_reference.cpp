@@ -31,7 +31,7 @@ WheelReference::WheelReference(std::istream& input, const WheelStd& std) : std_(
   std::vector<Pose2> poses;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     utime_us.push_back(table.integer(row, utime));
-    rates_.emplace_back(table.number(row, speed), table.number(row, yaw_rate));
+    rates_.emplace_back(table.finite(row, speed), table.finite(row, yaw_rate));
     poses.push_back(row == 0 ? Pose2{}
                              : step(poses.back(), rates_[row - 1], rates_[row],
                                     seconds_between(utime_us[row - 1], utime_us[row])));

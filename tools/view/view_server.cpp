@@ -71,6 +71,12 @@ HttpResponse refusal(int status, const std::string& reason) {
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
+std::runtime_error cannot_listen(const ViewAddress& address, const std::string& reason) {
+  return std::runtime_error("cannot listen on " + address.host + " port " +
+                            std::to_string(address.port) + ": " + reason);
+}
+
+/// Throws std::runtime_error.
 Addresses addresses_of(const ViewAddress& address) {
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;
@@ -78,18 +84,36 @@ Addresses addresses_of(const ViewAddress& address) {
   hints.ai_flags = AI_PASSIVE;
   addrinfo* found = nullptr;
   const std::string port = std::to_string(address.port);
-  return {::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found) == 0 ? found : nullptr,
-          &::freeaddrinfo};
+  if (const int error = ::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found)) {
+    throw cannot_listen(address, std::string(::gai_strerror(error)) +
+                                     "; --address must be one of this computer, or its name");
+  }
+  return {found, &::freeaddrinfo};
 }
 
-/// -1 if not possible.
+std::string text_of(int error) {
+  switch (error) {
+    case EADDRINUSE:
+      return "it is in use: is another cremed-view running? --port says another";
+    case EACCES:
+      return "not permitted: ports below 1024 are root's; --port says another";
+    case EADDRNOTAVAIL:
+      return "this computer has no such address; `ip address` lists those it has";
+    default:
+      return std::strerror(error);
+  }
+}
+
+/// -1, with errno, if not possible.
 int listening_socket(const addrinfo& address) {
   const int socket = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   if (socket >= 0 && (::bind(socket, address.ai_addr, address.ai_addrlen) != 0 ||
                       ::listen(socket, kBacklog) != 0)) {
+    const int error = errno;
     ::close(socket);
+    errno = error;
     return -1;
   }
   return socket;
@@ -150,9 +174,7 @@ void ViewServer::listen(const ViewAddress& address) {
     socket_ = listening_socket(*one);
   }
   if (socket_ < 0) {
-    throw std::runtime_error("cannot listen on " + address.host + " port " +
-                             std::to_string(address.port) +
-                             ": is another cremed-view running? --port says another");
+    throw cannot_listen(address, text_of(errno));
   }
   port_ = port_of(socket_);
 }

@@ -45,6 +45,9 @@ bool report_logs(const Replay& replay) {
     if (const std::string malformed = log->reader().malformed(); !malformed.empty()) {
       spdlog::warn("{}", malformed);
     }
+    if (const std::string cut_off = log->reader().cut_off(); !cut_off.empty()) {
+      spdlog::warn("{}", cut_off);
+    }
     if (const std::string problem = log->reader().problem(); !problem.empty()) {
       spdlog::error("{}", problem);
       good = false;

@@ -9,6 +9,16 @@
 #include "daemon/source/log_format.hpp"
 
 namespace cremed {
+namespace {
+
+/// Without its line feed. A shorter frame may be the beginning of one of 8 bytes.
+bool can_be_whole(const CandumpLine& line) {
+  constexpr std::size_t kMostBytes = 8;
+  return line.status == CandumpStatus::frame ? line.frame.length >= kMostBytes
+                                             : line.status != CandumpStatus::malformed;
+}
+
+}  // namespace
 
 CandumpReader::CandumpReader(const std::string& path) : path_(path), lines_(path) {
   refuse_foreign_format(lines_.begin(), path_);
@@ -23,6 +33,10 @@ bool CandumpReader::next(CandumpLine& line) {
         refuse_foreign_format(text, path_);
       }
       line = parse_candump_line(text);
+      if (lines_.is_unfinished() && !can_be_whole(line)) {
+        is_cut_off_ = true;
+        line = {};
+      }
       break;
     case LineReader::Status::too_long:
       line.status = CandumpStatus::malformed;
@@ -50,6 +64,12 @@ std::string CandumpReader::malformed() const {
              ? ""
              : concat({path_, ":", std::to_string(first_malformed_), ": ", reason_, " (",
                        counted(malformed_lines_, "such line"), ")"});
+}
+
+std::string CandumpReader::cut_off() const {
+  return is_cut_off_ ? concat({path_, ":", std::to_string(lines_.line_number()),
+                               ": the log ends within this line, which is left out"})
+                     : "";
 }
 
 std::string CandumpReader::problem() const {

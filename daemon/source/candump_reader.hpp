@@ -25,10 +25,9 @@ class CandumpReader {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const LineReader& lines() const { return lines_; }
   [[nodiscard]] std::uint64_t malformed_lines() const { return malformed_lines_; }
-  /// Whether the only malformed line is the last, as where the recording was cut off.
-  [[nodiscard]] bool is_cut_off() const {
-    return malformed_lines_ == 1 && first_malformed_ == lines_.line_number();
-  }
+  /// That the log ends within its last line, which is no fault: it is still recorded, or power
+  /// failed. The line is skipped. Empty: it does not.
+  [[nodiscard]] std::string cut_off() const;
   /// The first malformed line, why it is, and how many there are; empty: none.
   [[nodiscard]] std::string malformed() const;
   /// Why nothing in the log can be used, with a remedy: it could not be read to its end, or its
@@ -44,6 +43,7 @@ class CandumpReader {
   std::uint64_t malformed_lines_ = 0;
   std::uint64_t first_malformed_ = 0;
   std::string_view reason_;
+  bool is_cut_off_ = false;
   int read_error_ = 0;
 };
 

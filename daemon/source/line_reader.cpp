@@ -60,9 +60,9 @@ LineReader::Status LineReader::next(std::string_view& line) {
     const char* const last = buffer_.data() + end_;
     const void* const found = std::memchr(first, '\n', end_ - begin_);
     const char* const feed = found == nullptr ? last : static_cast<const char*>(found);
-    const bool unfinished_last = feed == last && at_end_ && first != last;
-    if (feed != last || unfinished_last) {
-      begin_ += static_cast<std::size_t>(feed - first) + (unfinished_last ? 0U : 1U);
+    is_unfinished_ = feed == last && at_end_ && first != last;
+    if (feed != last || is_unfinished_) {
+      begin_ += static_cast<std::size_t>(feed - first) + (is_unfinished_ ? 0U : 1U);
       ++line_number_;
       line = {first, static_cast<std::size_t>(feed - first)};
       line = line_number_ == 1 ? without_mark(line) : line;

@@ -35,6 +35,8 @@ class LineReader {
   [[nodiscard]] std::string begin() const;
   /// Number of the last line returned, from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+  /// Whether that line has no line feed: the input ends within it.
+  [[nodiscard]] bool is_unfinished() const { return is_unfinished_; }
   /// Size of a file at its opening; 0: unknown, a pipe.
   [[nodiscard]] std::uint64_t file_bytes() const { return file_bytes_; }
   [[nodiscard]] std::uint64_t read_bytes() const { return read_bytes_; }
@@ -48,6 +50,7 @@ class LineReader {
   std::size_t end_ = 0;
   bool skipping_ = false;  // inside a line that is too long
   bool at_end_ = false;
+  bool is_unfinished_ = false;
   std::uint64_t line_number_ = 0;
   std::uint64_t file_bytes_ = 0;
   std::uint64_t read_bytes_ = 0;

@@ -42,18 +42,43 @@ TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
   CHECK(log.counters().other_interface_frames == 1);
   CHECK(log.counters().lost_frames == 15);
   CHECK(log.reader().malformed_lines() == 1);
-  CHECK_FALSE(log.reader().is_cut_off());
+  CHECK(log.reader().cut_off().empty());
   CHECK_THAT(log.reader().malformed(),
              Catch::StartsWith(file.path() + ":4: ") && Catch::EndsWith(" (1 such line)"));
 }
 
-TEST_CASE("A log that ends inside a line was cut off") {
-  const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000100) can0 60");
+TEST_CASE("A log that ends inside a line was cut off, which is no malformed line") {
+  struct Row {
+    const char* end;
+    bool is_cut_off;
+  };
+  const auto row = GENERATE(Row{"(1.000100) can0 60", true}, Row{"(1.0001", true},
+                            Row{"(1.000100) can0 701#00112233445566", true},  // Of 8 bytes.
+                            Row{"(1.000100) can0 701#0011223344556677", false},
+                            Row{"(1.000100) can0 600#0000000010\n", false}, Row{"# end", false});
+  CAPTURE(row.end);
+  const TemporaryFile file(std::string("(1.000000) can0 600#0000000010\n") + row.end);
+  CandumpLog log(file.path(), {"can0"}, &not_stopped);
+  CanFrame frame;
+  std::size_t frames = 0;
+  while (log.next(frame) == SourceEvent::frame) {
+    ++frames;
+  }
+  CHECK(frames == (std::string_view(row.end).find('#') > 1 && !row.is_cut_off ? 2 : 1));
+  CHECK(log.reader().malformed().empty());
+  CHECK(
+      log.reader().cut_off() ==
+      (row.is_cut_off ? file.path() + ":2: the log ends within this line, which is left out" : ""));
+}
+
+TEST_CASE("A last line that is malformed but whole is a fault") {
+  const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000100) can0 60\n");
   CandumpLog log(file.path(), {"can0"}, &not_stopped);
   CanFrame frame;
   CHECK(log.next(frame) == SourceEvent::frame);
   CHECK(log.next(frame) == SourceEvent::end);
-  CHECK(log.reader().is_cut_off());
+  CHECK(log.reader().malformed_lines() == 1);
+  CHECK(log.reader().cut_off().empty());
 }
 
 TEST_CASE("Of a log without a frame the first malformed line tells why") {

@@ -232,6 +232,7 @@ TEST_CASE(
              Catch::Contains(": a frame's line must begin with (seconds.fraction) (") &&
                  Catch::Contains("they are left out"));
   CHECK(doctor_of_filtered(folder, "head -c -12").status == 0);
+  CHECK(doctor_of_filtered(folder, "head -c -3").status == 0);  // A shorter frame.
 }
 
 TEST_CASE("cremed-doctor on a computer without these interfaces") {

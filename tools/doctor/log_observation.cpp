@@ -33,9 +33,7 @@ Observation observe_log(const Configuration& configuration, const std::string& p
   if (is_empty) {
     throw std::runtime_error(log.no_frame());
   }
-  if (!log.is_cut_off()) {
-    observation.malformed_lines = log.malformed();
-  }
+  observation.malformed_lines = log.malformed();
   return observation;
 }
 

@@ -144,6 +144,9 @@ class Dump {
         silent.empty() ? ""
                        : concat({"no scan of ", silent, "; `cremed-doctor --replay ",
                                  in_shell(arguments_.log), "` tells why"})};
+    if (const std::string cut_off = log_.cut_off(); !cut_off.empty()) {
+      std::cerr << "cremed-dump: " << cut_off << '\n';
+    }
     bool is_complete = true;
     for (const std::string& reason : reasons) {
       if (!reason.empty()) {

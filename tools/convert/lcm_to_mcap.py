@@ -3,6 +3,7 @@
 """An LCM log of cremed as MCAP."""
 import json
 import math
+import sys
 
 import cremed
 from mcap_writer import McapWriter
@@ -51,6 +52,7 @@ def topic_of(message):
 class JsonProfile:
     """All fields of all messages: (topic, type, bytes) of a message."""
     name, encoding, schema_encoding = "", "json", "jsonschema"
+    missing = ""  # What is not in the log.
 
     @staticmethod
     def schema(kind):
@@ -97,5 +99,7 @@ def convert(log, out, library, profile):
         if count == 0:
             raise damage or ValueError(f"{log}: has none of cremed's messages; record with lcm-logger")
         writer.finish()
+    if profile.missing:
+        print(f"cremed-convert: {log}: {profile.missing}", file=sys.stderr)
     if damage:
         raise damage

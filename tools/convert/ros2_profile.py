@@ -136,6 +136,8 @@ class Ros2Profile:
 
     def __init__(self):
         self.status = None  # Of the odometry.
+        self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
+                        "with `cremed --publish-scans`")
         self.take = {cremed.odometry_t: self.of_odometry, cremed.radar_scan_t: self.of_scan,
                      cremed.status_t: self.of_status, cremed.ego_motion_t: lambda message: []}
 
@@ -160,9 +162,9 @@ class Ros2Profile:
             found.append(("/tf", "tf2_msgs/TFMessage", transform(message.utime, ODOM, BASE, *pose)))
         return found
 
-    @staticmethod
-    def of_scan(message):
+    def of_scan(self, message):
         """With its mount: /tf_static is lost on who joins late, where a player does not know that it must last."""
+        self.missing = ""
         mount = (message.mount_x_in_vehicle_frame_m, message.mount_y_in_vehicle_frame_m,
                  message.mount_yaw_in_vehicle_frame_rad)
         frame = frame_of(message.source)

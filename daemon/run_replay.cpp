@@ -177,6 +177,9 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   stop_at_hangup();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
+  if (command_line.state_file) {
+    require_replaceable(*command_line.state_file);
+  }
   const Sinks sinks = open_sinks(command_line, configuration);
   OdometryTally tally;
   std::vector<OdometrySink*> all_sinks = sinks.pointers();

@@ -121,6 +121,16 @@ void write_through(const std::string& path, std::string_view text) {
 
 }  // namespace
 
+void require_replaceable(const std::string& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw std::runtime_error(concat({"cannot write ", path, ": it is a folder"}));
+  }
+  if (!is_no_file(path)) {
+    const SignalsBlocked blocked;
+    const TemporaryFile file(std::filesystem::weakly_canonical(end_of_links(path)).string());
+  }
+}
+
 void replace_file(const std::string& path, std::string_view text) {
   if (is_no_file(path)) {
     write_through(path, text);

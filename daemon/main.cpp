@@ -23,7 +23,7 @@ enum ExitStatus : int { good = 0, failure = 1, bad_usage = 2 };
 
 int check(const std::string& path) {
   const auto configuration = cremed::load_configuration(path);
-  cremed::refuse_overwriting({}, path, configuration);
+  cremed::refuse_outputs({}, path, configuration);
   std::fputs(cremed::configuration_summary(configuration).c_str(), stdout);
   for (const std::string& doubt : cremed::configuration_doubts(configuration)) {
     spdlog::warn("{}", doubt);

@@ -12,6 +12,7 @@
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/instance_lock.hpp"
+#include "daemon/process/message_text.hpp"
 #include "daemon/process/real_time.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
@@ -66,12 +67,22 @@ std::unique_ptr<LiveSession> begin(const CommandLine& command_line,
                                        state_file(command_line, configuration), stop);
 }
 
+/// A log of messages would fill the disk, be written between scans, and be emptied at each start.
+void refuse_lcm_file(const std::string& url) {
+  if (!lcm_file(url).empty()) {
+    throw UsageError(concat({"output.lcm_url or --lcm-url is ", in_quotes(url),
+                             ", which is for replays only; must be \"none\" or a URL such as ",
+                             in_quotes(OutputConfiguration{}.lcm_url),
+                             "; record a live drive with `lcm-logger`"}));
+  }
+}
+
 /// The new configuration of the file, or nothing if it is invalid.
 std::unique_ptr<Configuration> reload(const CommandLine& command_line, const std::string& path,
                                       RealTimePolicy real_time) {
   try {
     auto configuration = std::make_unique<Configuration>(load_configuration(path, command_line));
-    refuse_overwriting(command_line, path, *configuration);
+    refuse_outputs(command_line, path, *configuration);
     if (configuration->live.real_time != real_time) {
       spdlog::warn(
           "live.realtime has changed: that is used at the next start "
@@ -87,17 +98,17 @@ std::unique_ptr<Configuration> reload(const CommandLine& command_line, const std
 }  // namespace
 
 /// The outputs of the live daemon besides messages.
-void refuse_overwriting(const CommandLine& command_line, const std::string& path,
-                        const Configuration& configuration) {
+void refuse_outputs(const CommandLine& command_line, const std::string& path,
+                    const Configuration& configuration) {
+  refuse_lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url));
   refuse_aliases({{"the configuration", path}},
-                 {{"odometry.state_file", state_file(command_line, configuration)},
-                  {"LCM", lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url))}});
+                 {{"odometry.state_file", state_file(command_line, configuration)}});
 }
 
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration) {
   refuse_files(command_line, configuration);
-  refuse_overwriting(command_line, path, configuration);
+  refuse_outputs(command_line, path, configuration);
   const InstanceLock lock(path);
   std::signal(SIGPIPE, SIG_IGN);  // The reader of the log may end first.
   const volatile std::sig_atomic_t* stop = handle_stop_signals();

@@ -18,8 +18,9 @@ namespace cremed {
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration);
 
-/// Throws UsageError if live operation would overwrite the configuration or write a file twice.
-void refuse_overwriting(const CommandLine& command_line, const std::string& path,
-                        const Configuration& configuration);
+/// Throws UsageError if live operation would overwrite the configuration, or write messages to a
+/// file.
+void refuse_outputs(const CommandLine& command_line, const std::string& path,
+                    const Configuration& configuration);
 
 }  // namespace cremed

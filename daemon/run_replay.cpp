@@ -152,6 +152,16 @@ void log_durations(const Configuration& configuration, const Pipeline& pipeline)
   }
 }
 
+/// As a shell gives it for a program that a signal ended.
+constexpr int kSignalStatus = 128;
+
+void report_interruption(const Replay& replay) {
+  const auto share = replay.share_read();
+  spdlog::error("interrupted after {:.1f} s of traffic{}: the outputs end there",
+                replay.traffic_s(),
+                share ? fmt::format(", {:.0f} % of the input", 100.0 * *share) : "");
+}
+
 bool report_sinks(const Sinks& sinks) {
   std::uint64_t failures = 0;
   for (const auto& sink : sinks.owned) {
@@ -196,6 +206,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
 
   const std::int64_t begin_us = monotonic_us();
   take_all(*replay, pipeline, csv_path(command_line, configuration) == "-");
+  const int stopped_by = *stop;
   pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
   if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {
@@ -206,11 +217,15 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
                replay->counters().frames, log_s, wall_s, log_s / wall_s);
   const bool input_good =
-      report_replay({configuration_path, configuration, pipeline, *replay, tally, *stop != 0});
+      report_replay({configuration_path, configuration, pipeline, *replay, tally, stopped_by != 0});
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }
   const bool output_good = report_sinks(sinks);
+  if (stopped_by != 0) {
+    report_interruption(*replay);
+    return output_good ? kSignalStatus + stopped_by : 1;
+  }
   return input_good && output_good ? 0 : 1;
 }
 

@@ -8,7 +8,7 @@ namespace {
 volatile std::sig_atomic_t stop_was_requested = 0;
 volatile std::sig_atomic_t reload_requested = 0;
 
-void request_stop(int /*signal*/) { stop_was_requested = 1; }
+void request_stop(int signal) { stop_was_requested = signal; }
 void request_reload(int /*signal*/) { reload_requested = 1; }
 
 /// Without SA_RESTART: system calls in progress return.

@@ -6,8 +6,8 @@
 
 namespace cremed {
 
-/// SIGINT and SIGTERM request a stop: they set the returned flag and interrupt a read, sleep or
-/// poll in progress.
+/// SIGINT and SIGTERM request a stop: they set the returned flag, to their number, and interrupt a
+/// read, sleep or poll in progress.
 const volatile std::sig_atomic_t* handle_stop_signals();
 /// The same for SIGHUP (end of the terminal), unless it is ignored (nohup).
 void stop_at_hangup();

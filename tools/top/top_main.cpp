@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,12 @@ class Hearing {
   [[nodiscard]] std::vector<cremed::ScreenLine> screen() const {
     return cremed::screen_of(state_.snapshot(), url_);
   }
+  /// What was heard and is not shown, or is not all.
+  [[nodiscard]] std::vector<std::string> problems() const {
+    std::vector<std::string> found{listener_.damage()};
+    std::erase(found, "");
+    return found;
+  }
   [[nodiscard]] bool is_silent() const { return state_.snapshot()["messages"] == 0; }
 
  private:
@@ -64,7 +71,10 @@ int print_once(Hearing& hearing) {
   for (const cremed::ScreenLine& line : hearing.screen()) {
     std::cout << line.text << '\n';
   }
-  return hearing.is_silent() ? failure : good;
+  for (const std::string& problem : hearing.problems()) {
+    std::cerr << "cremed-top: " << problem << '\n';
+  }
+  return hearing.is_silent() || !hearing.problems().empty() ? failure : good;
 }
 
 int show(Hearing& hearing) {
@@ -79,8 +89,9 @@ int run(CLI::App& app, int argc, char** argv) {
   std::string url;
   bool is_once = false;
   cremed::add_lcm_url(app, url);
-  app.add_flag("--once", is_once,
-               "Listen for 1.5 s, print what was heard, and exit: 0, or 1 if that was nothing");
+  app.add_flag(
+      "--once", is_once,
+      "Listen for 1.5 s, print what was heard, and exit: 0, or 1 if that was nothing, or not good");
   app.parse(argc, argv);
   cremed::require_audible(url);
   // LCM may test the network for seconds, in which signals do what they do elsewhere.

@@ -8,7 +8,7 @@
 """
 from .ego_motion_t import ego_motion_t
 from .fields import fields_of, names_of
-from .listener import DamagedLog, Heard, Listener, decoded, events_in, read_events, read_log
+from .listener import DamagedLog, Heard, Listener, OtherVersions, decoded, events_in, read_events, read_log
 from .odometry_t import odometry_t
 from .radar_scan_t import radar_scan_t
 from .status_t import status_t

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """cremed's messages as LCM sends and records them, without LCM's library: Debian has no binding."""
+import collections
 import socket
 import struct
 from dataclasses import dataclass
@@ -21,6 +22,9 @@ SO_TIMESTAMPNS = 35
 # pylint: disable=protected-access
 TYPES = {kind._get_packed_fingerprint(): kind
          for kind in (ego_motion_t, odometry_t, radar_scan_t, status_t)}
+# Of a message that is of another version the channel tells what it is.
+CHANNELS = {"CREMED_ODOMETRY": odometry_t, "CREMED_EGO_MOTION": ego_motion_t, "CREMED_SCAN_": radar_scan_t,
+            "CREMED_STATUS": status_t}
 
 
 @dataclass
@@ -38,6 +42,23 @@ def decoded(channel, received_us, payload):
         return kind and Heard(channel, received_us, kind.decode(bytes(payload)))
     except (struct.error, ValueError):  # Cut off.
         return None
+
+
+class OtherVersions:
+    """Counts the messages on cremed's channels that are none of this version's."""
+
+    def __init__(self):
+        self.counts = collections.Counter()
+
+    def add(self, channel):
+        kinds = [kind for begin, kind in CHANNELS.items() if channel.startswith(begin)]
+        self.counts.update(kind.__name__ for kind in kinds)
+
+    def text(self, path):
+        """"" if there were none."""
+        counts = ", ".join(f"{count} {name}" for name, count in sorted(self.counts.items()))
+        return counts and (f"{path}: messages of another version of cremed are left out ({counts}): read them with "
+                           "that version, or replay the candump log with this one")
 
 
 class Listener:
@@ -114,7 +135,13 @@ def events_in(log):
 
 
 def read_log(path):
-    """Iterates over cremed's messages of a log that lcm-logger, or cremed itself, has written."""
+    """Iterates over cremed's messages of a log that lcm-logger, or cremed itself, has written. Raises
+    DamagedLog, after all of them, if others are of another version of cremed."""
+    others = OtherVersions()
     for event in read_events(path):
         if (heard := decoded(*event)) is not None:
             yield heard
+        else:
+            others.add(event[0])
+    if text := others.text(path):
+        raise DamagedLog(text)

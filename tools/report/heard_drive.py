@@ -32,7 +32,7 @@ class HeardDrive:
         self.motions = {}   # Source: (times, statuses).
         self.statuses = {}  # Radar: the fields of its messages, one a second.
         self.scan_places, self.targets = {}, 0  # Channel: (times, begins of the payloads, ends).
-        self.damage = None
+        self.damage, self.others = None, cremed.OtherVersions()
         self._read()
         self.begin_us, self.end_us = self._span()
 
@@ -46,6 +46,8 @@ class HeardDrive:
                         self.told(log.tell() / self.size)
                     if channel in takers:
                         heard = cremed.decoded(channel, 0, payload)
+                        if heard is None:
+                            self.others.add(channel)
                         # A status from before the first frame has no time.
                         if heard is not None and heard.message.utime != 0:
                             takers[channel](heard.message)
@@ -63,7 +65,7 @@ class HeardDrive:
 
     def troubles(self):
         """What keeps the report from being whole."""
-        found = [str(self.damage)] if self.damage else []
+        found = [str(trouble) for trouble in (self.damage, self.others.text(self.path)) if trouble]
         if not self.odometry["utime"]:
             found.append(f"{self.path}: has no odometry on CREMED_ODOMETRY")
         return found
@@ -87,8 +89,9 @@ class HeardDrive:
         # Of a drive in which all radars were silent there are statuses.
         ends = ends or [message.utime for messages in self.statuses.values() for message in messages]
         if not ends:
-            raise self.damage or ValueError(f"{self.path}: has none of cremed's messages; record with lcm-logger, or give "
-                             "the candump log")
+            raise self.damage or ValueError(
+                self.others.text(self.path)
+                or f"{self.path}: has none of cremed's messages; record with lcm-logger, or give the candump log")
         return int(min(ends)), int(max(ends))
 
     def scans(self):

@@ -53,7 +53,7 @@ class Hearing {
   }
   /// What was heard and is not shown, or is not all.
   [[nodiscard]] std::vector<std::string> problems() const {
-    std::vector<std::string> found{listener_.damage()};
+    std::vector<std::string> found{listener_.damage(), listener_.other_versions()};
     std::erase(found, "");
     return found;
   }

@@ -47,37 +47,6 @@ bool announces_what_it_has(const lcm_recv_buf_t& buffer) {
   return targets * kBytesOfTarget <= buffer.data_size;
 }
 
-/// What is of another type, cut off or impossible is not taken.
-template <typename Message>
-void hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* state) {
-  if (std::is_same_v<Message, radar_scan_t> && !announces_what_it_has(*buffer)) {
-    return;
-  }
-  Message message;
-  try {
-    if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) ==
-        static_cast<int>(buffer->data_size)) {
-      static_cast<HeardState*>(state)->take(message);
-    }
-  } catch (const std::exception&) {  // A length of 0 is taken for -1.
-  }
-}
-
-struct Subscription {
-  std::string_view channel;  ///< With ".*": the beginning of several.
-  lcm_msg_handler_t hear;
-};
-
-constexpr std::array<Subscription, 4> kSubscriptions{{{"CREMED_ODOMETRY", hear<odometry_t>},
-                                                      {"CREMED_EGO_MOTION", hear<ego_motion_t>},
-                                                      {"CREMED_STATUS", hear<status_t>},
-                                                      {"CREMED_SCAN_.*", hear<radar_scan_t>}}};
-
-bool is_of(const Subscription& subscription, std::string_view channel) {
-  const std::size_t star = subscription.channel.find(".*");
-  return channel.substr(0, star) == subscription.channel.substr(0, star);
-}
-
 /// From 0 to the longest pause; stamps of a damaged log may be anything.
 std::int64_t pause_us(std::int64_t from_us, std::int64_t to_us) {
   if (from_us == 0 || to_us <= from_us) {
@@ -96,6 +65,33 @@ double speed_of(const std::string& url) {
 }
 
 }  // namespace
+
+template <typename Message>
+void LcmListener::hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* listener) {
+  auto& self = *static_cast<LcmListener*>(listener);
+  Message message;
+  try {
+    const auto size = static_cast<int>(buffer->data_size);
+    if ((!std::is_same_v<Message, radar_scan_t> || announces_what_it_has(*buffer)) &&
+        message.decode(buffer->data, 0, size) == size) {
+      self.state_.take(message);
+      return;
+    }
+  } catch (const std::exception&) {  // A length of 0 is taken for -1.
+  }
+  ++self.other_versions_[Message::getTypeName()];
+}
+
+const std::array<LcmListener::Subscription, 4> LcmListener::kSubscriptions{
+    {{"CREMED_ODOMETRY", hear<odometry_t>},
+     {"CREMED_EGO_MOTION", hear<ego_motion_t>},
+     {"CREMED_STATUS", hear<status_t>},
+     {"CREMED_SCAN_.*", hear<radar_scan_t>}}};
+
+bool LcmListener::is_of(const Subscription& subscription, std::string_view channel) {
+  const std::size_t star = subscription.channel.find(".*");
+  return channel.substr(0, star) == subscription.channel.substr(0, star);
+}
 
 LcmListener::LcmListener(const std::string& url, HeardState& state)
     : state_(state), speed_(speed_of(url)) {
@@ -117,11 +113,21 @@ LcmListener::LcmListener(const std::string& url, HeardState& state)
     throw std::runtime_error("LCM at " + url + ": " + lcm_create_problem(errno));
   }
   for (const Subscription& subscription : kSubscriptions) {
-    lcm_subscribe(lcm_.get(), subscription.channel.data(), subscription.hear, &state);
+    lcm_subscribe(lcm_.get(), subscription.channel.data(), subscription.hear, this);
   }
 }
 
 bool LcmListener::listen() { return log_ ? play() : lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
+
+std::string LcmListener::other_versions() const {
+  std::string counts;
+  for (const auto& [name, count] : other_versions_) {
+    counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  return counts.empty() ? ""
+                        : "messages of another version of cremed, or damaged, are left out (" +
+                              counts + "): use the tools of the version that sent them";
+}
 
 /// In the recording's pace, without its pauses.
 bool LcmListener::play() {
@@ -147,7 +153,7 @@ bool LcmListener::play() {
   buffer.data_size = static_cast<std::uint32_t>(logged_->data.size());
   for (const Subscription& subscription : kSubscriptions) {
     if (is_of(subscription, logged_->channel)) {
-      subscription.hear(&buffer, logged_->channel.c_str(), &state_);
+      subscription.hear(&buffer, logged_->channel.c_str(), this);
     }
   }
   logged_ = nullptr;

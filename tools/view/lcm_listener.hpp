@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <lcm/lcm.h>
 
@@ -26,8 +29,20 @@ class LcmListener {
   bool listen();
   /// Where a log is damaged; empty if it is not, or before its end.
   [[nodiscard]] std::string damage() const { return log_ ? log_->damage() : std::string(); }
+  /// How many messages on cremed's channels are not of this version; empty: none.
+  [[nodiscard]] std::string other_versions() const;
 
  private:
+  /// What is of another type, cut off or impossible is counted, not taken.
+  template <typename Message>
+  static void hear(const lcm_recv_buf_t* buffer, const char* channel, void* listener);
+  struct Subscription {
+    std::string_view channel;  ///< With ".*": the beginning of several.
+    lcm_msg_handler_t hear;
+  };
+  static const std::array<Subscription, 4> kSubscriptions;
+  static bool is_of(const Subscription& subscription, std::string_view channel);
+
   /// LCM's own player crashes on a damaged log.
   bool play();
 
@@ -38,8 +53,9 @@ class LcmListener {
   std::unique_ptr<lcm_t, Destroy> lcm_;
   std::optional<LcmLogReader> log_;
   double speed_ = 1.0;
-  const LoggedMessage* logged_ = nullptr;  // The next, when its time comes.
-  std::int64_t recorded_us_ = 0;           // When the last was recorded; 0: there was none.
+  std::map<std::string, std::uint64_t> other_versions_;  // By the name of the type.
+  const LoggedMessage* logged_ = nullptr;                // The next, when its time comes.
+  std::int64_t recorded_us_ = 0;  // When the last was recorded; 0: there was none.
   std::chrono::steady_clock::time_point due_{};
 };
 

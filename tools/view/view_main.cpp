@@ -30,11 +30,16 @@ struct Arguments {
 void listen(const std::stop_token& stop, cremed::LcmListener& listener,
             cremed::ViewServer& server) {
   bool hears = true;
+  bool has_warned = false;
   while (!stop.stop_requested() && !cremed::stop_requested()) {
     if (hears) {
       hears = listener.listen();
       if (const std::string damage = listener.damage(); !damage.empty()) {
         std::fprintf(stderr, "%s; what comes before is shown\n", damage.c_str());
+      }
+      if (const std::string others = listener.other_versions(); !others.empty() && !has_warned) {
+        std::fprintf(stderr, "%s\n", others.c_str());
+        has_warned = true;
       }
     } else {
       std::this_thread::sleep_for(kPause);

@@ -61,6 +61,50 @@ TEST_CASE("cremed-eval calibrate prints a table, and TOML that cremed takes") {
   CHECK(content(wrong) == before);
 }
 
+/// What the table says was found.
+double in_table(const std::string& table, const std::string& label) {
+  const std::size_t at = table.find("  " + label + " ");
+  REQUIRE(at != std::string::npos);
+  return std::stod(table.substr(at + label.size() + 2));
+}
+
+TEST_CASE("cremed-eval calibrate shows the numbers that the keys get") {
+  const TemporaryFolder folder;
+  const auto configuration = [&](const std::string& name, const std::string& calibration) {
+    return write_configuration(
+        folder, name,
+        "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 0.1 }\n" + calibration +
+            "[[radar]]\nname = \"left\"\ntype = \"ars408\"\ninterface = \"can1\"\n"
+            "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 1.1 }\n" +
+            calibration);
+  };
+  const std::string wrong = configuration(
+      "wrong.toml",
+      "calibration = { doppler_offset_mps = 0.5, rotation_lead_s = 0.1, azimuth_scale = 1.05, "
+      "doppler_std_factor = 0.5, doppler_scale = 0.97 }\n");
+  const std::string log = simulate_log(folder, configuration("right.toml", ""), 40);
+  const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
+  CAPTURE(result.error, result.output);
+  REQUIRE(result.status == 0);
+  const Configuration found = parse_configuration(content(wrong) + result.output, "calibrated");
+  const DetectionCorrection& front = found.radars.at(0).ego_motion.correction;
+  CHECK(front.doppler_offset_mps != 0.5);
+  CHECK(in_table(result.error, "Doppler offset m/s") ==
+        Approx(front.doppler_offset_mps).margin(6e-4));
+  CHECK(front.rotation_lead_s != 0.1);
+  CHECK(in_table(result.error, "rotation lead ms") ==
+        Approx(1e3 * front.rotation_lead_s).margin(0.06));
+  CHECK(front.azimuth_scale != 1.05);
+  CHECK(in_table(result.error, "azimuth scale") == Approx(front.azimuth_scale).margin(6e-5));
+  CHECK(front.doppler_std_factor != 0.5);
+  CHECK(in_table(result.error, "Doppler std factor") ==
+        Approx(front.doppler_std_factor).margin(6e-3));
+  const DetectionCorrection& left = found.radars.at(1).ego_motion.correction;
+  CHECK(left.doppler_scale != 0.97);
+  CHECK(in_table(result.error.substr(result.error.find("left, ")), "Doppler scale") ==
+        Approx(left.doppler_scale).margin(6e-5));
+}
+
 TEST_CASE("cremed-eval calibrate --write puts the same into the configuration") {
   const TemporaryFolder folder;
   const std::string right =
@@ -147,8 +191,16 @@ TEST_CASE("cremed-eval calibrate refuses what is too far from the configuration,
   };
   const ToolRun far = calibrate(simulate_log(folder, right, 15), reversed);
   CHECK(far.status == 1);
-  CHECK_THAT(far.error, Catch::Contains("rear: its yaw or the sign of its Doppler is wrong"));
+  CHECK_THAT(far.error, Catch::Contains("rear (none of its scans fits the motion of all): ") &&
+                            Catch::Contains("or that of another radar"));
   CHECK(far.output.empty());
+  const std::string both = write_configuration(
+      folder, "both.toml",
+      "mount = { x_m = 3.4, y_m = 0.0, yaw_rad = 3.1416 }\n[[radar]]\nname = \"rear\"\ntype = "
+      "\"ars408\"\ninterface = \"can1\"\nmount = { x_m = -0.9, y_m = 0.0, yaw_rad = 3.1416 }");
+  const ToolRun drawn = calibrate(folder.file("drive.log"), both);  // front is wrong, not rear.
+  CHECK(drawn.status == 1);
+  CHECK_THAT(drawn.error, Catch::Contains("front (") || Catch::Contains("of another radar"));
   const ToolRun still = calibrate(simulate_log(folder, right, 3, "standing"), right);
   CHECK(still.status == 1);
   CHECK_THAT(still.error, Catch::Contains("the vehicle does not move"));

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/calibrate/calibrate_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <istream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/configuration.hpp"
@@ -41,15 +46,6 @@ constexpr Column kColumns[] = {{kYaw, "yaw deg", kDegPerRad, 2},
                                {kAzimuth, "azimuth scale", 1.0, 4},
                                {kPositionLead, "positions ahead ms", 1e3, 1}};
 
-/// The configured part of a lead or a scale, to which the fit adds.
-double configured_part(const RadarConfiguration& radar, CalibrationState state) {
-  if (state == kAzimuth) {
-    return radar.ego_motion.correction.azimuth_scale;
-  }
-  const bool is_lead = state == kLead || state == kPositionLead;
-  return is_lead ? radar.ego_motion.correction.rotation_lead_s : 0.0;
-}
-
 const char* verdict(const RadarCalibration& radar, CalibrationState state) {
   if (state == kPositionLead) {
     return "a check, from";
@@ -62,10 +58,11 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
   const CalibrationState state = column.state;
   const FittedRadar& fit = radar.is_changed[state] ? radar.fit : radar.free;
   const auto number = [&](double value) {
-    const double whole = value + configured_part(configured, state);
-    const bool is_angle = state == kYaw;
-    return (is_angle ? std::remainder(whole, 2.0 * std::numbers::pi) : whole) * column.unit;
+    const double key = key_value(configured, state, value);
+    return (state == kYaw ? std::remainder(key, 2.0 * std::numbers::pi) : key) * column.unit;
   };
+  const double std = std::abs(key_value(configured, state, fit.value[state] + fit.std[state]) -
+                              key_value(configured, state, fit.value[state]));
   if (fit.prior_std[state] == 0.0 && state == kLead) {
     return;  // The radar's type has no such state.
   }
@@ -76,16 +73,27 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
     return;
   }
   std::fprintf(stderr, "%10.*f +- %.*f  %s %.*f\n", column.decimals, number(fit.value[state]),
-               column.decimals, fit.std[state] * column.unit, verdict(radar, state),
-               column.decimals, number(fit.prior[state]));
+               column.decimals, std * column.unit, verdict(radar, state), column.decimals,
+               number(fit.prior[state]));
 }
 
-void print_factor(const char* label, const StdFactor& factor) {
+/// The factor is relative to the configured one; `after` is what the key gets.
+void print_factor(const char* label, const StdFactor& factor, double configured, double after) {
   if (factor.std > 0.0) {
-    std::fprintf(stderr, "  %-22s%10.3f +- %.3f\n", label, factor.value, factor.std);
+    std::fprintf(stderr, "  %-22s%10.3f +- %.3f  %s %.3f\n", label, configured * factor.value,
+                 configured * factor.std, after != configured ? "was" : "kept", configured);
   } else {
     std::fprintf(stderr, "  %-22s%10s\n", label, "unknown");
   }
+}
+
+void print_factors(const DetectionCorrection& before, const DetectionCorrection& after,
+                   const SensorNoise& noise) {
+  print_factor("range std factor", noise.range, before.range_std_factor, after.range_std_factor);
+  print_factor("azimuth std factor", noise.azimuth, before.azimuth_std_factor,
+               after.azimuth_std_factor);
+  print_factor("Doppler std factor", noise.doppler, before.doppler_std_factor,
+               after.doppler_std_factor);
 }
 
 void print_vehicle(const Calibration& calibration) {
@@ -116,8 +124,11 @@ void print_check(const Calibration& calibration) {
 }
 
 void print_table(const Configuration& configuration, const Calibration& calibration) {
-  std::fprintf(stderr,
-               "found, and the configured value: kept where the drive gives no better one\n");
+  const Configuration found = calibrated(configuration, calibration);
+  std::fprintf(
+      stderr,
+      "found, as the value of its key, and the configured one: kept where the drive gives no "
+      "better one\n");
   print_check(calibration);
   print_vehicle(calibration);
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
@@ -133,9 +144,8 @@ void print_table(const Configuration& configuration, const Calibration& calibrat
     for (const Column& column : kColumns) {
       print_state(configured, radar, column);
     }
-    print_factor("range std factor", radar.noise.range);
-    print_factor("azimuth std factor", radar.noise.azimuth);
-    print_factor("Doppler std factor", radar.noise.doppler);
+    print_factors(configured.ego_motion.correction, found.radars[i].ego_motion.correction,
+                  radar.noise);
   }
 }
 
@@ -145,21 +155,62 @@ void print_table(const Configuration& configuration, const Calibration& calibrat
 constexpr double kFarthestYawRad = 1.0;
 constexpr double kFarthestScale = 0.5;
 
-/// Throws if a radar is configured too wrongly for its errors to be found.
-void require_near(const Configuration& configuration, const Calibration& calibration) {
+/// How far a radar's fit went from its configuration.
+struct Distance {
+  std::string name;
+  double turn_rad = 0.0;
+  double scale = 0.0;
+  bool is_explained = true;
+
+  /// 1: as far as a calibration finds.
+  [[nodiscard]] double size() const {
+    const double turn = std::abs(turn_rad) / kFarthestYawRad;
+    const double scaled = std::abs(scale) / kFarthestScale;
+    return is_explained ? std::max(turn, scaled) : std::numeric_limits<double>::infinity();
+  }
+};
+
+Distance distance_of(const RadarConfiguration& configured, const RadarCalibration& radar) {
+  const FittedRadar& fit = radar.free;
+  return {configured.name,
+          std::remainder(fit.value[kYaw] - fit.prior[kYaw], 2.0 * std::numbers::pi),
+          fit.value[kScale], radar.scans == 0 || radar.explained_scans != 0};
+}
+
+std::string text_of(const Distance& distance) {
+  return distance.is_explained
+             ? fmt::format("{} (yaw off by {:.0f} degrees, Doppler by {:.0f} %)", distance.name,
+                           std::abs(distance.turn_rad) * kDegPerRad,
+                           std::abs(distance.scale) * 100.0)
+             : concat({distance.name, " (none of its scans fits the motion of all)"});
+}
+
+/// The radars whose fit went too far, the farthest first.
+std::vector<Distance> too_far(const Configuration& configuration, const Calibration& calibration) {
+  std::vector<Distance> far;
   for (std::size_t i = 0; i < calibration.radars.size(); ++i) {
-    const FittedRadar& fit = calibration.radars[i].free;
-    const double turn_rad =
-        std::remainder(fit.value[kYaw] - fit.prior[kYaw], 2.0 * std::numbers::pi);
-    const bool is_explained =
-        calibration.radars[i].scans == 0 || calibration.radars[i].explained_scans != 0;
-    if (!is_explained || std::abs(turn_rad) > kFarthestYawRad ||
-        std::abs(fit.value[kScale]) > kFarthestScale) {
-      throw std::runtime_error(
-          concat({configuration.radars[i].name,
-                  ": its yaw or the sign of its Doppler is wrong by more than a calibration finds; "
-                  "measure the mounts again; `cremed-doctor --replay LOG` may name the cause"}));
+    const Distance distance = distance_of(configuration.radars[i], calibration.radars[i]);
+    if (distance.size() > 1.0) {
+      far.push_back(distance);
     }
+  }
+  std::ranges::sort(far, std::greater(), &Distance::size);
+  return far;
+}
+
+/// Throws if a radar is configured too wrongly for its errors to be found. Which it is remains
+/// open: a wrong one may draw the motion of all to itself, and others seem wrong.
+void require_near(const Configuration& configuration, const Calibration& calibration) {
+  std::string names;
+  for (const Distance& distance : too_far(configuration, calibration)) {
+    names += (names.empty() ? "" : ", ") + text_of(distance);
+  }
+  if (!names.empty()) {
+    const bool is_alone = calibration.radars.size() == 1;
+    throw std::runtime_error(concat(
+        {names, ": too far off for a calibration. Its yaw or the sign of its Doppler is wrong",
+         is_alone ? "" : ", or that of another radar, which it is compared with",
+         "; measure the mounts again; `cremed-doctor --replay LOG` may name the cause"}));
   }
 }
 

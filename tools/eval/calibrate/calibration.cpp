@@ -389,26 +389,47 @@ Calibration calibrate(const Configuration& configuration, const std::vector<std:
   return calibrator.result();
 }
 
+double key_value(const RadarConfiguration& configured, CalibrationState state, double found) {
+  const DetectionCorrection& correction = configured.ego_motion.correction;
+  switch (state) {
+    case kOffset:
+      return correction.doppler_offset_mps + found / correction.doppler_scale;
+    case kStamp:
+      return configured.stamp_offset_s + found;
+    case kScale:
+      return correction.doppler_scale / (1.0 + found);
+    case kLead:
+    case kPositionLead:
+      return correction.rotation_lead_s + found;
+    case kAzimuth:
+      return correction.azimuth_scale * (1.0 + found);
+    default:
+      return found;
+  }
+}
+
 Configuration calibrated(const Configuration& configuration,
                          const std::vector<RadarCalibration>& calibrations) {
   Configuration result = configuration;
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     RadarConfiguration& radar = result.radars[i];
     const RadarCalibration& found = calibrations[i];
-    CalibrationVector value = found.fit.prior;
+    CalibrationVector value{};
     for (std::size_t state = 0; state < kCalibrationStates; ++state) {
-      value[state] = found.is_changed[state] ? found.fit.value[state] : value[state];
+      value[state] =
+          key_value(configuration.radars[i], static_cast<CalibrationState>(state),
+                    found.is_changed[state] ? found.fit.value[state] : found.fit.prior[state]);
     }
     if (found.is_changed[kYaw]) {
       value[kYaw] = std::remainder(value[kYaw], 2.0 * std::numbers::pi);
     }
     radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
-    radar.stamp_offset_s += value[kStamp];
+    radar.stamp_offset_s = value[kStamp];
     DetectionCorrection& correction = radar.ego_motion.correction;
-    correction.doppler_offset_mps += value[kOffset] / correction.doppler_scale;
-    correction.doppler_scale /= 1.0 + value[kScale];
-    correction.rotation_lead_s += value[kLead];
-    correction.azimuth_scale *= 1.0 + value[kAzimuth];
+    correction.doppler_offset_mps = value[kOffset];
+    correction.doppler_scale = value[kScale];
+    correction.rotation_lead_s = value[kLead];
+    correction.azimuth_scale = value[kAzimuth];
     correction.range_std_factor *= above_one(found.noise.range);
     correction.azimuth_std_factor *= above_one(found.noise.azimuth);
     correction.doppler_std_factor *= above_one(found.noise.doppler);

@@ -57,6 +57,10 @@ struct SystematicErrors {
 Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
                       const TrueTrajectory* truth, const SystematicErrors& errors = {});
 
+/// The value of the configuration's key (mount, calibration) that a state stands for, if the fit
+/// found `found`. The lead from registrations has none: the value it would give rotation_lead_s.
+double key_value(const RadarConfiguration& configured, CalibrationState state, double found);
+
 /// The configuration with the results.
 Configuration calibrated(const Configuration& configuration, const Calibration& calibration);
 Configuration calibrated(const Configuration& configuration,

@@ -168,7 +168,8 @@ TEST_CASE("Radars keep their last motion, status and scan") {
   CHECK(json["radars"][0]["motion"] == "ambiguous");
   CHECK(json["radars"][0]["targets"] == 77);
   CHECK(json["radars"][0]["status"].is_null());
-  CHECK(json["radars"][1]["status"]["doubts"] == 3);
+  CHECK(json["radars"][1]["status"]["doubts"] ==
+        nlohmann::json({"registration contradicts Doppler", "motions contradict each other"}));
   CHECK(json["radars"][1]["status"]["mount_yaw_deg"].get<double>() == Approx(0.573).margin(1e-3));
   CHECK(json["radars"][1]["status"]["latency_p99_us"] == 812);
   REQUIRE(json["scans"].size() == 1);

@@ -23,20 +23,6 @@ constexpr double kSilentS = 2.0;
 /// Clocks of two computers differ by less; what is older was measured in an earlier drive.
 constexpr double kReplayS = 60.0;
 
-/// status_t.DOUBT_*, from the lowest bit.
-constexpr std::array<std::string_view, 7> kDoubtNames{"registration contradicts Doppler",
-                                                      "motions contradict each other",
-                                                      "other radars contradict",
-                                                      "covariance too large",
-                                                      "positions contradict speed",
-                                                      "stamps run ahead",
-                                                      "stamps run behind"};
-/// status_t.CAUSE_*
-constexpr std::array<std::string_view, 9> kCauseNames{
-    "cause unknown", "scale of Doppler",       "sign of Doppler",
-    "upside down",   "yaw of the mount",       "place of the mount",
-    "late",          "exchanged with another", "offset of Doppler"};
-
 /// A message may hold anything.
 std::string ascii(std::string text) {
   std::ranges::replace_if(
@@ -144,16 +130,11 @@ void add_pose(const Json& pose, std::vector<ScreenLine>& lines) {
 
 std::string doubts(const Json& status) {
   std::string text;
-  const auto bits = status["doubts"].get<std::uint32_t>();
-  for (std::size_t i = 0; i < kDoubtNames.size(); ++i) {
-    if (((bits >> i) & 1U) != 0) {
-      text += (text.empty() ? "" : ", ") + std::string(kDoubtNames[i]);
-    }
+  for (const Json& doubt : status["doubts"]) {
+    text += (text.empty() ? "" : ", ") + doubt.get<std::string>();
   }
   if (status["left_out"].get<bool>()) {
-    const auto cause = status["fault"].get<std::size_t>();
-    text += std::string(text.empty() ? "" : "; ") +
-            "left out: " + std::string(kCauseNames[cause < kCauseNames.size() ? cause : 0]);
+    text += (text.empty() ? "left out: " : "; left out: ") + status["cause"].get<std::string>();
   }
   return text;
 }

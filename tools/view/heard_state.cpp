@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,35 @@ constexpr std::int64_t kOldScanUs = 1'000'000;
 /// Rates of scans are means over this time: 26 scans of an ARS408 as fast as it gets.
 constexpr std::int64_t kRateUs = 2'000'000;
 constexpr std::size_t kMostRateScans = 200;
+
+/// status_t.DOUBT_*, from the lowest bit.
+constexpr std::array<std::string_view, 7> kDoubtNames{"registration contradicts Doppler",
+                                                      "motions contradict each other",
+                                                      "other radars contradict",
+                                                      "covariance too large",
+                                                      "positions contradict speed",
+                                                      "stamps run ahead",
+                                                      "stamps run behind"};
+/// status_t.CAUSE_*
+constexpr std::array<std::string_view, 9> kCauseNames{
+    "cause unknown", "scale of Doppler",       "sign of Doppler",
+    "upside down",   "yaw of the mount",       "place of the mount",
+    "late",          "exchanged with another", "offset of Doppler"};
+
+Json doubts_json(const status_t& m) {
+  Json names = Json::array();
+  for (std::size_t bit = 0; bit < kDoubtNames.size(); ++bit) {
+    if (((static_cast<std::uint32_t>(m.doubts) >> bit) & 1U) != 0) {
+      names.push_back(kDoubtNames[bit]);
+    }
+  }
+  return names;
+}
+
+std::string_view cause_name(int cause) {
+  const auto number = static_cast<std::size_t>(cause);
+  return kCauseNames[number < kCauseNames.size() ? number : 0];
+}
 
 /// "unknown" for a number that is none of the type's.
 template <typename Status>
@@ -62,7 +92,7 @@ Json status_json(const status_t& m) {
   const auto figure = [&](std::int32_t place, double factor = 1.0) {
     return factor * static_cast<double>(m.figures[place]);
   };
-  return {{"doubts", m.doubts},
+  return {{"doubts", doubts_json(m)},
           {"nis_doppler", figure(status_t::FIGURE_NIS_DOPPLER)},
           {"nis_next", figure(status_t::FIGURE_NIS_NEXT)},
           {"odometry_nis_doppler", figure(status_t::FIGURE_ODOMETRY_NIS_DOPPLER)},
@@ -80,7 +110,7 @@ Json status_json(const status_t& m) {
           {"scans", m.counters[status_t::COUNTER_SCANS]},
           {"scans_incomplete", m.counters[status_t::COUNTER_SCANS_INCOMPLETE]},
           {"left_out", m.odometry_leaves_out != 0},
-          {"fault", m.odometry_fault}};
+          {"cause", cause_name(m.odometry_fault)}};
 }
 
 long hundredths(float value) { return std::isfinite(value) ? std::lround(100.0F * value) : 0; }

@@ -6,10 +6,6 @@
 const PERIOD_MS = 250, SILENT_S = 2;
 // Clocks of two computers differ by less; what is older was measured in an earlier drive.
 const REPLAY_S = 60;
-// status_t.DOUBT_*, from the lowest bit.
-const DOUBTS = ["registration contradicts Doppler", "motions contradict each other",
-                "other radars contradict", "covariance too large", "positions contradict speed",
-                "stamps run ahead", "stamps run behind"];
 const byId = (id) => document.getElementById(id);
 
 let state = null, messages = -1;
@@ -58,15 +54,6 @@ function showRates(id, ylabel, color, name, xlabel) {
   rates[id].updateOptions({file: joined(series)});
 }
 
-// status_t.CAUSE_*
-const FAULTS = ["yes", "yes: scale of Doppler", "yes: sign of Doppler", "yes: upside down",
-                "yes: yaw of the mount", "yes: place of the mount", "yes: late", "yes: exchanged with another",
-                "yes: offset of Doppler"];
-
-function named(doubts) {
-  return DOUBTS.filter((_, bit) => doubts & (1 << bit)).join(", ") || "none";
-}
-
 function learned(value, sigma, unit) {
   return sigma > 0 ? `${fixed(value, 2)} ± ${fixed(sigma, 2, unit)}` : "–";
 }
@@ -83,8 +70,8 @@ const ROWS = [
     (silent >= SILENT_S ? `silent for ${silent.toFixed(0)} s` : fixed(rate, 1))],
   ["usable targets", ({targets}) => targets],
   ["scans (incomplete)", ({status}) => `${status.scans} (${status.scans_incomplete})`],
-  ["doubts", ({status}) => named(status.doubts)],
-  ["left out of the odometry", ({status}) => (status.left_out ? FAULTS[status.fault] ?? "yes" : "no")],
+  ["doubts", ({status}) => status.doubts.join(", ") || "none"],
+  ["left out of the odometry", ({status}) => (status.left_out ? `yes: ${status.cause}` : "no")],
   ["NIS: Doppler against the state", nis("odometry_nis_doppler")],
   ["NIS: sideways motion against the state", nis("odometry_nis_lateral")],
   ["NIS: turn against the state", nis("odometry_nis_yaw")],

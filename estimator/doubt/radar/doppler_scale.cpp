@@ -100,8 +100,7 @@ void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_
   const Scan& last = scan(0);
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
   if (is_doppler_step((velocity_mps - velocity_mps_).norm(), dt_s)) {
-    forget();  // Votes of before tell nothing of this Doppler.
-    is_wrong_ = false;
+    acquit();  // Votes of before tell nothing of this Doppler.
   }
   const Eigen::Vector2d mean_mps = 0.5 * (velocity_mps_ + velocity_mps);
   velocity_mps_ = velocity_mps;

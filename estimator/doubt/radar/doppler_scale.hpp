@@ -35,7 +35,7 @@ class DopplerScale {
   void add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us);
   /// To be called when the clock of the stamps was set.
   void forget();
-  /// Others have the speed of the Doppler: the votes were chance.
+  /// The votes so far tell nothing: others have the speed of the Doppler, or it changed.
   void acquit() {
     forget();
     is_wrong_ = false;

@@ -26,7 +26,8 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
   }
   GaussianState& state = state_.gaussian;
   const Eigen::Vector2d wrong(state.mean(kSpeed), state.mean(kYawRate));
-  const Eigen::Vector2d error = majority->value() - wrong;
+  const Eigen::Vector2d by_majority = majority->solution().head<2>();
+  const Eigen::Vector2d error = by_majority - wrong;
   const double since_s = consensus_.longest_contradiction_s();
   if (condition_.used_scans() >= kMinScansOfState && consensus_.is_step(stamp_us) &&
       std::abs(error.x()) > possible_change_mps) {
@@ -45,7 +46,7 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
       consensus_[i].forgive();
     }
   }
-  state_.start_motion(majority->value(), majority->covariance());
+  state_.start_motion(by_majority, majority->covariance().topLeftCorner<2, 2>());
   // The pose errs by the error of the velocity over the time of the contradiction.
   state.add_variance(kX, squared(error.x() * since_s));
   state.add_variance(kY, squared(error.x() * since_s));

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -219,14 +218,8 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
       squared(options.doppler_y.std) + squared(kBetweenScansMps) + squared(mount_std * speed_mps);
   noise(0, 0) +=
       squared(is_witness ? kWitnessMps + kWitnessShare * speed_mps : disputed_scale_ * speed_mps);
-  Eigen::Matrix<double, 2, 3> by;
-  by << 1.0, -mount.y_m, 0.0, 0.0, mount.x_m, velocity.mps.x();
-  const Eigen::Matrix2d weight = noise.inverse();
   MotionSums sums;
-  sums.information = by.transpose() * weight * by;
-  sums.weighted = by.transpose() * weight * velocity.mps;
-  sums.squares = velocity.mps.dot(weight * velocity.mps);
-  sums.scatter = by.transpose() * weight * velocity.covariance * weight * by;
+  sums.add_velocity(mount, velocity.mps, noise, velocity.covariance);
   return sums;
 }
 

@@ -19,6 +19,17 @@ void MotionSums::add(const Eigen::Vector3d& derivative, double value, double var
   scatter += derivative * derivative.transpose() * (random_variance / squared(variance));
 }
 
+void MotionSums::add_velocity(const Pose2& mount, const Eigen::Vector2d& mps,
+                              const Eigen::Matrix2d& covariance, const Eigen::Matrix2d& random) {
+  Eigen::Matrix<double, 2, 3> by;
+  by << 1.0, -mount.y_m, 0.0, 0.0, mount.x_m, mps.x();
+  const Eigen::Matrix2d weight = covariance.inverse();
+  information += by.transpose() * weight * by;
+  weighted += by.transpose() * weight * mps;
+  squares += mps.dot(weight * mps);
+  scatter += by.transpose() * weight * random * weight * by;
+}
+
 void MotionSums::add(const MotionSums& other) {
   information += other.information;
   weighted += other.weighted;
@@ -30,9 +41,10 @@ Eigen::Vector3d MotionSums::solution() const { return information.ldlt().solve(w
 
 double MotionSums::chi_square() const { return std::max(0.0, squares - weighted.dot(solution())); }
 
+Eigen::Matrix3d MotionSums::covariance() const { return information.inverse(); }
+
 Eigen::Matrix3d MotionSums::random_covariance() const {
-  const Eigen::Matrix3d covariance = information.inverse();
-  return covariance * scatter * covariance;
+  return covariance() * scatter * covariance();
 }
 
 }  // namespace cremed

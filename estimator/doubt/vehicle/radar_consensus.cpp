@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "cremed/estimator/cost/cost_options.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_set.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
@@ -13,9 +15,21 @@ namespace {
 
 /// Scan period of a slow radar: bounds the duration of a contradiction.
 constexpr double kScanPeriodS = 0.1;
-/// Bound of the disagreement of radars that agree on a velocity. False-alarm rate with two radars:
-/// 1 in 135 (chi-square of three degrees of freedom above 12); lower with more.
+/// Bound of chi-square per degree of freedom of radars that agree on a velocity. False-alarm rate
+/// with two radars: 1 in 135 (chi-square of three degrees of freedom above 12); lower with more.
 constexpr double kMaxDisagreement = 4.0;
+
+/// Covariance of a velocity of this age: with the errors of the radar, and the vehicle's
+/// acceleration since.
+Eigen::Matrix2d with_systematic_errors(const DopplerVelocity& velocity,
+                                       const OdometryOptions& options, double age_s) {
+  const double changed = squared(SharedErrorOptions().acceleration_std_mps2 * age_s);
+  Eigen::Matrix2d noise = velocity.covariance;
+  noise(0, 0) += squared(options.doppler_x.std) + squared(options.offset.std) + changed;
+  noise(1, 1) += squared(options.doppler_y.std) + changed +
+                 squared(options.mount_yaw_std_rad * velocity.velocity_mps.norm());
+  return noise;
+}
 
 }  // namespace
 
@@ -30,18 +44,29 @@ int RadarConsensus::count(std::int64_t time_us, bool agree) const {
       [&](const RadarTrust& trust) { return trust.votes(time_us) && trust.agrees == agree; }));
 }
 
-std::optional<JointVelocity> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
-  JointVelocity joint(state_.options());
+std::optional<MotionSums> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
+  const OdometryOptions& options = state_.options();
+  MotionSums joint;
+  joint.add(Eigen::Vector3d::UnitY(), 0.0, squared(options.start_yaw_rate_std_radps));
+  joint.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
+  int radars = 0;
   bool are_all_witnesses = true;  // They see passing vehicles, on both sides alike.
   for (std::size_t i = 0; i < trusts_.size(); ++i) {
     const RadarTrust& trust = trusts_[i];
     if (trust.votes(time_us) && !trust.agrees) {
-      joint.add(trust.velocity, state_.mount(i), seconds_between(trust.verdict_us, time_us));
+      const DopplerVelocity& velocity = trust.velocity;
+      joint.add_velocity(
+          state_.mount(i), velocity.velocity_mps,
+          with_systematic_errors(velocity, options, seconds_between(trust.verdict_us, time_us)),
+          velocity.covariance);
+      ++radars;
       are_all_witnesses = are_all_witnesses && state_.is_witness(i);
     }
   }
-  if (are_all_witnesses || joint.radars() < 2 || joint.radars() <= agreeing(time_us) ||
-      joint.disagreement() > kMaxDisagreement) {
+  // Two measurements for each radar and two priors, less three unknowns.
+  const double freedom = 2.0 * radars - 1.0;
+  if (are_all_witnesses || radars < 2 || radars <= agreeing(time_us) ||
+      joint.chi_square() > kMaxDisagreement * freedom) {
     return std::nullopt;
   }
   return joint;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "cremed/estimator/doubt/vehicle/joint_velocity.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -29,9 +29,9 @@ class RadarConsensus {
   // Numbers of trusted radars, by their scans of the last 0.3 s.
   [[nodiscard]] int agreeing(std::int64_t time_us) const { return count(time_us, true); }
   [[nodiscard]] int contradicting(std::int64_t time_us) const { return count(time_us, false); }
-  /// Joint velocity of the contradicting radars, if they are two or more, the majority, and agree
-  /// with each other.
-  [[nodiscard]] std::optional<JointVelocity> contradicting_majority(std::int64_t time_us) const;
+  /// The motion by the contradicting radars, if they are two or more, the majority, and agree with
+  /// each other.
+  [[nodiscard]] std::optional<MotionSums> contradicting_majority(std::int64_t time_us) const;
   /// Every radar that contradicts did so after the last that agreed: all changed at once.
   [[nodiscard]] bool is_step(std::int64_t time_us) const;
   /// Whether half or more of the contradicting radars contradict their own positions.

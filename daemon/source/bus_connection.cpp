@@ -35,9 +35,8 @@ void BusConnection::add_ids(const std::vector<std::uint32_t>& ids) {
 }
 
 void BusConnection::open(const Link& link) {
-  const CanOpenResult result = link.error != 0
-                                   ? CanOpenResult{CanOpenStatus::failed, link.error, "rtnetlink"}
-                                   : socket_.open(link.index, ids_, options_);
+  const CanOpenResult result = link.error != 0 ? CanOpenResult{CanOpenStatus::failed, link.error}
+                                               : socket_.open(link.index, ids_, options_);
   status_.error = result.error;
   switch (result.status) {
     case CanOpenStatus::open:

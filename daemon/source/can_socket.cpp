@@ -144,11 +144,11 @@ void CanSocket::close() {
   interface_index_ = 0;
 }
 
-CanOpenResult CanSocket::fail(const char* step) {
+CanOpenResult CanSocket::fail() {
   const int error = errno;
   close();
   const bool gone = error == ENODEV || error == ENXIO;
-  return {gone ? CanOpenStatus::no_interface : CanOpenStatus::failed, error, step, 0};
+  return {gone ? CanOpenStatus::no_interface : CanOpenStatus::failed, error};
 }
 
 CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
@@ -157,30 +157,24 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
   if (!is_open()) {
     const bool no_can = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
-    return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno, "socket", 0};
+    return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno};
   }
   interface_index_ = interface_index;
   if (interface_index == 0) {
     errno = ENODEV;
-    return fail("interface");
+    return fail();
   }
   constexpr int kOn = 1;
   constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
-  if (!set_filters(descriptor_, ids)) {
-    return fail("CAN_RAW_FILTER");
-  }
-  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors)) {
-    return fail("CAN_RAW_ERR_FILTER");
-  }
-  // Otherwise FD frames would be dropped silently.
-  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
-    return fail("CAN_RAW_FD_FRAMES");
+  // Without CAN_RAW_FD_FRAMES FD frames would be dropped silently.
+  if (!set_filters(descriptor_, ids) ||
+      !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors) ||
+      !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
+    return fail();
   }
   const CanOpenResult result = configure(options);
-  if (result.status == CanOpenStatus::open && !bind_to(descriptor_, interface_index_)) {
-    return fail("bind");
-  }
-  return result;
+  return result.status == CanOpenStatus::open && !bind_to(descriptor_, interface_index_) ? fail()
+                                                                                         : result;
 }
 
 bool CanSocket::set_ids(std::span<const std::uint32_t> ids) {
@@ -201,17 +195,13 @@ CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
   last_hardware_ns_ = 0;
   kernel_drops_ = 0;
   // SO_TIMESTAMPNS stamps every frame; SO_TIMESTAMPING may not.
-  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn)) {
-    return fail("SO_TIMESTAMPNS");
+  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn) ||
+      (hardware_stamps_ &&
+       !set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) ||
+      !set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
+    return fail();
   }
-  if (hardware_stamps_ && !set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) {
-    return fail("SO_TIMESTAMPING");
-  }
-  if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
-    return fail("SO_RXQ_OVFL");
-  }
-  return {CanOpenStatus::open, 0, "",
-          granted_buffer_bytes(descriptor_, options.receive_buffer_bytes)};
+  return {CanOpenStatus::open, 0, granted_buffer_bytes(descriptor_, options.receive_buffer_bytes)};
 }
 
 CanReceiveResult CanSocket::receive() {

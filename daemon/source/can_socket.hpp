@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/configuration/bus_options.hpp"
@@ -24,7 +23,6 @@ enum class CanOpenStatus : std::uint8_t {
 struct CanOpenResult {
   CanOpenStatus status = CanOpenStatus::failed;
   int error = 0;                 ///< errno, if not open.
-  const char* step = "";         ///< The call that failed, for the log.
   int receive_buffer_bytes = 0;  ///< Granted by the kernel; limited by rmem_max.
 };
 
@@ -80,7 +78,7 @@ class CanSocket {
  private:
   struct Control;  // Control data of a frame.
   CanOpenResult configure(const CanSocketOptions& options);
-  CanOpenResult fail(const char* step);
+  CanOpenResult fail();
   std::int64_t stamp_us(const Control& control);
   std::uint32_t lost_before(const Control& control);
 

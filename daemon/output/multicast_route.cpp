@@ -8,8 +8,8 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
+#include "daemon/process/descriptor.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -22,15 +22,14 @@ constexpr std::uint16_t kDefaultPort = 7667;
 /// Looks up the route without sending. Returns why it cannot be used, with a remedy; empty if it
 /// can.
 std::string route_problem(const sockaddr_in& address, const std::string& group) {
-  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) {
+  const Descriptor descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (!descriptor.is_open()) {
     return std::strerror(errno);
   }
   sockaddr generic{};
   static_assert(sizeof(generic) == sizeof(address));
   std::memcpy(&generic, &address, sizeof(generic));
-  const int error = ::connect(descriptor, &generic, sizeof(address)) == 0 ? 0 : errno;
-  ::close(descriptor);
+  const int error = ::connect(descriptor.number(), &generic, sizeof(address)) == 0 ? 0 : errno;
   return error == 0 ? std::string()
                     : concat({std::strerror(error), ". Give multicast a route, e.g. `ip route add ",
                               group, "/32 dev lo`, or use --lcm-url none"});

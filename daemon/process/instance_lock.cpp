@@ -61,28 +61,21 @@ std::string lock_name(const std::string& path) {
 InstanceLock::InstanceLock(const std::string& configuration_path) {
   const std::string folder = runtime_folder();
   const std::string file = folder + "/" + lock_name(configuration_path);
-  descriptor_ =
-      folder.empty() ? -1 : ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (descriptor_ < 0) {
+  descriptor_ = Descriptor(
+      folder.empty() ? -1 : ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
+  if (!descriptor_.is_open()) {
     spdlog::warn(
         "another instance would not be noticed: {}",
         folder.empty() ? "XDG_RUNTIME_DIR is not set" : file + ": " + std::strerror(errno));
     return;
   }
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+  if (::flock(descriptor_.number(), LOCK_EX | LOCK_NB) == 0) {
     return;
   }
-  ::close(descriptor_);
   throw std::runtime_error(
       "another cremed runs with " + configuration_path +
       " (`pgrep -a cremed`): every message would be sent twice; end that one "
       "(`systemctl stop cremed`), or give this one a configuration of its own");
-}
-
-InstanceLock::~InstanceLock() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
 }
 
 }  // namespace cremed

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 
 /// Prevents a second live instance with one configuration, which would send every message twice.
@@ -14,12 +16,9 @@ class InstanceLock {
  public:
   /// Locks the configuration at that path. Throws std::runtime_error if another process holds it.
   explicit InstanceLock(const std::string& configuration_path);
-  ~InstanceLock();
-  InstanceLock(const InstanceLock&) = delete;
-  InstanceLock& operator=(const InstanceLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace cremed

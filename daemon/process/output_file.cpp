@@ -50,13 +50,11 @@ std::uint64_t count_lines(std::string_view text) {
 
 OutputFile::OutputFile(const std::string& path)
     : path_(path == "-" ? "standard output" : path), descriptor_(opened(path)) {
-  if (descriptor_ < 0) {
+  if (!descriptor_.is_open()) {
     throw std::runtime_error(concat({"cannot write ", path_, ": ", std::strerror(errno)}));
   }
-  is_regular_ = is_regular_file(descriptor_);
+  is_regular_ = is_regular_file(descriptor_.number());
 }
-
-OutputFile::~OutputFile() { ::close(descriptor_); }
 
 void OutputFile::write(std::string_view lines) {
   if (failures_ != 0) {
@@ -81,10 +79,10 @@ void OutputFile::write(std::string_view lines) {
 
 long OutputFile::write_some(std::string_view text) const {
   errno = 0;
-  if (!is_regular_ && !wait_for_room(descriptor_)) {
+  if (!is_regular_ && !wait_for_room(descriptor_.number())) {
     return -1;
   }
-  return ::write(descriptor_, text.data(), text.size());
+  return ::write(descriptor_.number(), text.data(), text.size());
 }
 
 /// Removes an incomplete last line.
@@ -96,9 +94,9 @@ void OutputFile::fail(std::string_view written) {
   const std::size_t begun =
       last_feed == std::string_view::npos ? written.size() : written.size() - last_feed - 1;
   if (is_regular_ && begun != 0) {
-    const off_t end = ::lseek(descriptor_, 0, SEEK_CUR) - static_cast<off_t>(begun);
-    if (::ftruncate(descriptor_, end) == 0) {
-      ::lseek(descriptor_, end, SEEK_SET);
+    const off_t end = ::lseek(descriptor_.number(), 0, SEEK_CUR) - static_cast<off_t>(begun);
+    if (::ftruncate(descriptor_.number(), end) == 0) {
+      ::lseek(descriptor_.number(), end, SEEK_SET);
     }
   }
 }

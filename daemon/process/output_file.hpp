@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include "daemon/process/descriptor.hpp"
 
 namespace cremed {
 
@@ -16,9 +17,6 @@ class OutputFile {
   /// Creates or truncates the file; "-" is standard output. Throws std::runtime_error with path and
   /// reason.
   explicit OutputFile(const std::string& path);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
 
   /// Writes complete lines, or counts a failure. Nothing is written after the first failure. Waits
   /// for the reader of a full pipe until a stop is requested (signals.hpp).
@@ -34,7 +32,7 @@ class OutputFile {
   void fail(std::string_view written);
 
   std::string path_;
-  int descriptor_;
+  Descriptor descriptor_;
   bool is_regular_ = false;
   std::uint64_t lines_ = 0;
   int error_ = 0;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 #include <sys/socket.h>
@@ -29,11 +30,11 @@ std::int64_t number(std::string_view text) {
 }
 
 /// A path, or with a leading '@' a name in the abstract namespace.
-int connected_socket(std::string_view name) {
+Descriptor connected_socket(std::string_view name) {
   sockaddr_un address{};
   if (name.size() < 2 || name.size() >= sizeof(address.sun_path) ||
       (name[0] != '/' && name[0] != '@')) {
-    return -1;
+    return Descriptor();
   }
   address.sun_family = AF_UNIX;
   std::copy(name.begin(), name.end(), address.sun_path);
@@ -41,13 +42,10 @@ int connected_socket(std::string_view name) {
     address.sun_path[0] = '\0';
   }
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-  const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor >= 0 &&
-      ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address), size) != 0) {
-    ::close(descriptor);
-    return -1;
-  }
-  return descriptor;
+  Descriptor descriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const bool is_connected =
+      ::connect(descriptor.number(), reinterpret_cast<const sockaddr*>(&address), size) == 0;
+  return is_connected ? std::move(descriptor) : Descriptor();
 }
 
 }  // namespace
@@ -56,12 +54,6 @@ ServiceNotifier::ServiceNotifier() : descriptor_(connected_socket(environment("N
   const std::string_view watched = environment("WATCHDOG_PID");
   if (watched.empty() || number(watched) == ::getpid()) {
     watchdog_period_us_ = number(environment("WATCHDOG_USEC")) / 2;
-  }
-}
-
-ServiceNotifier::~ServiceNotifier() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
   }
 }
 
@@ -79,10 +71,10 @@ void ServiceNotifier::status(std::string_view text) const {
 }
 
 void ServiceNotifier::send(std::string_view message) const {
-  if (descriptor_ >= 0) {
+  if (descriptor_.is_open()) {
     // What the manager does not accept in time is in the next message.
     [[maybe_unused]] const ssize_t sent =
-        ::send(descriptor_, message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+        ::send(descriptor_.number(), message.data(), message.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 
 /// Notifies the service manager (sd_notify(3): datagrams to $NOTIFY_SOCKET). Without that socket
@@ -13,9 +15,6 @@ class ServiceNotifier {
  public:
   /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID.
   ServiceNotifier();
-  ~ServiceNotifier();
-  ServiceNotifier(const ServiceNotifier&) = delete;
-  ServiceNotifier& operator=(const ServiceNotifier&) = delete;
 
   void ready() const { send("READY=1"); }
   void stopping() const { send("STOPPING=1"); }
@@ -31,7 +30,7 @@ class ServiceNotifier {
  private:
   void send(std::string_view message) const;
 
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   std::int64_t watchdog_period_us_ = 0;
 };
 

@@ -13,7 +13,6 @@
 #include <linux/errqueue.h>
 #include <linux/net_tstamp.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 namespace cremed {
 namespace {
@@ -134,13 +133,8 @@ struct CanSocket::Control {
   }
 };
 
-CanSocket::~CanSocket() { close(); }
-
 void CanSocket::close() {
-  if (is_open()) {
-    ::close(descriptor_);
-  }
-  descriptor_ = -1;
+  descriptor_ = Descriptor();
   interface_index_ = 0;
 }
 
@@ -154,7 +148,7 @@ CanOpenResult CanSocket::fail() {
 CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
                               const CanSocketOptions& options) {
   close();
-  descriptor_ = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+  descriptor_ = Descriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   if (!is_open()) {
     const bool no_can = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
     return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno};
@@ -167,23 +161,23 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   constexpr int kOn = 1;
   constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
   // Without CAN_RAW_FD_FRAMES FD frames would be dropped silently.
-  if (!set_filters(descriptor_, ids) ||
-      !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors) ||
-      !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
+  if (!set_filters(descriptor(), ids) ||
+      !set_option(descriptor(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors) ||
+      !set_option(descriptor(), SOL_CAN_RAW, CAN_RAW_FD_FRAMES, kOn)) {
     return fail();
   }
   const CanOpenResult result = configure(options);
-  return result.status == CanOpenStatus::open && !bind_to(descriptor_, interface_index_) ? fail()
-                                                                                         : result;
+  return result.status == CanOpenStatus::open && !bind_to(descriptor(), interface_index_) ? fail()
+                                                                                          : result;
 }
 
 bool CanSocket::set_ids(std::span<const std::uint32_t> ids) {
-  return set_filters(descriptor_, ids);
+  return set_filters(descriptor(), ids);
 }
 
 CanOpenResult CanSocket::adopt(int descriptor, const CanSocketOptions& options) {
   close();
-  descriptor_ = descriptor;
+  descriptor_ = Descriptor(descriptor);
   return configure(options);
 }
 
@@ -195,13 +189,13 @@ CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
   last_hardware_ns_ = 0;
   kernel_drops_ = 0;
   // SO_TIMESTAMPNS stamps every frame; SO_TIMESTAMPING may not.
-  if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, kOn) ||
+  if (!set_option(descriptor(), SOL_SOCKET, SO_TIMESTAMPNS, kOn) ||
       (hardware_stamps_ &&
-       !set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) ||
-      !set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
+       !set_option(descriptor(), SOL_SOCKET, SO_TIMESTAMPING, kHardwareStamps)) ||
+      !set_option(descriptor(), SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
     return fail();
   }
-  return {CanOpenStatus::open, 0, granted_buffer_bytes(descriptor_, options.receive_buffer_bytes)};
+  return {CanOpenStatus::open, 0, granted_buffer_bytes(descriptor(), options.receive_buffer_bytes)};
 }
 
 CanReceiveResult CanSocket::receive() {
@@ -223,7 +217,7 @@ CanReceiveResult CanSocket::receive() {
     headers[i].msg_hdr.msg_controllen = kControlBytes;
   }
   const int count =
-      ::recvmmsg(descriptor_, headers.data(), kBatchFrames, MSG_DONTWAIT, /*timeout=*/nullptr);
+      ::recvmmsg(descriptor(), headers.data(), kBatchFrames, MSG_DONTWAIT, /*timeout=*/nullptr);
   if (count < 0) {
     return {status_of(errno), errno, {}};
   }
@@ -274,7 +268,7 @@ int CanSocket::send(const CanFrame& frame) {
   raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
   raw.can_dlc = std::min<std::uint8_t>(frame.length, CAN_MAX_DLEN);
   std::copy_n(frame.data.begin(), raw.can_dlc, raw.data);
-  const ssize_t sent = ::send(descriptor_, &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
+  const ssize_t sent = ::send(descriptor(), &raw, sizeof(raw), MSG_DONTWAIT | MSG_NOSIGNAL);
   return sent == static_cast<ssize_t>(sizeof(raw)) ? 0 : errno;
 }
 

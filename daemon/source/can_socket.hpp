@@ -9,6 +9,7 @@
 
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/configuration/bus_options.hpp"
+#include "daemon/process/descriptor.hpp"
 #include "daemon/source/received_frame.hpp"
 
 namespace cremed {
@@ -47,11 +48,6 @@ class CanSocket {
  public:
   static constexpr std::size_t kBatchFrames = 64;
 
-  CanSocket() = default;
-  ~CanSocket();
-  CanSocket(const CanSocket&) = delete;
-  CanSocket& operator=(const CanSocket&) = delete;
-
   /// `interface_index`: the kernel's; 0: no such interface. `ids`: standard identifiers to receive,
   /// without remote frames; none: everything.
   CanOpenResult open(unsigned interface_index, std::span<const std::uint32_t> ids,
@@ -68,8 +64,8 @@ class CanSocket {
   /// Queues a frame for sending; does not block. 0, or errno (ENOBUFS: the queue is full).
   int send(const CanFrame& frame);
 
-  [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] bool is_open() const { return descriptor_.is_open(); }
+  [[nodiscard]] int descriptor() const { return descriptor_.number(); }
   /// Index of the interface when the socket was opened: a recreated interface gets another.
   [[nodiscard]] unsigned interface_index() const { return interface_index_; }
   /// false once hardware stamps have proved unusable.
@@ -82,7 +78,7 @@ class CanSocket {
   std::int64_t stamp_us(const Control& control);
   std::uint32_t lost_before(const Control& control);
 
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   unsigned interface_index_ = 0;
   bool hardware_stamps_ = false;
   bool hardware_stamps_work_ = true;

@@ -16,26 +16,21 @@ ClockWatch::ClockWatch()
   arm();
 }
 
-ClockWatch::~ClockWatch() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
-}
-
 /// A timer that never expires but is cancelled when the clock is set.
 void ClockWatch::arm() {
   itimerspec never{};
   never.it_value.tv_sec = std::numeric_limits<std::int32_t>::max();
   never.it_value.tv_sec *= 2;  // The year 2106.
-  if (descriptor_ >= 0) {
-    ::timerfd_settime(descriptor_, TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET, &never, nullptr);
+  if (descriptor_.is_open()) {
+    ::timerfd_settime(descriptor_.number(), TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET, &never,
+                      nullptr);
   }
 }
 
 bool ClockWatch::was_set() {
   std::uint64_t expirations = 0;
-  const bool cancelled = descriptor_ >= 0 &&
-                         ::read(descriptor_, &expirations, sizeof(expirations)) < 0 &&
+  const bool cancelled = descriptor_.is_open() &&
+                         ::read(descriptor(), &expirations, sizeof(expirations)) < 0 &&
                          errno == ECANCELED;
   if (cancelled) {
     arm();

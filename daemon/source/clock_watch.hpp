@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 
 /// Detects steps of the system clock (NTP, by hand, resume). Stamps are of that clock, so no
@@ -9,12 +11,9 @@ namespace cremed {
 class ClockWatch {
  public:
   ClockWatch();
-  ~ClockWatch();
-  ClockWatch(const ClockWatch&) = delete;
-  ClockWatch& operator=(const ClockWatch&) = delete;
 
   /// Readable after a step; -1 if the kernel does not support it.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] int descriptor() const { return descriptor_.number(); }
 
   /// Whether the clock was set since the last call. Does not block.
   bool was_set();
@@ -22,7 +21,7 @@ class ClockWatch {
  private:
   void arm();
 
-  int descriptor_;
+  Descriptor descriptor_;
 };
 
 }  // namespace cremed

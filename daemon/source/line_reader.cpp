@@ -29,27 +29,21 @@ std::string_view without_mark(std::string_view text) {
 
 LineReader::LineReader(const std::string& path)
     : descriptor_(path == "-"
-                      ? STDIN_FILENO
+                      ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
                       : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
-  if (descriptor_ < 0) {
+  if (!descriptor_.is_open()) {
     throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno));
   }
   struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
+  if (::fstat(descriptor_.number(), &status) == 0 && S_ISREG(status.st_mode)) {
     file_bytes_ = static_cast<std::uint64_t>(status.st_size);
-  }
-}
-
-LineReader::~LineReader() {
-  if (descriptor_ != STDIN_FILENO) {
-    ::close(descriptor_);
   }
 }
 
 std::string LineReader::begin() const {
   std::string text(kBeginBytes, '\0');
-  const off_t now = ::lseek(descriptor_, 0, SEEK_CUR);
-  const ssize_t count = now < 0 ? 0 : ::pread(descriptor_, text.data(), text.size(), now);
+  const off_t now = ::lseek(descriptor_.number(), 0, SEEK_CUR);
+  const ssize_t count = now < 0 ? 0 : ::pread(descriptor_.number(), text.data(), text.size(), now);
   text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   return std::string(without_mark(text));
 }
@@ -90,11 +84,11 @@ LineReader::Status LineReader::fill() {
     end_ = 0;
     return Status::interrupted;  // The line may never end.
   }
-  pollfd input{descriptor_, POLLIN, 0};
+  pollfd input{descriptor_.number(), POLLIN, 0};
   if (::poll(&input, 1, kStopPollMs) <= 0) {
     return Status::interrupted;
   }
-  const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+  const ssize_t count = ::read(descriptor_.number(), buffer_.data() + end_, buffer_.size() - end_);
   if (count < 0) {
     return errno == EINTR || errno == EAGAIN ? Status::interrupted : Status::failed;
   }

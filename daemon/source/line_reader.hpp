@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 
 /// Reads a file or standard input line by line through a fixed buffer, without delay: follows the
@@ -25,9 +27,6 @@ class LineReader {
   /// "-" is standard input. next() waits for the writer of a pipe. Throws std::runtime_error with
   /// path and reason.
   explicit LineReader(const std::string& path);
-  ~LineReader();
-  LineReader(const LineReader&) = delete;
-  LineReader& operator=(const LineReader&) = delete;
 
   /// The next line without its line feed.
   Status next(std::string_view& line);
@@ -44,7 +43,7 @@ class LineReader {
  private:
   Status fill();
 
-  int descriptor_;
+  Descriptor descriptor_;
   std::array<char, 65536> buffer_{};
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

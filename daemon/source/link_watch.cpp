@@ -10,7 +10,6 @@
 #include <net/if.h>
 #include <net/if_arp.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 namespace cremed {
 namespace {
@@ -47,19 +46,15 @@ LinkWatch::LinkWatch() : buffer_(kBufferBytes) {
   update();
 }
 
-LinkWatch::~LinkWatch() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
-}
-
 void LinkWatch::open() {
-  descriptor_ = ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE);
+  descriptor_ =
+      Descriptor(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE));
   sockaddr_nl address{};
   address.nl_family = AF_NETLINK;
   address.nl_groups = RTMGRP_LINK;
-  if (descriptor_ < 0 ||
-      ::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+  if (!descriptor_.is_open() ||
+      ::bind(descriptor_.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) !=
+          0) {
     fail();
     return;
   }
@@ -77,28 +72,25 @@ void LinkWatch::request_all() {
   request.header.nlmsg_len = sizeof(request);
   request.header.nlmsg_type = RTM_GETLINK;
   request.header.nlmsg_flags = NLM_F_REQUEST | NLM_F_DUMP;
-  if (::send(descriptor_, &request, sizeof(request), 0) != sizeof(request)) {
+  if (::send(descriptor_.number(), &request, sizeof(request), 0) != sizeof(request)) {
     fail();
   }
 }
 
 void LinkWatch::fail() {
   error_ = errno;
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
-  descriptor_ = -1;
+  descriptor_ = Descriptor();
   links_.clear();
 }
 
 void LinkWatch::update() {
-  if (descriptor_ < 0) {
+  if (!descriptor_.is_open()) {
     open();
   }
-  for (int i = 0; i < kMaxReads && descriptor_ >= 0; ++i) {
+  for (int i = 0; i < kMaxReads && descriptor_.is_open(); ++i) {
     sockaddr_nl sender{};
     socklen_t sender_size = sizeof(sender);
-    const ssize_t size = ::recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0,
+    const ssize_t size = ::recvfrom(descriptor_.number(), buffer_.data(), buffer_.size(), 0,
                                     reinterpret_cast<sockaddr*>(&sender), &sender_size);
     if (size >= 0) {
       if (sender.nl_pid == 0) {  // From the kernel, not another process.

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 
 /// State of a network interface.
@@ -25,9 +27,6 @@ struct Link {
 class LinkWatch {
  public:
   LinkWatch();
-  ~LinkWatch();
-  LinkWatch(const LinkWatch&) = delete;
-  LinkWatch& operator=(const LinkWatch&) = delete;
 
   /// Processes the notifications since the last call; does not block.
   void update();
@@ -50,7 +49,7 @@ class LinkWatch {
   std::vector<NamedLink> links_;
   int error_ = 0;
   std::vector<char> buffer_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace cremed

@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include <spdlog/fmt/fmt.h>
+
 #include "daemon/process/plain_text.hpp"
 
 namespace cremed {
@@ -27,13 +29,6 @@ std::string one_line(std::string_view text) {
 
 bool needs_no_quotes(char c) { return kUnquoted.find(c) != std::string_view::npos; }
 
-template <typename Number>
-std::string shortest_digits(Number value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
-
 }  // namespace
 
 std::string printable(std::string_view text) {
@@ -53,16 +48,15 @@ std::string concat(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-std::string digits(double value) { return shortest_digits(value); }
-
-std::string digits(std::int64_t value) { return shortest_digits(value); }
-
-std::string tenths(double value) {
+std::string digits(double value) {
   std::array<char, 32> text{};
-  const auto result =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 1);
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), result.ptr};
 }
+
+std::string digits(std::int64_t value) { return std::to_string(value); }
+
+std::string tenths(double value) { return fmt::format("{:.1f}", value); }
 
 std::string number(std::uint64_t count) { return std::to_string(count); }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 namespace cremed {
@@ -21,14 +22,8 @@ bool is_terminal() {
 
 /// " [####    ]  50 %"
 std::string bar(double share) {
-  const std::string percent = std::to_string(static_cast<int>(100.0 * share));
-  const auto length = static_cast<std::size_t>(share * kWidth);
-  return std::string(" [")
-      .append(length, '#')
-      .append(kWidth - length, ' ')
-      .append("] ")
-      .append(3 - percent.size(), ' ')
-      .append(percent + " %");
+  const std::string done(static_cast<std::size_t>(share * kWidth), '#');
+  return fmt::format(" [{:{}}] {:3} %", done, kWidth, static_cast<int>(100.0 * share));
 }
 
 }  // namespace

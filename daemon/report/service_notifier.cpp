@@ -3,7 +3,6 @@
 #include "daemon/report/service_notifier.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
@@ -58,16 +57,11 @@ ServiceNotifier::ServiceNotifier() : descriptor_(connected_socket(environment("N
 }
 
 void ServiceNotifier::reloading() const {
-  std::array<char, kMaxMessage> message;
-  const auto end = fmt::format_to_n(message.data(), message.size(),
-                                    "RELOADING=1\nMONOTONIC_USEC={}", monotonic_us());
-  send({message.data(), std::min(end.size, message.size())});
+  send(fmt::format("RELOADING=1\nMONOTONIC_USEC={}", monotonic_us()));
 }
 
 void ServiceNotifier::status(std::string_view text) const {
-  std::array<char, kMaxMessage> message;
-  const auto end = fmt::format_to_n(message.data(), message.size(), "STATUS={}", text);
-  send({message.data(), std::min(end.size, message.size())});
+  send(fmt::format("STATUS={}", text).substr(0, kMaxMessage));
 }
 
 void ServiceNotifier::send(std::string_view message) const {

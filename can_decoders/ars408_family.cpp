@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <cstddef>
 #include <string_view>
 
 #include "cremed/can_decoders/ars408.hpp"

@@ -3,7 +3,6 @@
 #include "cremed/can_decoders/ars408_tables.hpp"
 
 #include <array>
-#include <cstddef>
 
 namespace cremed {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
-#include <string_view>
 #include <vector>
 
 #include <spdlog/fmt/ranges.h>

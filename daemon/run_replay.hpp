@@ -6,7 +6,6 @@
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
-#include "daemon/process/usage_error.hpp"
 
 namespace cremed {
 

@@ -9,7 +9,6 @@
 #include <spdlog/spdlog.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
-#include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {

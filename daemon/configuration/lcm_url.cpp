@@ -3,7 +3,6 @@
 #include "daemon/configuration/lcm_url.hpp"
 
 #include <charconv>
-#include <string>
 
 namespace cremed {
 namespace {

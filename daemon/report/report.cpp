@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
 #include "cremed/can_decoders/radar_family.hpp"
 #include "cremed/estimator/doubt/radar/self_check.hpp"

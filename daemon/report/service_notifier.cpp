@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>

@@ -86,7 +86,11 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
 
 Configuration load_configuration(const std::string& path, const CommandLine& command_line) {
   Configuration configuration = load_configuration(path);
-  configuration.output.publish_scans |= command_line.publish_scans;
+  OutputConfiguration& output = configuration.output;
+  output.publish_scans |= command_line.publish_scans;
+  output.csv = command_line.output_csv.value_or(output.csv);
+  output.odometry = command_line.output_odometry.value_or(output.odometry);
+  output.tum = command_line.output_tum.value_or(output.tum);
   return configuration;
 }
 

@@ -34,7 +34,7 @@ struct CommandLineResult {
 
 CommandLineResult parse_command_line(int argc, const char* const* argv);
 
-/// The configuration in a file, with scans published if the command line asks for them. Throws
+/// The configuration in a file, with the outputs that the command line asks for. Throws
 /// ConfigurationError.
 Configuration load_configuration(const std::string& path, const CommandLine& command_line);
 

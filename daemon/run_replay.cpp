@@ -49,49 +49,31 @@ void refuse_overwriting(const CommandLine& command_line, const OutputConfigurati
   for (const std::string& log : command_line.replay) {
     inputs.push_back({"the log", log});
   }
-  refuse_aliases(inputs,
-                 {{"--output-csv", command_line.output_csv.value_or(output.csv)},
-                  {"--output-odometry", command_line.output_odometry.value_or(output.odometry)},
-                  {"--output-tum", command_line.output_tum.value_or(output.tum)},
-                  {"--state-file", command_line.state_file.value_or("")},
-                  {"LCM", lcm_file(lcm_url(command_line))}});
+  refuse_aliases(inputs, {{"--output-csv", output.csv},
+                          {"--output-odometry", output.odometry},
+                          {"--output-tum", output.tum},
+                          {"--state-file", command_line.state_file.value_or("")},
+                          {"LCM", lcm_file(lcm_url(command_line))}});
 }
 
 /// Checks the usage before anything is opened.
 void refuse(const CommandLine& command_line, const std::string& configuration_path,
             const Configuration& configuration) {
   require_interface_names(configuration);
-  const OutputConfiguration& output = configuration.output;
-  if (!command_line.output_odometry.value_or(output.odometry).empty() &&
-      !configuration.odometry.enabled) {
+  if (!configuration.output.odometry.empty() && !configuration.odometry.enabled) {
     throw UsageError("there is no odometry to write: odometry.enabled = false");
   }
-  refuse_overwriting(command_line, output, configuration_path);
-}
-
-std::string csv_path(const CommandLine& command_line, const Configuration& configuration) {
-  return command_line.output_csv.value_or(configuration.output.csv);
+  refuse_overwriting(command_line, configuration.output, configuration_path);
 }
 
 struct Sinks {
   std::vector<std::unique_ptr<OdometrySink>> owned;
   const TumWriter* tum = nullptr;
-
-  [[nodiscard]] std::vector<OdometrySink*> pointers() const {
-    std::vector<OdometrySink*> result;
-    for (const auto& sink : owned) {
-      result.push_back(sink.get());
-    }
-    return result;
-  }
 };
 
 Sinks open_sinks(const CommandLine& command_line, const Configuration& configuration) {
   const OutputConfiguration& output = configuration.output;
   const std::string url = lcm_url(command_line);
-  const std::string csv = csv_path(command_line, configuration);
-  const std::string odometry = command_line.output_odometry.value_or(output.odometry);
-  const std::string tum = command_line.output_tum.value_or(output.tum);
   Sinks sinks;
   if (url != "none") {
     auto publisher = std::make_unique<LcmPublisher>(url, configuration);
@@ -100,14 +82,14 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
     }
     sinks.owned.push_back(std::move(publisher));
   }
-  if (!csv.empty()) {
-    sinks.owned.push_back(std::make_unique<CsvWriter>(csv, radar_names(configuration)));
+  if (!output.csv.empty()) {
+    sinks.owned.push_back(std::make_unique<CsvWriter>(output.csv, radar_names(configuration)));
   }
-  if (!odometry.empty()) {
-    sinks.owned.push_back(std::make_unique<OdometryWriter>(odometry));
+  if (!output.odometry.empty()) {
+    sinks.owned.push_back(std::make_unique<OdometryWriter>(output.odometry));
   }
-  if (!tum.empty()) {
-    auto writer = std::make_unique<TumWriter>(tum, tum_radar(configuration));
+  if (!output.tum.empty()) {
+    auto writer = std::make_unique<TumWriter>(output.tum, tum_radar(configuration));
     sinks.tum = writer.get();
     sinks.owned.push_back(std::move(writer));
   }
@@ -192,8 +174,10 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   }
   const Sinks sinks = open_sinks(command_line, configuration);
   OdometryTally tally;
-  std::vector<OdometrySink*> all_sinks = sinks.pointers();
-  all_sinks.push_back(&tally);
+  std::vector<OdometrySink*> all_sinks{&tally};
+  for (const auto& sink : sinks.owned) {
+    all_sinks.push_back(sink.get());
+  }
   std::optional<LearnedFile> learned;
   if (command_line.state_file) {
     learned.emplace(*command_line.state_file, configuration);
@@ -205,7 +189,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
       learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
   const std::int64_t begin_us = monotonic_us();
-  take_all(*replay, pipeline, csv_path(command_line, configuration) == "-");
+  take_all(*replay, pipeline, configuration.output.csv == "-");
   const int stopped_by = *stop;
   pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;

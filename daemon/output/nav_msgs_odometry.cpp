@@ -24,12 +24,7 @@ void clear(double (&row_major)[36]) {
 
 void fill(const Eigen::Matrix3d& x_y_yaw, double (&row_major)[36]) {
   Eigen::Map<Covariance> covariance(&row_major[0]);
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      covariance(kXYYaw[static_cast<std::size_t>(i)], kXYYaw[static_cast<std::size_t>(j)]) =
-          x_y_yaw(i, j);
-    }
-  }
+  covariance(kXYYaw, kXYYaw) = x_y_yaw;
 }
 
 bool is_usable(OdometryStatus status) {

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "cremed/can_decoders/radar_family.hpp"
 #include "cremed/estimator/doubt/radar/self_check.hpp"
@@ -24,57 +26,48 @@ std::uint64_t count_of(const RadarStatus& status, MotionStatus motion) {
 }
 
 /// "label n" for each counter that is not zero.
-class CounterText {
- public:
-  CounterText& add(std::string_view label, std::uint64_t value) {
+std::string counter_text(
+    std::initializer_list<std::pair<std::string_view, std::uint64_t>> counters) {
+  std::string text;
+  for (const auto& [label, value] : counters) {
     if (value != 0) {
-      text_ += concat({text_.empty() ? "" : ", ", label, " ", number(value)});
+      text += concat({text.empty() ? "" : ", ", label, " ", number(value)});
     }
-    return *this;
   }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
+  return text;
+}
 
 std::string bad_frames(const DecoderCounters& c) {
-  return CounterText()
-      .add("wrong length", c.wrong_length)
-      .add("remote or FD", c.wrong_kind)
-      .add("wrong mode", c.wrong_mode)
-      .add("wrong slot", c.wrong_slot)
-      .add("CRC errors", c.crc_errors)
-      .add("counter errors", c.counter_errors)
-      .text();
+  return counter_text({{"wrong length", c.wrong_length},
+                       {"remote or FD", c.wrong_kind},
+                       {"wrong mode", c.wrong_mode},
+                       {"wrong slot", c.wrong_slot},
+                       {"CRC errors", c.crc_errors},
+                       {"counter errors", c.counter_errors}});
 }
 
 std::string scan_faults(const AssemblerCounters& c) {
-  return CounterText()
-      .add("incomplete", c.incomplete_scans)
-      .add("without header", c.headerless_scans)
-      .add("timed out", c.timeouts)
-      .add("missed", c.missed_scans)
-      .add("repeated", c.repeated_scans)
-      .add("missing parts", c.missing_parts)
-      .add("duplicate parts", c.duplicate_parts)
-      .add("conflicting parts", c.conflicting_parts)
-      .add("reordered parts", c.reordered_parts)
-      .add("excess parts", c.excess_parts)
-      .add("orphan parts", c.orphan_parts)
-      .add("stamps backwards", c.stamps_backwards)
-      .text();
+  return counter_text({{"incomplete", c.incomplete_scans},
+                       {"without header", c.headerless_scans},
+                       {"timed out", c.timeouts},
+                       {"missed", c.missed_scans},
+                       {"repeated", c.repeated_scans},
+                       {"missing parts", c.missing_parts},
+                       {"duplicate parts", c.duplicate_parts},
+                       {"conflicting parts", c.conflicting_parts},
+                       {"reordered parts", c.reordered_parts},
+                       {"excess parts", c.excess_parts},
+                       {"orphan parts", c.orphan_parts},
+                       {"stamps backwards", c.stamps_backwards}});
 }
 
 std::string rejected_detections(const SelectionCounters& c) {
-  return CounterText()
-      .add("no noise", c.no_noise)
-      .add("invalid state", c.invalid_state)
-      .add("moving", c.moving)
-      .add("low existence", c.low_existence)
-      .add("no position", c.no_position)
-      .add("outside limits", c.outside_limits)
-      .text();
+  return counter_text({{"no noise", c.no_noise},
+                       {"invalid state", c.invalid_state},
+                       {"moving", c.moving},
+                       {"low existence", c.low_existence},
+                       {"no position", c.no_position},
+                       {"outside limits", c.outside_limits}});
 }
 
 const Ars408Options* ars408_options(const RadarConfiguration& radar) {

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Matplotlib for the plot scripts. What keeps a picture from being drawn is a line, not a traceback."""
+"""What the plot scripts share. What keeps a picture from being drawn is a line, not a traceback."""
+import csv
 import os
 import signal
 import sys
@@ -26,8 +27,21 @@ try:
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: F401
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 except ImportError as error:
     sys.exit(f"{error.name or error} is missing: install python3-matplotlib")
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def log_scale(axis, decimals=(1, 2, 5)):
+    axis.set_yscale("log")
+    axis.yaxis.set_major_locator(LogLocator(subs=decimals))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.yaxis.set_minor_locator(NullLocator())
 
 
 def save(figure, picture, dpi):

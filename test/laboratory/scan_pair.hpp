@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cremed/estimator/scan/target_set.hpp"
-#include "tools/laboratory/pairs/registration_method.hpp"
 
 namespace cremed::test {
 

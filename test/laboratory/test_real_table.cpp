@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/process/usage_error.hpp"
 #include "test/tools/tool_run.hpp"
 #include "tools/laboratory/figures_json.hpp"
 #include "tools/laboratory/table/drive_pairs.hpp"

@@ -13,7 +13,6 @@
 #include <catch2/catch.hpp>
 
 #include "daemon/configuration/interfaces.hpp"
-#include "daemon/report/report.hpp"
 #include "test/tools/fake_ars408.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/doctor/diagnosis.hpp"

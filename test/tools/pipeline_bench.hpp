@@ -4,11 +4,8 @@
 
 // A simulated drive through the whole pipeline, in memory.
 
-#include <array>
 #include <cstdint>
 #include <sstream>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "daemon/pipeline.hpp"

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include <catch2/catch.hpp>
 

@@ -3,13 +3,10 @@
 
 // An ARS408's use of the received motion, and the true mounts.
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>

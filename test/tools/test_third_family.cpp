@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A radar family that exists in this file only: cremed supports it without knowing it.
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <optional>
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/clocks.hpp"

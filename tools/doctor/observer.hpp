@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "daemon/output/odometry_sink.hpp"
 #include "daemon/pipeline.hpp"

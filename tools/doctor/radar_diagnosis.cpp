@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/bosch_gpr.hpp"

@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/command_line.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 #include "tools/line_stream.hpp"

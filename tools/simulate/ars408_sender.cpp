@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "tools/simulate/ars408_encoder.hpp"

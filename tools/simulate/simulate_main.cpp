@@ -4,7 +4,6 @@
 #include <iomanip>
 #include <iostream>
 #include <string>
-#include <string_view>
 
 #include <CLI/CLI.hpp>
 

@@ -3,7 +3,6 @@
 #include "tools/simulate/told_motion.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "cremed/estimator/scan/degrees.hpp"
 

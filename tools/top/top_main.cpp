@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <string>
 #include <thread>

@@ -13,7 +13,6 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
 #include <arpa/inet.h>
 #include <netdb.h>

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include <Eigen/Dense>
 

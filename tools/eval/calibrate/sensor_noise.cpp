@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 
 #include <Eigen/Dense>
 
-#include "cremed/estimator/scan/pose2.hpp"
 #include "tools/eval/calibrate/matched_targets.hpp"
 #include "tools/eval/calibrate/matched_turns.hpp"
 #include "tools/eval/calibrate/sensor_velocity.hpp"

@@ -3,7 +3,6 @@
 #include "tools/eval/drive/baselines.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 

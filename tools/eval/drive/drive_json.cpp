@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/drive_json.hpp"
 
-#include <string>
-
 #include <nlohmann/json.hpp>
 
 namespace cremed {

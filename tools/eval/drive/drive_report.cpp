@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 
 #include "cremed/estimator/scan/degrees.hpp"

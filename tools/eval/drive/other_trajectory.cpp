@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/other_trajectory.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>

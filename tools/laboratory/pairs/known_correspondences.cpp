@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/laboratory/pairs/known_correspondences.hpp"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 

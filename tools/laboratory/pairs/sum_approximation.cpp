@@ -3,7 +3,6 @@
 #include "tools/laboratory/pairs/sum_approximation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>

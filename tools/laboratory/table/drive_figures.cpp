@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
-#include <utility>
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "tools/eval/credibility.hpp"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <utility>
 
 #include "daemon/process/progress_bar.hpp"
 #include "daemon/process/usage_error.hpp"

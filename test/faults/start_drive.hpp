@@ -50,10 +50,10 @@ class StartDrive {
     const double duration_s = std::round(seconds / VehicleCourse::kStepS) * VehicleCourse::kStepS;
     const double speed_mps = (is_reverse_ ? -1.0 : 1.0) * acceleration_mps2_ * duration_s;
     return {0.0,
-            curvature_1pm_,
             {{ParkedDrive::kDepartureS, 0.0, curvature_1pm_},
              {duration_s, speed_mps, 0.5 * curvature_1pm_},
-             {20.0, speed_mps, 0.0}}};
+             {20.0, speed_mps, 0.0}},
+            curvature_1pm_};
   }
 
   [[nodiscard]] static std::vector<Departure> parked_lorries() {

@@ -74,7 +74,7 @@ std::string truth_csv(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a course of constant speed and curvature is a circle") {
-  const CoursePlan circle{5.0, 0.1, {{10.0, 5.0, 0.1}}};
+  const CoursePlan circle{5.0, {{10.0, 5.0, 0.1}}, 0.1};
   const VehicleCourse course(circle, 30.0);
   for (const double time_s : {0.0, 0.004, 1.0, 7.77777, 29.999}) {
     CAPTURE(time_s);
@@ -88,7 +88,7 @@ TEST_CASE("a course of constant speed and curvature is a circle") {
 }
 
 TEST_CASE("a start covers half the final speed times its duration, and legs repeat") {
-  const CoursePlan start_and_stop{0.0, 0.0, {{4.0, 8.0, 0.0}, {4.0, 0.0, 0.0}}};
+  const CoursePlan start_and_stop{0.0, {{4.0, 8.0, 0.0}, {4.0, 0.0, 0.0}}};
   const VehicleCourse course(start_and_stop, 20.0);
   CHECK(course.at(4.0).pose.x_m == Approx(16.0).margin(1e-9));
   CHECK(course.at(8.0).pose.x_m == Approx(32.0).margin(1e-9));
@@ -98,9 +98,9 @@ TEST_CASE("a start covers half the final speed times its duration, and legs repe
 }
 
 TEST_CASE("a plan that cannot be driven is refused") {
-  CHECK_THROWS_AS(VehicleCourse({0.0, 0.0, {}}, 1.0), std::invalid_argument);
-  CHECK_THROWS_AS(VehicleCourse({0.0, 0.0, {{1.005, 1.0, 0.0}}}, 1.0), std::invalid_argument);
-  CHECK_THROWS_AS(VehicleCourse({0.0, 0.0, {{0.0, 1.0, 0.0}}}, 1.0), std::invalid_argument);
+  CHECK_THROWS_AS(VehicleCourse({0.0, {}}, 1.0), std::invalid_argument);
+  CHECK_THROWS_AS(VehicleCourse({0.0, {{1.005, 1.0, 0.0}}}, 1.0), std::invalid_argument);
+  CHECK_THROWS_AS(VehicleCourse({0.0, {{0.0, 1.0, 0.0}}}, 1.0), std::invalid_argument);
 }
 
 TEST_CASE("every scenario drives as a car can") {
@@ -167,7 +167,7 @@ TEST_CASE("scenarios move at the speeds they promise") {
 }
 
 TEST_CASE("a skidding vehicle's path is not where it looks to") {
-  const CoursePlan plan{10.0, 0.0, {{2.0, 10.0, 0.0, -2.0}, {3.0, 10.0, 0.0, -2.0}}};
+  const CoursePlan plan{10.0, {{2.0, 10.0, 0.0, -2.0}, {3.0, 10.0, 0.0, -2.0}}};
   const VehicleCourse course(plan, 5.0);
   const VehicleState before = course.at(2.0);
   const VehicleState after = course.at(5.0);

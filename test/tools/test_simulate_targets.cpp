@@ -132,7 +132,7 @@ TEST_CASE("radars see only what is in their beam") {
 }
 
 TEST_CASE("nothing stands on the road, even where it crosses itself") {
-  const cremed::CoursePlan loop{8.0, 0.05, {{60.0, 8.0, 0.05}}};
+  const cremed::CoursePlan loop{8.0, {{60.0, 8.0, 0.05}}, 0.05};
   const cremed::VehicleCourse course(loop, 60.0);
   const cremed::Road road(course);
   const cremed::World world(road, {}, cremed::Random(1, 1));

@@ -26,9 +26,9 @@ struct Scenario {
   std::string_view description;
   double duration_s = 60.0;  ///< Unless another duration is given.
   CoursePlan course;
-  WorldOptions world;
-  TrafficOptions traffic;
-  FaultOptions faults;
+  WorldOptions world{};
+  TrafficOptions traffic{};
+  FaultOptions faults{};
 };
 
 const std::vector<Scenario>& scenarios();

@@ -20,8 +20,8 @@ struct CourseLeg {
 /// The legs are repeated until the time is over.
 struct CoursePlan {
   double start_speed_mps = 0.0;
-  double start_curvature_1pm = 0.0;
   std::vector<CourseLeg> legs;
+  double start_curvature_1pm = 0.0;
   /// Angle by which the rear axle slips to the outside, per centripetal acceleration; rad s^2/m.
   double slip_per_lateral_acceleration = 0.0;
 };

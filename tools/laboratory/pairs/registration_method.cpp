@@ -12,13 +12,13 @@ namespace cremed {
 
 RegistrationMethod registration_method(std::string_view name) {
   if (name == "msm") {
-    return {"msm", register_msm, false};
+    return {register_msm, false};
   }
   if (name == "sa") {
-    return {"sa", register_sum_approximation, false};
+    return {register_sum_approximation, false};
   }
   if (name == "icp") {
-    return {"icp", register_icp, true};
+    return {register_icp, true};
   }
   throw std::runtime_error("no method '" + std::string(name) + "': msm, sa or icp");
 }

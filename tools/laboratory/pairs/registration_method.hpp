@@ -20,7 +20,6 @@ using RegisterFunction = RegistrationResult (*)(const TargetSet& previous, const
 
 /// A way to register two scans, for comparison.
 struct RegistrationMethod {
-  std::string_view name;  ///< On the command line.
   RegisterFunction solve = nullptr;
   bool is_always_3dof = false;  ///< Estimates y even if the options have 2 DoF.
 };

@@ -11,9 +11,8 @@
 #include <string_view>
 
 #include "daemon/output/text_line.hpp"
-#include "daemon/process/progress_bar.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "tools/laboratory/parallel_for.hpp"
+#include "tools/laboratory/made_in_parallel.hpp"
 #include "tools/laboratory/table/drive_figures.hpp"
 
 namespace cremed {
@@ -153,12 +152,8 @@ std::vector<NamedFigures> all_figures(const DriveTableOptions& options) {
   for (const KnownDrive& known : kDrives) {
     drives.push_back(tabled(known, options));
   }
-  std::vector<DriveFigures> figures(drives.size());
-  ProgressBar progress("drives", drives.size());
-  parallel_for(drives.size(), options.threads, [&](std::size_t i) {
-    figures[i] = drive_figures(drives[i]);
-    progress.advance();
-  });
+  const auto figures = made_in_parallel("drives", drives.size(), options.threads,
+                                        [&](std::size_t i) { return drive_figures(drives[i]); });
   std::vector<NamedFigures> result;
   std::vector<DriveFigures> in_mean;
   for (std::size_t i = 0; i < drives.size(); ++i) {

@@ -5,26 +5,15 @@
 #include <array>
 #include <string>
 
-#include "daemon/process/progress_bar.hpp"
+#include "tools/laboratory/made_in_parallel.hpp"
 #include "tools/laboratory/pairs/icp.hpp"
 #include "tools/laboratory/pairs/known_correspondences.hpp"
 #include "tools/laboratory/pairs/pairs_evaluation.hpp"
 #include "tools/laboratory/pairs/profile.hpp"
 #include "tools/laboratory/pairs/sum_approximation.hpp"
-#include "tools/laboratory/parallel_for.hpp"
 
 namespace cremed {
 namespace {
-
-using MakeOptions = RegistrationOptions (*)(std::string_view profile_name, bool doppler);
-
-RegistrationOptions paper_options(std::string_view profile_name, bool doppler) {
-  return *profile(profile_name, doppler, Likelihood::max_sum_mixture);
-}
-
-RegistrationOptions our_options(std::string_view profile_name, bool doppler) {
-  return *profile(profile_name, doppler, Likelihood::exclusive);
-}
 
 /// A method of the table; methods with Doppler run on problems with Doppler (2 DoF) only.
 struct TableMethod {
@@ -32,22 +21,19 @@ struct TableMethod {
   std::string_view published;  // what the paper calls it
   bool doppler;
   RegisterFunction solve;
-  MakeOptions options;
+  Likelihood likelihood;
   bool is_always_3dof = false;
 };
 
-const std::vector<TableMethod>& table_methods() {
-  static const std::vector<TableMethod> kMethods{
-      {"MSM", "MSM", false, register_msm, our_options},
-      {"MSM-D", "MSM-D", true, register_msm, our_options},
-      {"MSM(paper)", "MSM", false, register_msm, paper_options},
-      {"MSM-D(paper)", "MSM-D", true, register_msm, paper_options},
-      {"SA", "SA", false, register_sum_approximation, paper_options},
-      {"SA-D", "SA-D", true, register_sum_approximation, paper_options},
-      {"ICP", "ICP", false, register_icp, paper_options, true},
-  };
-  return kMethods;
-}
+constexpr std::array<TableMethod, 7> kTableMethods{{
+    {"MSM", "MSM", false, register_msm, Likelihood::exclusive},
+    {"MSM-D", "MSM-D", true, register_msm, Likelihood::exclusive},
+    {"MSM(paper)", "MSM", false, register_msm, Likelihood::max_sum_mixture},
+    {"MSM-D(paper)", "MSM-D", true, register_msm, Likelihood::max_sum_mixture},
+    {"SA", "SA", false, register_sum_approximation, Likelihood::max_sum_mixture},
+    {"SA-D", "SA-D", true, register_sum_approximation, Likelihood::max_sum_mixture},
+    {"ICP", "ICP", false, register_icp, Likelihood::max_sum_mixture, true},
+}};
 
 /// The pairs of one problem, regenerated for every method: cheaper than storing them.
 struct PairSource {
@@ -77,16 +63,11 @@ struct Outcome {
 template <typename Solve>
 std::vector<Outcome> run(const PairSource& source, unsigned threads, std::string_view name,
                          const Solve& solve) {
-  std::vector<Outcome> outcomes(source.count());
-  ProgressBar progress(std::string(settings(source.problem).name).append(" ").append(name),
-                       outcomes.size());
-  parallel_for(outcomes.size(), threads, [&](std::size_t i) {
+  const std::string label = std::string(settings(source.problem).name).append(" ").append(name);
+  return made_in_parallel(label, source.count(), threads, [&](std::size_t i) {
     const RegistrationPair pair = source.pair(i);
-    outcomes[i].result = solve(pair);
-    outcomes[i].truth << pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad;
-    progress.advance();
+    return Outcome{solve(pair), {pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad}};
   });
-  return outcomes;
 }
 
 Figures to_figures(const Credibility& credibility) {
@@ -146,7 +127,7 @@ TableRow run_method(const PairSource& source, unsigned threads, const TableMetho
   row.paper = published_figures(problem.name, method.published);
   row.bound = bound;
   row.degrees_of_freedom = method.is_always_3dof ? 3 : problem.degrees_of_freedom;
-  const RegistrationOptions options = method.options(problem.profile, method.doppler);
+  const RegistrationOptions options = *profile(problem.profile, method.doppler, method.likelihood);
   const auto solve = [&](const RegistrationPair& pair) {
     return solve_pair(pair, options, method.solve);
   };
@@ -166,7 +147,7 @@ std::vector<TableRow> paper_table(const PaperTableOptions& options) {
       return run_bound(source, options.threads, *profile(chosen.profile, doppler));
     };
     const std::array<Figures, 2> bounds{bound(false), has_doppler ? bound(true) : Figures{}};
-    for (const TableMethod& method : table_methods()) {
+    for (const TableMethod& method : kTableMethods) {
       if (has_doppler || !method.doppler) {
         rows.push_back(run_method(source, options.threads, method, bounds[method.doppler ? 1 : 0]));
       }

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <limits>
 
-#include "daemon/process/progress_bar.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "tools/eval/credibility.hpp"
-#include "tools/laboratory/parallel_for.hpp"
+#include "tools/laboratory/made_in_parallel.hpp"
 #include "tools/laboratory/table/drive_pairs.hpp"
 #include "tools/laboratory/table/robot_drive.hpp"
 
@@ -19,20 +17,6 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kRobotDrives = 3;
-
-/// Evaluates the i-th drive.
-using PairOne = std::function<DrivePairs(std::size_t)>;
-
-std::vector<DrivePairs> pair_all(std::size_t count, unsigned threads, const std::string& label,
-                                 const PairOne& pair_one) {
-  std::vector<DrivePairs> drives(count);
-  ProgressBar progress(label, count);
-  parallel_for(count, threads, [&](std::size_t i) {
-    drives[i] = pair_one(i);
-    progress.advance();
-  });
-  return drives;
-}
 
 struct RealMethod {
   std::string_view name;
@@ -140,17 +124,17 @@ RealTable real_table(const RealTableOptions& options) {
   table.drives = folders.size();
   table.note = options.truth_noise.note();
   add("NuSc",
-      pair_all(folders.size(), options.threads, "NuSc",
-               [&](std::size_t i) {
-                 return pair_drive(drive_in(folders[i], options.truth_noise), "nuscenes");
-               }),
+      made_in_parallel("NuSc", folders.size(), options.threads,
+                       [&](std::size_t i) {
+                         return pair_drive(drive_in(folders[i], options.truth_noise), "nuscenes");
+                       }),
       table);
   add("Robot",
-      pair_all(kRobotDrives, options.threads, "Robot (simulated)",
-               [&](std::size_t i) {
-                 const RobotDrive robot(options.seed + i);
-                 return pair_drive(robot.drive(), "robot");
-               }),
+      made_in_parallel("Robot (simulated)", kRobotDrives, options.threads,
+                       [&](std::size_t i) {
+                         const RobotDrive robot(options.seed + i);
+                         return pair_drive(robot.drive(), "robot");
+                       }),
       table);
   return table;
 }

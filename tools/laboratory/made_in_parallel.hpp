@@ -6,21 +6,28 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "daemon/process/progress_bar.hpp"
+
 namespace cremed {
 
-/// Calls body(i) once for every i < count on `threads` threads, in any order. Then throws what the
-/// body threw for the least i.
-template <typename Body>
-void parallel_for(std::size_t count, unsigned threads, const Body& body) {
+/// make(i) of every i < count, made on `threads` threads in any order, with a progress bar. Throws
+/// what make() threw for the least i.
+template <typename Make>
+auto made_in_parallel(const std::string& label, std::size_t count, unsigned threads,
+                      const Make& make) {
+  std::vector<decltype(make(count))> results(count);
+  ProgressBar progress(label, count);
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> failures(count);
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
-        body(i);
+        results[i] = make(i);
+        progress.advance();
       } catch (...) {
         failures[i] = std::current_exception();
       }
@@ -38,6 +45,7 @@ void parallel_for(std::size_t count, unsigned threads, const Body& body) {
       std::rethrow_exception(failure);
     }
   }
+  return results;
 }
 
 }  // namespace cremed

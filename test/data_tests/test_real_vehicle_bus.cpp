@@ -54,7 +54,7 @@ std::vector<CanFrame> merged(const std::vector<CanFrame>& a, const std::vector<C
 }
 
 struct Result {
-  WindowErrors errors;
+  DriftErrors errors;
   VehicleStatus speed;
   VehicleStatus yaw_rate;
 };
@@ -77,7 +77,7 @@ Result result_of(const DriveOfCar& scene, bool with_vehicle) {
   }
   pipeline.finish();
   std::istringstream truth(read_shared(folder + "/truth.csv"));
-  const Result result{window_errors(sink.odometries, TrueTrajectory(truth), 10.0),
+  const Result result{drift_errors(sink.odometries, TrueTrajectory(truth), 10.0),
                       pipeline.vehicle(VehicleSignal::speed),
                       pipeline.vehicle(VehicleSignal::yaw_rate)};
   std::printf("%s %s: %d windows of 10 s, yaw %.3f deg, path %.3f %%\n", scene.name,

@@ -79,8 +79,8 @@ VehicleOutcome run_without(const Drive& drive) {
   return run(configuration_of(drive.radars), drive.frames);
 }
 
-WindowErrors errors_of(const VehicleOutcome& outcome, const Drive& drive) {
-  return window_errors(outcome.sink.odometries, truth_of(drive), 10.0);
+DriftErrors errors_of(const VehicleOutcome& outcome, const Drive& drive) {
+  return drift_errors(outcome.sink.odometries, truth_of(drive), 10.0);
 }
 
 /// The frames with those of one identifier changed, or left out.
@@ -164,9 +164,9 @@ TEST_CASE("Speed and yaw rate of the vehicle lower the errors, and are as certai
           "[long]") {
   const std::string interface = GENERATE("can0", "can7");
   const Drive simulated = town(interface);
-  const WindowErrors without = errors_of(run_without(simulated), simulated);
+  const DriftErrors without = errors_of(run_without(simulated), simulated);
   const VehicleOutcome outcome = run(with_vehicle(simulated, interface), simulated.frames);
-  const WindowErrors with = errors_of(outcome, simulated);
+  const DriftErrors with = errors_of(outcome, simulated);
   CHECK(with.windows > 140);
   CHECK(with.yaw_deg < without.yaw_deg);
   CHECK(with.path < 0.9 * without.path);
@@ -271,7 +271,7 @@ TEST_CASE(
   CHECK(signal_state(outcome.speed) == SignalState::excluded);
   CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);
   check_credible(outcome, simulated);
-  const WindowErrors without = errors_of(run_without(simulated), simulated);
+  const DriftErrors without = errors_of(run_without(simulated), simulated);
   CHECK(errors_of(outcome, simulated).yaw_deg < 2.5 * without.yaw_deg);
   CHECK(errors_of(outcome, simulated).path < 1.8 * without.path);
 }

@@ -45,9 +45,7 @@ VehicleCourse::VehicleCourse(const CoursePlan& plan, double least_duration_s) {
   CourseLeg from{0.0, plan.start_speed_mps, plan.start_curvature_1pm};
   for (std::size_t i = 0; duration_s() < least_duration_s; i = (i + 1) % plan.legs.size()) {
     const CourseLeg& to = plan.legs[i];
-    drive_leg({duration_s(), to.duration_s, from.speed_mps, to.speed_mps, from.curvature_1pm,
-               to.curvature_1pm, from.side_speed_mps, to.side_speed_mps,
-               plan.slip_per_lateral_acceleration});
+    drive_leg({duration_s(), from, to, plan.slip_per_lateral_acceleration});
     from = to;
   }
   const auto wanted = static_cast<std::size_t>(std::ceil(least_duration_s / kStepS - 1e-6)) + 1;
@@ -57,8 +55,8 @@ VehicleCourse::VehicleCourse(const CoursePlan& plan, double least_duration_s) {
 double VehicleCourse::duration_s() const { return static_cast<double>(steps_.size() - 1) * kStepS; }
 
 void VehicleCourse::drive_leg(const Leg& leg) {
-  const auto count = std::lround(leg.duration_s / kStepS);
-  if (count < 1 || std::abs(static_cast<double>(count) * kStepS - leg.duration_s) > 1e-9) {
+  const auto count = std::lround(leg.to.duration_s / kStepS);
+  if (count < 1 || std::abs(static_cast<double>(count) * kStepS - leg.to.duration_s) > 1e-9) {
     throw std::invalid_argument("a leg of the course must last whole steps of 0.01 s");
   }
   for (long i = 0; i < count; ++i) {
@@ -69,12 +67,12 @@ void VehicleCourse::drive_leg(const Leg& leg) {
 }
 
 VehicleState VehicleCourse::Leg::at(double time_s) const {
-  const double share = smooth_step((time_s - start_s) / duration_s);
+  const double share = smooth_step((time_s - start_s) / to.duration_s);
   VehicleState state;
-  state.speed_mps = blend(from_speed_mps, to_speed_mps, share);
-  state.yaw_rate_radps = state.speed_mps * blend(from_curvature_1pm, to_curvature_1pm, share);
+  state.speed_mps = blend(from.speed_mps, to.speed_mps, share);
+  state.yaw_rate_radps = state.speed_mps * blend(from.curvature_1pm, to.curvature_1pm, share);
   state.side_speed_mps =
-      blend(from_side_speed_mps, to_side_speed_mps, share) -
+      blend(from.side_speed_mps, to.side_speed_mps, share) -
       slip_per_lateral_acceleration * state.speed_mps * state.speed_mps * state.yaw_rate_radps;
   return state;
 }

@@ -53,13 +53,8 @@ class VehicleCourse {
  private:
   struct Leg {
     double start_s;
-    double duration_s;
-    double from_speed_mps;
-    double to_speed_mps;
-    double from_curvature_1pm;
-    double to_curvature_1pm;
-    double from_side_speed_mps;
-    double to_side_speed_mps;
+    CourseLeg from;  ///< The one before.
+    CourseLeg to;
     double slip_per_lateral_acceleration;
 
     /// Speeds and yaw rate at a time since the start.

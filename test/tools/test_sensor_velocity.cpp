@@ -51,7 +51,7 @@ TEST_CASE("the velocity that most targets agree on is that of the standing ones"
   const auto found = agreed_velocity(targets);
   REQUIRE(found);
   CHECK((*found - state).norm() < 1e-9);
-  CHECK(static_part(scan_of(targets), *found, {}, 0.1).targets.size() == 20);
+  CHECK(static_part(scan_of(targets), *found).targets.size() == 20);
 }
 
 TEST_CASE("targets that cannot tell a velocity tell none") {

@@ -98,16 +98,10 @@ void print_factors(const DetectionCorrection& before, const DetectionCorrection&
 
 void print_vehicle(const Calibration& calibration) {
   const FittedVehicle& vehicle = calibration.vehicle;
-  if (!calibration.has_truth) {
-    std::fprintf(stderr,
-                 "mounts are in the frame of the configured ones; in it, the vehicle rolls at %.2f "
-                 "+- %.2f deg\n",
-                 vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
-  } else {
-    std::fprintf(stderr,
-                 "mounts are in the frame of truth; in it, the vehicle rolls at %.2f +- %.2f deg\n",
-                 vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
-  }
+  std::fprintf(stderr,
+               "mounts are in the frame of %s; in it, the vehicle rolls at %.2f +- %.2f deg\n",
+               calibration.has_truth ? "truth" : "the configured ones",
+               vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
   std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across%s\n",
                vehicle.value[kSlip] * kDegPerRad, vehicle.std[kSlip] * kDegPerRad,
                calibration.is_slip_changed ? "" : ": kept");

@@ -196,7 +196,7 @@ std::vector<VelocityMeasurement> Calibrator::velocities() const {
       if (!state || state->head<2>().norm() < kSlowestMps) {
         continue;
       }
-      const RecordedScan fixed = static_part(scan, *state, {}, kGateSlackMps);
+      const RecordedScan fixed = static_part(scan, *state);
       if (fixed.targets.empty()) {
         continue;
       }

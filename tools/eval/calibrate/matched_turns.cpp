@@ -26,7 +26,7 @@ std::vector<RecordedScan> static_parts(const std::vector<RecordedScan>& scans,
   std::vector<RecordedScan> result;
   for (const RecordedScan& scan : scans) {
     const auto expected = fit.expected(radar, scan.stamp_us);
-    result.push_back(expected ? static_part(scan, *expected, {}, kGateSlackMps)
+    result.push_back(expected ? static_part(scan, *expected)
                               : RecordedScan{scan.stamp_us, {}, 0.0});
   }
   return result;

@@ -49,7 +49,7 @@ DopplerState nearest_state(const DopplerEquations& equations, const DopplerState
 void add_doppler_errors(const RecordedScan& scan, const DopplerState& expected,
                         const DopplerNoise& noise, std::vector<ScaledError>& errors) {
   const double gate = noise.doppler_std_factor * kErrorGate / kGateSigma;
-  const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0}, kGateSlackMps);
+  const RecordedScan fixed = static_part(scan, expected, {gate, gate, 0.0, 0.0});
   if (fixed.targets.size() < kMinTargetsOfNoise) {
     return;
   }

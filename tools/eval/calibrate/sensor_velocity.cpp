@@ -95,11 +95,12 @@ std::optional<DopplerState> agreed_velocity(std::span<const Target> targets) {
 }
 
 RecordedScan static_part(const RecordedScan& scan, const DopplerState& expected,
-                         const DopplerNoise& noise, double slack_mps) {
+                         const DopplerNoise& noise) {
+  constexpr double kSlackMps = 0.1;
   RecordedScan result{scan.stamp_us, {}, scan.told_yaw_rate_radps};
   std::ranges::copy_if(scan.targets, std::back_inserter(result.targets), [&](const Target& t) {
     return std::abs(residual_mps(t, expected, scan.told_yaw_rate_radps)) <
-           kGateSigma * std_mps(t, expected, noise) + slack_mps;
+           kGateSigma * std_mps(t, expected, noise) + kSlackMps;
   });
   return result;
 }

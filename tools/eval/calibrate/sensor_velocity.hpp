@@ -44,12 +44,11 @@ double doppler_std_by_azimuth_mps(const Target& target, const DopplerState& stat
 std::optional<DopplerState> agreed_velocity(std::span<const Target> targets);
 
 inline constexpr double kGateSigma = 3.0;
-inline constexpr double kGateSlackMps = 0.1;
 
-/// The scan with the targets whose Doppler is within kGateSigma standard deviations and `slack_mps`
-/// of the expected one.
+/// The scan with the targets whose Doppler is within kGateSigma standard deviations and 0.1 m/s of
+/// the expected one.
 RecordedScan static_part(const RecordedScan& scan, const DopplerState& expected,
-                         const DopplerNoise& noise, double slack_mps);
+                         const DopplerNoise& noise = {});
 
 /// Information of a scan about the state, for any number of targets: root * state = measured, with
 /// errors of standard deviation 1.

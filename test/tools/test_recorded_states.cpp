@@ -39,9 +39,9 @@ TEST_CASE("The vehicle's state is told by its header and read with its covarianc
       "3000,2000,ok,0.1,0.2,0.3,11,12,13,14,15,16,7,7,7,8,0.1,0.2,1,2,3,4,5,6\n");
   CHECK(recorded.without_estimate == 1);
   REQUIRE(recorded.states.size() == 2);
-  const RecordedState& state = recorded.states[1];
+  const Odometry& state = recorded.states[1];
   CHECK(state.utime_us == 3000);
-  CHECK(state.anchor_us == 2000);
+  CHECK(state.utime_anchor_us == 2000);
   CHECK(state.pose == Eigen::Vector3d(0.1, 0.2, 0.3));
   CHECK(state.covariance(2, 1) == 15.0);
   CHECK(state.twist == Eigen::Vector3d(8.0, 0.1, 0.2));
@@ -68,11 +68,11 @@ TEST_CASE("A state that is said to be one and is not finite is refused with the 
 
 TEST_CASE("The twist is compared with the wheels at the same time, by both variances") {
   const Circle circle{8.0, 0.1};
-  RecordedState state;
+  Odometry state;
   state.utime_us = 1'005'000;
   state.twist = {8.3, 1.0, 0.06};
   state.twist_covariance = Eigen::Vector3d(0.09, 1.0, 4e-4).asDiagonal();
-  RecordedState late = state;
+  Odometry late = state;
   late.utime_us = 5'000'000;
   const auto exact = against_wheels({state, late}, read_wheels(circle.wheels_csv(2.0)));
   CHECK(exact.count == 1);

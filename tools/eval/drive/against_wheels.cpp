@@ -116,12 +116,12 @@ TruthAgainstWheels truth_against_wheels(const TrueTrajectory& truth, const Wheel
   return sums.means(seconds_between(0, interval_us));
 }
 
-TwistAgainstWheels against_wheels(const std::vector<RecordedState>& states,
+TwistAgainstWheels against_wheels(const std::vector<Odometry>& states,
                                   const WheelReference& wheels) {
   const double speed_variance = std::pow(wheels.std().speed_mps, 2);
   const double yaw_rate_variance = std::pow(wheels.std().yaw_rate_radps, 2);
   TwistAgainstWheels result;
-  for (const RecordedState& state : states) {
+  for (const Odometry& state : states) {
     if (const auto rates = wheels.rates(state.utime_us)) {
       const double speed_2 = std::pow(state.twist.x() - rates->x(), 2);
       const double yaw_rate_2 = std::pow(state.twist.z() - rates->y(), 2);

@@ -67,7 +67,7 @@ struct TwistAgainstWheels {
   double rms_yaw_rate_radps = 0.0;
 };
 
-TwistAgainstWheels against_wheels(const std::vector<RecordedState>& states,
+TwistAgainstWheels against_wheels(const std::vector<Odometry>& states,
                                   const WheelReference& wheels);
 
 }  // namespace cremed

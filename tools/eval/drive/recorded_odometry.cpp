@@ -79,7 +79,7 @@ Availability availability(const std::vector<RowTime>& rows, const TimeSpan& driv
   return result;
 }
 
-bool is_estimate(const std::string& status) { return status == "ok" || status == "standing_still"; }
+bool is_estimate(std::string_view status) { return status == "ok" || status == "standing_still"; }
 
 TimeSpan time_of(const CsvTable& table) {
   const std::size_t utime = table.column("utime");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -60,7 +61,7 @@ struct RecordedOdometry {
 };
 
 /// Whether rows with that status have an estimate.
-bool is_estimate(const std::string& status);
+bool is_estimate(std::string_view status);
 
 /// From the first to the last row of all sources.
 TimeSpan time_of(const CsvTable& table);

@@ -3,10 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "tools/eval/csv_table.hpp"
@@ -14,18 +11,9 @@
 
 namespace cremed {
 
-/// The vehicle's state as `cremed --output-odometry` writes it.
-struct RecordedState {
-  std::int64_t utime_us = 0;
-  std::int64_t anchor_us = 0;
-  Eigen::Vector3d pose;  ///< (x_m, y_m, yaw_rad) in the frame of the pose at anchor_us.
-  Eigen::Matrix3d covariance;
-  Eigen::Vector3d twist;  ///< (vx_mps, vy_mps, yaw_rate_radps) of the vehicle frame's origin.
-  Eigen::Matrix3d twist_covariance;
-};
-
+/// The vehicle's state as `cremed --output-odometry` writes it: of each row that has an estimate.
 struct RecordedStates {
-  std::vector<RecordedState> states;
+  std::vector<Odometry> states;
   std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
   /// From each pose since the start to the next, in all rows that have one and are no longer
   /// initialising.

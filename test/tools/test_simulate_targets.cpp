@@ -152,8 +152,8 @@ TEST_CASE("other cars move as their velocities say, and the leader keeps its dis
   const cremed::VehicleCourse course(bends.course, 65.0);
   const cremed::Road road(course);
   const cremed::Traffic traffic(course, road, bends.traffic, cremed::Random(1, 2));
-  std::vector<cremed::MovingReflector> now;
-  std::vector<cremed::MovingReflector> later;
+  std::vector<cremed::WorldPoint> now;
+  std::vector<cremed::WorldPoint> later;
   double worst_mps = 0.0;
   double sum_mps = 0.0;
   std::size_t count = 0;
@@ -185,7 +185,7 @@ TEST_CASE("what departs stands until its start and then accelerates to its top s
       .oncoming_interval_s = 0.0, .same_way_interval_s = 0.0, .leader = false};
   options.departures = {{{-5.0, 4.0, 0.0}, 10.0, 2.0, 5.0, 6.0, 0.5, 4.0}};
   const cremed::Traffic traffic(course, road, options, cremed::Random(1, 2));
-  std::vector<cremed::MovingReflector> reflectors;
+  std::vector<cremed::WorldPoint> reflectors;
   const auto first_at = [&](double time_s) {
     traffic.reflectors_at(time_s, reflectors);
     REQUIRE(reflectors.size() == 6);  // Three on each side.

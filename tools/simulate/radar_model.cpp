@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kRcsFluctuationDb = 2.0;
 constexpr double kVehicleProbability = 0.85;
+constexpr double kVehicleRcsDbm2 = 10.0;
 constexpr double kGhostSpeedMps = 15.0;
 
 }  // namespace
@@ -94,9 +95,8 @@ void RadarModel::detect_fixed() {
 
 void RadarModel::detect_vehicles(double time_s) {
   scene_.traffic().reflectors_at(time_s, moving_);
-  for (const MovingReflector& reflector : moving_) {
-    detect(EchoKind::vehicle, {reflector.x_m, reflector.y_m, reflector.x_mps, reflector.y_mps},
-           reflector.rcs_dbm2, kVehicleProbability);
+  for (const WorldPoint& reflector : moving_) {
+    detect(EchoKind::vehicle, reflector, kVehicleRcsDbm2, kVehicleProbability);
   }
 }
 

@@ -21,14 +21,6 @@ struct RadarState {
   double y_mps = 0.0;
 };
 
-/// A point in the world, possibly moving.
-struct WorldPoint {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double x_mps = 0.0;
-  double y_mps = 0.0;
-};
-
 /// Exact measurement of a point in the radar's frame: x forward, y left.
 struct RadarView {
   double range_m = 0.0;
@@ -93,7 +85,7 @@ class RadarModel {
   Random random_;
   RadarState radar_;
   std::vector<Echo> echoes_;
-  std::vector<MovingReflector> moving_;
+  std::vector<WorldPoint> moving_;
 };
 
 }  // namespace cremed

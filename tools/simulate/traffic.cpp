@@ -54,7 +54,7 @@ void Traffic::add_cars(double mean_interval_s, double left_m, bool oncoming, Ran
   }
 }
 
-void Traffic::reflectors_at(double time_s, std::vector<MovingReflector>& reflectors) const {
+void Traffic::reflectors_at(double time_s, std::vector<WorldPoint>& reflectors) const {
   reflectors.clear();
   const double ours_m = course_.at(time_s).distance_m;
   for (const Car& car : cars_) {
@@ -75,7 +75,7 @@ void Traffic::reflectors_at(double time_s, std::vector<MovingReflector>& reflect
 }
 
 void Traffic::append(double distance_m, double left_m, double speed_mps,
-                     std::vector<MovingReflector>& reflectors) const {
+                     std::vector<WorldPoint>& reflectors) const {
   const RoadPoint point = road_.at(distance_m);
   const Pose2 centre = beside(point, left_m);
   const double cos_yaw = std::cos(centre.yaw_rad);
@@ -88,12 +88,12 @@ void Traffic::append(double distance_m, double left_m, double speed_mps,
     reflectors.push_back({centre.x_m + cos_yaw * forward_m - sin_yaw * corner_left_m,
                           centre.y_m + sin_yaw * forward_m + cos_yaw * corner_left_m,
                           cos_yaw * along_mps - sin_yaw * across_mps,
-                          sin_yaw * along_mps + cos_yaw * across_mps, 10.0});
+                          sin_yaw * along_mps + cos_yaw * across_mps});
   }
 }
 
 void Traffic::append(const Departure& departure, double time_s,
-                     std::vector<MovingReflector>& reflectors) {
+                     std::vector<WorldPoint>& reflectors) {
   const double cos_yaw = std::cos(departure.tail.yaw_rad);
   const double sin_yaw = std::sin(departure.tail.yaw_rad);
   const double driven_s = std::max(0.0, time_s - departure.start_s);
@@ -107,7 +107,7 @@ void Traffic::append(const Departure& departure, double time_s,
     for (const double left_m : {-0.5 * departure.width_m, 0.5 * departure.width_m}) {
       reflectors.push_back({departure.tail.x_m + cos_yaw * along_m - sin_yaw * left_m,
                             departure.tail.y_m + sin_yaw * along_m + cos_yaw * left_m,
-                            cos_yaw * speed_mps, sin_yaw * speed_mps, 10.0});
+                            cos_yaw * speed_mps, sin_yaw * speed_mps});
     }
   }
 }

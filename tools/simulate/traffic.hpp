@@ -11,13 +11,12 @@
 
 namespace cremed {
 
-/// A reflector of another vehicle at one moment.
-struct MovingReflector {
+/// A point in the world, possibly moving.
+struct WorldPoint {
   double x_m = 0.0;
   double y_m = 0.0;
   double x_mps = 0.0;
   double y_mps = 0.0;
-  double rcs_dbm2 = 0.0;
 };
 
 /// A train, lorry or car that stands and then departs, whatever we do.
@@ -47,7 +46,7 @@ class Traffic {
           Random random);
 
   /// All moving reflectors at the time, at any distance. Overwrites `reflectors`.
-  void reflectors_at(double time_s, std::vector<MovingReflector>& reflectors) const;
+  void reflectors_at(double time_s, std::vector<WorldPoint>& reflectors) const;
 
  private:
   struct Car {
@@ -67,10 +66,10 @@ class Traffic {
   void add_jam(int count, Random& random);
   void add_cars(double mean_interval_s, double left_m, bool oncoming, Random& random);
   void append(double distance_m, double left_m, double speed_mps,
-              std::vector<MovingReflector>& reflectors) const;
+              std::vector<WorldPoint>& reflectors) const;
 
   static void append(const Departure& departure, double time_s,
-                     std::vector<MovingReflector>& reflectors);
+                     std::vector<WorldPoint>& reflectors);
 
   const VehicleCourse& course_;
   const Road& road_;

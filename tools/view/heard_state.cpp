@@ -205,13 +205,11 @@ void HeardState::begin_anew() {
 }
 
 void HeardState::keep_motion(const odometry_t& message) {
-  if (!motions_.empty() && message.utime < motions_.back().utime_us + kMotionSpacingUs) {
+  if (!motions_.empty() && message.utime < motions_.back().utime + kMotionSpacingUs) {
     return;
   }
-  const auto& covariance = message.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps;
-  motions_.push_back({message.utime, message.vx_in_vehicle_frame_mps, std_of(covariance[0]),
-                      message.yaw_rate_radps, std_of(covariance[8])});
-  while (motions_.front().utime_us < message.utime - kMotionsUs) {
+  motions_.push_back(message);
+  while (motions_.front().utime < message.utime - kMotionsUs) {
     motions_.pop_front();
   }
 }
@@ -262,12 +260,13 @@ nlohmann::json HeardState::motions_json() const {
              {"vx_sigma", Json::array()},
              {"yaw_rate", Json::array()},
              {"yaw_rate_sigma", Json::array()}};
-  for (const Motion& motion : motions_) {
-    rates["t"].push_back(seconds(motion.utime_us - odometry_->utime));
-    rates["vx"].push_back(motion.vx_mps);
-    rates["vx_sigma"].push_back(motion.vx_std_mps);
+  for (const odometry_t& motion : motions_) {
+    const auto& covariance = motion.covariance_vx_vy_yaw_rate_in_vehicle_frame_mps_radps;
+    rates["t"].push_back(seconds(motion.utime - odometry_->utime));
+    rates["vx"].push_back(motion.vx_in_vehicle_frame_mps);
+    rates["vx_sigma"].push_back(std_of(covariance[0]));
     rates["yaw_rate"].push_back(kDegPerRad * motion.yaw_rate_radps);
-    rates["yaw_rate_sigma"].push_back(kDegPerRad * motion.yaw_rate_std_radps);
+    rates["yaw_rate_sigma"].push_back(kDegPerRad * std_of(covariance[8]));
   }
   return rates;
 }

@@ -38,13 +38,6 @@ class HeardState {
   [[nodiscard]] std::string json() const;
 
  private:
-  struct Motion {
-    std::int64_t utime_us = 0;
-    double vx_mps = 0.0;
-    double vx_std_mps = 0.0;
-    double yaw_rate_radps = 0.0;
-    double yaw_rate_std_radps = 0.0;
-  };
   using Time = std::chrono::steady_clock::time_point;
   using HeardAt = std::optional<Time>;
   struct Radar {
@@ -72,7 +65,7 @@ class HeardState {
   HeardAt odometry_heard_;
   double behind_s_ = 0.0;  // This computer's clock after the stamp of the odometry.
   ThinnedPath path_;
-  std::deque<Motion> motions_;
+  std::deque<odometry_t> motions_;
   std::vector<Radar> radars_;  // In the order in which they were heard: that of the configuration.
 };
 

@@ -72,7 +72,7 @@ Match matched(const NdtMap& map, const std::vector<UncertainPoint>& points,
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector3d off(expected.pose.x_m - pose.x_m, expected.pose.y_m - pose.y_m,
                               expected.pose.yaw_rad - pose.yaw_rad);
-    match = {pose, {expected.information, expected.information * off, 0.0}};
+    match = {pose, {expected.information, expected.information * off}};
     const Eigen::Vector2d centre(pose.x_m, pose.y_m);
     for (const UncertainPoint& point : placed(points, pose)) {
       map.add_point(point, centre, match.equations);
@@ -139,7 +139,6 @@ void NdtMap::add_point(const UncertainPoint& point, const Eigen::Vector2d& centr
     const double likelihood = std::exp(-0.5 * error.dot(information * error)) / kGrids;
     equations.information += likelihood * by_motion.transpose() * information * by_motion;
     equations.right += likelihood * by_motion.transpose() * information * error;
-    equations.likelihood += likelihood;
   }
 }
 

@@ -38,7 +38,6 @@ class NdtMap {
   struct Equations {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    double likelihood = 0.0;  ///< Sum over points.
   };
   void add_point(const UncertainPoint& point, const Eigen::Vector2d& centre_m,
                  Equations& equations) const;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <benchmark/benchmark.h>
+
 #include "tools/laboratory/bench/floor.hpp"
 #include "tools/laboratory/pairs/pairs_evaluation.hpp"
 
@@ -128,12 +130,11 @@ void run(benchmark::State& state, const BenchProblem& problem) {
 
 }  // namespace
 
-benchmark::internal::Benchmark* register_pair_bench(const std::string& group,
-                                                    BenchProblem problem) {
+void register_pair_bench(const std::string& group, BenchProblem problem) {
   const std::string name = group + "/" + problem.name;
   const auto shared = std::make_shared<const BenchProblem>(std::move(problem));
-  return benchmark::RegisterBenchmark(name.c_str(),
-                                      [shared](benchmark::State& state) { run(state, *shared); })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [shared](benchmark::State& state) { run(state, *shared); })
       ->UseManualTime()
       ->Unit(benchmark::kMicrosecond);
 }

@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include <benchmark/benchmark.h>
-
 #include "tools/laboratory/bench/bench_problem.hpp"
 
 namespace cremed {
@@ -14,6 +12,6 @@ namespace cremed {
 /// Counters over all pairs: p50_us, p99_us, max_us, least_us (mean of each pair's least),
 /// evaluations (of mixture components), floor_us (as many bare evaluations, see floor.hpp), ratio
 /// (least_us over floor_us), targets, ns_per_target2.
-benchmark::internal::Benchmark* register_pair_bench(const std::string& group, BenchProblem problem);
+void register_pair_bench(const std::string& group, BenchProblem problem);
 
 }  // namespace cremed

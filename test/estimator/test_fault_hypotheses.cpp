@@ -337,6 +337,32 @@ TEST_CASE("a radar that found itself wrong is not acquitted by the others") {
   CHECK_FALSE(comparison.faults().take_reversal());
 }
 
+TEST_CASE("one radar that is right is acquitted once both others found themselves wrong") {
+  const bool is_right = GENERATE(true, false);
+  CAPTURE(is_right);
+  Comparison comparison(kFive);
+  const auto fault = [=](std::size_t radar, Comparison::Measured& measured) {
+    if (radar == 1 || radar == 2) {  // Their maps follow their Doppler.
+      measured.velocity_mps *= 0.8;
+      measured.speed_by_positions_mps *= 0.8;
+    } else if (radar == 0 && !is_right) {
+      measured.speed_by_positions_mps *= 0.8;
+    }
+  };
+  comparison.drive(2.0, fault);
+  REQUIRE(comparison.faults().at_fault() == 0b001U);
+  comparison.accuse(1);
+  comparison.drive(0.3, fault);
+  CHECK(comparison.faults().is_at_fault(0));  // The third has not.
+  comparison.accuse(2);
+  comparison.drive(0.3, fault);
+  CHECK(comparison.faults().is_at_fault(0) == !is_right);
+  CHECK(comparison.faults().is_at_fault(1));
+  CHECK(comparison.faults().is_at_fault(2));
+  CHECK(comparison.faults().take_reversal() == is_right);
+  CHECK_FALSE(comparison.faults().take_reversal());
+}
+
 TEST_CASE("two others with a radar's speed tell that its own check found it wrong by chance") {
   const auto scale = GENERATE(1.0, 0.95);
   const std::size_t radar = GENERATE(0U, 1U, 2U);

@@ -145,6 +145,7 @@ void FaultHypotheses::require_positions(bool is_after_step) {
 }
 
 void FaultHypotheses::judge() {
+  acquit_misjudged();
   const ConsistentSet best = find_consistent_set(evidence_, at_fault());
   // Nobody exchanges radars on the way.
   is_start_open_ = best.is_exchange_possible && !is_verified_;
@@ -163,6 +164,18 @@ void FaultHypotheses::judge() {
   for_each(before & ~at_fault(), [&](std::size_t i) { causes_[i].clear(); });
   if (is_known) {
     convict_by_cause(search_causes(best.radars & ~at_fault()));
+  }
+}
+
+/// Of radars that are right by their own positions, where all others found themselves wrong: what
+/// those told of them is wrong as well, however many they were.
+void FaultHypotheses::acquit_misjudged() {
+  const RadarSet misjudged = evidence_.present() & at_fault() & ~convictions_.accused();
+  const RadarSet others = evidence_.present() & ~misjudged;
+  if (misjudged != 0 && others != 0 && (others & ~convictions_.accused()) == 0 &&
+      is_consistent(evidence_, misjudged, 0U)) {
+    convictions_.acquit(misjudged);
+    is_reversed_ = true;
   }
 }
 

@@ -102,6 +102,7 @@ class FaultHypotheses {
 
   void convict_jumped(RadarSet jumped, std::int64_t time_us);
   void judge();
+  void acquit_misjudged();
   void verify(const ConsistentSet& best, bool is_known);
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -51,6 +53,30 @@ TEST_CASE("Each systematic fault of a short drive leaves odometry") {
   for (const FaultCase& fault : SystematicFaults(drive).all()) {
     CAPTURE(fault.kind, fault.of);
     CHECK_FALSE(record(drive, fault).sink.odometries.empty());
+  }
+}
+
+TEST_CASE("Two of three radars with one wrong scale of Doppler do not silence the third") {
+  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
+  constexpr std::size_t kFront = 0;
+  constexpr std::array<std::size_t, 2> kGuilty{3, 4};
+  REQUIRE(car.radars.at(kGuilty[0]).name == "rear_left");
+  REQUIRE(car.radars.at(kGuilty[1]).name == "rear_right");
+  const double factor = GENERATE(0.8, 0.9, -1.0);
+  const FaultDrive drive = simulated_fault_drive("bends", 20.0, car.radars);
+  FaultCase fault{"pair", "", {drive.start_us(), kNever}};
+  fault.configure = [=](FaultCase::Radars& radars) {
+    for (const std::size_t i : kGuilty) {
+      radars[i].ego_motion.correction.doppler_scale *= factor;
+    }
+  };
+  const DriveFigures figures = judged(drive, fault);
+  CAPTURE(factor, figures.radars[kFront].left_out, figures.beyond_share());
+  CHECK(figures.status_share(OdometryStatus::ok) > 0.9);
+  CHECK(figures.beyond_share() < 0.02);
+  CHECK(figures.radars[kFront].left_out < 0.05);
+  for (const std::size_t i : kGuilty) {
+    CHECK(figures.radars[i].left_out > 0.9);
   }
 }
 

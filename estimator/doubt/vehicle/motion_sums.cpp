@@ -44,7 +44,8 @@ double MotionSums::chi_square() const { return std::max(0.0, squares - weighted.
 Eigen::Matrix3d MotionSums::covariance() const { return information.inverse(); }
 
 Eigen::Matrix3d MotionSums::random_covariance() const {
-  return covariance() * scatter * covariance();
+  const Eigen::Matrix3d of_all = covariance();
+  return of_all * scatter * of_all;
 }
 
 }  // namespace cremed

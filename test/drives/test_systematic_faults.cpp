@@ -56,27 +56,51 @@ TEST_CASE("Each systematic fault of a short drive leaves odometry") {
   }
 }
 
+constexpr std::size_t kFrontOfThree = 0;
+constexpr std::array<std::size_t, 2> kBehind{3, 4};
+
+Configuration car_with_two_behind() {
+  Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
+  REQUIRE(car.radars.at(kFrontOfThree).name == "front");
+  REQUIRE(car.radars.at(kBehind[0]).name == "rear_left");
+  REQUIRE(car.radars.at(kBehind[1]).name == "rear_right");
+  return car;
+}
+
 TEST_CASE("Two of three radars with one wrong scale of Doppler do not silence the third") {
-  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-singapore.toml");
-  constexpr std::size_t kFront = 0;
-  constexpr std::array<std::size_t, 2> kGuilty{3, 4};
-  REQUIRE(car.radars.at(kGuilty[0]).name == "rear_left");
-  REQUIRE(car.radars.at(kGuilty[1]).name == "rear_right");
   const double factor = GENERATE(0.8, 0.9, -1.0);
-  const FaultDrive drive = simulated_fault_drive("bends", 20.0, car.radars);
+  const FaultDrive drive = simulated_fault_drive("bends", 20.0, car_with_two_behind().radars);
   FaultCase fault{"pair", "", {drive.start_us(), kNever}};
   fault.configure = [=](FaultCase::Radars& radars) {
-    for (const std::size_t i : kGuilty) {
+    for (const std::size_t i : kBehind) {
       radars[i].ego_motion.correction.doppler_scale *= factor;
     }
   };
   const DriveFigures figures = judged(drive, fault);
-  CAPTURE(factor, figures.radars[kFront].left_out, figures.beyond_share());
+  CAPTURE(factor, figures.radars[kFrontOfThree].left_out, figures.beyond_share());
   CHECK(figures.status_share(OdometryStatus::ok) > 0.9);
   CHECK(figures.beyond_share() < 0.02);
-  CHECK(figures.radars[kFront].left_out < 0.05);
-  for (const std::size_t i : kGuilty) {
+  CHECK(figures.radars[kFrontOfThree].left_out < 0.05);
+  for (const std::size_t i : kBehind) {
     CHECK(figures.radars[i].left_out > 0.9);
+  }
+}
+
+TEST_CASE("Two of three radars that are late alike do not outvote the third") {
+  const std::int64_t delay_us = GENERATE(300'000, 500'000);
+  const FaultDrive drive = simulated_fault_drive("stop-and-go", 30.0, car_with_two_behind().radars);
+  FaultCase fault{"pair", "", {drive.start_us(), kNever}};
+  fault.put_in = [=](const FaultDrive& healthy, FaultTime time) {
+    return with_late_stamps(with_late_stamps(healthy.frames, time, kBehind[0], delay_us), time,
+                            kBehind[1], delay_us);
+  };
+  const DriveFigures figures = judged(drive, fault);
+  CAPTURE(delay_us, figures.radars[kFrontOfThree].left_out, figures.beyond_share());
+  // Two seconds of the first start from rest, in which two are against one.
+  CHECK(figures.radars[kFrontOfThree].left_out < 0.1);
+  CHECK(figures.beyond_share() < 0.12);
+  for (const std::size_t i : kBehind) {
+    CHECK(figures.radars[i].left_out > 0.7);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -51,10 +52,7 @@ class Comparison {
     }
   }
   /// From now on.
-  void brake(double by_mps2) {
-    braking_mps2_ = by_mps2;
-    braking_since_s_ = time_s_;
-  }
+  void brake(double by_mps2, double for_s) { brakings_.push_back({time_s_, for_s, by_mps2}); }
   void silence(std::size_t radar) { is_silent_[radar] = true; }
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
@@ -71,12 +69,25 @@ class Comparison {
   [[nodiscard]] FaultHypotheses& faults() { return faults_; }
 
  private:
+  struct Braking {
+    double since_s;
+    double for_s;
+    double by_mps2;
+  };
+
+  [[nodiscard]] double speed_mps(double time_s) const {
+    double result = 8.0 + std::sin(0.3 * time_s);
+    for (const Braking& braking : brakings_) {
+      result -= braking.by_mps2 * std::clamp(time_s - braking.since_s, 0.0, braking.for_s);
+    }
+    return std::max(0.0, result);
+  }
+
   void scan(std::size_t radar, const Fault& fault, bool has_positions) {
     const auto stamp_us = static_cast<std::int64_t>(std::llround(time_s_ * 1e6));
     const double time_s = time_s_ - delays_s_[radar];
     const double w = 0.2 * std::sin(0.5 * time_s);
-    const double v =
-        std::max(0.0, 8.0 + std::sin(0.3 * time_s) - braking_mps2_ * (time_s - braking_since_s_));
+    const double v = speed_mps(time_s);
     const Pose2& mount = mounts_[radar];
     const double forward = v - w * mount.y_m;
     Measured measured{{forward + 0.03 * normal_(random_), w * mount.x_m + 0.1 * normal_(random_)},
@@ -112,8 +123,7 @@ class Comparison {
   std::mt19937_64 random_{1};
   std::normal_distribution<double> normal_;
   double time_s_ = 1000.0;
-  double braking_mps2_ = 0.0;
-  double braking_since_s_ = 0.0;
+  std::vector<Braking> brakings_;
 };
 
 Comparison::Fault scaled(std::size_t guilty, double factor) {
@@ -178,7 +188,7 @@ TEST_CASE("who brakes hard is not contradicted by the positions of the scan befo
   const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft}, kFive);
   Comparison comparison(mounts);
   comparison.drive(3.0);
-  comparison.brake(8.7);
+  comparison.brake(8.7, 1.0);
   for (int i = 0; i < 40; ++i) {
     comparison.drive(0.05);
     CHECK(comparison.faults().at_fault() == 0U);
@@ -361,6 +371,31 @@ TEST_CASE("one radar that is right is acquitted once both others found themselve
   CHECK(comparison.faults().is_at_fault(2));
   CHECK(comparison.faults().take_reversal() == is_right);
   CHECK_FALSE(comparison.faults().take_reversal());
+}
+
+TEST_CASE("two of three radars that are late alike are at fault: the third cannot be early") {
+  Comparison comparison(kFive);
+  comparison.delay(1, 0.3);
+  comparison.delay(2, 0.3);
+  comparison.drive(8.0);
+  comparison.brake(1.5, 3.0);
+  comparison.drive(2.5);
+  CHECK(comparison.faults().at_fault() == 0b001U);
+  bool is_reversed = false;
+  for (int i = 0; i < 20 && !is_reversed; ++i) {
+    comparison.drive(0.15);
+    is_reversed = comparison.faults().take_reversal();
+  }
+  CHECK(is_reversed);
+  CHECK(comparison.faults().at_fault() == 0b110U);
+  comparison.drive(2.0);
+  comparison.brake(1.5, 1.0);
+  comparison.drive(2.0);
+  CHECK(comparison.faults().at_fault() == 0b110U);
+  for (const std::size_t late : {1U, 2U}) {
+    CHECK(comparison.faults().cause(late).kind == FaultKind::late);
+    CHECK(comparison.faults().cause(late).value == Approx(0.3).margin(0.06));
+  }
 }
 
 TEST_CASE("two others with a radar's speed tell that its own check found it wrong by chance") {

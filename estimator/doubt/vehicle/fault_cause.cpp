@@ -102,12 +102,14 @@ FaultCauseSearch::FaultCauseSearch(std::span<const Pose2> mounts, std::size_t ra
 void FaultCauseSearch::clear() {
   std::fill(at_mount_.begin(), at_mount_.end(), VelocityMoments());
   lags_.fill(Lag());
+  leads_.fill(Lag());
   chance_ = 0.0;
 }
 
 void FaultCauseSearch::forget() {
   clear();
   motions_ = 0;
+  past_own_mps_.fill(std::nullopt);
 }
 
 void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& motion,
@@ -121,6 +123,7 @@ void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& m
   }
   motion_ = motion;
   motion_covariance_ = covariance;
+  past_own_mps_[motions_ % past_.size()].reset();
   past_[motions_++ % past_.size()] = {time_us, expected(motion, mounts_[radar_])};
 }
 
@@ -144,17 +147,31 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
     at_mount_[i].fade(kFade);
     at_mount_[i].add(expected(motion_, mounts_[i]), velocity_mps, w, weight);
   }
-  const Past& now = past_[(motions_ - 1) % past_.size()];
+  const auto add = [&](Lag& lag, const Eigen::Vector2d& expected_mps,
+                       const Eigen::Vector2d& measured_mps, double delay_s) {
+    lag.moments.fade(kFade);
+    lag.moments.add(expected_mps, measured_mps, w, weight);
+    lag.delay_s = kFade * lag.delay_s + delay_s;
+  };
+  const std::size_t newest = (motions_ - 1) % past_.size();
+  const Past& now = past_[newest];
   for (std::size_t i = 0; i < std::min(kLags, motions_ - 1); ++i) {
-    const Past& past = past_[(motions_ - 2 - i) % past_.size()];
-    lags_[i].moments.fade(kFade);
-    lags_[i].moments.add(past.velocity_mps, velocity_mps, w, weight);
-    lags_[i].delay_s = kFade * lags_[i].delay_s + seconds_between(past.time_us, now.time_us);
+    const std::size_t before = (motions_ - 2 - i) % past_.size();
+    const Past& past = past_[before];
+    const double delay_s = seconds_between(past.time_us, now.time_us);
+    add(lags_[i], past.velocity_mps, velocity_mps, delay_s);
+    if (const auto& own_mps = past_own_mps_[before]) {
+      add(leads_[i], now.velocity_mps, *own_mps, delay_s);
+    }
   }
+  past_own_mps_[newest] = velocity_mps;
 }
 
 /// The delay with the least cost, by a parabola through the lag with the least and its neighbours.
-void FaultCauseSearch::try_late(Candidates& candidates) const {
+void FaultCauseSearch::try_late(Candidates& candidates, const Lags& lags) const {
+  if (!is_complete(lags)) {
+    return;
+  }
   const double count = at_mount_[radar_].count();
   const double view_rad = mounts_[radar_].yaw_rad;
   const auto chi_square = [&](const VelocityMoments& moments) {
@@ -163,7 +180,7 @@ void FaultCauseSearch::try_late(Candidates& candidates) const {
   };
   std::array<double, kLags + 1> costs{chi_square(at_mount_[radar_])};
   for (std::size_t i = 0; i < kLags; ++i) {
-    costs[i + 1] = chi_square(lags_[i].moments);
+    costs[i + 1] = chi_square(lags[i].moments);
   }
   const auto least = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin()), 1,
@@ -174,7 +191,7 @@ void FaultCauseSearch::try_late(Candidates& candidates) const {
     return;
   }
   const double shift = std::clamp(-slope / bend, -1.0, 1.0);
-  const double delay_s = lags_[least - 1].delay_s / lags_[least - 1].moments.count() *
+  const double delay_s = lags[least - 1].delay_s / lags[least - 1].moments.count() *
                          (1.0 + shift / static_cast<double>(least));
   if (delay_s >= kMinDelayS) {
     candidates.add({FaultKind::late, delay_s},
@@ -197,10 +214,12 @@ void FaultCauseSearch::try_mount_yaw(Candidates& candidates) const {
 }
 
 // Without all lags a late radar of an accelerating vehicle seems to have another scale.
-bool FaultCauseSearch::is_complete() const { return lags_.back().moments.count() >= kMinCount; }
+bool FaultCauseSearch::is_complete(const Lags& lags) {
+  return lags.back().moments.count() >= kMinCount;
+}
 
 FaultCauseSearch::Finding FaultCauseSearch::find() const {
-  if (!is_complete()) {
+  if (!is_complete(lags_)) {
     return {};
   }
   const VelocityMoments& own = at_mount_[radar_];
@@ -224,7 +243,7 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
     result.add({FaultKind::mount_x, ahead.x_m}, ahead.chi_square);
   }
   try_mount_yaw(result);
-  try_late(result);
+  try_late(result, lags_);
   const auto shifted =
       own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
   bool is_apart = shifted.chi_square > result.chi_square + kMinDifferenceToOffset;
@@ -241,6 +260,19 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
           explains && result.next > result.chi_square + least && is_apart};
 }
 
+FaultCauseSearch::Finding FaultCauseSearch::find_others_late() const {
+  Candidates early;
+  try_late(early, leads_);
+  const VelocityMoments& own = at_mount_[radar_];
+  if (!is_complete(lags_) || early.chi_square >= kMaxExplained * own.count()) {
+    return {};
+  }
+  const double healthy =
+      own.fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy).chi_square;
+  const double gain = std::max(0.0, healthy - early.chi_square - kChance * std::sqrt(chance_));
+  return {early.best, gain, gain > find().gain + kMinDifference};
+}
+
 double FaultCauseSearch::gain_at(std::size_t mount) const {
   const auto chi_square = [&](std::size_t i) {
     return at_mount_[i]
@@ -251,7 +283,7 @@ double FaultCauseSearch::gain_at(std::size_t mount) const {
   const double other = chi_square(mount);
   const bool explains =
       other < std::max(kMaxExplained * at_mount_[mount].count(), kMaxShareExchanged * own);
-  return is_complete() && explains ? own - other : 0.0;
+  return is_complete(lags_) && explains ? own - other : 0.0;
 }
 
 FaultCause FaultCauseSearch::cause(RadarSet at_fault) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,8 @@ class FaultCauseSearch {
     bool is_clear = false;  ///< No other cause explains them as well.
   };
   [[nodiscard]] Finding find() const;
+  /// Likewise for the others: all of them are late, against which this radar seems to be early.
+  [[nodiscard]] Finding find_others_late() const;
   /// By how much another radar's mount lowers chi-square; 0: it does not explain the data.
   [[nodiscard]] double gain_at(std::size_t mount) const;
   /// `at_fault`: all radars that are. One that was exchanged with this is among them.
@@ -65,10 +68,11 @@ class FaultCauseSearch {
     VelocityMoments moments;
     double delay_s = 0.0;  // Sum.
   };
+  using Lags = std::array<Lag, kLags>;
   struct Candidates;
 
-  [[nodiscard]] bool is_complete() const;
-  void try_late(Candidates& candidates) const;
+  [[nodiscard]] static bool is_complete(const Lags& lags);
+  void try_late(Candidates& candidates, const Lags& lags) const;
   void try_mount_yaw(Candidates& candidates) const;
 
   std::span<const Pose2> mounts_;
@@ -79,7 +83,10 @@ class FaultCauseSearch {
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<VelocityMoments> at_mount_;  // By radar whose mount it is.
-  std::array<Lag, kLags> lags_;
+  /// Its velocity at the times of `past_`, if it had one.
+  std::array<std::optional<Eigen::Vector2d>, kLags + 1> past_own_mps_;
+  Lags lags_;   // With what the others told before,
+  Lags leads_;  // and of what it told before with the others.
   double chance_ = 0.0;
 };
 

@@ -164,6 +164,7 @@ void FaultHypotheses::judge() {
   for_each(before & ~at_fault(), [&](std::size_t i) { causes_[i].clear(); });
   if (is_known) {
     convict_by_cause(search_causes(best.radars & ~at_fault()));
+    convict_late_others();
   }
 }
 
@@ -174,9 +175,13 @@ void FaultHypotheses::acquit_misjudged() {
   const RadarSet others = evidence_.present() & ~misjudged;
   if (misjudged != 0 && others != 0 && (others & ~convictions_.accused()) == 0 &&
       is_consistent(evidence_, misjudged, 0U)) {
-    convictions_.acquit(misjudged);
-    is_reversed_ = true;
+    reverse(misjudged);
   }
+}
+
+void FaultHypotheses::reverse(RadarSet misjudged) {
+  convictions_.acquit(misjudged);
+  is_reversed_ = true;
 }
 
 void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
@@ -202,8 +207,7 @@ void FaultHypotheses::convict_others(RadarSet believed) {
   // If others convicted all of them, which are now found wrong themselves, so is what those told.
   if (believed != 0 && (present & ~at_fault() & ~believed) != 0 &&
       (believed & present & ~misjudged) == 0) {
-    convictions_.acquit(believed);
-    is_reversed_ = true;
+    reverse(believed);
   }
   // Radars that all found themselves wrong may agree: with the same fault.
   const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
@@ -255,7 +259,9 @@ void FaultHypotheses::allow_for_scale() {
 /// What was measured before a radar is found at fault tells nothing of it, unless that shows it. In
 /// a turn one that looks sideways may seem to be late (1094, right).
 void FaultHypotheses::begin_search(std::size_t radar) {
-  const bool is_shown = contains(judged(), radar) && causes_[radar].find().gain >= kMinGain;
+  const bool is_shown =
+      contains(judged(), radar) &&
+      std::max(causes_[radar].find().gain, causes_[radar].find_others_late().gain) >= kMinGain;
   if (!is_at_fault(radar) && !is_shown) {
     causes_[radar].clear();
   }
@@ -293,6 +299,25 @@ void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::F
       finding.is_clear && finding.cause.kind == FaultKind::late && finding.gain > kMinGainOfTwo;
   const bool is_same = is_late && radar == lateness_.radar && change_s < kMaxChangeOfDelayS;
   lateness_ = {radar, finding.cause.value, is_same ? lateness_.epochs + 1 : 0};
+}
+
+/// Two of three radars that are late alike convict the third when the vehicle brakes. Against them
+/// it seems to be early, which no radar is.
+void FaultHypotheses::convict_late_others() {
+  RadarSet early = 0;
+  for_each(evidence_.present() & at_fault() & ~convictions_.accused(), [&](std::size_t i) {
+    const FaultCauseSearch::Finding found = causes_[i].find_others_late();
+    early |= found.is_clear && found.gain > kMinGain ? set_of(i) : 0U;
+  });
+  if (early == 0) {
+    return;
+  }
+  for_each(evidence_.present() & ~at_fault(), [&](std::size_t i) {
+    begin_search(i);
+    convictions_.convict(i, evidence_.time_us());
+  });
+  for_each(early, [&](std::size_t i) { causes_[i].clear(); });
+  reverse(early);
 }
 
 /// One error explains what a radar measures, and none as much what another does.

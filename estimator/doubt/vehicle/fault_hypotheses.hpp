@@ -103,6 +103,7 @@ class FaultHypotheses {
   void convict_jumped(RadarSet jumped, std::int64_t time_us);
   void judge();
   void acquit_misjudged();
+  void reverse(RadarSet misjudged);
   void verify(const ConsistentSet& best, bool is_known);
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;
@@ -112,6 +113,7 @@ class FaultHypotheses {
   void begin_search(std::size_t radar);
   RadarSet search_causes(RadarSet believed);
   void convict_by_cause(RadarSet compared);
+  void convict_late_others();
   void note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;

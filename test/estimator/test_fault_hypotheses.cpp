@@ -379,10 +379,8 @@ TEST_CASE("two of three radars that are late alike are at fault: the third canno
   comparison.delay(2, 0.3);
   comparison.drive(8.0);
   comparison.brake(1.5, 3.0);
-  comparison.drive(2.5);
-  CHECK(comparison.faults().at_fault() == 0b001U);
   bool is_reversed = false;
-  for (int i = 0; i < 20 && !is_reversed; ++i) {
+  for (int i = 0; i < 30 && !is_reversed; ++i) {
     comparison.drive(0.15);
     is_reversed = comparison.faults().take_reversal();
   }

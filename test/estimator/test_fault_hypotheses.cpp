@@ -184,6 +184,25 @@ TEST_CASE("one registration that went wrong convicts nobody, one a second later 
   CHECK(comparison.faults().at_fault() == 0b10);
 }
 
+TEST_CASE("a single radar is outvoted by both that look sideways, not by one of them") {
+  Comparison comparison({kFront, kLeft, kRight});
+  comparison.drive(3.0);
+  bool is_unknown = false;
+  const auto drive_past = [&](bool on_both_sides) {
+    for (int i = 0; i < 40; ++i) {
+      comparison.drive(0.075, [=](std::size_t radar, Comparison::Measured& measured) {
+        measured.velocity_mps.y() += radar == 1 || (radar == 2 && on_both_sides) ? 1.5 : 0.0;
+      });
+      is_unknown = is_unknown || comparison.faults().is_unknown();
+    }
+  };
+  drive_past(false);
+  CHECK_FALSE(is_unknown);
+  CHECK(comparison.faults().at_fault() == 0U);
+  drive_past(true);
+  CHECK(is_unknown);
+}
+
 TEST_CASE("who brakes hard is not contradicted by the positions of the scan before") {
   const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft}, kFive);
   Comparison comparison(mounts);

@@ -22,7 +22,8 @@ struct ConsistentSet {
 };
 
 /// Leaving out none of the set lowers its chi-square by more than kMaxDecrease, half of that for
-/// one that is at fault already. A single radar is compared with its own positions.
+/// one that is at fault already. A single radar is compared with its own positions, and with those
+/// that look sideways.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
 /// All radars if they are consistent, else those that are not two with each other's mounts, if that

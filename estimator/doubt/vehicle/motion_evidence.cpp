@@ -3,6 +3,7 @@
 #include "cremed/estimator/doubt/vehicle/motion_evidence.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -288,11 +289,16 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,
                                         std::optional<Pair> pair) const {
   const MotionSums joint = sum(set, epoch, pair);
   Fit fit{joint.chi_square()};
+  int heard = 0;
   for_each(witnesses(), [&](std::size_t i) {
     MotionSums with = joint;
     with.add(epoch[i].all);
-    fit.of_witnesses += std::min(kMaxWitness, with.chi_square() - fit.of_set);
+    const double of_witness = std::min(kMaxWitness, with.chi_square() - fit.of_set);
+    fit.of_witnesses += of_witness;
+    fit.of_worst_witness = std::max(fit.of_worst_witness, of_witness);
+    heard += epoch[i].velocity.has_value();
   });
+  fit.of_worst_witness = heard > 1 ? fit.of_worst_witness : 0.0;
   return fit;
 }
 
@@ -309,9 +315,12 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) 
 
 MotionEvidence::ChiSquares MotionEvidence::chi_squares(RadarSet set,
                                                        std::optional<Pair> pair) const {
+  const bool is_lone = std::has_single_bit(set) && set == present();
   ChiSquares result{};
   for (std::size_t k = 0; set != 0 && k < epochs(); ++k) {
-    result[k] = fit(set, epochs_[k], pair).chi_square();
+    const Fit of_epoch = fit(set, epochs_[k], pair);
+    // Against a lone radar several witnesses must agree: one of them may see a passing vehicle.
+    result[k] = of_epoch.chi_square() - (is_lone ? of_epoch.of_worst_witness : 0.0);
   }
   return result;
 }

@@ -87,6 +87,7 @@ class MotionEvidence {
   struct Fit {
     double of_set = 0.0;
     double of_witnesses = 0.0;
+    double of_worst_witness = 0.0;  ///< Of several; 0 of a single one.
 
     [[nodiscard]] double chi_square() const { return of_set + of_witnesses; }
   };

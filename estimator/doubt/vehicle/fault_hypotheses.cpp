@@ -304,16 +304,15 @@ void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::F
 /// Two of three radars that are late alike convict the third when the vehicle brakes. Against them
 /// it seems to be early, which no radar is.
 void FaultHypotheses::convict_late_others() {
-  const RadarSet others = evidence_.present() & ~at_fault();
   RadarSet early = 0;
   for_each(evidence_.present() & at_fault() & ~convictions_.accused(), [&](std::size_t i) {
     const FaultCauseSearch::Finding found = causes_[i].find_others_late();
     early |= found.is_clear && found.gain > kMinGain ? set_of(i) : 0U;
   });
-  if (early == 0 || std::popcount(others) < 2) {
+  if (early == 0 || std::popcount(evidence_.present()) < 3) {
     return;
   }
-  for_each(others, [&](std::size_t i) {
+  for_each(evidence_.present() & ~at_fault(), [&](std::size_t i) {
     begin_search(i);
     convictions_.convict(i, evidence_.time_us());
   });

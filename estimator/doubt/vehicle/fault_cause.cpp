@@ -109,7 +109,6 @@ void FaultCauseSearch::clear() {
 void FaultCauseSearch::forget() {
   clear();
   motions_ = 0;
-  past_own_mps_.fill(std::nullopt);
 }
 
 void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& motion,
@@ -123,8 +122,7 @@ void FaultCauseSearch::add_motion(std::int64_t time_us, const Eigen::Vector3d& m
   }
   motion_ = motion;
   motion_covariance_ = covariance;
-  past_own_mps_[motions_ % past_.size()].reset();
-  past_[motions_++ % past_.size()] = {time_us, expected(motion, mounts_[radar_])};
+  past_[motions_++ % past_.size()] = {time_us, expected(motion, mounts_[radar_]), std::nullopt};
 }
 
 void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
@@ -153,25 +151,20 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
     lag.moments.add(expected_mps, measured_mps, w, weight);
     lag.delay_s = kFade * lag.delay_s + delay_s;
   };
-  const std::size_t newest = (motions_ - 1) % past_.size();
-  const Past& now = past_[newest];
+  Past& now = past_[(motions_ - 1) % past_.size()];
   for (std::size_t i = 0; i < std::min(kLags, motions_ - 1); ++i) {
-    const std::size_t before = (motions_ - 2 - i) % past_.size();
-    const Past& past = past_[before];
+    const Past& past = past_[(motions_ - 2 - i) % past_.size()];
     const double delay_s = seconds_between(past.time_us, now.time_us);
     add(lags_[i], past.velocity_mps, velocity_mps, delay_s);
-    if (const auto& own_mps = past_own_mps_[before]) {
-      add(leads_[i], now.velocity_mps, *own_mps, delay_s);
+    if (past.own_mps) {
+      add(leads_[i], now.velocity_mps, *past.own_mps, delay_s);
     }
   }
-  past_own_mps_[newest] = velocity_mps;
+  now.own_mps = velocity_mps;
 }
 
 /// The delay with the least cost, by a parabola through the lag with the least and its neighbours.
 void FaultCauseSearch::try_late(Candidates& candidates, const Lags& lags) const {
-  if (!is_complete(lags)) {
-    return;
-  }
   const double count = at_mount_[radar_].count();
   const double view_rad = mounts_[radar_].yaw_rad;
   const auto chi_square = [&](const VelocityMoments& moments) {
@@ -251,26 +244,34 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
     result.add({FaultKind::offset, shifted.offset_mps}, shifted.chi_square);
     is_apart = true;
   }
-  const bool explains = result.chi_square < kMaxExplained * own.count();
   const bool is_scale_or_offset =
       result.best.kind == FaultKind::scale || result.best.kind == FaultKind::offset;
   const double least = is_scale_or_offset ? kMinDifferenceOfScale : kMinDifference;
-  const double gain = healthy - result.chi_square - kChance * std::sqrt(chance_);
-  return {result.best, explains ? std::max(0.0, gain) : 0.0,
-          explains && result.next > result.chi_square + least && is_apart};
+  return {result.best, gain(healthy, result.chi_square),
+          explains(result.chi_square) && result.next > result.chi_square + least && is_apart};
 }
 
 FaultCauseSearch::Finding FaultCauseSearch::find_others_late() const {
-  Candidates early;
-  try_late(early, leads_);
-  const VelocityMoments& own = at_mount_[radar_];
-  if (!is_complete(lags_) || early.chi_square >= kMaxExplained * own.count()) {
+  if (!is_complete(leads_)) {
     return {};
   }
-  const double healthy =
-      own.fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy).chi_square;
-  const double gain = std::max(0.0, healthy - early.chi_square - kChance * std::sqrt(chance_));
-  return {early.best, gain, gain > find().gain + kMinDifference};
+  Candidates early;
+  try_late(early, leads_);
+  const double healthy = at_mount_[radar_]
+                             .fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy)
+                             .chi_square;
+  const double by_early = gain(healthy, early.chi_square);
+  return {early.best, by_early, by_early > find().gain + kMinDifference};
+}
+
+bool FaultCauseSearch::explains(double chi_square) const {
+  return chi_square < kMaxExplained * at_mount_[radar_].count();
+}
+
+/// Beyond chance.
+double FaultCauseSearch::gain(double healthy, double chi_square) const {
+  return explains(chi_square) ? std::max(0.0, healthy - chi_square - kChance * std::sqrt(chance_))
+                              : 0.0;
 }
 
 double FaultCauseSearch::gain_at(std::size_t mount) const {

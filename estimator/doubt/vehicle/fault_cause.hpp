@@ -62,7 +62,8 @@ class FaultCauseSearch {
 
   struct Past {
     std::int64_t time_us = 0;
-    Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();  // By the others.
+    std::optional<Eigen::Vector2d> own_mps;                  // If it had a scan.
   };
   struct Lag {
     VelocityMoments moments;
@@ -74,6 +75,8 @@ class FaultCauseSearch {
   [[nodiscard]] static bool is_complete(const Lags& lags);
   void try_late(Candidates& candidates, const Lags& lags) const;
   void try_mount_yaw(Candidates& candidates) const;
+  [[nodiscard]] bool explains(double chi_square) const;
+  [[nodiscard]] double gain(double healthy, double chi_square) const;
 
   std::span<const Pose2> mounts_;
   std::size_t radar_;
@@ -83,10 +86,8 @@ class FaultCauseSearch {
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<VelocityMoments> at_mount_;  // By radar whose mount it is.
-  /// Its velocity at the times of `past_`, if it had one.
-  std::array<std::optional<Eigen::Vector2d>, kLags + 1> past_own_mps_;
-  Lags lags_;   // With what the others told before,
-  Lags leads_;  // and of what it told before with the others.
+  Lags lags_;                              // With what the others told before,
+  Lags leads_;                             // and of what it told before with the others.
   double chance_ = 0.0;
 };
 

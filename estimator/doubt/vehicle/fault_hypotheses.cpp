@@ -104,15 +104,15 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
   const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
-  convict_jumped(evidence_.take_jumped(), stamp_us);
+  // The vehicle did not jump: others do not tell so.
+  convict(evidence_.take_jumped() & ~at_fault(), stamp_us);
   if (is_due && evidence_.epochs() >= kMinEpochs) {
     judge();
   }
 }
 
-/// The vehicle did not jump: others do not tell so.
-void FaultHypotheses::convict_jumped(RadarSet jumped, std::int64_t time_us) {
-  for_each(jumped & ~at_fault(), [&](std::size_t i) {
+void FaultHypotheses::convict(RadarSet set, std::int64_t time_us) {
+  for_each(set, [&](std::size_t i) {
     begin_search(i);
     convictions_.convict(i, time_us);
   });
@@ -211,10 +211,7 @@ void FaultHypotheses::convict_others(RadarSet believed) {
   }
   // Radars that all found themselves wrong may agree: with the same fault.
   const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
-  for_each(others, [&](std::size_t i) {
-    begin_search(i);
-    convictions_.convict(i, evidence_.time_us());
-  });
+  convict(others, evidence_.time_us());
   convictions_.release(set_of(state_.radars()) - 1U, evidence_.time_us());
 }
 
@@ -259,10 +256,13 @@ void FaultHypotheses::allow_for_scale() {
 /// What was measured before a radar is found at fault tells nothing of it, unless that shows it. In
 /// a turn one that looks sideways may seem to be late (1094, right).
 void FaultHypotheses::begin_search(std::size_t radar) {
+  if (is_at_fault(radar)) {
+    return;
+  }
   const bool is_shown =
       contains(judged(), radar) &&
       std::max(causes_[radar].find().gain, causes_[radar].find_others_late().gain) >= kMinGain;
-  if (!is_at_fault(radar) && !is_shown) {
+  if (!is_shown) {
     causes_[radar].clear();
   }
 }
@@ -304,18 +304,18 @@ void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::F
 /// Two of three radars that are late alike convict the third when the vehicle brakes. Against them
 /// it seems to be early, which no radar is.
 void FaultHypotheses::convict_late_others() {
+  if (std::popcount(evidence_.present()) < 3) {
+    return;
+  }
   RadarSet early = 0;
   for_each(evidence_.present() & at_fault() & ~convictions_.accused(), [&](std::size_t i) {
     const FaultCauseSearch::Finding found = causes_[i].find_others_late();
     early |= found.is_clear && found.gain > kMinGain ? set_of(i) : 0U;
   });
-  if (early == 0 || std::popcount(evidence_.present()) < 3) {
+  if (early == 0) {
     return;
   }
-  for_each(evidence_.present() & ~at_fault(), [&](std::size_t i) {
-    begin_search(i);
-    convictions_.convict(i, evidence_.time_us());
-  });
+  convict(evidence_.present() & ~at_fault(), evidence_.time_us());
   for_each(early, [&](std::size_t i) { causes_[i].clear(); });
   reverse(early);
 }

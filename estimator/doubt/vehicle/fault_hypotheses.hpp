@@ -100,7 +100,7 @@ class FaultHypotheses {
   /// So that one scan decides nothing.
   static constexpr std::size_t kMinEpochs = 3;
 
-  void convict_jumped(RadarSet jumped, std::int64_t time_us);
+  void convict(RadarSet set, std::int64_t time_us);
   void judge();
   void acquit_misjudged();
   void reverse(RadarSet misjudged);

@@ -6,6 +6,7 @@
 
 #include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 
@@ -16,6 +17,7 @@ TrafficDoubt::TrafficDoubt(OdometryState& state, const RadarConsensus& consensus
     : parked(state), state_(state), consensus_(consensus), faults_(faults), condition_(condition) {
   for (const Pose2& mount : state.mounts()) {
     two_worlds_.emplace_back(mount);
+    scan_us_.push_back(std::nullopt);
   }
 }
 
@@ -23,6 +25,7 @@ TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targe
                                        const DopplerVelocity& velocity, std::int64_t stamp_us,
                                        double possible_change_mps) {
   using Verdict = ParkedVehicle::Verdict;
+  scan_us_[radar] = stamp_us;
   const Verdict verdict = judge_parked(radar, targets, velocity, stamp_us);
   if (verdict == Verdict::two_worlds ||
       sees_two_worlds(radar, targets, velocity, possible_change_mps)) {
@@ -76,14 +79,31 @@ bool TrafficDoubt::sees_two_worlds(std::size_t radar, const TargetSet& targets,
   const Eigen::Vector3d of_vehicle(sensor_mps.x() + w * mount.y_m, sensor_mps.y() - w * mount.x_m,
                                    w);
   const double std_mps = std::sqrt(velocity.covariance(0, 0));
-  using Before = TwoWorlds::Before;
-  const Before before = condition_.is_settled() && !condition_.is_speed_unknown() ? Before::motion
-                        : faults_.needs_positions()                               ? Before::fault
-                                                                                  : Before::nothing;
   return two_worlds_[radar].check(
-      targets, of_vehicle, kGateSigmas * std_mps, before, [&](double speed_mps) {
+      targets, of_vehicle, kGateSigmas * std_mps, before(radar), [&](double speed_mps) {
         return std::abs(speed_mps - state_.gaussian.mean(kSpeed)) <= possible_change_mps;
       });
+}
+
+TwoWorlds::Before TrafficDoubt::before(std::size_t radar) const {
+  using Before = TwoWorlds::Before;
+  if (condition_.is_settled() && !condition_.is_speed_unknown()) {
+    return Before::motion;
+  }
+  if (looks_across(state_.mount(radar)) && !state_.is_witness(radar) && is_alone(radar)) {
+    return Before::nothing_beside;
+  }
+  return faults_.needs_positions() ? Before::fault : Before::nothing;
+}
+
+bool TrafficDoubt::is_alone(std::size_t radar) const {
+  for (std::size_t i = 0; i < scan_us_.size(); ++i) {
+    if (i != radar && scan_us_[i] &&
+        seconds_between(*scan_us_[i], state_.time_us()) <= kScanVerdictValidS) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace cremed

@@ -43,6 +43,9 @@ class TrafficDoubt {
                                       const DopplerVelocity& velocity, std::int64_t stamp_us);
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
                        double possible_change_mps);
+  [[nodiscard]] TwoWorlds::Before before(std::size_t radar) const;
+  /// No other radar is heard.
+  [[nodiscard]] bool is_alone(std::size_t radar) const;
   void rest();
   void add_way();
 
@@ -50,7 +53,8 @@ class TrafficDoubt {
   const RadarConsensus& consensus_;
   const FaultHypotheses& faults_;
   const FilterCondition& condition_;
-  std::vector<TwoWorlds> two_worlds_;  // By radar.
+  std::vector<TwoWorlds> two_worlds_;                 // By radar.
+  std::vector<std::optional<std::int64_t>> scan_us_;  // The last, by radar.
 };
 
 }  // namespace cremed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -188,6 +189,52 @@ TEST_CASE("vehicles on both sides do not outvote the only radar that looks ahead
   }
   // 4 m/s on both sides are more than one radar tells of itself: ambiguous.
   CHECK(good > (passing_mps < 3.0 ? 170 : 30));
+}
+
+TEST_CASE("a lone radar that looks sideways starts on the road, not on what may be a vehicle") {
+  const Pose2 left{2.4, 0.8, 1.56};
+  const Pose2 right{2.4, -0.8, -1.56};
+  struct Row {
+    std::string what;
+    std::vector<Pose2> mounts;
+    int along;  ///< Number of targets that are seen less than 60 degrees off the way.
+    bool move_along;
+    bool starts;
+  };
+  const std::vector<Row> rows = {
+      {"a vehicle beside, and the road abeam", {left}, 3, true, false},
+      {"the road, of which a vehicle would look the same", {left}, 3, false, false},
+      {"the road", {left}, 100, false, true},
+      {"the road, on both sides", {left, right}, 3, false, true},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    OdometryDrive drive(row.mounts, 6);
+    Odometry odometry;
+    int good = 0;
+    for (std::size_t i = 0; i < 80; ++i) {
+      drive.pass(OdometryDrive::kPeriodUs / 2);
+      const std::size_t radar = i % row.mounts.size();
+      TargetSet targets;
+      int along = 0;
+      for (Target target : drive.see(radar)) {
+        const bool is_along = std::abs(target.cos_bearing) > 0.5;
+        if (is_along && row.move_along) {
+          target.doppler_mps = 0.0;
+        }
+        if (!is_along || along < row.along) {
+          targets.add(target);
+        }
+        along += is_along ? 1 : 0;
+      }
+      odometry = drive.filter().update(radar, targets, drive.stamp_us());
+      good += is_good(odometry) ? 1 : 0;
+      CHECK(twist_error(odometry, drive) < 5.0);
+    }
+    CHECK((good > 40) == row.starts);
+    CHECK((good > 0) == row.starts);
+    CHECK((odometry.status == OdometryStatus::ambiguous) != row.starts);
+  }
 }
 
 TEST_CASE("with a rate a message at each anchor's time refers to the anchor before") {

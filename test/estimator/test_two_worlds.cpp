@@ -26,6 +26,20 @@ RadarScan merged(RadarScan scan, const RadarScan& other) {
   return scan;
 }
 
+/// Adds targets 4 m from each other, relative to which the vehicle drives ahead.
+void add_places(TargetSet& targets, int places, double speed_mps, double azimuth_rad) {
+  for (int i = 0; i < places; ++i) {
+    Detection detection;
+    detection.range_m = 8.0 + 4.0 * i;
+    detection.azimuth_rad = azimuth_rad;
+    detection.doppler_mps = -speed_mps * std::cos(azimuth_rad);
+    detection.range_std_m = 0.15;
+    detection.azimuth_std_rad = 0.008;
+    detection.doppler_std_mps = 0.1;
+    targets.add(detection, Pose2{});
+  }
+}
+
 TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion decides") {
   struct Row {
     std::string what;
@@ -62,31 +76,40 @@ TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion de
 
 TEST_CASE("at the start a speed that more places contradict is in doubt, whatever began before") {
   TargetSet targets;
-  const auto add = [&](int places, double speed_mps, double azimuth_rad) {
-    for (int i = 0; i < places; ++i) {
-      Detection detection;
-      detection.range_m = 8.0 + 4.0 * i;
-      detection.azimuth_rad = azimuth_rad;
-      detection.doppler_mps = -speed_mps * std::cos(azimuth_rad);
-      detection.range_std_m = 0.15;
-      detection.azimuth_std_rad = 0.008;
-      detection.doppler_std_mps = 0.1;
-      targets.add(detection, Pose2{});
-    }
-  };
-  add(10, 0.0, 0.2);
+  add_places(targets, 10, 0.0, 0.2);
   const auto is_slow = [](double speed_mps) { return std::abs(speed_mps) < 1.0; };
   using Before = TwoWorlds::Before;
   const auto is_in_doubt = [&](Before before) {
     return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d::Zero(), 0.0, before, is_slow);
   };
   CHECK_FALSE(is_in_doubt(Before::nothing));
-  add(9, 16.0, -0.2);
+  add_places(targets, 9, 16.0, -0.2);
   CHECK_FALSE(is_in_doubt(Before::nothing));
-  add(9, 16.0, -0.5);
+  add_places(targets, 9, 16.0, -0.5);
   CHECK(is_in_doubt(Before::nothing));
   CHECK_FALSE(is_in_doubt(Before::fault));
   CHECK_FALSE(is_in_doubt(Before::motion));
+}
+
+TEST_CASE("of a lone radar that looks sideways six places along the way tell the road") {
+  using Before = TwoWorlds::Before;
+  const auto is_in_doubt = [&](TwoWorlds& worlds, int places, Before before) {
+    TargetSet targets;
+    add_places(targets, places, 5.0, 0.2);
+    return worlds.check(targets, Eigen::Vector3d(5.0, 0.0, 0.0), 0.0, before,
+                        [](double) { return true; });
+  };
+  TwoWorlds worlds(Pose2{});
+  CHECK_FALSE(is_in_doubt(worlds, 5, Before::nothing));
+  CHECK_FALSE(is_in_doubt(worlds, 6, Before::nothing_beside));
+  CHECK(is_in_doubt(worlds, 5, Before::nothing_beside));
+  // No other scan of ten; the state, or another radar, ends it at once.
+  for (int i = 0; i < 9; ++i) {
+    CHECK(is_in_doubt(worlds, 6, Before::nothing_beside));
+  }
+  CHECK_FALSE(is_in_doubt(worlds, 5, Before::nothing));
+  CHECK_FALSE(is_in_doubt(worlds, 5, Before::motion));
+  CHECK_FALSE(is_in_doubt(worlds, 6, Before::nothing_beside));
 }
 
 }  // namespace

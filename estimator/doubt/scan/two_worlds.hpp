@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,14 +16,18 @@ namespace cremed {
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
 /// along, which cannot be distinguished. The previous motion decides if it can continue at only one
 /// of the two speeds. Without a previous motion, if at least two places contradict the estimated
-/// speed, it needs more places than a truck has, and at the first start more than they are. The
-/// doubt ends after ten scans without a rival; a smaller rival maintains it.
+/// speed, it needs more places than a truck has, and at the first start more than they are; a lone
+/// radar that looks sideways needs them always. The doubt ends after ten scans without a rival; a
+/// smaller rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.
   enum class Before : std::uint8_t {
     nothing,  ///< The first scans.
-    fault,    ///< The odometry was lost: positions have to confirm what comes.
+    /// The same of the only radar, which looks sideways: along the way, where Doppler shows the
+    /// speed, it may see nothing but a vehicle beside.
+    nothing_beside,
+    fault,  ///< The odometry was lost: positions have to confirm what comes.
     motion,
   };
 
@@ -34,13 +39,16 @@ class TwoWorlds {
   bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
              Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
+    const bool is_start = before == Before::nothing || before == Before::nothing_beside;
     const bool is_open =
         (before != Before::motion && votes.rival >= kMinRivalPlaces &&
          votes.own + votes.abeam < kMinRoadPlaces) ||
-        (before == Before::nothing && votes.rival >= kMinRivalPlaces && votes.rival > votes.own) ||
+        (is_start && votes.rival >= kMinRivalPlaces && votes.rival > votes.own) ||
         (is_rival(votes) && (continues(votes.rival_mps) || !continues(velocity.x())));
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
-    return is_in_doubt();
+    const bool may_be_a_vehicle =
+        before == Before::nothing_beside && was_few(votes.own < kMinRoadPlaces);
+    return is_in_doubt() || may_be_a_vehicle;
   }
   [[nodiscard]] bool is_in_doubt() const { return doubtful_scans_ > 0; }
 
@@ -51,10 +59,16 @@ class TwoWorlds {
   /// One place may be another car.
   static constexpr std::size_t kMinRivalPlaces = 2;
 
+  /// Whether one of the last scans had too few places.
+  bool was_few(bool is_few) {
+    few_scans_ = is_few ? kClearScans : std::max(0, few_scans_ - 1);
+    return few_scans_ > 0;
+  }
   [[nodiscard]] bool is_rival(const SpeedVotes& votes) const;
 
   RivalSpeed rival_speed_;
   int doubtful_scans_ = 0;
+  int few_scans_ = 0;
 };
 
 }  // namespace cremed

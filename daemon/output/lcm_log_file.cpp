@@ -17,6 +17,10 @@ namespace cremed {
 namespace {
 
 /// Opening one waits for its reader.
+/// Of an event in LCM's format: sync word (4), number (8), time (8), two lengths (4 each). ftell()
+/// takes as much time as the writing does.
+constexpr std::int64_t kHeaderBytes = 28;
+
 bool is_pipe(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
@@ -42,7 +46,7 @@ bool LcmLogFile::write(const char* channel, std::span<std::uint8_t> data) {
   errno = 0;
   if (lcm_eventlog_write_event(log_.get(), &event) == 0 && std::fflush(log_->f) == 0 &&
       std::ferror(log_->f) == 0) {
-    size_bytes_ = std::ftell(log_->f);
+    size_bytes_ += kHeaderBytes + event.channellen + event.datalen;
     return true;
   }
   error_ = errno != 0 ? errno : EIO;

@@ -7,7 +7,6 @@ import os
 import pathlib
 import re
 import subprocess
-import time
 
 MAGIC_LCM = bytes.fromhex("EDA1DA01")
 
@@ -53,6 +52,14 @@ def errors_of(said):
     return errors
 
 
+def has_ended(process, within_s):
+    try:
+        process.wait(within_s)
+        return True
+    except subprocess.TimeoutExpired:
+        return False
+
+
 def replay(cremed, logs, config, folder, told):
     """Runs candump logs through cremed; returns the LCM log, what cremed warned of, and its errors where
     it failed: the log has what is good. `told` is called with the part that is done."""
@@ -65,9 +72,8 @@ def replay(cremed, logs, config, folder, told):
     with open(words, "wb") as file, subprocess.Popen(command, stdin=subprocess.DEVNULL,
                                                      stdout=file, stderr=file) as process:
         try:
-            while process.poll() is None:
+            while not has_ended(process, 0.2):
                 told(part_read(process, paths))
-                time.sleep(0.02)
         except BaseException:
             process.kill()
             raise

@@ -99,7 +99,7 @@ TwoWorlds::Before TrafficDoubt::before(std::size_t radar) const {
 bool TrafficDoubt::is_alone(std::size_t radar) const {
   for (std::size_t i = 0; i < scan_us_.size(); ++i) {
     if (i != radar && scan_us_[i] &&
-        seconds_between(*scan_us_[i], state_.time_us()) <= kScanVerdictValidS) {
+        std::abs(seconds_between(*scan_us_[i], state_.time_us())) <= kScanVerdictValidS) {
       return false;
     }
   }

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,18 +27,6 @@ int opened(const std::string& path) {
 bool is_regular_file(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-}
-
-/// False, with errno, if a stop was requested first.
-bool wait_for_room(int descriptor) {
-  pollfd output{descriptor, POLLOUT, 0};
-  while (::poll(&output, 1, kStopPollMs) <= 0) {
-    if (stop_requested()) {
-      errno = EINTR;
-      return false;
-    }
-  }
-  return true;
 }
 
 std::uint64_t count_lines(std::string_view text) {

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/process/signals.hpp"
 
+#include <cerrno>
+
+#include <poll.h>
+
 namespace cremed {
 namespace {
 
@@ -34,6 +38,17 @@ void stop_at_hangup() {
 }
 
 bool stop_requested() { return stop_was_requested != 0; }
+
+bool wait_for_room(int descriptor) {
+  pollfd output{descriptor, POLLOUT, 0};
+  while (::poll(&output, 1, kStopPollMs) <= 0) {
+    if (stop_requested()) {
+      errno = EINTR;
+      return false;
+    }
+  }
+  return true;
+}
 
 void handle_reload_signal() { handle(SIGHUP, request_reload); }
 

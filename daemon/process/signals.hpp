@@ -16,6 +16,9 @@ bool stop_requested();
 /// A signal just before a system call does not interrupt it: wait at most so long, then ask.
 inline constexpr int kStopPollMs = 100;
 
+/// Waits until `descriptor` can be written to; false, with errno, if a stop was requested first.
+bool wait_for_room(int descriptor);
+
 /// SIGHUP requests a reload of the configuration.
 void handle_reload_signal();
 /// Whether a reload was requested since the last call that returned true.

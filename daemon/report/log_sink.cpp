@@ -115,15 +115,7 @@ bool LogSink::put(std::string line) {
 
 bool LogSink::has_room() const {
   pollfd output{STDERR_FILENO, POLLOUT, 0};
-  if (drops_) {
-    return ::poll(&output, 1, 0) == 1;
-  }
-  while (::poll(&output, 1, kStopPollMs) <= 0) {
-    if (stop_requested()) {
-      return false;
-    }
-  }
-  return true;
+  return drops_ ? ::poll(&output, 1, 0) == 1 : wait_for_room(STDERR_FILENO);
 }
 
 std::shared_ptr<LogSink> log_to_standard_error() {

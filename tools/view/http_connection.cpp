@@ -7,7 +7,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 namespace cremed {
 namespace {
@@ -44,8 +43,6 @@ bool would_block() { return errno == EAGAIN || errno == EINTR; }
 HttpConnection::HttpConnection(int socket, Clock::time_point now)
     : socket_(socket), deadline_(now + kLongest) {}
 
-HttpConnection::~HttpConnection() { ::close(socket_); }
-
 short HttpConnection::events() const { return step_ == Step::response ? POLLOUT : POLLIN; }
 
 void HttpConnection::refuse(const HttpResponse& response) {
@@ -63,7 +60,7 @@ void HttpConnection::advance(const Answer& answer) {
 
 void HttpConnection::read(const Answer& answer) {
   std::array<char, 4096> part;
-  const ssize_t count = ::recv(socket_, part.data(), part.size(), 0);
+  const ssize_t count = ::recv(socket(), part.data(), part.size(), 0);
   if (count <= 0) {
     step_ = count < 0 && would_block() ? step_ : Step::over;
     return;
@@ -93,7 +90,7 @@ void HttpConnection::begin_response(const HttpResponse& response) {
 void HttpConnection::write() {
   while (sent_ < response_.size()) {
     const ssize_t count =
-        ::send(socket_, &response_[sent_], response_.size() - sent_, MSG_NOSIGNAL);
+        ::send(socket(), &response_[sent_], response_.size() - sent_, MSG_NOSIGNAL);
     if (count < 0) {
       step_ = would_block() ? step_ : Step::over;
       return;
@@ -101,7 +98,7 @@ void HttpConnection::write() {
     sent_ += static_cast<std::size_t>(count);
   }
   // The other end closes first: what it still sends would make the kernel discard the answer.
-  ::shutdown(socket_, SHUT_WR);
+  ::shutdown(socket(), SHUT_WR);
   step_ = Step::end;
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "daemon/process/descriptor.hpp"
 #include "tools/view/http_request.hpp"
 
 namespace cremed {
@@ -26,11 +27,8 @@ class HttpConnection {
 
   /// Owns the socket, which does not block. A reader slower than kLongest is cut off.
   HttpConnection(int socket, Clock::time_point now);
-  ~HttpConnection();
-  HttpConnection(const HttpConnection&) = delete;
-  HttpConnection& operator=(const HttpConnection&) = delete;
 
-  [[nodiscard]] int socket() const { return socket_; }
+  [[nodiscard]] int socket() const { return socket_.number(); }
   /// What poll(2) is to wait for.
   [[nodiscard]] short events() const;
   /// Answers without hearing the request.
@@ -47,7 +45,7 @@ class HttpConnection {
   void write();
   void begin_response(const HttpResponse& response);
 
-  int socket_;
+  Descriptor socket_;
   Clock::time_point deadline_;
   Step step_ = Step::request;
   std::string request_;

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <netdb.h>
@@ -103,19 +104,16 @@ std::string text_of(int error) {
   }
 }
 
-/// -1, with errno, if not possible.
-int listening_socket(const addrinfo& address) {
-  const int socket = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+/// Not open, with errno, if not possible.
+Descriptor listening_socket(const addrinfo& address) {
+  Descriptor socket(::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int yes = 1;
-  ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  if (socket >= 0 && (::bind(socket, address.ai_addr, address.ai_addrlen) != 0 ||
-                      ::listen(socket, kBacklog) != 0)) {
-    const int error = errno;
-    ::close(socket);
-    errno = error;
-    return -1;
-  }
-  return socket;
+  const bool listens =
+      socket.is_open() &&
+      ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes)) == 0 &&
+      ::bind(socket.number(), address.ai_addr, address.ai_addrlen) == 0 &&
+      ::listen(socket.number(), kBacklog) == 0;
+  return listens ? std::move(socket) : Descriptor();
 }
 
 int port_of(int socket) {
@@ -150,8 +148,6 @@ ViewServer::ViewServer(const HeardState& state, const ViewAddress& address)
   listen(address);
 }
 
-ViewServer::~ViewServer() { ::close(socket_); }
-
 void ViewServer::read_page() {
   constexpr const char* kScript = "text/javascript";
   const std::filesystem::path ours = shared_folder();
@@ -169,13 +165,14 @@ void ViewServer::read_page() {
 
 void ViewServer::listen(const ViewAddress& address) {
   const Addresses addresses = addresses_of(address);
-  for (const addrinfo* one = addresses.get(); one != nullptr && socket_ < 0; one = one->ai_next) {
+  for (const addrinfo* one = addresses.get(); one != nullptr && !socket_.is_open();
+       one = one->ai_next) {
     socket_ = listening_socket(*one);
   }
-  if (socket_ < 0) {
+  if (!socket_.is_open()) {
     throw cannot_listen(address, text_of(errno));
   }
-  port_ = port_of(socket_);
+  port_ = port_of(socket_.number());
 }
 
 HttpResponse ViewServer::answer(const HttpRequest& request) const {
@@ -215,7 +212,7 @@ void ViewServer::wait_and_advance() {
     waits.push_back({connection.socket(), connection.events(), 0});
   }
   if (connections_.size() < 2 * kMostConnections) {
-    waits.push_back({socket_, POLLIN, 0});
+    waits.push_back({socket_.number(), POLLIN, 0});
   }
   if (::poll(waits.data(), waits.size(), kTickMs) <= 0) {
     return;
@@ -230,7 +227,7 @@ void ViewServer::wait_and_advance() {
 
 void ViewServer::accept_all() {
   while (connections_.size() < 2 * kMostConnections) {
-    const int socket = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    const int socket = ::accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (socket < 0) {
       return;
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/process/descriptor.hpp"
 #include "tools/view/heard_state.hpp"
 #include "tools/view/http_connection.hpp"
 
@@ -25,7 +26,6 @@ class ViewServer {
  public:
   /// `state` outlives the server. Throws std::runtime_error.
   ViewServer(const HeardState& state, const ViewAddress& address);
-  ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
 
@@ -46,7 +46,7 @@ class ViewServer {
   std::vector<std::string> own_names_;
   std::map<std::string, HttpResponse> pages_;  // By path.
   std::list<HttpConnection> connections_;
-  int socket_ = -1;
+  Descriptor socket_;
   int port_ = 0;
   std::atomic<bool> is_stopped_{false};
 };

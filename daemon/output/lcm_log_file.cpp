@@ -16,11 +16,11 @@
 namespace cremed {
 namespace {
 
-/// Opening one waits for its reader.
-/// Of an event in LCM's format: sync word (4), number (8), time (8), two lengths (4 each). ftell()
-/// takes as much time as the writing does.
+/// Of an event in LCM's format: sync word (4), number (8), time (8), two lengths (4 each). Counted,
+/// since ftell() is a system call for each message.
 constexpr std::int64_t kHeaderBytes = 28;
 
+/// Opening one waits for its reader.
 bool is_pipe(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);

@@ -103,7 +103,7 @@ TEST_CASE("of a lone radar that looks sideways six places along the way tell the
   CHECK_FALSE(is_in_doubt(worlds, 5, Before::nothing));
   CHECK_FALSE(is_in_doubt(worlds, 6, Before::nothing_beside));
   CHECK(is_in_doubt(worlds, 5, Before::nothing_beside));
-  // No other scan of ten; the state, or another radar, ends it at once.
+  // It lasts for ten scans, and does not count where another radar is heard or the motion is known.
   for (int i = 0; i < 9; ++i) {
     CHECK(is_in_doubt(worlds, 6, Before::nothing_beside));
   }

@@ -48,7 +48,11 @@ class Hearing {
     return true;
   }
   [[nodiscard]] std::vector<cremed::ScreenLine> screen() const {
-    return cremed::screen_of(state_.snapshot(), url_);
+    std::vector<cremed::ScreenLine> lines = cremed::screen_of(state_.snapshot(), url_);
+    for (const std::string& problem : problems()) {
+      lines.insert(lines.begin() + 1, {problem, cremed::Mood::bad});
+    }
+    return lines;
   }
   /// What was heard and is not shown, or is not all.
   [[nodiscard]] std::vector<std::string> problems() const {
@@ -69,9 +73,6 @@ int print_once(Hearing& hearing) {
   hearing.listen_for(kOnce);
   for (const cremed::ScreenLine& line : hearing.screen()) {
     std::cout << line.text << '\n';
-  }
-  for (const std::string& problem : hearing.problems()) {
-    std::cerr << "cremed-top: " << problem << '\n';
   }
   return hearing.is_silent() || !hearing.problems().empty() ? failure : good;
 }

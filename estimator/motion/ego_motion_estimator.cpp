@@ -138,9 +138,7 @@ MotionStatus EgoMotionEstimator::judge(const RegistrationResult& result, double 
   if (sigma.head<2>().maxCoeff() > options_.max_std_m || sigma.z() > options_.max_std_rad) {
     return MotionStatus::degenerate;
   }
-  const double speed_mps = result.motion.head<2>().norm() / dt_s;
-  if (speed_mps > options_.max_speed_mps ||
-      std::abs(result.motion.z()) > options_.max_yaw_rate_radps * dt_s) {
+  if (!options_.allows(result.motion, dt_s)) {
     return MotionStatus::implausible;
   }
   if (sees_two_worlds(result, dt_s)) {

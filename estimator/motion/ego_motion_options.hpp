@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
+#include <Eigen/Core>
+
 #include "cremed/estimator/registration/registration_options.hpp"
 #include "cremed/estimator/scan/detection_options.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -21,6 +25,12 @@ struct EgoMotionOptions {
   double max_yaw_rate_radps = 3.0;  ///< Faster turns are implausible.
   double max_std_m = 1.0;           ///< Larger standard deviation of x or y: degenerate.
   double max_std_rad = 0.1;         ///< Larger standard deviation of yaw: degenerate.
+
+  /// Whether a motion (x_m, y_m, yaw_rad) in `dt_s` is plausible.
+  [[nodiscard]] bool allows(const Eigen::Vector3d& motion, double dt_s) const {
+    return motion.head<2>().norm() <= max_speed_mps * dt_s &&
+           std::abs(motion.z()) <= max_yaw_rate_radps * dt_s;
+  }
 };
 
 }  // namespace cremed

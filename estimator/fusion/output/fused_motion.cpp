@@ -3,21 +3,11 @@
 #include "cremed/estimator/fusion/output/fused_motion.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "cremed/estimator/motion/ego_motion_options.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
-namespace {
-
-bool can_be_driven(const Eigen::Vector3d& motion, double dt_s) {
-  const EgoMotionOptions limits;
-  return motion.head<2>().norm() <= limits.max_speed_mps * dt_s &&
-         std::abs(motion.z()) <= limits.max_yaw_rate_radps * dt_s;
-}
-
-}  // namespace
 
 EgoMotion fused_motion(const Odometry& odometry, std::size_t targets, double standstill_mps) {
   static constexpr std::array<MotionStatus, kOdometryStatusCount> kStatuses{
@@ -29,7 +19,7 @@ EgoMotion fused_motion(const Odometry& odometry, std::size_t targets, double sta
   fused.status = kStatuses[static_cast<std::size_t>(odometry.status)];
   fused.targets = static_cast<int>(targets);
   const double dt_s = seconds_between(fused.utime_start_us, fused.utime_us);
-  if (fused.has_estimate() && !can_be_driven(odometry.motion, dt_s)) {
+  if (fused.has_estimate() && !EgoMotionOptions().allows(odometry.motion, dt_s)) {
     fused.status = MotionStatus::implausible;
   }
   if (fused.has_estimate()) {

@@ -62,30 +62,42 @@ void ScanClock::forget() {
 }
 
 ScanTiming ScanClock::judge(const RadarScan& scan) {
+  if (modulus_ == 0) {
+    return ScanTiming::steady;
+  }
   const Scan now{scan.stamp_us, scan.counter};
   const Scan last = last_.value_or(now);
-  const std::uint32_t counts =
-      modulus_ == 0 ? 0 : (now.counter + modulus_ - last.counter) % modulus_;
+  const std::uint32_t counts = (now.counter + modulus_ - last.counter) % modulus_;
   const double passed_s = seconds_between(last.stamp_us, now.stamp_us);
-  if (modulus_ < kMinModulus || counts == 0 || !(passed_s > 0.0)) {
+  if (!(passed_s > 0.0) || (turns_soon() ? passed_s > kMaxPauseS : counts == 0)) {
     last_ = now;
     return ScanTiming::steady;
   }
-  const double late_s = passed_s - counts * period_s_;
+  const double late_s = lateness_s(passed_s, counts);
   // Without a steady counter (a sensor that starts anew, two sensors with one id) nothing is known.
-  const bool is_late = late_s > kStepS && confirmations_ == kMinConfirmations;
+  const bool is_late =
+      (turns_soon() ? std::abs(late_s) : late_s) > kStepS && confirmations_ == kMinConfirmations;
   if (is_late && !is_as_late(late_s)) {
     return ScanTiming::late;  // Those that follow are compared with the scan before it.
   }
   last_ = now;
   late_scans_ = 0;
+  const double periods = std::max(counts, 1U);  // 0: the rest of a scan that a halt divided.
   if (std::abs(late_s) <= kStepS) {
+    // Half way: a scan that waited does not make the next one early.
+    last_->stamp_us -= std::llround(0.5e6 * late_s);
+    period_s_ += late_s / periods / kMinConfirmations;
     confirmations_ = std::min(confirmations_ + 1, kMinConfirmations);
     return ScanTiming::steady;
   }
-  period_s_ = passed_s / counts;
+  period_s_ = passed_s / periods;
   confirmations_ = 0;
   return is_late ? ScanTiming::set_forward : ScanTiming::steady;
+}
+
+double ScanClock::lateness_s(double passed_s, std::uint32_t counts) const {
+  const double late_s = passed_s - counts * period_s_;
+  return turns_soon() && period_s_ > 0.0 ? std::remainder(late_s, modulus_ * period_s_) : late_s;
 }
 
 /// As the scan before was, or for too long.

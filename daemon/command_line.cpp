@@ -32,6 +32,9 @@ void check(const CommandLine& c) {
   if (standard_inputs > 1) {
     throw CLI::ValidationError("--replay", "standard input (-) can be read only once");
   }
+  if (c.check_config && !c.check_config->empty() && !c.config.empty()) {
+    throw CLI::ValidationError("--check-config", "name the file once, here or as --config");
+  }
   if (c.lcm_url && !is_lcm_url(*c.lcm_url)) {
     throw CLI::ValidationError("--lcm-url", "'" + *c.lcm_url + "' is not " + kLcmUrlWanted);
   }
@@ -52,8 +55,7 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
   std::string checked;
   const auto* check_config =
       app.add_option("--check-config", checked,
-                     "Check a configuration (default: the installed one), show it as read, and "
-                     "exit")
+                     "Check a configuration (default: that of --config), show it as read, and exit")
           ->expected(0, 1)
           ->type_name("[FILE]");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")

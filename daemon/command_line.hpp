@@ -13,7 +13,7 @@ namespace cremed {
 /// The parsed command line.
 struct CommandLine {
   std::string config;                       ///< Path; empty: search the default places.
-  std::optional<std::string> check_config;  ///< Check this path only; empty: the default places.
+  std::optional<std::string> check_config;  ///< Check this path only; empty: that of `config`.
   std::vector<std::string> replay;          ///< Logs; "-" is standard input.
   double speed = 0.0;                       ///< Log seconds per second; 0: as fast as possible.
   bool timing = false;                      ///< Measure solve_us.

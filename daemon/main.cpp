@@ -34,7 +34,8 @@ int check(const std::string& path) {
 
 int run(const cremed::CommandLine& command_line, cremed::LogSink& log) {
   if (command_line.check_config) {
-    return check(cremed::configuration_path(*command_line.check_config));
+    const std::string& checked = *command_line.check_config;
+    return check(cremed::configuration_path(checked.empty() ? command_line.config : checked));
   }
   const bool is_live = command_line.replay.empty();
   if (is_live) {

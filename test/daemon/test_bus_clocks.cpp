@@ -162,7 +162,7 @@ TEST_CASE("a sensor that is set to a longer period is not late for ever") {
   expect_steady(scans, clock, 20, 0.0);
 }
 
-TEST_CASE("lost scans, a counter that begins anew, and short counters show no step") {
+TEST_CASE("lost scans and a counter that begins anew show no step") {
   ScanClock clock(65536);
   Scans scans;
   for (int i = 0; i < 50; ++i) {
@@ -170,10 +170,60 @@ TEST_CASE("lost scans, a counter that begins anew, and short counters show no st
   }
   scans.skip_count();
   expect_steady(scans, clock, 20);
-  ScanClock of_short_counter(16);
-  for (int i = 0; i < 50; ++i) {
-    CHECK(scans.next(of_short_counter, i == 30 ? 0.5 : 0.0) == ScanTiming::steady);
+}
+
+/// As a Bosch GPR's: four counts of 0.1 s.
+constexpr std::uint32_t kShort = 4;
+constexpr std::int64_t kGprPeriodUs = 100'000;
+
+RadarScan gpr_scan(int number, std::int64_t later_us = 0) {
+  RadarScan scan;
+  // 4 ms to and fro.
+  scan.stamp_us = kStartUs + kGprPeriodUs * number + (number % 2 == 0 ? 4'000 : 0) + later_us;
+  scan.counter = static_cast<std::uint16_t>(number % kShort);
+  return scan;
+}
+
+TEST_CASE("a short counter shows a clock that was set forward, but not by its whole turn") {
+  const std::int64_t step_us = GENERATE(100'000, 250'000, 350'000, 500'000, 1'000'000);
+  ScanClock clock(kShort);
+  int number = 0;
+  for (; number < 100; ++number) {
+    CHECK(clock.judge(gpr_scan(number)) == ScanTiming::steady);
   }
+  CHECK(clock.judge(gpr_scan(number, step_us)) == ScanTiming::late);
+  CHECK(clock.judge(gpr_scan(number + 1, step_us)) == ScanTiming::set_forward);
+  for (number += 2; number < 200; ++number) {
+    CHECK(clock.judge(gpr_scan(number, step_us)) == ScanTiming::steady);
+  }
+  // Just as four scans that were lost.
+  CHECK(clock.judge(gpr_scan(number, step_us + 400'000)) == ScanTiming::steady);
+}
+
+TEST_CASE("lost scans, halts and a restart of the sensor are no step by a short counter") {
+  ScanClock clock(kShort);
+  int number = 0;
+  const auto steady = [&](int count, std::int64_t later_us = 0) {
+    for (const int end = number + count; number < end; ++number) {
+      CHECK(clock.judge(gpr_scan(number, later_us)) == ScanTiming::steady);
+    }
+  };
+  steady(100);
+  for (int lost = 1; lost < 12; ++lost) {
+    number += lost;
+    steady(20);
+  }
+  for (int halt = 0; halt < 10; ++halt) {
+    // Slots that waited are a scan with a later stamp, or the rest of one.
+    CHECK(clock.judge(gpr_scan(number++, 60'000)) == ScanTiming::late);
+    steady(1);
+    CHECK(clock.judge(gpr_scan(number - 1, 80'000)) == ScanTiming::late);
+    steady(14);
+    CHECK(clock.judge(gpr_scan(number++, 25'000)) == ScanTiming::steady);
+    steady(5);
+  }
+  constexpr std::int64_t kRestartUs = 3'050'000;
+  steady(40, kRestartUs);
 }
 
 TEST_CASE("two sensors with one id have no steady counter: nothing is known") {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -20,6 +21,20 @@ TEST_CASE("Simulated drive of the nuScenes car: each systematic fault", "[long]"
   SystematicMatrix matrix(&NotYet::simulated);
   matrix.run_healthy("healthy", drive);
   matrix.run_faults(drive);
+  matrix.check();
+}
+
+TEST_CASE("Clock steps and halts do not mislead Bosch GPRs, whose counters turn after four scans") {
+  std::vector<RadarConfiguration> radars = four_radars();
+  for (RadarConfiguration& radar : radars) {
+    radar.decoder = BoschGprOptions{};
+  }
+  SystematicMatrix matrix(&NotYet::simulated);
+  for (const char* scenario : {"bends", "stop-and-go"}) {
+    const FaultDrive drive = simulated_fault_drive(scenario, 16.0, radars);
+    matrix.run_faults(drive, "clock step");
+    matrix.run_faults(drive, "halts");
+  }
   matrix.check();
 }
 

@@ -35,14 +35,21 @@ TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targe
 }
 
 /// The way that the vehicle seemed to go before two worlds showed, or before it seemed to rest
-/// again, remains as uncertainty.
+/// again, remains as uncertainty. If those that could tell a start fell silent amid it, it is not
+/// waited for: until it is told no radar is judged, so none would return.
 ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const TargetSet& targets,
                                                   const DopplerVelocity& velocity,
                                                   std::int64_t stamp_us) {
   using Verdict = ParkedVehicle::Verdict;
   const Verdict before = parked.verdict();
-  if (!parked.is_parked() || !consensus_[radar].is_trusted || consensus_.is_left_out(radar)) {
+  if (!parked.is_parked()) {
     return before;
+  }
+  if (!is_believed(radar)) {
+    if (parked.is_in_doubt() && !is_any_believed_heard()) {
+      parked.clear();
+    }
+    return parked.verdict();
   }
   const Verdict of_scan = parked.judge(radar, targets, velocity, stamp_us);
   const Verdict now = parked.verdict();
@@ -98,12 +105,29 @@ TwoWorlds::Before TrafficDoubt::before(std::size_t radar) const {
 
 bool TrafficDoubt::is_alone(std::size_t radar) const {
   for (std::size_t i = 0; i < scan_us_.size(); ++i) {
-    if (i != radar && scan_us_[i] &&
-        std::abs(seconds_between(*scan_us_[i], state_.time_us())) <= kScanVerdictValidS) {
+    if (i != radar && is_heard(i)) {
       return false;
     }
   }
   return true;
+}
+
+bool TrafficDoubt::is_any_believed_heard() const {
+  for (std::size_t i = 0; i < scan_us_.size(); ++i) {
+    if (is_believed(i) && is_heard(i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool TrafficDoubt::is_heard(std::size_t radar) const {
+  return scan_us_[radar] &&
+         std::abs(seconds_between(*scan_us_[radar], state_.time_us())) <= kScanVerdictValidS;
+}
+
+bool TrafficDoubt::is_believed(std::size_t radar) const {
+  return consensus_[radar].is_trusted && !consensus_.is_left_out(radar);
 }
 
 }  // namespace cremed

@@ -47,6 +47,9 @@ class TrafficDoubt {
   [[nodiscard]] TwoWorlds::Before before(std::size_t radar) const;
   /// No other radar is heard.
   [[nodiscard]] bool is_alone(std::size_t radar) const;
+  [[nodiscard]] bool is_any_believed_heard() const;
+  [[nodiscard]] bool is_heard(std::size_t radar) const;
+  [[nodiscard]] bool is_believed(std::size_t radar) const;
   void rest();
   void add_way();
 

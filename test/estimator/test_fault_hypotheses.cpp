@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/doubt/vehicle/convictions.hpp"
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "test/estimator/simulation.hpp"
 
@@ -54,6 +55,7 @@ class Comparison {
   /// From now on.
   void brake(double by_mps2, double for_s) { brakings_.push_back({time_s_, for_s, by_mps2}); }
   void silence(std::size_t radar) { is_silent_[radar] = true; }
+  void speak(std::size_t radar) { is_silent_[radar] = false; }
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
@@ -520,6 +522,39 @@ TEST_CASE("a radar at fault returns after some seconds of agreement, each time l
   CHECK(last_s < 30.0);
 }
 
+TEST_CASE("an accusation of hours ago does not keep a radar out for longer") {
+  constexpr std::size_t kRadar = 0;
+  Convictions convictions(1, set_of(kRadar));
+  std::int64_t time_us = 0;
+  const auto held_s = [&](double healthy_s) {
+    time_us += std::llround(healthy_s * 1e6);
+    convictions.accuse(kRadar, time_us);
+    double result = 0.0;
+    for (; convictions.at_fault() != 0U; result += 0.1, time_us += 100'000) {
+      convictions.release(set_of(kRadar), time_us);
+    }
+    return result;
+  };
+  const double first_s = held_s(0.0);
+  for (int time = 0; time < 6; ++time) {
+    CHECK(held_s(10.0) > first_s);
+  }
+  const double longest_s = held_s(10.0);
+  CHECK(longest_s > 60.0 * first_s);
+  CHECK(held_s(1300.0) < 0.6 * longest_s);
+  CHECK(held_s(24.0 * 3600.0) == Approx(first_s));
+}
+
+TEST_CASE("who is acquitted is not wrong by its own check either") {
+  constexpr RadarSet kBoth = 3U;
+  Convictions convictions(2, kBoth);
+  convictions.accuse(0, 0);
+  convictions.accuse(1, 0);
+  convictions.acquit(set_of(0));
+  CHECK(convictions.at_fault() == set_of(1));
+  CHECK(convictions.accused() == set_of(1));
+}
+
 TEST_CASE(
     "radars that accuse themselves return soon after that if they are most, each time later") {
   Comparison comparison(kFive);
@@ -668,6 +703,25 @@ TEST_CASE("of two radars the one that jumps is wrong, not both if both do") {
   both.drive(0.4,
              [](std::size_t, Comparison::Measured& measured) { measured.velocity_mps *= 0.8; });
   CHECK(both.faults().at_fault() == 0U);
+}
+
+TEST_CASE("a jolt of the vehicle convicts none of the radars that show it") {
+  const double jolt_mps = GENERATE(0.8, 1.0, 1.5);
+  const bool misses_scans = GENERATE(false, true);
+  CAPTURE(jolt_mps, misses_scans);
+  const auto jolted = [=](std::size_t, Comparison::Measured& measured) {
+    measured.velocity_mps.x() -= jolt_mps;
+    measured.speed_by_positions_mps -= jolt_mps;
+  };
+  for (int phase = 0; phase < 20; ++phase) {
+    Comparison comparison({kFront, kRearLeft, kRearRight});
+    comparison.drive(3.0 + 0.075 * phase);
+    if (misses_scans) comparison.silence(2);
+    comparison.drive(0.15);
+    comparison.speak(2);
+    comparison.drive(0.6, jolted);
+    CHECK(comparison.faults().at_fault() == 0U);
+  }
 }
 
 }  // namespace

@@ -276,6 +276,44 @@ TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
+TEST_CASE("a U-turn at full lock is no fault of a lone radar") {
+  const double yaw_rate_radps = GENERATE(0.6, 0.85, 1.0);
+  OdometryDrive drive({kFront}, 1);
+  drive.set_motion(3.5, 0.0);
+  drive.drive(4.0);
+  for (double part = 0.0; part < 1.0; part += 0.05) {
+    drive.set_motion(3.5, part * yaw_rate_radps);
+    drive.next();
+  }
+  for (int i = 0; i < 80; ++i) {
+    const Odometry odometry = drive.next();
+    CAPTURE(yaw_rate_radps, i, to_string(odometry.status));
+    CHECK(is_good(odometry));
+    CHECK_FALSE(drive.filter().is_fault_unknown());
+  }
+}
+
+TEST_CASE("a start amid which the believed radars fall silent does not silence the one left") {
+  constexpr std::size_t kLeft = 0;
+  OdometryDrive drive({kFront, {3.4, 0.4, 0.0}, kRearLeft}, 3);
+  drive.set_motion(6.0, 0.0);
+  drive.drive(4.0);
+  drive.radar(kLeft).doppler_scale = 0.7;
+  REQUIRE((drive.drive(3.0).left_out & 1U) == 1U);
+  const auto accelerate = [&](double by_mps2) {
+    drive.set_motion(std::clamp(drive.speed_mps() + 0.025 * by_mps2, 0.0, 6.0), 0.0);
+    return drive.next();
+  };
+  while (drive.speed_mps() > 0.0) accelerate(-2.0);
+  REQUIRE(drive.drive(3.0).status == OdometryStatus::standing_still);
+  drive.radar(kLeft).doppler_scale = 1.0;
+  for (int i = 0; i < 400 && !drive.filter().is_start_in_doubt(); ++i) accelerate(0.5);
+  REQUIRE(drive.filter().is_start_in_doubt());
+  drive.radar(1).is_silent = drive.radar(2).is_silent = true;
+  for (int i = 0; i < 300; ++i) accelerate(0.5);
+  CHECK(is_good(drive.next()));
+}
+
 TEST_CASE("a step of all radars that no vehicle can make is not followed") {
   const double step_mps = GENERATE(-5.0, -4.0, -3.0, 4.0);
   CAPTURE(step_mps);

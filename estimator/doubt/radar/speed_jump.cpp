@@ -15,6 +15,8 @@ constexpr double kMinJumpMps = 0.45;
 constexpr double kSigmas = 5.0;
 /// Of the jump: change per scan before and after. Beside one scan that is wrong it is 1.
 constexpr double kMaxShareBeside = 0.4;
+/// Of kMinJumpMps: no change of a scan stands out as much where there was no jump.
+constexpr double kSteadyShare = 0.5;
 /// A missing scan: over a longer time a vehicle changes its speed as well.
 constexpr double kMaxPeriodS = 0.16;
 
@@ -31,10 +33,15 @@ std::optional<std::int64_t> SpeedJump::add(std::int64_t stamp_us, const DopplerV
   std::array<double, 3> periods_s{};
   for (std::size_t i = 0; i < changes_mps.size(); ++i) {
     periods_s[i] = seconds_between(speeds_[i].stamp_us, speeds_[i + 1].stamp_us);
-    if (!(periods_s[i] > 0.0 && periods_s[i] <= kMaxPeriodS)) {
+    changes_mps[i] = speeds_[i + 1].mps - speeds_[i].mps;
+    const double outstanding_mps = changes_mps[i] - (speeds_[3].mps - speeds_[0].mps) / 3.0;
+    const bool is_gap = !(periods_s[i] > 0.0 && periods_s[i] <= kMaxPeriodS);
+    if (is_gap || std::abs(outstanding_mps) > kSteadyShare * kMinJumpMps) {
+      unsteady_us_ = stamp_us;
+    }
+    if (is_gap) {
       return std::nullopt;
     }
-    changes_mps[i] = speeds_[i + 1].mps - speeds_[i].mps;
   }
   const double steady_mps =
       0.5 * periods_s[1] * (changes_mps[0] / periods_s[0] + changes_mps[2] / periods_s[2]);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "cremed/estimator/motion/doppler_velocity.hpp"
@@ -23,6 +24,11 @@ class SpeedJump {
   /// Adds the velocity of the next scan. The stamp of the scan before, if the speed jumped to that
   /// one.
   std::optional<std::int64_t> add(std::int64_t stamp_us, const DopplerVelocity& velocity);
+  /// It measured since then that the vehicle did not jump: no scan is missing among the last four
+  /// of any, and no change stands out half as much as a jump.
+  [[nodiscard]] bool is_steady(std::int64_t since_us) const {
+    return count_ == speeds_.size() && unsteady_us_ < since_us;
+  }
 
  private:
   struct Speed {
@@ -32,6 +38,7 @@ class SpeedJump {
   };
   std::array<Speed, 4> speeds_;  // The oldest first.
   std::size_t count_ = 0;
+  std::int64_t unsteady_us_ = std::numeric_limits<std::int64_t>::min();
 };
 
 }  // namespace cremed

@@ -11,6 +11,9 @@ namespace {
 /// First and longest time for which a radar stays at fault without new evidence.
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
+/// For each such time without one the hold is halved: of an hour ago nothing is held against it.
+constexpr std::int64_t kHalfLifeUs = kLongestHoldUs;
+constexpr std::int64_t kMostHalvings = 30;  // All of it.
 /// The first of radars that found themselves wrong, if they are most.
 constexpr std::int64_t kFirstSharedHoldUs = 500'000;
 
@@ -25,6 +28,10 @@ void Convictions::leave_clock() {
 void Convictions::convict(std::size_t radar, std::int64_t time_us) {
   Verdict& verdict = verdicts_[radar];
   if (!contains(at_fault_, radar)) {
+    const std::int64_t healthy_us = time_us - verdict.until_us.value_or(time_us);
+    const auto halvings = std::clamp<std::int64_t>(healthy_us / kHalfLifeUs, 0, kMostHalvings);
+    verdict.hold_us >>= halvings;
+    verdict.shared_hold_us >>= halvings;
     verdict.hold_us = std::clamp(2 * verdict.hold_us, kFirstHoldUs, kLongestHoldUs);
     verdict.shared_hold_us =
         std::clamp(2 * verdict.shared_hold_us, kFirstSharedHoldUs, kLongestHoldUs);
@@ -42,7 +49,10 @@ void Convictions::accuse(std::size_t radar, std::int64_t time_us) {
   }
 }
 
-void Convictions::acquit(RadarSet set) { at_fault_ &= ~set; }
+void Convictions::acquit(RadarSet set) {
+  at_fault_ &= ~set;
+  accused_ &= ~set;
+}
 
 void Convictions::release(RadarSet set, std::int64_t time_us) {
   for_each(set, [&](std::size_t radar) {

@@ -13,7 +13,8 @@
 namespace cremed {
 
 /// Which radars are at fault, and until when: for some time after the last evidence, each time
-/// twice as long. A mirrored mount or a late bus shows in turns or when braking only.
+/// twice as long, halved again while nothing happens. A mirrored mount or a late bus shows in turns
+/// or when braking only.
 class Convictions {
  public:
   /// `judged`: the radars that count for what is most of them.

@@ -171,10 +171,11 @@ class MotionEvidence {
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
   [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity) const;
-  [[nodiscard]] MotionSums prior() const;
+  [[nodiscard]] MotionSums prior(double std_factor) const;
   [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
                                          const std::optional<Velocity>& velocity) const;
-  [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
+  [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair,
+                               double prior_std_factor = 1.0) const;
   [[nodiscard]] Fit fit(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
 

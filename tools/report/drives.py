@@ -89,7 +89,11 @@ def measure(drive, programs, told):
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)
         data["findings"] = findings_of(drive, programs, data, found, is_candump and config)
-        if drive.truth:
+        if drive.truth and data["breaks"]:
+            wrong = "there is no comparison with truth: the log does not go on as it began"
+            drive.troubles.append(f"{drive.logs[0]}: {wrong}")
+            data["findings"].append(findings.finding("note", wrong, "a log for each part, and truth in the same clock"))
+        elif drive.truth:
             data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
         told(1.0)
         return data

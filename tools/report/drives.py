@@ -126,7 +126,7 @@ def make(drive, programs, share, version, told):
     data = {"version": version, **measure(drive, programs, told)}
     if drive.page:
         with replaced_file(drive.page) as file:
-            file.write(page(data, share).encode())
+            file.write(page(data, share).encode("utf-8", "replace"))
     take_figures(drive, data)
     numbers = {name: value for name, value in data.items() if name != "scans"}
     drive.json = json.dumps(numbers, allow_nan=False) + "\n"
@@ -259,5 +259,5 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
         rows = [Row.of(result) if isinstance(result, Drive) else Row(drive.logs[0], failure=result)
                 for drive, result in [*zip(new, results), *((drive, drive) for drive in old)]]
         with replaced_file(os.path.join(folder, "index.html")) as file:
-            file.write(index(rows, share).encode())
+            file.write(index(rows, share).encode("utf-8", "replace"))
     return old + made

@@ -19,7 +19,7 @@ def finding(severity, what, remedy=""):
 def of_the_doctor(doctor, logs, config):
     """cremed-doctor's findings on a candump log."""
     command = [doctor, "--json", "--replay", *logs] + (["--config", config] if config else [])
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
     try:
         return json.loads(done.stdout)["findings"]
     except ValueError:  # It says why it has none.

@@ -55,6 +55,10 @@ class JsonProfile:
     missing = ""  # What is not in the log.
 
     @staticmethod
+    def left_out():
+        return ""
+
+    @staticmethod
     def schema(kind):
         name, schema = schema_of(kind)
         return name, json.dumps(schema)
@@ -88,7 +92,7 @@ def write_messages(log, writer, profile):
                 count += 1
     except cremed.DamagedLog as damage:
         return count, damage
-    return count, None
+    return count, ValueError(f"{log}: {profile.left_out()}") if profile.left_out() else None
 
 
 def convert(log, out, library, profile):
@@ -99,7 +103,7 @@ def convert(log, out, library, profile):
         if count == 0:
             raise damage or ValueError(f"{log}: has none of cremed's messages; record with lcm-logger")
         writer.finish()
-    if profile.missing:
+    if profile.missing and not profile.left_out():
         print(f"cremed-convert: {log}: {profile.missing}", file=sys.stderr)
     if damage:
         raise damage

@@ -40,6 +40,7 @@ OK, WARN, ERROR = range(3)
 ODOM, BASE = "odom", "base_link"
 # Variance of z, roll and pitch, which are not estimated; as cremed's own nav_msgs.Odometry.
 UNKNOWN_VARIANCE = 1e6
+LATEST_US = (1 << 31) * 1_000_000 - 1  # builtin_interfaces/Time has an int32 of seconds.
 X_Y_YAW = (0, 1, 5)  # Of x, y, z, roll, pitch, yaw.
 UINT8, UINT16, FLOAT32 = 2, 4, 7
 POINT = struct.Struct("<8fHBx")
@@ -136,6 +137,7 @@ class Ros2Profile:
 
     def __init__(self):
         self.status = None  # Of the odometry.
+        self.too_late = 0   # Messages that are left out.
         self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
                         "with `cremed --publish-scans`")
         self.take = {cremed.odometry_t: self.of_odometry, cremed.radar_scan_t: self.of_scan,
@@ -147,8 +149,15 @@ class Ros2Profile:
 
     def records(self, message):
         """[(topic, name of its type, bytes)]"""
+        if message.utime > LATEST_US:
+            self.too_late += 1
+            return []
         return [(topic, kind, DEFINITIONS.encode(kind, content))
                 for topic, kind, content in self.take[type(message)](message)]
+
+    def left_out(self):
+        return self.too_late and (f"{self.too_late} messages are left out: their times are after January 2038, which ROS 2 "
+                                  "cannot express; was the clock right? --profile json has them")
 
     def of_odometry(self, message):
         found = []

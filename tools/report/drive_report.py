@@ -36,10 +36,14 @@ def names_in(bits, names):
 class DriveReport:
     def __init__(self, drive):
         self.drive = drive
+        # Of the odometry's rows those that do not continue the one before.
+        self.begins = {bisect.bisect_left(drive.odometry["utime"], one.utime) for one in drive.timeline.breaks}
 
     def data(self):
         drive = self.drive
         return {"figures": self.figures(),
+                "breaks": [{"t": self.seconds([one.utime])[0], "kind": one.kind, "by_s": round(one.by_us * 1e-6, 3)}
+                           for one in drive.timeline.breaks],
                 "path": self.path(),
                 "rates": {name: self.rate(name, factor) for name, factor in
                           (("vx", 1), ("yaw_rate", DEG_PER_RAD))},
@@ -78,8 +82,8 @@ class DriveReport:
 
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
-        length = sum(math.hypot(x1 - x0, y1 - y0) for x0, x1, y0, y1 in zip(
-            odometry["x"], odometry["x"][1:], odometry["y"], odometry["y"][1:]))
+        x, y = odometry["x"], odometry["y"]
+        length = sum(math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins)
         return {"begin_utime": drive.begin_us,
                 "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
                 "path_length_m": round(length, 2),
@@ -111,7 +115,8 @@ class DriveReport:
         last = messages[-1]
         doubts = collections.Counter(name for message in messages
                                      for name in names_in(message.doubts, DOUBTS))
-        return {"counters": {name: getattr(last, name) for name in COUNTERS},
+        ends = {message.run: message for message in messages}.values()  # Each run of cremed counts from 0.
+        return {"counters": {name: sum(getattr(end, name) for end in ends) for name in COUNTERS},
                 "statuses_with_doubt": dict(doubts), "statuses": len(messages),
                 "statuses_in_doubt": sum(message.doubts != 0 for message in messages),
                 "faults": names_in(last.radar_faults, FAULTS),
@@ -129,6 +134,7 @@ class DriveReport:
         columns = self.drive.odometry
         kept = extremes([columns["x"], columns["y"]])
         return {"t": self.seconds(columns["utime"][i] for i in kept),
+                "begins": sorted({bisect.bisect_left(kept, i) for i in self.begins}),  # Of lines.
                 **{name: rounded((columns[name][i] for i in kept), 6)
                    for name in ("x", "y", "yaw", "cov_xx", "cov_xy", "cov_yy", "vx", "vy", "yaw_rate")}}
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From logs to pages: each drive by itself, several at once."""
 import concurrent.futures
+import hashlib
 import json
 import multiprocessing
 import os
@@ -19,7 +20,7 @@ from page import data_of, page
 from programs import is_lcm, replay
 from replaced_file import replaced_file
 from truth_report import truth_data
-from unconfigured import examined_configuration, is_unwritten
+from unconfigured import STANDARD, examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
 # Of the time that a candump log takes.
@@ -89,7 +90,11 @@ def measure(drive, programs, told):
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)
         data["findings"] = findings_of(drive, programs, data, found, is_candump and config)
-        if drive.truth:
+        if drive.truth and data["breaks"]:
+            wrong = "there is no comparison with truth: the log does not go on as it began"
+            drive.troubles.append(f"{drive.logs[0]}: {wrong}")
+            data["findings"].append(findings.finding("note", wrong, "a log for each part, and truth in the same clock"))
+        elif drive.truth:
             data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
         told(1.0)
         return data
@@ -118,11 +123,21 @@ def heard_of(lcm_log, drive, told):
     return heard
 
 
+def made_of(drive):
+    """What a page depends on beside the times of files; of a configuration the content."""
+    try:
+        config = hashlib.sha256(pathlib.Path(drive.config or STANDARD).read_bytes()).hexdigest()
+    except OSError:  # cremed says what is wrong.
+        config = None
+    return {"config": config, "truth": drive.truth is not None, "truth_std": drive.truth_stds}
+
+
 def make(drive, programs, share, version, told):
-    data = {"version": version, **measure(drive, programs, told)}
+    data = {"version": version, "made_of": made_of(drive), **measure(drive, programs, told)}
+    data["troubles"] = drive.troubles
     if drive.page:
         with replaced_file(drive.page) as file:
-            file.write(page(data, share).encode())
+            file.write(page(data, share).encode("utf-8", "replace"))
     take_figures(drive, data)
     numbers = {name: value for name, value in data.items() if name != "scans"}
     drive.json = json.dumps(numbers, allow_nan=False) + "\n"
@@ -130,7 +145,7 @@ def make(drive, programs, share, version, told):
 
 
 def take_figures(drive, data):
-    drive.figures, drive.findings = data["figures"], data["findings"]
+    drive.figures, drive.findings, drive.troubles = data["figures"], data["findings"], data["troubles"]
     drive.truth_figures = data["truth"]["figures"] if "truth" in data else None
 
 
@@ -143,7 +158,7 @@ def is_made(drive, version):
         data = data_of(drive.page)
     except (OSError, ValueError, TypeError):
         return False
-    if data.get("version") != version or (drive.truth is None) != ("truth" not in data):
+    if data.get("version") != version or data.get("made_of") != made_of(drive):
         return False
     take_figures(drive, data)
     return True
@@ -246,7 +261,7 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
     finally:
         PROGRESS.wipe()
     made = [result for result in results if isinstance(result, Drive)]
-    for result in results:
+    for result in old + results:
         for trouble in result.troubles if isinstance(result, Drive) else [result]:
             main_program.tell("cremed-report", trouble)
     if len(made) < len(new) and len(drives) > 1:
@@ -255,5 +270,5 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
         rows = [Row.of(result) if isinstance(result, Drive) else Row(drive.logs[0], failure=result)
                 for drive, result in [*zip(new, results), *((drive, drive) for drive in old)]]
         with replaced_file(os.path.join(folder, "index.html")) as file:
-            file.write(index(rows, share).encode())
+            file.write(index(rows, share).encode("utf-8", "replace"))
     return old + made

@@ -19,7 +19,7 @@ def finding(severity, what, remedy=""):
 def of_the_doctor(doctor, logs, config):
     """cremed-doctor's findings on a candump log."""
     command = [doctor, "--json", "--replay", *logs] + (["--config", config] if config else [])
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
     try:
         return json.loads(done.stdout)["findings"]
     except ValueError:  # It says why it has none.
@@ -57,6 +57,40 @@ def common(spans_of):
     for others in spans_of[1:]:
         shared = [(max(a, c), min(b, d)) for a, b in shared for c, d in others if max(a, c) < min(b, d)]
     return shared
+
+
+def places(breaks):
+    """"12.0 s, 15.1 s and 2 times more\""""
+    more = f" and {len(breaks) - MOST_SPANS} times more" if len(breaks) > MOST_SPANS else ""
+    return ", ".join(f"{one['t']:.1f} s" for one in breaks[:MOST_SPANS]) + more
+
+
+def about(seconds):
+    """Known but for the time between two scans."""
+    return f"about {seconds:.0f} s" if seconds < 86400 else f"{seconds / 86400:.1f} days"
+
+
+def of_breaks(breaks, clock_steps):
+    """Where the log does not continue what comes before. `clock_steps`: as cremed counted them."""
+    kinds = {kind: [one for one in breaks if one["kind"] == kind] for kind in ("clock", "pause", "restart")}
+    clock, found = "record when the computer's clock is right: after NTP or GNSS has set it", []
+    for one in kinds["clock"][:MOST_SPANS]:
+        found.append(finding("warning", f"the clock was set {'back' if one['by_s'] < 0 else 'forward'} by "
+                                        f"{about(abs(one['by_s']))} after {one['t']:.1f} s: the odometry restarts there, "
+                                        "and times go on without the step", clock))
+    small = max(clock_steps, len(kinds["clock"])) - len(found)
+    if small:
+        found.append(finding("warning", f"the clock was set {small} times{' more' if found else ''}: the odometry "
+                                        "restarts each time", clock))
+    if kinds["pause"]:
+        found.append(finding("warning", f"nothing was recorded for {about(kinds['pause'][0]['by_s'])} after "
+                                        f"{places(kinds['pause'])}, or the clock was set: that time is left out",
+                             "one log a drive; " + clock))
+    if kinds["restart"]:
+        found.append(finding("warning", f"cremed began anew after {places(kinds['restart'])}: the path begins at 0 there, and "
+                                        "length and counters are those of all runs together",
+                             "`journalctl -u cremed` tells why; the candump log of the drive, replayed, is one run"))
+    return found
 
 
 def of_silences(silences, radars):
@@ -103,6 +137,8 @@ def of_the_drive(data):
     end = data["figures"]["duration_s"]
     found = [] if data["figures"]["odometry"] else [
         finding("error", "there is no odometry in this drive: the page shows each radar by itself")]
+    radars = data["figures"]["radars"].values()
+    found += of_breaks(data["breaks"], max((radar["counters"]["clock_steps"] for radar in radars), default=0))
     found += of_the_odometry(data["statuses"].get("odometry", []), end)
     found += of_silences(data["silences"], data["figures"]["radars"])
     for radar, changes in data["doubts"].items():
@@ -111,8 +147,8 @@ def of_the_drive(data):
 
 
 def without_what_is_told(of_doctor, of_drive):
-    """The doctor names the longest silence of a radar, the findings of the drive all of them."""
-    told_silences = any(NO_SCAN in one["what"] or "were silent" in one["what"] for one in of_drive)
+    """The doctor names the longest silence of a radar, the findings of the drive all of them, and no step of the clock."""
+    told_silences = any(text in one["what"] for one in of_drive for text in (NO_SCAN, "were silent", "the clock was set"))
     return [one for one in of_doctor if not (told_silences and f"{NO_SCAN}from" in one["what"])]
 
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What an LCM log of cremed tells of a drive, as columns: an hour of it is a million messages."""
+import itertools
 import os
 import struct
 import types
@@ -8,11 +9,13 @@ from array import array
 
 import cremed
 from thinning import evenly
+from timeline import Timeline
 
 # Targets of a report: more than that, and scans are left out, evenly over the drive.
 TARGETS = 120_000
 ODOMETRY_COLUMNS = ("utime", "status", "x", "y", "yaw", "cov_xx", "cov_xy", "cov_yy", "vx", "sigma_vx",
                     "vy", "yaw_rate", "sigma_yaw_rate")
+SCAN = cremed.radar_scan_t._get_packed_fingerprint()  # pylint: disable=protected-access
 
 
 def odometry_row(m):
@@ -24,7 +27,7 @@ def odometry_row(m):
 
 
 class HeardDrive:
-    """`told` is called with the part that is done, now and then."""
+    """`told` is called with the part that is done, now and then. Times are those of its timeline."""
 
     def __init__(self, path, told=lambda part: None):
         self.path, self.told, self.size = path, told, max(os.path.getsize(path), 1)
@@ -33,6 +36,7 @@ class HeardDrive:
         self.statuses = {}  # Radar: the fields of its messages, one a second.
         self.scan_places, self.targets = {}, 0  # Channel: (times, begins of the payloads, ends).
         self.damage, self.others = None, cremed.OtherVersions()
+        self.timeline = Timeline(self._move)
         self._read()
         self.begin_us, self.end_us = self._span()
 
@@ -50,18 +54,39 @@ class HeardDrive:
                             self.others.add(channel)
                         # A status from before the first frame has no time.
                         if heard is not None and heard.message.utime != 0:
-                            takers[channel](heard.message)
+                            self._take(takers[channel], heard.message)
                     elif channel.startswith("CREMED_SCAN_"):
                         self._note_scan(channel, payload, log.tell())
             except cremed.DamagedLog as damage:
                 self.damage = damage
 
+    def _take(self, taker, message):
+        stream = type(message), getattr(message, "source", "")
+        message.utime = self.timeline.joined(stream, message.utime, message.seq)
+        taker(message)
+
+    def _move(self, since, by):
+        """Changes the times of what was taken last."""
+        columns = [self.odometry["utime"], *(times for times, *_ in self.motions.values()),
+                   *(times for times, *_ in self.scan_places.values())]
+        for times in columns:
+            for i in last_since(times, since):
+                times[i] += by
+        for messages in self.statuses.values():
+            for i in last_since([message.utime for message in messages], since):
+                messages[i].utime += by
+
     def _note_scan(self, channel, payload, end):
+        try:
+            utime, seq, counter = head_of_scan(payload)
+        except struct.error:  # Cut off, or of another version.
+            return
         times, begins, ends = self.scan_places.setdefault(channel, (array("q"), array("q"), array("q")))
-        times.append(scan_time(payload))
+        times.append(self.timeline.joined(channel, utime, seq))
         begins.append(end - len(payload))
         ends.append(end)
         self.targets += len(payload) // 31  # Bytes of a target.
+        self.timeline.note_cycle(channel, utime, counter)
 
     def troubles(self):
         """What keeps the report from being whole."""
@@ -80,8 +105,9 @@ class HeardDrive:
         statuses.append(message.status)
 
     def _take_status(self, message):
-        fields = types.SimpleNamespace(**cremed.fields_of(message))
+        fields = types.SimpleNamespace(**cremed.fields_of(message), run=self.timeline.runs)
         self.statuses.setdefault(message.source, []).append(fields)
+        self.timeline.note_clock_steps(fields.clock_steps)
 
     def _span(self):
         columns = [self.odometry["utime"], *(times for times, _ in self.motions.values())]
@@ -98,16 +124,25 @@ class HeardDrive:
         """[radar_scan_t], as many as a report holds."""
         count = max((len(times) for times, _, _ in self.scan_places.values()), default=0)
         count = max(count * min(1, TARGETS / max(self.targets, 1)), 1)
-        wanted = sorted((begins[i], ends[i]) for times, begins, ends in self.scan_places.values()
+        wanted = sorted((begins[i], ends[i], times[i]) for times, begins, ends in self.scan_places.values()
                         for i in evenly(times, self.begin_us, self.end_us, int(count)))
         with open(self.path, "rb") as log:
-            for begin, end in wanted:
+            for begin, end, utime in wanted:
                 log.seek(begin)
                 heard = cremed.decoded("", 0, log.read(end - begin))
                 if heard is not None:
+                    heard.message.utime = utime
                     yield heard.message
 
 
-def scan_time(payload):
-    """utime, the first member behind the fingerprint."""
-    return struct.unpack_from(">q", payload, 8)[0] if len(payload) >= 16 else 0
+def last_since(times, since):
+    """Indices, from the last on."""
+    return itertools.takewhile(lambda i: times[i] >= since, reversed(range(len(times))))
+
+
+def head_of_scan(payload):
+    """(utime, seq, counter) of a radar_scan_t; the counter stands behind its source's name and its status."""
+    fingerprint, utime, seq, length = struct.unpack_from(">8sqqi", payload)
+    if fingerprint != SCAN:
+        raise struct.error("another type")
+    return utime, seq, struct.unpack_from(">i", payload, 29 + length)[0]

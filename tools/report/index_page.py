@@ -3,6 +3,7 @@
 """The page that lists several drives, those that need a look first."""
 import html
 import os
+import urllib.parse
 from dataclasses import dataclass
 
 COLUMNS = ("drive", "errors", "warnings", "duration [s]", "path [m]", "odometry usable [% of the time]", "seconds in doubt",
@@ -61,7 +62,8 @@ class Row:
     def cells(self):
         """(shown, what it sorts by)"""
         name = html.escape(self.log)
-        yield f'<a href="{html.escape(self.page)}">{name}</a>' if self.page else name, name
+        address = urllib.parse.quote(os.fsencode(self.page))
+        yield f'<a href="{address}">{name}</a>' if self.page else name, name
         yield str(self.errors), self.errors
         yield str(self.warnings), self.warnings
         for value, digits in zip(self.numbers, (1, 0, 1, 0, 2, 2)):

@@ -90,7 +90,7 @@ def replay(cremed, logs, config, folder, told):
 
 def run(command, statuses=(0,)):
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          check=False)
+                          errors="replace", check=False)
     if done.returncode not in statuses:
         raise ValueError(done.stderr.strip() or f"{command[0]} failed")
     return done.stdout

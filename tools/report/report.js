@@ -79,7 +79,8 @@ function showTiles() {
 
 function drawMap(plane) {
   if (truth) plane.line(truth.path.x, truth.path.y, TRUTH, 6);
-  plane.line(path.x, path.y, INK, 1.6);
+  const begins = [0, ...path.begins, path.x.length];
+  begins.slice(1).forEach((end, i) => plane.line(path.x.slice(begins[i], end), path.y.slice(begins[i], end), INK, 1.6));
   if (!path.t.length) return;
   const i = indexAt(path.t, now);
   const pose = {x: path.x[i], y: path.y[i], yaw: path.yaw[i]};

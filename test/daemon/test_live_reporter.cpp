@@ -133,3 +133,17 @@ TEST_CASE("A radar that has its interface's name is told apart from it in the lo
   CHECK_THAT(bench.log(), Catch::Contains("warning radar absent: no scans"));
   CHECK_THAT(bench.log(), !Catch::Contains("good again"));
 }
+
+TEST_CASE("A signal of the vehicle that never comes is lost, though the radars are silent too") {
+  Configuration configuration = one_told_radar();
+  configuration.odometry.enabled = true;
+  configuration.vehicle.interface = "absent";
+  configuration.odometry.filter.vehicle.speed.is_used = true;
+  configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
+  ReporterBench bench(configuration);
+  bench.connect();
+  CHECK_THAT(bench.report(), Catch::Contains("vehicle speed: ok; vehicle yaw rate: ok"));
+  test::realtime_ahead_us += 1'000'000;
+  CHECK_THAT(bench.report(), Catch::Contains("vehicle speed: lost; vehicle yaw rate: lost"));
+  CHECK_THAT(bench.log(), Catch::Contains("warning vehicle speed: no frame 0x300 on absent"));
+}

@@ -86,13 +86,6 @@ constexpr std::array<BusText, 9> kBusTexts{{
      "no frame is read in time: all are dropped as older than live.max_latency_s"},
 }};
 
-/// All buses report the same computer clock.
-void report_clock(const BusStatus& now, const BusStatus& before) {
-  if (now.clock_steps != before.clock_steps) {
-    spdlog::warn("the clock was set: odometry restarts");
-  }
-}
-
 }  // namespace
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
@@ -119,8 +112,8 @@ std::string LiveReporter::report() {
   }
   for (std::size_t i = 0; i < buses_.size(); ++i) {
     const BusStatus now = source_.bus(static_cast<std::uint8_t>(i));
-    if (i == 0) {
-      report_clock(now, buses_[i]);
+    if (now.clock_steps != std::exchange(clock_steps_, now.clock_steps)) {  // The same of all.
+      spdlog::warn("the clock was set: odometry restarts");
     }
     if (source_.interfaces()[i]->name() != kAutoInterface) {
       report_bus(*source_.interfaces()[i], now, buses_[i]);
@@ -209,7 +202,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
   const int kind = progress.seconds_without_scan >= kPatienceS       ? 1
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
-  log_.update(configuration.name, kind, [&] {
+  log_.update(concat({"radar ", configuration.name}), kind, [&] {
     const auto findings = radar_findings(configuration, status, configuration_.radars);
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});

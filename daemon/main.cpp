@@ -57,10 +57,10 @@ int main(int argc, char** argv) {
   const auto log = cremed::log_to_standard_error();
   const cremed::CommandLineResult result = cremed::parse_command_line(argc, argv);
   if (!result.command_line) {
-    return result.exit_status;
+    return cremed::finish_process(result.exit_status);
   }
   try {
-    return run(*result.command_line, *log);
+    return cremed::finish_process(run(*result.command_line, *log));
   } catch (const cremed::UsageError& error) {
     spdlog::error("{}", error.what());
     return bad_usage;

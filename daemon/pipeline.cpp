@@ -174,6 +174,10 @@ void Pipeline::on_time(std::size_t clock, std::int64_t now_us) {
 }
 
 void Pipeline::publish_status() {
+  // Only live are all stamps of one clock.
+  if (odometry_.filter() != nullptr && clock_.is_stamp_clock) {
+    odometry_.filter()->note_lost_signals(*time_us_);
+  }
   for (const auto& radar : radars_) {
     radar->begin_period();
     if (const OdometryFilter* filter = odometry_.filter()) {

@@ -68,10 +68,12 @@ void BusConnection::look(const Link& link) {
   }
 }
 
-/// After network_down the same socket works again; after device_gone it never does.
+/// After network_down the same socket works again; after device_gone it never does. The controller
+/// starts again as error active, and sends no error frame that says so.
 void BusConnection::lose(LinkState link) {
   status_.interruptions += status_.link == LinkState::up ? 1 : 0;
   status_.link = link;
+  status_.bus = BusState::error_active;
   if (link != LinkState::down) {
     socket_.close();
   }

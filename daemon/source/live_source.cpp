@@ -119,7 +119,7 @@ SourceEvent LiveSource::judge(std::size_t interface, const ReceivedFrame& receiv
     status.bus = BusState::error_active;  // Not every driver reports a restart.
   }
   const bool was_late = is_late_[interface];
-  is_late_[interface] = is_late(received.frame.stamp_us, was_late);
+  is_late_[interface] = is_late(received.received_us, was_late);
   if (is_late_[interface]) {
     ++status.frames_stale;
     return was_late ? SourceEvent::idle : SourceEvent::dropped;
@@ -133,8 +133,8 @@ SourceEvent LiveSource::judge(std::size_t interface, const ReceivedFrame& receiv
 
 /// Once late, half of the limit is caught up: a computer that is too slow would otherwise handle
 /// only frames that are stale at the end of their scan.
-bool LiveSource::is_late(std::int64_t stamp_us, bool was_late) const {
-  return realtime_us() - stamp_us > (was_late ? max_latency_us_ / 2 : max_latency_us_);
+bool LiveSource::is_late(std::int64_t received_us, bool was_late) const {
+  return realtime_us() - received_us > (was_late ? max_latency_us_ / 2 : max_latency_us_);
 }
 
 void LiveSource::maintain() {

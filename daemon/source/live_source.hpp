@@ -62,7 +62,7 @@ class LiveSource final : public FrameSource {
  private:
   SourceEvent take(std::size_t interface, CanFrame& frame);
   SourceEvent judge(std::size_t interface, const ReceivedFrame& received, CanFrame& frame);
-  [[nodiscard]] bool is_late(std::int64_t stamp_us, bool was_late) const;
+  [[nodiscard]] bool is_late(std::int64_t received_us, bool was_late) const;
   void maintain();
   SourceEvent refill(CanFrame& frame);
   SourceEvent wait(CanFrame& frame);

@@ -71,6 +71,9 @@ class OdometryFilter {
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
   void add(const VehicleReading& reading) { vehicle_.add(reading); }
 
+  /// Notes which of these are lost while no scan comes.
+  void note_lost_signals(std::int64_t stamp_us) { vehicle_.note_lost(stamp_us); }
+
   /// A radar's own motion, with which other radars and these values are compared; before its scan.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
 

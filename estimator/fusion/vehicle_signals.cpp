@@ -101,10 +101,21 @@ void VehicleSignals::compare(const Pose2& mount, const EgoMotion& motion) {
   compare(VehicleSignal::yaw_rate, 2);
 }
 
-void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
+void VehicleSignals::note_lost(std::int64_t stamp_us) {
+  const double lost_s = state_.options().vehicle.lost_s;
   for (Source& source : sources_) {
     if (is_used(source.signal)) {
-      watch(source, stamp_us, is_known);
+      source.heard_us = source.heard_us.value_or(stamp_us);
+      source.lost.update(seconds_between(*source.heard_us, stamp_us) > lost_s);
+    }
+  }
+}
+
+void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
+  note_lost(stamp_us);
+  for (Source& source : sources_) {
+    if (is_used(source.signal)) {
+      watch(source, is_known);
     }
   }
   for (Source* source = earliest(); source != nullptr; source = earliest()) {
@@ -119,10 +130,8 @@ void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   }
 }
 
-/// Notes whether the signal is lost or frozen.
-void VehicleSignals::watch(Source& source, std::int64_t stamp_us, bool is_known) {
-  source.heard_us = source.heard_us.value_or(stamp_us);
-  source.lost.update(seconds_between(*source.heard_us, stamp_us) > state_.options().vehicle.lost_s);
+/// Notes whether the signal is frozen.
+void VehicleSignals::watch(Source& source, bool is_known) {
   const int rate = rate_of(source.signal);
   if (is_known) {
     source.standing.expect(state_.gaussian.mean(rate), kGateSigmas * state_.gaussian.std(rate));

@@ -40,6 +40,8 @@ class VehicleSignals {
   /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
   /// radars alone start the filter.
   void use_until(std::int64_t stamp_us, bool is_known);
+  /// Notes which signals are lost at this time; use_until() does so too.
+  void note_lost(std::int64_t stamp_us);
   /// Discards the readings; to be called when the clock was set.
   void forget();
   /// Resets the learned errors, which a wrong state may have corrupted.
@@ -72,12 +74,12 @@ class VehicleSignals {
     Fault frozen;
     std::uint64_t readings = 0;
     std::uint64_t used = 0;
-    std::optional<std::int64_t> heard_us;     // Last reading; before the first, the first scan.
+    std::optional<std::int64_t> heard_us;     // Last reading; before the first, the first look.
     std::optional<std::int64_t> compared_us;  // Last measurement.
   };
 
   [[nodiscard]] bool is_used(VehicleSignal signal) const;
-  void watch(Source& source, std::int64_t stamp_us, bool is_known);
+  void watch(Source& source, bool is_known);
   Source* earliest();
   void use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;

@@ -40,6 +40,16 @@ TEST_CASE("A bus that goes down keeps its socket, and each time counts once") {
   CHECK(bench.bus.receive().frames.size() == 1);
 }
 
+TEST_CASE("A bus that was down begins as error active") {
+  ConnectionBench bench;
+  bench.bus.status().bus = BusState::bus_off;
+  bench.bus.maintain(kUp);
+  CHECK(bench.bus.status().bus == BusState::bus_off);
+  bench.bus.maintain(kDown);
+  bench.bus.maintain(kUp);
+  CHECK(bench.bus.status().bus == BusState::error_active);
+}
+
 TEST_CASE("A recreated interface needs another socket") {
   ConnectionBench bench;
   bench.bus.maintain(kRecreated);

@@ -14,6 +14,7 @@
 #include "daemon/process/clocks.hpp"
 #include "daemon/source/can_socket.hpp"
 #include "test/daemon/datagram_pair.hpp"
+#include "test/daemon/hardware_stamps.hpp"
 
 using namespace cremed;
 using cremed::test::DatagramPair;
@@ -104,6 +105,27 @@ TEST_CASE("Hardware stamps that a device does not have give way to the kernel's"
   REQUIRE(frames.size() == 1);
   CHECK_FALSE(socket.hardware_stamps_work());
   CHECK(std::abs(frames[0].frame.stamp_us - realtime_us()) < kRecentUs);
+}
+
+TEST_CASE("Hardware stamps are used until one is 20 ms off the kernel's") {
+  const auto [ahead_us, works] = GENERATE(table<std::int64_t, bool>(
+      {{-15'000, true}, {15'000, true}, {-25'000, false}, {25'000, false}, {-700'000, false}}));
+  const DatagramPair pair;
+  CanSocket socket;
+  CanSocketOptions options;
+  options.hardware_stamps = true;
+  REQUIRE(socket.adopt(pair.receiver(), options).status == CanOpenStatus::open);
+  const auto stamp_ahead_us = [&](std::int64_t hardware_ahead_us) {
+    test::hardware_ahead_us = hardware_ahead_us;
+    pair.send(1, 8);
+    const auto frames = receive_all(socket);
+    test::hardware_ahead_us.reset();
+    REQUIRE(frames.size() == 1);
+    return frames[0].frame.stamp_us - frames[0].received_us;
+  };
+  CHECK(stamp_ahead_us(ahead_us) == (works ? ahead_us : 0));
+  CHECK(socket.hardware_stamps_work() == works);
+  CHECK((works || stamp_ahead_us(1000) == 0));
 }
 
 TEST_CASE("Frames that the kernel drops are told with the next that it keeps, and told once") {

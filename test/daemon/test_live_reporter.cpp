@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The line for `systemctl status`. UDP replaces CAN; the clock stands still, so that nothing looks
-// for the interface.
+// The line for `systemctl status`, and the log. UDP replaces CAN; the clock stands still, so that
+// nothing looks for the interface.
 #include <csignal>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
+#include "daemon/configuration/interfaces.hpp"
 #include "daemon/live_reporter.hpp"
 #include "daemon/process/clocks.hpp"
 #include "test/daemon/datagram_pair.hpp"
@@ -33,6 +38,12 @@ Configuration one_told_radar() {
 
 class ReporterBench {
  public:
+  explicit ReporterBench(Configuration configuration = one_told_radar())
+      : configuration_(std::move(configuration)) {
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+        "test", std::make_shared<spdlog::sinks::ostream_sink_st>(log_)));
+    spdlog::set_pattern("%l %v");
+  }
   void connect() { source_.interfaces()[0]->adopt(bus_.receiver()); }
   void send(canid_t id, int count = 1) {
     for (int i = 0; i < count; ++i) {
@@ -54,11 +65,13 @@ class ReporterBench {
     }
     return reporter_.report();
   }
+  [[nodiscard]] std::string log() const { return log_.str(); }
 
  private:
+  std::ostringstream log_;
   volatile std::sig_atomic_t stop_ = 0;
   DatagramPair bus_;
-  Configuration configuration_ = one_told_radar();
+  Configuration configuration_;
   LiveSource source_{configuration_, &stop_};
   FreshnessGate gate_{{}, 500'000, &realtime_us};
   Pipeline pipeline_{configuration_, source_, {&gate_}, PipelineClock{&realtime_us, true}};
@@ -89,4 +102,48 @@ TEST_CASE("The line names another node that tells the sensor its motion") {
   bench.send(encode_ars408_speed(0, 1.0).id);
   CHECK(bench.report() ==
         "front: 0 scans/s, 0 estimates/s, motion_feedback paused: another node sends it");
+}
+
+TEST_CASE("A clock that was set is told once, though no radar is found on the first interface") {
+  Configuration configuration = one_told_radar();
+  configuration.radars.insert(configuration.radars.begin(), configuration.radars.front());
+  configuration.radars.front().name = "rear";
+  configuration.radars.front().interface = kAutoInterface;
+  ReporterBench bench(configuration);
+  bench.report();
+  CHECK_THAT(bench.log(), !Catch::Contains("the clock was set"));
+  test::is_clock_set = true;
+  for (int i = 0; i < 3; ++i) {
+    bench.report();
+  }
+  const std::string told = "warning the clock was set: odometry restarts\n";
+  CHECK_THAT(bench.log(), Catch::Contains(told));
+  CHECK(bench.log().find(told) == bench.log().rfind(told));
+}
+
+TEST_CASE("A radar that has its interface's name is told apart from it in the log") {
+  Configuration configuration = one_told_radar();
+  configuration.radars.front().name = configuration.radars.front().interface;
+  ReporterBench bench(configuration);
+  bench.connect();
+  for (int i = 0; i < 6; ++i) {
+    bench.send(0x201);
+    bench.report();
+  }
+  CHECK_THAT(bench.log(), Catch::Contains("warning radar absent: no scans"));
+  CHECK_THAT(bench.log(), !Catch::Contains("good again"));
+}
+
+TEST_CASE("A signal of the vehicle that never comes is lost, though the radars are silent too") {
+  Configuration configuration = one_told_radar();
+  configuration.odometry.enabled = true;
+  configuration.vehicle.interface = "absent";
+  configuration.odometry.filter.vehicle.speed.is_used = true;
+  configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
+  ReporterBench bench(configuration);
+  bench.connect();
+  CHECK_THAT(bench.report(), Catch::Contains("vehicle speed: ok; vehicle yaw rate: ok"));
+  test::realtime_ahead_us += 1'000'000;
+  CHECK_THAT(bench.report(), Catch::Contains("vehicle speed: lost; vehicle yaw rate: lost"));
+  CHECK_THAT(bench.log(), Catch::Contains("warning vehicle speed: no frame 0x300 on absent"));
 }

@@ -12,6 +12,7 @@
 
 #include "daemon/source/live_source.hpp"
 #include "test/daemon/datagram_pair.hpp"
+#include "test/daemon/hardware_stamps.hpp"
 #include "test/daemon/moved_clock.hpp"
 
 using namespace cremed;
@@ -30,6 +31,7 @@ Configuration absent_radars(std::size_t radars) {
     configuration.radars.push_back(radar);
   }
   configuration.live.max_latency_s = 1e-6 * kMaxLatencyUs;
+  configuration.live.socket.hardware_stamps = test::hardware_ahead_us.has_value();
   return configuration;
 }
 
@@ -118,6 +120,17 @@ TEST_CASE("Once late it makes up half of the delay, and then hands frames out ag
   CHECK(next_at_age(40) == SourceEvent::frame);
   CHECK(next_at_age(60) == SourceEvent::frame);
   CHECK(bench.stale() == 2);
+}
+
+TEST_CASE(
+    "A frame is late by the time since the kernel received it, whatever the controller stamps") {
+  test::hardware_ahead_us = 15'000;
+  SourceBench bench(1);
+  test::realtime_ahead_us = kMaxLatencyUs + 1000;
+  bench.pairs[0].send(1, 8);
+  CHECK(bench.next() == SourceEvent::dropped);
+  CHECK(bench.stale() == 1);
+  test::hardware_ahead_us.reset();
 }
 
 TEST_CASE("Error frames are counted and tell the time; those that lost frames are drops") {

@@ -61,6 +61,8 @@ REPLAY = Program("replay", "cremed --config {config} --lcm-url none --replay {in
                  " --output-tum {out2}", "log", stops=True)
 ODOMETRY = Program("replay of the state", "cremed --config {config} --lcm-url none --replay {in}"
                    " --output-odometry {out}", "log", stops=True)
+CHECK = Program("check of a configuration", "cremed --check-config {config}", prints=True)
+HELP = Program("help", "cremed --help", prints=True)
 DOCTOR = Program("doctor of a log", "cremed-doctor --config {config} --replay {in}", "log",
                  prints=True, status=None)
 DUMP = Program("dump", "cremed-dump {in} --config {config} --json --no-targets", "log", prints=True,
@@ -87,7 +89,7 @@ CONVERT = Program("convert mcap", "cremed-convert mcap {in} {out}", "lcm", at_on
 REPORT = Program("report", "cremed-report {in} --config {config} --output {out} --json", "lcm",
                  prints=True, at_once=True, again_lines=0, pipes=False, last=b"</html>\n")
 
-ALL = (REPLAY, ODOMETRY, DOCTOR, DUMP, SIMULATE, SIMULATE_OUT, LCM_TO_CSV, PAIRS_OF, DRIVE, CALIBRATE,
+ALL = (REPLAY, ODOMETRY, CHECK, HELP, DOCTOR, DUMP, SIMULATE, SIMULATE_OUT, LCM_TO_CSV, PAIRS_OF, DRIVE, CALIBRATE,
        TABLE, BENCH, CONVERT, *([REPORT] if DYGRAPHS.exists() else []))
 WITH_INPUT = tuple(program for program in ALL if program.source)
 WITH_PIPE = tuple(program for program in WITH_INPUT if program.pipes)

@@ -36,23 +36,8 @@ struct Arguments {
   bool without_targets = false;
 };
 
-/// Nothing: the radars are to be found in the log itself, while it is read.
-std::optional<Configuration> configuration_of(const Arguments& arguments) {
-  if (is_unconfigured(arguments.config)) {
-    return is_pipe(arguments.log)
-               ? std::nullopt
-               : std::optional(examined_radars(observe_log(without_radars(), arguments.log)));
-  }
-  LocatedRadars located =
-      locate_in_log(load_configuration(configuration_path(arguments.config)), arguments.log);
-  for (const Finding& finding : located.findings) {
-    std::cerr << "cremed-dump: " << to_text(finding) << '\n';
-  }
-  return std::move(located.configuration);
-}
-
-/// Leaves the radar that was asked for.
-void select(const std::string& wanted, Configuration& configuration) {
+/// With the radar that was asked for only.
+Configuration selected(const std::string& wanted, Configuration configuration) {
   std::string names;
   for (const RadarConfiguration& radar : configuration.radars) {
     names += (names.empty() ? "" : ", ") + radar.name;
@@ -63,6 +48,21 @@ void select(const std::string& wanted, Configuration& configuration) {
   if (configuration.radars.empty()) {
     throw UsageError(concat({"--radar: ", in_quotes(wanted), " is none of ", names}));
   }
+  return configuration;
+}
+
+/// Nothing: the radars are to be found in the log itself, while it is read.
+std::optional<LocatedRadars> located(const Arguments& arguments) {
+  if (!is_unconfigured(arguments.config)) {
+    return locate_in_log(
+        selected(arguments.radar, load_configuration(configuration_path(arguments.config))),
+        arguments.log);
+  }
+  if (is_pipe(arguments.log)) {
+    return std::nullopt;
+  }
+  return LocatedRadars{
+      selected(arguments.radar, examined_radars(observe_log(without_radars(), arguments.log))), {}};
 }
 
 /// The longest period of a radar's messages is a second.
@@ -121,8 +121,12 @@ class Dump {
         log_(arguments.log),
         writer_(make_record_writer(
             std::cout, {arguments.is_json, !arguments.without_targets, is_pipe(arguments.log)})) {
-    if (const auto configuration = configuration_of(arguments)) {
-      begin(*configuration);
+    if (const auto known = located(arguments)) {
+      for (const Finding& finding : known->findings) {
+        std::cerr << "cremed-dump: " << to_text(finding) << '\n';
+      }
+      are_located_ = known->findings.empty();
+      reader_.emplace(known->configuration, *writer_);
     }
   }
 
@@ -147,7 +151,7 @@ class Dump {
     if (const std::string cut_off = log_.cut_off(); !cut_off.empty()) {
       std::cerr << "cremed-dump: " << cut_off << '\n';
     }
-    bool is_complete = true;
+    bool is_complete = are_located_;
     for (const std::string& reason : reasons) {
       if (!reason.empty()) {
         std::cerr << "cremed-dump: " << reason << '\n';
@@ -158,13 +162,8 @@ class Dump {
   }
 
  private:
-  void begin(Configuration configuration) {
-    select(arguments_.radar, configuration);
-    reader_.emplace(configuration, *writer_);
-  }
-
   void end_head() {
-    begin(head_.examined(log_));
+    reader_.emplace(selected(arguments_.radar, head_.examined(log_)), *writer_);
     head_.hand_over(*reader_);
   }
 
@@ -182,6 +181,7 @@ class Dump {
   const Arguments& arguments_;
   CandumpReader log_;
   std::unique_ptr<RecordWriter> writer_;
+  bool are_located_ = true;  // All radars of the configuration.
   LogHead head_;
   std::optional<ScanReader> reader_;
 };

@@ -43,9 +43,10 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Speed along x of a radar that looks sideways: that of the reflections of passed objects.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
-/// Of the prior's standard deviations where sets are compared: with those of a start a turn of 0.85
-/// rad/s (a U-turn at full lock) alone contradicts a lone radar by 8.
-constexpr double kPriorStdFactor = 10.0;
+/// Lateral acceleration of turns: slow vehicles turn faster than at a start is assumed. With that
+/// alone a U-turn at full lock (0.85 rad/s) contradicts a lone radar by 8.
+constexpr double kTurnStdMps2 = 3.0;
+constexpr double kMaxTurnStdRadps = 3.0;
 
 }  // namespace
 
@@ -256,13 +257,27 @@ MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& veloc
   return sums;
 }
 
-MotionSums MotionEvidence::prior(double std_factor) const {
+MotionSums MotionEvidence::prior(double yaw_rate_std_radps) const {
   const OdometryOptions& options = state_.options();
   MotionSums prior;
-  prior.add(Eigen::Vector3d::UnitX(), 0.0, squared(std_factor * options.start_speed_std_mps));
-  prior.add(Eigen::Vector3d::UnitY(), 0.0, squared(std_factor * options.start_yaw_rate_std_radps));
+  prior.add(Eigen::Vector3d::UnitX(), 0.0, squared(options.start_speed_std_mps));
+  prior.add(Eigen::Vector3d::UnitY(), 0.0, squared(yaw_rate_std_radps));
   prior.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
   return prior;
+}
+
+/// Of a turn at the speed that the judged radars have in the mean.
+double MotionEvidence::turn_std_radps(const Epoch& epoch) const {
+  double speeds_mps = 0.0;
+  double count = 0.0;
+  for_each(judged_, [&](std::size_t i) {
+    speeds_mps += epoch[i].velocity ? epoch[i].velocity->mps.norm() : 0.0;
+    count += epoch[i].velocity ? 1.0 : 0.0;
+  });
+  const double least_radps = state_.options().start_yaw_rate_std_radps;
+  return speeds_mps * kMaxTurnStdRadps > kTurnStdMps2 * count
+             ? std::max(least_radps, kTurnStdMps2 * count / speeds_mps)
+             : kMaxTurnStdRadps;
 }
 
 MotionSums MotionEvidence::by_doppler_at(std::size_t radar, std::size_t mount,
@@ -278,8 +293,8 @@ MotionSums MotionEvidence::by_doppler_at(std::size_t radar, std::size_t mount,
 }
 
 MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair,
-                               double prior_std_factor) const {
-  MotionSums sum = prior(prior_std_factor);
+                               double yaw_rate_std_radps) const {
+  MotionSums sum = prior(yaw_rate_std_radps);
   for_each(set, [&](std::size_t i) {
     if (pair && (i == pair->one || i == pair->other)) {
       const std::size_t partner = i == pair->one ? pair->other : pair->one;
@@ -293,7 +308,7 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
 
 MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,
                                         std::optional<Pair> pair) const {
-  const MotionSums joint = sum(set, epoch, pair, kPriorStdFactor);
+  const MotionSums joint = sum(set, epoch, pair, turn_std_radps(epoch));
   Fit fit{joint.chi_square()};
   int heard = 0;
   for_each(witnesses(), [&](std::size_t i) {
@@ -342,7 +357,7 @@ MotionEvidence::SpeedDifference MotionEvidence::speed_difference(std::size_t rad
     const Epoch& epoch = epochs_[k];
     const auto& velocity = epoch[radar].velocity;
     if (velocity && !any_of(set, [&](std::size_t i) { return !epoch[i].velocity; })) {
-      const MotionSums others = sum(set, epoch, {});
+      const MotionSums others = sum(set, epoch, {}, state_.options().start_yaw_rate_std_radps);
       speeds_mps += velocity->mps.x();
       differences_mps += velocity->mps.x() - along.dot(others.solution());
       variances += velocity->covariance(0, 0) + along.dot(others.random_covariance() * along);

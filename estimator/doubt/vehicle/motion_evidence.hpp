@@ -116,7 +116,9 @@ class MotionEvidence {
   };
   [[nodiscard]] SpeedDifference speed_difference(std::size_t radar, RadarSet set) const;
   /// All measurements of the radars in the set, with the prior.
-  [[nodiscard]] MotionSums sum(RadarSet set) const { return sum(set, newest_epoch(), {}); }
+  [[nodiscard]] MotionSums sum(RadarSet set) const {
+    return sum(set, newest_epoch(), {}, state_.options().start_yaw_rate_std_radps);
+  }
   /// Doppler of a radar that is present.
   [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
     return by_doppler(radar, *velocity(radar));
@@ -171,11 +173,12 @@ class MotionEvidence {
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
   [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity) const;
-  [[nodiscard]] MotionSums prior(double std_factor) const;
+  [[nodiscard]] MotionSums prior(double yaw_rate_std_radps) const;
+  [[nodiscard]] double turn_std_radps(const Epoch& epoch) const;
   [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
                                          const std::optional<Velocity>& velocity) const;
   [[nodiscard]] MotionSums sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair,
-                               double prior_std_factor = 1.0) const;
+                               double yaw_rate_std_radps) const;
   [[nodiscard]] Fit fit(RadarSet set, const Epoch& epoch, std::optional<Pair> pair) const;
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
 

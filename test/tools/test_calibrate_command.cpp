@@ -141,6 +141,8 @@ TEST_CASE("cremed-eval calibrate refuses what fits the rest of the drive no bett
   CHECK_THAT(result.error,
              Catch::Contains("scans: what was found fits other parts of the drive no better\n"));
   CHECK_THAT(result.error, Catch::Contains(" kept 5.73\n"));
+  CHECK_THAT(result.error, Catch::EndsWith("c.toml: unchanged\n"));
+  CHECK_THAT(result.output, !Catch::Contains("[calibrated"));  // It would undo an older one.
   CHECK(content(file) == before);
 }
 

@@ -331,4 +331,17 @@ TEST_CASE("a drive that tells nothing is refused") {
                     Catch::Contains("the vehicle does not move"));
 }
 
+TEST_CASE("truth of another time is refused, not taken for none") {
+  const RecordedDrive recorded("bends", 7, 10.0);
+  std::vector<std::int64_t> in_ns = recorded.truth->utime_us();
+  std::vector<Pose2> poses;
+  for (std::int64_t& utime : in_ns) {
+    poses.push_back(*recorded.truth->at(utime));
+    utime *= 1000;
+  }
+  const TrueTrajectory truth(in_ns, poses);
+  CHECK_THROWS_WITH(calibrate(configuration_of(recorded.radars), {recorded.log}, &truth),
+                    Catch::Contains("has no scan of the logs in it"));
+}
+
 }  // namespace

@@ -21,11 +21,12 @@ struct Vehicle {
   static double w_radps(double t_s) { return 0.3 * std::sin(0.5 * t_s); }
 };
 
-/// A minute of three radars with independent noise; `truths` are their true states.
+/// A minute of three radars with independent noise; `truths` are their true states. Its last 10 s
+/// may be in another log, a pause later.
 class RadarMinute {
  public:
-  RadarMinute(std::vector<CalibrationVector> truths, unsigned seed)
-      : truths_(std::move(truths)), random_(seed) {
+  RadarMinute(std::vector<CalibrationVector> truths, unsigned seed, std::int64_t pause_us = 0)
+      : truths_(std::move(truths)), pause_us_(pause_us), random_(seed) {
     for (std::size_t radar = 0; radar < truths_.size(); ++radar) {
       for (std::int64_t us = 20'000 * static_cast<std::int64_t>(radar + 1); us < 60'000'000;
            us += 75'000) {
@@ -68,12 +69,14 @@ class RadarMinute {
     for (int i = 0; i < kDopplerStates; ++i) {
       equations.measured[i] += normal_(random_);
     }
-    velocities_.push_back({radar, kBeginUs + us, equations});
+    const std::int64_t stamp_us = kBeginUs + us + (us < 50'000'000 ? 0 : pause_us_);
+    velocities_.push_back({radar, stamp_us, equations});
     const double late_w = Vehicle::w_radps(t_s + truth[kPositionLead]);
-    yaw_rates_.push_back({radar, kTurn, kBeginUs + us, late_w + 0.02 * normal_(random_), 0.02});
+    yaw_rates_.push_back({radar, kTurn, stamp_us, late_w + 0.02 * normal_(random_), 0.02});
   }
 
   std::vector<CalibrationVector> truths_;
+  std::int64_t pause_us_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
   std::vector<VelocityMeasurement> velocities_;
@@ -173,4 +176,14 @@ TEST_CASE("a part of a drive has the measurements of its time") {
 }
 
 }  // namespace
+TEST_CASE("parts are of the time that was measured: a log of the next day is none by itself") {
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  const CalibrationFit fit = RadarMinute(kTruths, 1, kDayUs).fit({});
+  const CalibrationFit continued = RadarMinute(kTruths, 1).fit({});
+  for (std::size_t part = 0; part < kHeldOutParts; ++part) {
+    const double expected = continued.part(part, kHeldOutParts, true).misfit(kTruths);
+    CHECK(fit.part(part, kHeldOutParts, true).misfit(kTruths) == Approx(expected).epsilon(0.05));
+  }
+}
+
 }  // namespace cremed

@@ -179,6 +179,12 @@ TEST_CASE("Radars keep their last motion, status and scan") {
   CHECK(json["scans"][0]["twist"][0] == 10.0);
 }
 
+TEST_CASE("Scans are shown where there is no odometry") {
+  HeardState state;
+  state.take(scan_of_two("front"));
+  CHECK(json_of(state)["scans"].size() == 1);
+}
+
 TEST_CASE("A scan that is long over is not shown") {
   HeardState state;
   state.take(odometry(0));

@@ -51,6 +51,24 @@ TEST_CASE("Windows begin one step after both have begun, half a second apart, to
   CHECK(window_errors(ChainedPoses(steps), {}, 0, 2'000'000).windows == 0);
 }
 
+TEST_CASE("A damaged last stamp of truth adds no windows, and takes no time") {
+  const Circle circle;
+  const auto steps = exact_steps(circle, kStepUs, 90);
+  const auto truth = exact_truth(circle, 100);
+  std::vector<std::int64_t> utime_us = truth.utime_us();
+  std::vector<Pose2> poses;
+  for (const std::int64_t utime : utime_us) {
+    poses.push_back(*truth.at(utime));
+  }
+  utime_us.push_back(9'000'000'000'000'000);
+  poses.push_back(poses.back());
+  const TrueTrajectory damaged(utime_us, poses);
+  const auto windows = [&](const TrueTrajectory& of) {
+    return window_errors(ChainedPoses(steps), of, 500'000, 2'000'000).windows;
+  };
+  CHECK(windows(damaged) == windows(truth));
+}
+
 TEST_CASE("A constant error of scale and of yaw rate is that of every window") {
   const Circle circle{8.0, 1e-9};
   auto steps = exact_steps(circle, kStepUs, 200);

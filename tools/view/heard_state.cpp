@@ -274,7 +274,9 @@ nlohmann::json HeardState::motions_json() const {
 nlohmann::json HeardState::scans_json() const {
   Json scans = Json::array();
   for (const Radar& radar : radars_) {
-    if (radar.scan && odometry_ && radar.scan->utime > odometry_->utime - kOldScanUs) {
+    const bool is_old =
+        odometry_ && radar.scan && radar.scan->utime <= odometry_->utime - kOldScanUs;
+    if (radar.scan && !is_old) {
       scans.push_back(scan_json(*radar.scan, radar.odometry_at_scan));
     }
   }

@@ -54,8 +54,10 @@ int show(const Arguments& arguments) {
   cremed::LcmListener listener(arguments.lcm_url, state);
   cremed::handle_stop_signals();
   cremed::ViewServer server(state, arguments.address);
-  std::printf("http://%s:%d/ shows what is heard at %s\n", arguments.address.host.c_str(),
-              server.port(), arguments.lcm_url.c_str());
+  const std::string& host = arguments.address.host;
+  const bool is_ipv6 = host.find(':') != std::string::npos;
+  std::printf("http://%s%s%s:%d/ shows what is heard at %s\n", is_ipv6 ? "[" : "", host.c_str(),
+              is_ipv6 ? "]" : "", server.port(), arguments.lcm_url.c_str());
   std::fflush(stdout);
   const std::jthread listening(
       [&](const std::stop_token& stop) { listen(stop, listener, server); });

@@ -234,8 +234,8 @@ void print_toml(const Configuration& configuration, const Calibration& calibrati
                 const Values& values) {
   const FittedVehicle& vehicle = calibration.vehicle;
   std::printf(
-      "# Results of cremed-eval calibrate; put them before or after any table, replacing older "
-      "ones.\n");
+      "# Results of cremed-eval calibrate; put them before or after any table, or their keys into "
+      "tables of these names.\n");
   std::printf("# yaw_rad is in the frame of %s, in which the vehicle rolls at %.4f +- %.4f rad.\n",
               calibration.has_truth ? "truth" : "the configured mounts", vehicle.value[kRoll],
               vehicle.std[kRoll]);
@@ -244,8 +244,10 @@ void print_toml(const Configuration& configuration, const Calibration& calibrati
     print_values(values.vehicle);
   }
   for (std::size_t i = 0; i < values.radars.size(); ++i) {
-    std::printf("\n[calibrated.%s]\n", configuration.radars[i].name.c_str());
-    print_values(values.radars[i]);
+    if (!values.radars[i].empty()) {
+      std::printf("\n[calibrated.%s]\n", configuration.radars[i].name.c_str());
+      print_values(values.radars[i]);
+    }
   }
 }
 
@@ -254,9 +256,12 @@ std::string read_text(std::istream& input) {
 }
 
 void write_back(const std::string& path, const Values& values) {
-  replace_file(path,
-               edited_configuration(with_input(path, read_text), values.radars, values.vehicle));
-  std::fprintf(stderr, "%s: changed\n", path.c_str());
+  const std::string before = with_input(path, read_text);
+  const std::string after = edited_configuration(before, values.radars, values.vehicle);
+  if (after != before) {
+    replace_file(path, after);
+  }
+  std::fprintf(stderr, "%s: %s\n", path.c_str(), after == before ? "unchanged" : "changed");
 }
 
 std::unique_ptr<TrueTrajectory> read_truth(const std::string& path) {

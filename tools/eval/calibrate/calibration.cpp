@@ -154,6 +154,21 @@ class Calibrator {
   std::optional<HeldOutCheck> check_;
 };
 
+/// Throws if truth tells nothing of these scans.
+void check_overlap(const std::vector<RecordedRadar>& recorded, const TrueTrajectory& truth) {
+  for (const RecordedRadar& radar : recorded) {
+    if (std::ranges::any_of(radar.scans, [&](const RecordedScan& scan) {
+          return truth.at(scan.stamp_us).has_value();
+        })) {
+      return;
+    }
+  }
+  throw std::runtime_error(
+      concat({"truth: its time, utime ", std::to_string(truth.utime_us().front()), " to ",
+              std::to_string(truth.utime_us().back()),
+              ", has no scan of the logs in it; is it of this drive, in microseconds?"}));
+}
+
 Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
                        const TrueTrajectory* truth, const SystematicErrors& errors)
     : configuration_(configuration),
@@ -165,7 +180,9 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
            motion_prior(configuration)),
       radars_(configuration.radars.size()) {
   fit_.set_truth(truth);
-  if (!has_truth_) {
+  if (has_truth_) {
+    check_overlap(recorded_, *truth);
+  } else {
     fit_.trust_yaws(mount_yaw_stds(configuration));
   }
   for (std::size_t i = 0; i < radars_.size(); ++i) {

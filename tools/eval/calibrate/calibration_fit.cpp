@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
@@ -304,12 +305,14 @@ CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool i
   if (nodes_.empty()) {
     return result;
   }
-  const std::int64_t begin = nodes_.begin()->first;
-  const auto length = static_cast<std::size_t>(nodes_.rbegin()->first - begin + 1);
+  // Of the time that was measured: of a stop, or between two logs, there are no nodes.
+  std::vector<std::int64_t> numbers;
+  for (const auto& [number, node] : nodes_) {
+    numbers.push_back(number);
+  }
   const auto is_outside = [&](std::int64_t node) {
-    const std::size_t at =
-        count * static_cast<std::size_t>(std::max<std::int64_t>(node - begin, 0)) / length;
-    return (at == index) != is_inside;
+    const auto rank = std::ranges::lower_bound(numbers, node) - numbers.begin();
+    return (count * static_cast<std::size_t>(rank) / numbers.size() == index) != is_inside;
   };
   const auto is_measured_outside = [&](const auto& measurement) {
     return is_outside(measurement.stamp_us / kNodeUs);

@@ -127,8 +127,8 @@ class CalibrationFit {
   /// The same without standard deviations.
   void minimise();
 
-  /// The fit with the measurements within one of so many equal parts of their time, or with those
-  /// of the others.
+  /// The fit with the measurements within one of so many equal parts of their time, in which pauses
+  /// do not count, or with those of the others.
   [[nodiscard]] CalibrationFit part(std::size_t index, std::size_t count, bool is_inside) const;
   /// Half the sum of squares (with outliers weighted down) that these values of the radars leave in
   /// the measurements at best.

@@ -103,9 +103,10 @@ MotionsAgainstWheels against_wheels(const std::vector<RecordedEstimate>& estimat
 TruthAgainstWheels truth_against_wheels(const TrueTrajectory& truth, const WheelReference& wheels,
                                         std::int64_t interval_us) {
   SquareSums sums;
-  if (!truth.utime_us().empty()) {
-    for (std::int64_t start_us = truth.utime_us().front();
-         start_us + interval_us <= truth.utime_us().back(); start_us += kStepUs) {
+  if (!truth.utime_us().empty() && !wheels.utime_us().empty()) {
+    const std::int64_t end_us = std::min(truth.utime_us().back(), wheels.utime_us().back());
+    for (std::int64_t start_us = std::max(truth.utime_us().front(), wheels.utime_us().front());
+         start_us + interval_us <= end_us; start_us += kStepUs) {
       const auto true_motion = truth.motion(start_us, start_us + interval_us);
       const auto wheel_motion = wheels.motion(start_us, start_us + interval_us);
       if (true_motion && wheel_motion) {

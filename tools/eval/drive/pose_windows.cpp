@@ -89,7 +89,8 @@ std::int64_t first_window_us(const std::vector<RecordedOdometry>& sources,
 WindowErrors window_errors(const ChainedPoses& poses, const TrueTrajectory& truth,
                            std::int64_t first_us, std::int64_t length_us) {
   WindowErrors errors;
-  const std::int64_t last_us = truth.utime_us().empty() ? first_us : truth.utime_us().back();
+  const std::int64_t of_truth_us = truth.utime_us().empty() ? first_us : truth.utime_us().back();
+  const std::int64_t last_us = std::min(of_truth_us, poses.last_us().value_or(first_us));
   for (std::int64_t begin_us = first_us; begin_us + length_us <= last_us;
        begin_us += kWindowStepUs) {
     const std::int64_t end_us = begin_us + length_us;

@@ -26,6 +26,10 @@ class ChainedPoses {
   /// a gap or across one.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
+  /// Of the last pose; nothing if there is none.
+  [[nodiscard]] std::optional<std::int64_t> last_us() const {
+    return utime_us_.empty() ? std::nullopt : std::optional(utime_us_.back());
+  }
 
  private:
   struct Place {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <istream>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -33,6 +34,9 @@ class WheelReference {
   /// (speed_mps, yaw_rate_radps) at a time, interpolated linearly.
   [[nodiscard]] std::optional<Eigen::Vector2d> rates(std::int64_t utime_us) const;
   [[nodiscard]] const WheelStd& std() const { return std_; }
+  [[nodiscard]] const std::vector<std::int64_t>& utime_us() const {
+    return dead_reckoning_.utime_us();
+  }
 
  private:
   WheelStd std_;

@@ -67,8 +67,8 @@ Terminal::Terminal() {
   }
   termios raw = before_;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  raw.c_cc[VSUSP] = raw.c_cc[VQUIT] =
-      _POSIX_VDISABLE;  // They would leave the shell on this screen.
+  // They would leave the shell on this screen.
+  raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
   ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
   write_all(kEnter);
 }

@@ -274,9 +274,7 @@ nlohmann::json HeardState::motions_json() const {
 nlohmann::json HeardState::scans_json() const {
   Json scans = Json::array();
   for (const Radar& radar : radars_) {
-    const bool is_old =
-        odometry_ && radar.scan && radar.scan->utime <= odometry_->utime - kOldScanUs;
-    if (radar.scan && !is_old) {
+    if (radar.scan && (!odometry_ || radar.scan->utime > odometry_->utime - kOldScanUs)) {
       scans.push_back(scan_json(*radar.scan, radar.odometry_at_scan));
     }
   }

@@ -51,6 +51,7 @@ void PositionFusion::use(std::size_t radar, const TargetSet& targets, std::int64
   if (state_.is_witness(radar)) {
     return;
   }
+  nodes_.advance();
   const double age_s = seconds_between(stamp_us, state_.time_us());
   select_static(state_, radar, age_s, targets, static_targets_);
   counters_[radar].moving += targets.size() - static_targets_.size();
@@ -108,7 +109,7 @@ void PositionFusion::match(std::size_t radar, double age_s) {
 void PositionFusion::compare_speed(std::size_t radar, const MapMatch& match) {
   double since_s = 0.0;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    since_s += match.by_node[i](0, 0) * seconds_between(nodes_.stamp_us(i), state_.time_us());
+    since_s += match.by_node[i](0, 0) * nodes_.since_s(i);
   }
   if (!condition_.is_speed_unknown() && since_s > 0.0) {
     faults_.add_speed_by_positions(

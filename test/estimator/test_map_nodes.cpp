@@ -28,6 +28,7 @@ class Bench {
   /// Moves for a time; returns whether a node was added at its end, by a scan of this age.
   bool move_and_add(double time_s, double age_s = 0.0) {
     state_.advance_to(state_.time_us() + static_cast<std::int64_t>(time_s * 1e6));
+    nodes_.advance();
     return nodes_.add_if_due(state_.time_us() - static_cast<std::int64_t>(age_s * 1e6), age_s);
   }
   OdometryState& state() { return state_; }
@@ -62,6 +63,24 @@ TEST_CASE("a standing vehicle keeps its map, and adds a node as soon as it has d
   bench.set_motion(1.0, 0.0);
   CHECK_FALSE(bench.move_and_add(0.9 * Bench::options().node_way_m));
   CHECK(bench.move_and_add(0.3 * Bench::options().node_way_m));
+}
+
+TEST_CASE(
+    "an error of the speed adds up since a node, but for the rest before the present motion") {
+  Bench bench;
+  CHECK(bench.move_and_add(0.5, 0.1));
+  const std::size_t node = bench.nodes().newest();
+  for (int i = 0; i < 600; ++i) {
+    bench.move_and_add(0.1);
+  }
+  CHECK(bench.nodes().since_s(node) == Approx(60.1));
+  bench.set_motion(-1.0, 0.0);
+  bench.move_and_add(0.1);
+  bench.move_and_add(0.2);
+  CHECK(bench.nodes().since_s(node) == Approx(0.2));
+  bench.set_motion(0.0, 0.0);
+  bench.move_and_add(0.3);
+  CHECK(bench.nodes().since_s(node) == Approx(0.5));
 }
 
 TEST_CASE("a turn on the spot is a motion, in either direction") {

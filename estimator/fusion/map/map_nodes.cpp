@@ -3,11 +3,21 @@
 #include "cremed/estimator/fusion/map/map_nodes.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
+
+void MapNodes::advance() {
+  const double speed_mps = state_.gaussian.mean(state_layout::kSpeed);
+  const bool was_moving =
+      std::exchange(is_moving_, std::abs(speed_mps) > state_.options().standstill_mps);
+  if (is_moving_ && !was_moving) {
+    moving_since_us_ = state_.time_us();
+  }
+}
 
 bool MapNodes::add_if_due(std::int64_t stamp_us, double age_s) {
   if (!is_due(stamp_us, age_s)) {

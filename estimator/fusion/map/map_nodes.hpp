@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 
@@ -18,11 +20,16 @@ class MapNodes {
   explicit MapNodes(OdometryState& state) : state_(state) {}
 
   void clear() { is_empty_ = true; }
+  /// Notes whether the vehicle moves, to be called at each scan.
+  void advance();
   /// Adds the pose at a scan that is `age_s` older than the state, if a node is due: node_period_s
   /// after the last and after a motion, so that the maps of a standing vehicle stay.
   bool add_if_due(std::int64_t stamp_us, double age_s);
   [[nodiscard]] std::size_t newest() const { return newest_; }
-  [[nodiscard]] std::int64_t stamp_us(std::size_t node) const { return stamp_us_[node]; }
+  /// The time since a node in which an error of the present speed added up: without a rest before.
+  [[nodiscard]] double since_s(std::size_t node) const {
+    return seconds_between(std::max(stamp_us_[node], moving_since_us_), state_.time_us());
+  }
 
  private:
   [[nodiscard]] bool is_due(std::int64_t stamp_us, double age_s) const;
@@ -30,6 +37,8 @@ class MapNodes {
   OdometryState& state_;
   std::size_t newest_ = 0;
   bool is_empty_ = true;
+  bool is_moving_ = false;
+  std::int64_t moving_since_us_ = 0;  // The last start from rest.
   std::array<std::int64_t, state_layout::kNodes> stamp_us_{};
 };
 

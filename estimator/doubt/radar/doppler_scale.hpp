@@ -61,8 +61,7 @@ class DopplerScale {
   };
   struct Scan {
     std::int64_t stamp_us = 0;
-    Eigen::Vector2d way_m =
-        Eigen::Vector2d::Zero();  // Place of the sensor by Doppler, since a gap.
+    Eigen::Vector2d way_m = Eigen::Vector2d::Zero();  // Place of the sensor, by Doppler.
     double yaw_rad = 0.0;
     std::size_t size = 0;
     std::array<Point, kMaxTargets> points;

@@ -73,7 +73,7 @@ class Pipeline {
   /// The learned errors, by radar, for the next start; empty unless the odometry is ok or
   /// standing_still. Not for the hot path.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
-  /// Of a signal of [vehicle].
+  /// State of a signal of [vehicle].
   [[nodiscard]] VehicleStatus vehicle(VehicleSignal signal) const;
   /// The odometry of the last scan; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_.odometry(); }

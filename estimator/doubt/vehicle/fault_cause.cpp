@@ -26,7 +26,7 @@ struct Noise {
       return 1.0 / (squared(mps) + squared(share * speed_mps) + more_variance);
     }
   };
-  Axis along;  // The vehicle,
+  Axis along;  // The x axis of the vehicle.
   Axis across;
 };
 /// The noise of the targets, of this radar and the others, is added; with few targets it is most of

@@ -78,7 +78,7 @@ class OdometryOutput {
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_ = 0;
-  /// The same for the last prediction.
+  /// Of the last prediction: time, pose since the start, and radars used since.
   std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();
   Eigen::Vector3d predicted_odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_since_prediction_ = 0;

@@ -32,7 +32,7 @@ class OdometryState {
 
   /// Resets the state to its prior, with the anchor at its pose.
   void start(std::int64_t time_us = 0);
-  /// The same, but keeps what has been learned of slip and radars.
+  /// As start(), but keeps what has been learned of slip and radars.
   void restart(std::int64_t time_us);
   /// Resets speed and yaw rate to `value` (v, w) with `covariance`, and the accelerations to their
   /// prior.
@@ -59,7 +59,7 @@ class OdometryState {
 
   /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
-  /// The same, with its derivative by the motion states.
+  /// Pose at a scan that is `age_s` older, with its derivative by the motion states.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s, PoseJacobian& jacobian) const;
   /// Clones the pose at a scan that is `age_s` older than the state as a node.
   void clone_node(std::size_t node, double age_s);

@@ -28,7 +28,8 @@ namespace cremed {
 ///                                                          |                    |
 ///                                           of all radars  +-> OdometryStage ---+
 ///
-/// (daemon/README.md: what orders what, and MotionFeedback, a sink that sends on the bus.)
+/// (daemon/README.md: where frames and scans are put in order, and MotionFeedback, a sink that
+/// sends on the bus.)
 ///
 /// With [vehicle], the odometry also gets the speed and yaw rate of the vehicle's bus, and uses at
 /// a scan what was measured before it.

@@ -18,8 +18,8 @@
 
 namespace cremed {
 
-/// Whether a scan's Doppler shows the road or traffic: what departs beside a parked vehicle
-/// (ParkedVehicle), what moves along with a driving one (TwoWorlds).
+/// Whether a scan's Doppler shows the road or traffic: vehicles that depart beside a parked one
+/// (ParkedVehicle), or move along with a driving one (TwoWorlds).
 class TrafficDoubt {
  public:
   enum class Seen : std::uint8_t {

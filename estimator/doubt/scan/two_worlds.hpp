@@ -28,7 +28,7 @@ class TwoWorlds {
     /// The first scans of a lone radar that looks sideways: along the way, where Doppler shows the
     /// speed, it may see nothing but a vehicle beside.
     nothing_beside,
-    fault,  ///< The odometry was lost: positions have to confirm what comes.
+    fault,  ///< The odometry was lost: positions have to confirm the next start.
     motion,
   };
 

@@ -14,12 +14,12 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, and not which is which. With a previous motion there is no doubt if the vehicle can
-/// continue at the estimated speed and not at the other one, its rival. Without a previous motion,
-/// a rival of at least two places raises it unless the estimated speed has more places than a
-/// truck, and at the first start no fewer than the rival. A lone radar that looks sideways needs
-/// more places than a truck even without a rival. The doubt ends after ten scans without a rival; a
-/// smaller rival maintains it.
+/// along, and that it is open which is the road. With a previous motion there is no doubt if the
+/// vehicle can continue at the estimated speed and not at the other one, its rival. Without a
+/// previous motion, a rival of at least two places raises it unless the estimated speed has more
+/// places than a truck, and at the first start no fewer than the rival. A lone radar that looks
+/// sideways needs more places than a truck even without a rival. The doubt ends after ten scans
+/// without a rival; a smaller rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.

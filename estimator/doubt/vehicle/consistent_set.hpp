@@ -27,10 +27,14 @@ struct ConsistentSet {
 /// with the radars that look sideways.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
-/// The first consistent of: all radars; those that are not at fault; the sets with one radar less,
-/// with two less, of many radars without the worst, of one radar. If witnesses contradict it, a
-/// smaller set may replace it, and so may the set without two radars if these having each other's
-/// mounts explains all measurements.
+/// The first of these sets that is consistent:
+/// - all radars;
+/// - all that are not at fault;
+/// - all but one or two, of many radars also all but the worst ones; or a single radar. Of several
+///   that are consistent the one that fits best.
+///
+/// Two sets may replace it: a smaller one, if the witnesses contradict it; and all but two radars,
+/// if all measurements fit with these two at each other's mounts.
 ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault);
 
 }  // namespace cremed

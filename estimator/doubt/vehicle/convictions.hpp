@@ -17,7 +17,7 @@ namespace cremed {
 /// radar is found at fault, and is halved again over the time without.
 class Convictions {
  public:
-  /// `judged`: the radars of which more than half are "most".
+  /// `judged`: the radars of which accuse() takes the majority.
   Convictions(std::size_t radars, RadarSet judged) : verdicts_(radars), judged_(judged) {}
 
   /// To be called when the clock of the stamps was set: those at fault remain so.

@@ -55,10 +55,10 @@ class MotionEvidence {
     tracks_[radar].accused_us = time_us;
   }
   void add_motion(std::size_t radar, const EgoMotion& motion);
-  /// The speed of all radars changed more than a vehicle's can. Each counts as after a step until
-  /// its speed steps again.
+  /// The speed of all radars changed more than a vehicle's can. Each is suspect until its speed
+  /// steps again.
   void add_step() { set_after_step(true); }
-  /// Positions confirm the speed: no radar counts as after a step any more.
+  /// Positions confirm the speed: no radar is suspect any more.
   void end_step() { set_after_step(false); }
   /// True once after all radars stepped again.
   bool take_step_back() { return std::exchange(has_stepped_back_, false); }
@@ -126,7 +126,7 @@ class MotionEvidence {
   }
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
-  /// Whether a radar of the set that is heard counts as after a step (add_step()).
+  /// Whether a radar of the set that is heard is suspect after a step (add_step()).
   [[nodiscard]] bool is_after_step(RadarSet set) const;
   /// A radar's own check found it wrong, in one of its last scans.
   [[nodiscard]] bool is_accused(std::size_t radar) const {

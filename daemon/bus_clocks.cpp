@@ -20,8 +20,8 @@ void BusClocks::note(const CanFrame& frame) {
   const std::uint32_t bit = set_of(frame.interface);
   Clock& own = clocks_[frame.interface];
   buses_ |= bit;
-  // Two others that agree: of two buses that differ one may be wrong, or the other. If no delay
-  // explains that it is the one that is ahead.
+  // Two other buses must agree. Of only two either may be wrong; if no delay explains the
+  // difference, it is the one that is ahead.
   constexpr int kOthers = 2;
   const int ahead_of = std::min(std::popcount(buses_) - 1, kOthers);
   const std::int64_t offset_us = ahead_of == kOthers ? kOffsetUs : kOffsetOfTwoUs;
@@ -78,7 +78,7 @@ ScanTiming ScanClock::judge(const RadarScan& scan) {
   const bool is_late =
       (turns_soon() ? std::abs(late_s) : late_s) > kStepS && confirmations_ == kMinConfirmations;
   if (is_late && !is_as_late(late_s)) {
-    return ScanTiming::late;  // Those that follow are compared with the scan before it.
+    return ScanTiming::late;  // The next scans are compared with the one before this.
   }
   last_ = now;
   late_scans_ = 0;
@@ -100,7 +100,7 @@ double ScanClock::lateness_s(double passed_s, std::uint32_t counts) const {
   return turns_soon() && period_s_ > 0.0 ? std::remainder(late_s, modulus_ * period_s_) : late_s;
 }
 
-/// As the scan before was, or for too long.
+/// Whether the scan is as late as the one before, or one more than kMaxLate in a row are late.
 bool ScanClock::is_as_late(double late_s) {
   const bool is_alike = late_scans_ > 0 && std::abs(late_s - late_s_) <= kStepS;
   late_s_ = late_s;

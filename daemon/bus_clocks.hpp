@@ -14,7 +14,7 @@
 
 namespace cremed {
 
-/// The stamps of each bus compared with those of its frames before and of the other buses.
+/// Compares the stamps of each bus with those of its earlier frames and of the other buses.
 class BusClocks {
  public:
   /// Notes each frame, in the order of arrival.
@@ -24,7 +24,8 @@ class BusClocks {
   [[nodiscard]] bool agree(std::uint8_t a, std::uint8_t b) const {
     return follows(a, b) && follows(b, a);
   }
-  /// The half of it that frames of `interface` have shown: a frame of `other` tells its time.
+  /// agree() by the frames of `interface` only: a stamp of `other` is then a time of `interface`
+  /// too.
   [[nodiscard]] bool follows(std::uint8_t interface, std::uint8_t other) const {
     return interface == other || contains(clocks_[interface].followed, other);
   }
@@ -37,7 +38,8 @@ class BusClocks {
   [[nodiscard]] bool is_ahead(std::uint8_t interface) const {
     return clocks_[interface].ahead.is_shown;
   }
-  /// Whether they are behind: its clock is wrong, or its frames come late.
+  /// Whether its stamps are behind those of all others: its clock is wrong, or its frames come
+  /// late.
   [[nodiscard]] bool is_behind(std::uint8_t interface) const {
     return clocks_[interface].behind.is_shown;
   }
@@ -47,31 +49,31 @@ class BusClocks {
   static constexpr std::int64_t kMaxDifferenceUs = 5'000;
   /// Frames of one bus overtake each other by 5 ms at most (20 frames at 500 kbit/s).
   static constexpr std::int64_t kSetBackUs = 50'000;
-  /// In a row: a single frame may have waited for the next list.
+  /// Frames in a row that show it: a single one may have waited for the next list.
   static constexpr std::uint32_t kMinFramesBack = 3;
   /// More than a radar's frames wait in a gateway (75 ms, a cycle). Stamps of the kernel, and logs
-  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong, until 0.5 s are no delay
-  /// any more.
+  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong; but 0.5 s are no delay any
+  /// more, so the one that is ahead is wrong.
   static constexpr std::int64_t kOffsetUs = 100'000;
   static constexpr std::int64_t kOffsetOfTwoUs = 500'000;
 
-  /// What pairs of frames in a row, of this bus and another, show of this one. Pairs with others
-  /// between them can show a difference too, but not that there is none.
+  /// Whether this bus is ahead (or behind), by pairs of successive frames of this bus and another.
+  /// Frames with others between them can show that too, but not that it is not.
   struct Offset {
     /// More than single late frames: lists of ARS408 are 13 pairs a second or more.
     static constexpr int kMinPairs = 10;
 
     std::uint32_t by = 0;  // Bit i: bus i shows it.
-    int pairs = 0;         // That show it, less those that do not.
+    int pairs = 0;         // Pairs that show it, less those that do not.
     bool is_shown = false;
 
-    /// A pair in a row.
+    /// Notes a pair of successive frames.
     void note(std::uint32_t other, bool shows_it, int least_buses);
   };
   struct Clock {
-    std::int64_t last_us = 0;               // Of its last frame,
-    std::optional<std::int64_t> latest_us;  // and the largest of a radar.
-    std::uint32_t frames_back = 0;          // Stamped that much before it.
+    std::int64_t last_us = 0;               // Stamp of its last frame.
+    std::optional<std::int64_t> latest_us;  // Largest stamp of a radar's frame.
+    std::uint32_t frames_back = 0;          // In a row, kSetBackUs before it.
     std::uint32_t followed = 0;  // Bit i: this bus and bus i agree, by frames of this one.
     Offset ahead;
     Offset behind;
@@ -85,11 +87,11 @@ class BusClocks {
   std::optional<std::uint8_t> last_interface_;
 };
 
-/// A scan's stamp by the radar's cycle counter.
+/// How a scan's stamp compares with the radar's cycle counter.
 enum class ScanTiming : std::uint8_t {
-  steady,       ///< Or not known.
+  steady,       ///< As expected, or not known.
   late,         ///< The computer stood still, or its clock was set: the next scans tell.
-  set_forward,  ///< The clock was set, where a log has only a pause.
+  set_forward,  ///< The clock was set; without the counter it would be a pause.
 };
 
 /// The stamps of one radar's scans compared with its cycle counter.
@@ -101,16 +103,19 @@ class ScanClock {
   void forget();
 
  private:
-  /// On recorded drives (nuScenes, RadarScenes, 9000 scans of ARS408) that is 0.008 s at most. With
-  /// 0.05 s a Bosch GPR that a halt of 50 ms delayed at every 16th scan came into doubt.
+  /// Least difference of stamp and counter that is a step. On recorded drives (nuScenes,
+  /// RadarScenes, 9000 scans of ARS408) it is 0.008 s at most. With 0.05 s a Bosch GPR that a halt
+  /// of 50 ms delayed at every 16th scan came into doubt.
   static constexpr double kStepS = 0.03;
   /// Scans in a row with one period before a step is believed.
   static constexpr int kMinConfirmations = 10;
-  /// Frames that waited while the computer stood still are stamped at one time: each scan is less
-  /// late. After a step all are late alike, with another period of the sensor more and more.
+  /// Late scans in a row that are no step. Frames that waited while the computer stood still are
+  /// stamped at one time: each scan is less late than the one before. After a step all are equally
+  /// late, with another period of the sensor more and more.
   static constexpr int kMaxLate = 3;
-  /// Shorter counters pass through zero in a pause: they tell the time but for a multiple of their
-  /// turn (Bosch GPR: 4 scans, 0.4 s). After a longer pause the sensor may have started anew.
+  /// A counter of smaller modulus wraps around in a pause: it tells the time up to a multiple of
+  /// its turn (Bosch GPR: 4 scans, 0.4 s). After a pause of kMaxPauseS the sensor may have started
+  /// anew.
   static constexpr std::uint32_t kMinModulus = 4096;
   static constexpr double kMaxPauseS = 2.0;
   struct Scan {
@@ -126,8 +131,8 @@ class ScanClock {
   std::optional<Scan> last_;
   double period_s_ = 0.0;  // Of one count.
   int confirmations_ = 0;
-  double late_s_ = 0.0;  // The scan before,
-  int late_scans_ = 0;   // of so many in a row.
+  double late_s_ = 0.0;  // Of the last late scan.
+  int late_scans_ = 0;   // In a row.
 };
 
 }  // namespace cremed

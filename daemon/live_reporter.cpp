@@ -62,7 +62,7 @@ BusCondition condition_of(const BusStatus& now, const BusStatus& before) {
   return now.frames_stale != before.frames_stale ? late : silent;
 }
 
-/// What to say of a bus.
+/// Texts about the state of a bus.
 struct BusText {
   std::string_view state;   ///< After its name.
   std::string_view remedy;  ///< With {name} of the interface and {error} of the socket.

@@ -61,7 +61,7 @@ class LiveReporter {
   const MotionFeedback& feedback_;
   const LcmPublisher* publisher_;
   ConditionLog log_;
-  std::vector<BusStatus> buses_;  // At the last check,
+  std::vector<BusStatus> buses_;  // At the last check.
   std::uint64_t clock_steps_ = 0;
   std::vector<Progress> progress_;
   bool has_scans_ = false;        // Of any radar, since the last check.

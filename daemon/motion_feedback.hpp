@@ -16,8 +16,8 @@ namespace cremed {
 /// configured. A scan without estimate sends nothing: after 500 ms the sensor assumes standstill.
 ///
 /// Two senders would contradict each other at the sensor. So it listens for a second before its
-/// first frame, which is twice the longest pause of a sender, and sends nothing once it has heard
-/// another, until it has not for ten seconds. Only time in which the bus was read counts.
+/// first frame: twice the longest pause of a sender. Once it has heard another sender, it sends
+/// nothing until that is silent for ten seconds. Only time in which the bus was read counts.
 class MotionFeedback final : public OdometrySink {
  public:
   static constexpr std::int64_t kFirstSilenceUs = 1'000'000;

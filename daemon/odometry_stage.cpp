@@ -9,7 +9,7 @@
 namespace cremed {
 namespace {
 
-/// What a scan measures that repeats the one before.
+/// Used in place of the targets of a scan that repeats the previous one: it is no measurement.
 const TargetSet kNoTargets;
 
 std::vector<OdometryRadar> odometry_radars(
@@ -101,8 +101,8 @@ bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
   });
 }
 
-/// That the positions of a radar contradict its Doppler is decisive only if the comparison with the
-/// others is not: a mount may be off that the odometry learns.
+/// Not if positions contradict the speed. Other doubts by the radar's own check are decisive only
+/// if the comparison with the other radars is not: a mount may be off, which the odometry learns.
 bool OdometryStage::is_trusted(const RadarChannel& radar) const {
   return (radar.self_check.doubts() & positions_contradict_speed) == 0 &&
          (radar.self_check.is_trusted() || !filter_->is_fault_unknown());

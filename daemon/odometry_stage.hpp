@@ -37,10 +37,10 @@ class OdometryStage {
   /// Null if odometry.enabled = false.
   OdometryFilter* filter() { return filter_ ? &*filter_ : nullptr; }
   [[nodiscard]] const OdometryFilter* filter() const { return filter_ ? &*filter_ : nullptr; }
-  /// Of the last scan used; nothing before the first.
+  /// The odometry of the last scan used; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_; }
 
-  /// Uses what waits up to this radar's last scan, whose targets are replaced by the next.
+  /// Uses the waiting scans up to this radar's, whose targets are replaced by its next scan.
   void make_room(std::size_t radar);
   /// The radar's targets wait for their turn.
   void hold(const RadarChannel& radar, std::int64_t stamp_us);

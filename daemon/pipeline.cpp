@@ -100,9 +100,8 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   }
 }
 
-/// Widens or withdraws what the radar itself or the odometry does not believe. The odometry judges
-/// the motion before it is widened: a wider one, of a radar that looks sideways, would contradict
-/// nothing.
+/// Widens the motion of a radar that looks sideways, and withdraws a motion that contradicts the
+/// odometry. That is judged before it is widened: a wider motion would contradict nothing.
 void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
   OdometryFilter* filter = odometry_.filter();
   if (filter != nullptr && filter->is_start_in_doubt()) {
@@ -124,7 +123,8 @@ void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
   }
 }
 
-/// Every scan with usable targets, registered or not.
+/// Passes each scan with usable targets to the odometry, registered or not, unless its bus is ahead
+/// or behind.
 void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   const bool was_ahead = std::exchange(radar.is_ahead, clocks_.is_ahead(radar.interface));
   radar.is_behind = clocks_.is_behind(radar.interface);
@@ -136,8 +136,8 @@ void Pipeline::hold(RadarChannel& radar, const EgoMotion& motion) {
   }
 }
 
-/// In the order of their time-outs. The time of a bus whose clock does not agree with that of the
-/// radar's closes nothing.
+/// Closes overdue scans in the order of their time-outs. The time of a bus closes no scan of a
+/// radar on another bus whose clock does not agree.
 void Pipeline::close_overdue(std::int64_t now_us, std::optional<std::uint8_t> interface) {
   const auto is_overdue = [&](const RadarChannel& radar) {
     return (!interface || clocks_.follows(radar.interface, *interface)) &&

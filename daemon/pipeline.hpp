@@ -28,7 +28,8 @@ namespace cremed {
 ///                                                          |                    |
 ///                                           of all radars  +-> OdometryStage ---+
 ///
-/// (daemon/README.md: what orders what, and MotionFeedback, a sink that sends on the bus.)
+/// (daemon/README.md: where frames and scans are put in order, and MotionFeedback, a sink that
+/// sends on the bus.)
 ///
 /// With [vehicle], the odometry also gets the speed and yaw rate of the vehicle's bus, and uses at
 /// a scan what was measured before it.
@@ -73,7 +74,7 @@ class Pipeline {
   /// The learned errors, by radar, for the next start; empty unless the odometry is ok or
   /// standing_still. Not for the hot path.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
-  /// Of a signal of [vehicle].
+  /// State of a signal of [vehicle].
   [[nodiscard]] VehicleStatus vehicle(VehicleSignal signal) const;
   /// The odometry of the last scan; nothing before the first.
   [[nodiscard]] const std::optional<Odometry>& odometry() const { return odometry_.odometry(); }

@@ -47,8 +47,8 @@ struct RadarChannel {
   EgoMotionEstimator estimator;
   SelfCheck self_check;
   ScanClock scan_clock;
-  bool is_ahead = false;         ///< Its stamps are ahead of all other buses (BusClocks),
-  bool is_behind = false;        ///< or behind.
+  bool is_ahead = false;         ///< Its stamps are ahead of those of all other buses (BusClocks).
+  bool is_behind = false;        ///< Its stamps are behind those of all other buses.
   LatencyHistogram latencies;    ///< Since the start.
   LatencyHistogram solve_times;  ///< Since the start.
 

@@ -11,7 +11,7 @@
 
 namespace cremed {
 
-/// What is to be told of.
+/// What is reported.
 struct Replayed {
   const std::string& configuration_path;
   const Configuration& configuration;
@@ -21,8 +21,8 @@ struct Replayed {
   bool is_stopped = false;  ///< By a signal: what is missing may have come.
 };
 
-/// Logs what came of the logs, causes first. False if that is not what it should be: a log that
-/// could not be read or has no times, a radar without a scan, no estimate at all.
+/// Logs the result of a replay, causes of faults first. False if it has a fault: a log that could
+/// not be read or has no times, a radar without a scan, no estimate at all.
 bool report_replay(const Replayed& replayed);
 
 }  // namespace cremed

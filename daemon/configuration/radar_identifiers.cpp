@@ -7,7 +7,8 @@
 namespace cremed {
 namespace {
 
-/// What it sends, and what it is told by others if cremed is to tell it too: MotionFeedback.
+/// Identifiers that the radar sends; with motion_feedback also those that it obeys, since other
+/// nodes may send them too.
 IdSet heard_ids(const RadarSettings& radar) {
   const auto* ars408 = radar.as<Ars408Options>();
   const bool is_told = ars408 != nullptr && ars408->motion_feedback;

@@ -14,7 +14,7 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kMaxPrintable = 60;
-/// What no shell takes for anything but itself.
+/// Characters without a special meaning in any shell.
 constexpr std::string_view kUnquoted =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+,:@%";
 

@@ -27,7 +27,7 @@ void touch_stack() {
   }
 }
 
-/// What is freed here serves every later use.
+/// The memory that is freed here serves every later allocation.
 void touch_heap() {
   const std::unique_ptr<volatile char[]> heap(new volatile char[kHeapReserveBytes]);
   for (std::size_t i = 0; i < kHeapReserveBytes; i += 1024) {

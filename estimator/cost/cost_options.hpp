@@ -44,12 +44,13 @@ inline constexpr double kDrivingMps = 1.0;
 /// directions of travel that the radars measure differ by 0.009 rad from one another (mount_yaw, of
 /// a measured but not calibrated mount).
 struct SharedErrorOptions {
-  double doppler_offset_std_mps = 0.01;      ///< Offset of all Doppler of one radar.
-  double mount_yaw_std_rad = 0.0075;         ///< Error of the mounting yaw.
-  double velocity_std_mps = 0.01;            ///< Body over wheels: pitch, suspension.
-  double doppler_scale_std = 0.0027;         ///< Factor on all Doppler of one radar.
-  double acceleration_std_mps2 = 3.0;        ///< Of the vehicle between two scans,
-  double yaw_acceleration_std_radps2 = 0.5;  ///< observed by the Doppler of both.
+  double doppler_offset_std_mps = 0.01;  ///< Offset of all Doppler of one radar.
+  double mount_yaw_std_rad = 0.0075;     ///< Error of the mounting yaw.
+  double velocity_std_mps = 0.01;        ///< Body over wheels: pitch, suspension.
+  double doppler_scale_std = 0.0027;     ///< Factor on all Doppler of one radar.
+  /// Accelerations of the vehicle between two scans, which the Doppler of both scans observes.
+  double acceleration_std_mps2 = 3.0;
+  double yaw_acceleration_std_radps2 = 0.5;
 };
 
 }  // namespace cremed

@@ -12,8 +12,8 @@ namespace {
 
 using namespace state_layout;
 
-/// From so many scans on, 0.75 s of three radars, the state is not that of a wrong first radar,
-/// which the others tell within 0.4 s.
+/// Scans used (0.75 s of three radars) after which the state does not follow a wrong first radar:
+/// the others contradict one within 0.4 s.
 constexpr int kMinScansOfState = 30;
 
 }  // namespace
@@ -33,7 +33,7 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
       std::abs(error.x()) > possible_change_mps) {
     step_ = Step{condition_.used_us(), error.x()};
   }
-  // The positions can tell which of the speeds is wrong once they would be that far apart.
+  // Positions can tell which speed is wrong once the ways at the two speeds are that far apart.
   if (has_stepped() || (std::abs(error.x()) * since_s > 2.0 * PositionFusion::kMaxConfirmedM &&
                         consensus_.contradicts_positions(stamp_us))) {
     condition_.doubt();

@@ -15,9 +15,9 @@
 namespace cremed {
 
 /// If a majority of radars contradicts the filter and agrees with each other, the velocity of the
-/// state is reset to theirs. A step of all radars that no vehicle can make is not followed, nor
-/// what is near it, nor what their own positions contradict: the filter is in doubt and then lost,
-/// and positions have to confirm the next start.
+/// state is reset to theirs. Not followed are a step of all radars that no vehicle can make,
+/// velocities near that step, and a majority that its own positions contradict: the filter is then
+/// in doubt and later lost, and positions have to confirm the next start.
 class MajorityFollower {
  public:
   /// The arguments must outlive this object.
@@ -25,13 +25,14 @@ class MajorityFollower {
       : state_(state), consensus_(consensus), condition_(condition) {}
 
   void clear() { step_.reset(); }
-  /// Returns the change of (v, w), if it followed. `possible_change_mps`: of the speed of a
-  /// vehicle, since the last scan that was used.
+  /// Returns the change of (v, w) if the majority is followed. `possible_change_mps`: largest
+  /// change of a vehicle's speed since the last scan that was used.
   std::optional<Eigen::Vector2d> follow(std::int64_t stamp_us, double possible_change_mps);
-  /// All radars stepped, no scan was used since, and this velocity of a radar is nearer to where
-  /// they stepped to than to the state. That one's sigma grows: without this a step from 5 m/s to 0
-  /// was followed half a second later.
+  /// All radars stepped, and no scan was used since.
   [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
+  /// After such a step, whether a radar's velocity is nearer to where the radars stepped to than to
+  /// the state. Its scan is not used, even if it passes the gate, since the sigma of the state
+  /// grows: without this a step from 5 m/s to 0 was followed half a second later.
   [[nodiscard]] bool is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const;
 
  private:

@@ -80,8 +80,8 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
       positions_.use(radar, targets, stamp_us);
     }
   }
-  // 6. The output. Its condition is from before a renewal of the anchor, which ends what may be the
-  // way of a wrong radar.
+  // 6. The output. Its condition is set before the anchor is renewed, which ends a segment that may
+  // have the error of a wrong radar.
   Odometry odometry = output_.at_scan();
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
@@ -135,7 +135,7 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
     if (is_lost) {
       faults_.require_positions(majority_.has_stepped());
     }
-    // What was published is not taken back by a scan that comes late.
+    // A late scan does not take back what was published.
     const std::int64_t from_us = std::max(stamp_us, state_.time_us());
     restart(from_us, seconds_between(condition_.used_us(), from_us));
   } else if (!has_started_) {
@@ -173,7 +173,8 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// Of the Doppler of each radar that is judged, of the speed, and of the way since the anchor.
+/// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
+/// anchor.
 void OdometryFilter::allow_for_scale(double scale) {
   for_each(faults_.judged(), [&](std::size_t i) { state_.widen_scale(i, scale); });
   const double speed_mps = scale * state_.gaussian.mean(kSpeed);
@@ -182,8 +183,8 @@ void OdometryFilter::allow_for_scale(double scale) {
   state_.gaussian.add_variance(kX, squared(way_m));
 }
 
-/// The state has the error of a radar that was found at fault, and so has the pose since the
-/// anchor: as far as known, the difference to `believed`, (v, w, slip) by the others.
+/// A radar was found at fault: the pose since the anchor and the slip may have its error. Adds to
+/// their variance the difference of the state to `believed`, (v, w, slip) by the other radars.
 void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
   GaussianState& state = state_.gaussian;
   const double since_s = output_.anchor_age_s();
@@ -200,9 +201,9 @@ void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
   state.add_variance(kSlip, squared(slip_rad));
 }
 
-/// The state followed a radar at fault if it is far from `believed`, and so did the errors of the
-/// others and the maps. Not if all was well and then stepped: those that are believed may be wrong
-/// as well.
+/// If the state is far from `believed` it followed a radar at fault, and so did the errors of the
+/// others and the maps: they start anew. Not if all was well before a step: the believed radars may
+/// be wrong as well.
 void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps) {
   const OdometryOptions& options = state_.options();
   const double change_mps = std::abs(state_.gaussian.mean(kSpeed) - believed.x());
@@ -308,7 +309,7 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
   }
   vehicle_.restart_errors();
   if (std::abs(change->x()) > state_.options().static_doppler_mps) {
-    // The maps hold what seemed at rest at the wrong speed.
+    // The maps hold targets that seemed at rest at the wrong speed.
     positions_.clear();
   }
 }

@@ -71,14 +71,15 @@ class OdometryFilter {
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
   void add(const VehicleReading& reading) { vehicle_.add(reading); }
 
-  /// Notes which of these are lost while no scan comes.
+  /// Notes which signals of the vehicle's bus are lost while no scan comes.
   void note_lost_signals(std::int64_t stamp_us) { vehicle_.note_lost(stamp_us); }
 
-  /// A radar's own motion, with which other radars and these values are compared; before its scan.
+  /// A radar's own motion, which is compared with other radars and with the signals of the
+  /// vehicle's bus. To be called before update() with its scan.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
 
   /// Notes that a radar's own check finds its speed wrong. True if that is chance: two others have
-  /// the same.
+  /// the same speed.
   bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us) {
     return faults_.refutes_speed_doubt(radar, stamp_us);
   }
@@ -91,7 +92,8 @@ class OdometryFilter {
   /// To be called when the clock of the stamps was set: restarts all but the pose since the start.
   void forget();
 
-  /// Something departs beside a parked vehicle, or the vehicle does: scans tell nothing of radars.
+  /// A parked vehicle starts, or something departs beside it: meanwhile scans are no evidence for
+  /// or against a radar.
   [[nodiscard]] bool is_start_in_doubt() const { return traffic_.parked.is_in_doubt(); }
   /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }

@@ -35,8 +35,8 @@ TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targe
 }
 
 /// The way that the vehicle seemed to go before two worlds showed, or before it seemed to rest
-/// again, remains as uncertainty. If those that could tell a start fell silent amid it, it is not
-/// waited for: until it is told no radar is judged, so none would return.
+/// again, remains as uncertainty. If all believed radars fall silent during the doubt, it ends: as
+/// long as it lasts no radar is judged, so that none could be believed again.
 ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const TargetSet& targets,
                                                   const DopplerVelocity& velocity,
                                                   std::int64_t stamp_us) {

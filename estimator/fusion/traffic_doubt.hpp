@@ -18,22 +18,22 @@
 
 namespace cremed {
 
-/// Whether a scan's Doppler shows the road or traffic: what departs beside a parked vehicle
-/// (ParkedVehicle), what moves along with a driving one (TwoWorlds).
+/// Whether a scan's Doppler shows the road or traffic: vehicles that depart beside a parked one
+/// (ParkedVehicle), or move along with a driving one (TwoWorlds).
 class TrafficDoubt {
  public:
   enum class Seen : std::uint8_t {
     road,
-    undecided,  ///< The vehicle is parked and something departs: it, or what it sees.
-    traffic,    ///< Perhaps.
+    undecided,  ///< A parked vehicle starts, or something departs beside it.
+    traffic,    ///< Traffic, perhaps: the scan is not used.
   };
 
   /// The arguments must outlive this object.
   TrafficDoubt(OdometryState& state, const RadarConsensus& consensus, const FaultHypotheses& faults,
                const FilterCondition& condition);
 
-  /// A parked vehicle that is found to rest is reset to rest. `possible_change_mps`: of the speed,
-  /// since the last scan that was used.
+  /// Also resets the state to rest if a parked vehicle is found to rest. `possible_change_mps`:
+  /// largest change of the vehicle's speed since the last scan that was used.
   Seen judge(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
              std::int64_t stamp_us, double possible_change_mps);
 
@@ -58,7 +58,7 @@ class TrafficDoubt {
   const FaultHypotheses& faults_;
   const FilterCondition& condition_;
   std::vector<TwoWorlds> two_worlds_;                 // By radar.
-  std::vector<std::optional<std::int64_t>> scan_us_;  // The last, by radar.
+  std::vector<std::optional<std::int64_t>> scan_us_;  // Last scan, by radar.
 };
 
 }  // namespace cremed

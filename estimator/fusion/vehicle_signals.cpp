@@ -19,7 +19,7 @@ using namespace state_layout;
 /// show a crawling vehicle as standing.
 constexpr double kFrozenSpeedMps = 0.5;
 constexpr double kFrozenYawRateRadps = 0.02;
-/// A learned error beyond its prior by this is none of the sensor: a wrong factor or unit.
+/// A learned error of more sigmas of its prior is not the sensor's: the factor or unit is wrong.
 constexpr double kMaxErrorSigmas = 4.0;
 
 int rate_of(VehicleSignal signal) { return signal == VehicleSignal::speed ? kSpeed : kYawRate; }
@@ -58,7 +58,7 @@ void VehicleSignals::add(const VehicleReading& reading) {
   ++source.readings;
   source.heard_us = reading.stamp_us;
   source.standing.add(reading.stamp_us, reading.value);
-  // After half a second the value is old news, but a standing vehicle's yaw rate may stand too.
+  // A value that repeats for half a second tells nothing new. At standstill that is no fault.
   if (source.standing.is_standing()) {
     source.track.clear();
     source.check.clear();
@@ -174,8 +174,8 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
 }
 
 /// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
-/// with the wrong sign, which is right on a straight road, leads the filter astray in the first
-/// turn, where it is believed more than the radars.
+/// with the wrong sign, which agrees on a straight road, leads the filter astray in the first turn,
+/// since its noise is far smaller than the radars'.
 double VehicleSignals::unverified_variance(const Source& source, double value) const {
   const Eigen::Vector3d unverified = source.check.unverified_std();
   const double change = state_.gaussian.mean(rate_of(source.signal) + 1);

@@ -23,10 +23,10 @@
 namespace cremed {
 
 /// Speed and yaw rate of the vehicle's bus as measurements of the filter's state
-/// (VehicleMeasurement), each with a gate, and with doubt: a signal that repeatedly contradicts the
-/// filter, or whose learned errors exceed any sensor's, is left out; it does not change the state
-/// then. One that stands still is not used, and one that the radars show to be frozen, or that is
-/// lost, is named.
+/// (VehicleMeasurement), each with a gate. A signal is left out, and does not change the state, if
+/// it repeatedly contradicts the filter, if its learned errors exceed any sensor's, or if
+/// SignalCheck finds a fault. A value that repeats (StandingValue) is not used. A signal that is
+/// frozen or lost is reported.
 class VehicleSignals {
  public:
   /// Both must outlive this object.

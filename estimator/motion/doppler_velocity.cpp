@@ -27,11 +27,12 @@ constexpr int kMaxIterations = 12;
 /// At most a hundredth of the smallest standard deviation in OdometryOptions
 /// (velocity_floor_x_mps).
 constexpr double kConvergedMps = 1e-4;
-/// Wide enough to include what differs by 2.4 m/s with the noise of an ARS408.
+/// Wide enough to include targets that differ by 2.4 m/s, with the noise of an ARS408.
 constexpr double kWider = 4.0;
-/// Variance of the difference that counts, and what that has if all residuals are Gaussian (Tukey's
-/// weights: 95 % efficient). Without the difference the front radar alone is off after 10 s by
-/// 0.62 % of the path, with it once by 0.51 %, with 4 times by 0.49 % (nuScenes, mean).
+/// Factor on the squared difference in the noise, and the expected squared difference, over the
+/// covariance, if all residuals are Gaussian (Tukey's weights: 95 % efficient). Without the
+/// difference the front radar alone is off after 10 s by 0.62 % of the path, with it once by 0.51
+/// %, with 4 times by 0.49 % (nuScenes, mean).
 constexpr double kOfDifference = 4.0;
 constexpr double kOfGaussian = 0.05;
 /// Three unknowns and one more target for a residual.

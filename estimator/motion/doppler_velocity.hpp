@@ -18,15 +18,15 @@ inline constexpr double kArs408DopplerStdMps = 0.13;
 struct DopplerVelocity {
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< By the noise of the static targets.
-  /// To the fit with weights that are wider: what targets add that move with nearly the Doppler of
-  /// static ones.
+  /// Difference to a fit with wider weights: the shift by targets that move with nearly the Doppler
+  /// of static ones.
   Eigen::Vector2d difference_mps = Eigen::Vector2d::Zero();
   /// Derivative of the velocity by an offset of all Doppler.
   Eigen::Vector2d per_offset = Eigen::Vector2d::Zero();
   double residual_std_mps = 0.0;  ///< Of the static targets, by their median.
   int targets = 0;                ///< Number of static targets.
 
-  /// With the shift by such targets, of which the narrow fit has a part.
+  /// Covariance with the shift by such targets, part of which is in `velocity_mps`.
   [[nodiscard]] Eigen::Matrix2d covariance_in_traffic() const;
 };
 

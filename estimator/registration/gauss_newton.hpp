@@ -38,8 +38,8 @@ concept RegistrationCost = requires(Cost cost, const Unknowns& at, Eigen::Vector
 /// Number of step lengths tried: 1 to 1 / 2048.
 inline constexpr int kMaxHalvings = 12;
 
-/// Largest squared length, in standard deviations, of a step whose gain rounding of the cost may
-/// hide: 0.3 sigma.
+/// Squared length of a step, in standard deviations, up to which rounding may hide that it lowers
+/// the cost: 0.3 sigma.
 inline constexpr double kMaxStuckSquaredStep = 0.1;
 
 /// Steps shorter than this, 0.1 sigma, are mostly the last one.

@@ -7,8 +7,8 @@
 namespace cremed {
 
 /// Curvature of a cost along an EM search. Steps by the complete information converge slowly if
-/// much information is missing: each leaves that share of the way. How much is missing shows in the
-/// change of the gradient from step to step (symmetric rank-one update, Nocedal and Wright,
+/// much information is missing: each leaves the missing share of the way. How much is missing shows
+/// in the change of the gradient from step to step (symmetric rank-one update, Nocedal and Wright,
 /// "Numerical Optimization", 6.2), which costs no evaluation.
 class LearnedCurvature {
  public:
@@ -18,7 +18,7 @@ class LearnedCurvature {
   void add(const Eigen::Vector3d& step, const Eigen::Vector3d& gradient_change,
            const Eigen::Matrix3d& complete);
 
-  /// Learns no more, and forgets: for steps that do not shrink.
+  /// Forgets and learns no more: to be called if steps do not shrink.
   void stop();
 
   /// Complete minus missing information; complete if too much would be missing.

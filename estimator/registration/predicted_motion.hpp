@@ -9,14 +9,14 @@
 
 namespace cremed {
 
-/// The motion of before over the time between two scans, and the largest departure from it that a
-/// vehicle can reach by accelerating.
+/// The previous motion continued over the time between two scans, and the largest departure from it
+/// that a vehicle can reach by accelerating.
 struct ContinuedMotion {
   Eigen::Vector3d motion;
   Eigen::Vector3d max_departure;
 
-  /// Whether a result is possible after the motion before. A match of chance neighbours can be
-  /// anywhere in the search range and rarely is. The noise of a true one is bounded.
+  /// Whether a result is possible after the previous motion. A match of chance neighbours can be
+  /// anywhere in the search range, so that it rarely is; a true match departs by its noise only.
   [[nodiscard]] bool allows(const RegistrationResult& result) const {
     const Eigen::Vector3d sigma = result.covariance.diagonal().cwiseSqrt();
     const Eigen::Vector3d departure = (result.motion - motion).cwiseAbs();

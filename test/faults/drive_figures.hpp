@@ -28,9 +28,9 @@ inline bool is_usable(const Odometry& odometry) {
 
 /// How often one radar was believed.
 struct RadarFigures {
-  double left_out = 0.0;                ///< Share of the time it was excluded by the odometry,
-  double doubted = 0.0;                 ///< or had a doubt in its status,
-  double named = 0.0;                   ///< either of them.
+  double left_out = 0.0;                ///< Share of the time it was excluded by the odometry.
+  double doubted = 0.0;                 ///< Share of the time it had a doubt in its status.
+  double named = 0.0;                   ///< Share of the time of either.
   std::uint32_t doubts = 0;             ///< All doubts it had.
   double availability = 0.0;            ///< Share of its scans with an estimate.
   std::optional<double> named_after_s;  ///< First time named since the fault began.

@@ -11,8 +11,8 @@ namespace cremed::test {
 /// FaultVerdict::failures(), and A for too few estimates of a front radar.
 struct NotYet {
   std::string_view kind;
-  std::string_view recorded;   ///< On recorded drives,
-  std::string_view simulated;  ///< and on simulated ones.
+  std::string_view recorded;   ///< On recorded drives.
+  std::string_view simulated;  ///< On simulated drives.
   std::string_view reason;
 };
 

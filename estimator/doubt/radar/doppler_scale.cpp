@@ -23,33 +23,36 @@ constexpr double kWayM = 5.0;
 /// Below this way the votes are too wide; above this time too few targets are found again.
 constexpr double kMinWayM = 1.5;
 constexpr double kMaxIntervalS = 1.0;
-/// Votes fade with this time.
+/// Time constant with which votes decay.
 constexpr double kVotesMemoryS = 3.0;
-/// Difference of a target's range between two scans.
+/// Standard deviation of the difference of a target's range between two scans.
 constexpr double kRangeStdM = 0.15;
 constexpr double kMinWidth = 0.02;
-/// Votes farther away than this count by less than 1e-5.
+/// Votes farther away than this have a weight below 1e-5.
 constexpr double kMaxWidths = 5.0;
 /// Of targets nearer to each other than this only one votes.
 constexpr double kSpacingM = 0.5;
-/// Smaller r are a healthy radar's.
+/// Healthy radars have a smaller r.
 constexpr double kMaxShare = 0.03;
-/// Times the curvature of the way: r of a healthy radar in a turn, besides. Its positions turn by 1
-/// to 4 % too little, which shifts those beside it along the way. With 0.06 to 0.13 per m (1094) r
-/// is 0.03 on average and 0.08 at most.
+/// Times the curvature of the way: added to kMaxShare in turns. Positions of a healthy radar turn
+/// by 1 to 4 % too little, which shifts targets beside it along the way. At curvatures of 0.06 to
+/// 0.13 per m (1094) r is 0.03 on average and 0.08 at most.
 constexpr double kShareByCurvatureM = 0.4;
-/// Of votes above those of chance (Poisson; a target votes in five comparisons in a row).
+/// Votes are clear if they exceed those of chance by this many sigmas (Poisson; a target votes in
+/// five comparisons in a row).
 constexpr double kClearSigmas = 4.0;
-/// Of the votes for the way back, more than for r = 0. Healthy radars of 0061, 0103, 1094 and
-/// RadarScenes 105 have 0.7 at most, with the sign of Doppler flipped 3 to 14 after a second.
+/// The sign is wrong if the votes for the way back exceed those for r = 0 by this many sigmas.
+/// Healthy radars of 0061, 0103, 1094 and RadarScenes 105 have 0.7 at most; with the sign of
+/// Doppler flipped it is 3 to 14 after a second.
 constexpr double kReversedSigmas = 3.0;
-/// Of the votes for an r above kMaxShare, more than those for 0: figures in the class.
+/// The scale is wrong if the votes for an r above kMaxShare exceed those for 0 by this many sigmas:
+/// figures at the class.
 constexpr double kContradictingSigmas = 1.6;
 
 /// A target in the axes of the way between two scans.
 struct AlongWay {
   double side_m;
-  double steps;  // Along the way, in shares of kStep of it.
+  double steps;  // Along the way, in kStep times its length.
   double side_variance_m2;
 };
 
@@ -94,13 +97,13 @@ void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int
   }
 }
 
-/// Begins the next scan, at the way and yaw since the one before.
+/// Begins the next scan: adds way and yaw since the previous one.
 void DopplerScale::advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_radps,
                            std::int64_t stamp_us) {
   const Scan& last = scan(0);
   const double dt_s = seconds_between(last.stamp_us, stamp_us);
   if (is_doppler_step((velocity_mps - velocity_mps_).norm(), dt_s)) {
-    acquit();  // Votes of before tell nothing of this Doppler.
+    acquit();  // Earlier votes tell nothing of Doppler after a step.
   }
   const Eigen::Vector2d mean_mps = 0.5 * (velocity_mps_ + velocity_mps);
   velocity_mps_ = velocity_mps;

@@ -8,9 +8,9 @@
 
 namespace cremed {
 
-/// The targets at rest by their Doppler, with the velocity of the sensor over ground. Of those
-/// nearer than `spacing_m` to each other along both axes only the first: those of one object vote
-/// for all differences of their positions.
+/// Sets `result` to the targets that are at rest by their Doppler, if the sensor has `velocity_mps`
+/// over ground. Of targets nearer than `spacing_m` to each other along both axes only the first is
+/// taken: several on one object would vote for all differences of their positions.
 void take_fixed_places(const TargetSet& targets, const Eigen::Vector2d& velocity_mps,
                        double spacing_m, TargetSet& result);
 

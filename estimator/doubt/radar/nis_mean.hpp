@@ -22,7 +22,7 @@ class NisMean {
   [[nodiscard]] std::uint64_t count() const { return count_; }
   /// 0 if there is none.
   [[nodiscard]] double mean() const;
-  /// Whether there are enough for a judgement.
+  /// Whether there are enough NIS for a judgement.
   [[nodiscard]] bool is_enough() const { return count_ >= kMinCount; }
   [[nodiscard]] bool exceeds(double limit) const { return is_enough() && mean() > limit; }
 

@@ -28,7 +28,7 @@ double votes_around(const Votes& votes, std::size_t step) {
 
 }  // namespace
 
-/// Those that can pass the side gate, from right to left.
+/// The targets that can pass the side gate, sorted from right to left.
 PositionSpeed::Places PositionSpeed::sort_by_side(const TargetSet& previous) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < std::min(previous.size(), kMaxTargets); ++i) {

@@ -10,10 +10,10 @@
 
 namespace cremed {
 
-/// Whether a sensor hangs: it sends the targets of the scan before again, with Doppler of a moving
-/// vehicle. A parked one may see the same twice: of 514 object lists of a standing ARS408 115 equal
-/// the one before. On healthy drives (6 of nuScenes and RadarScenes, 8000 scans) at most 75 % of
-/// the targets of a scan do, while standing.
+/// Whether a sensor hangs: it sends the targets of the previous scan again, while their Doppler
+/// shows that the vehicle moves. A parked vehicle may see the same twice: of 514 object lists of a
+/// standing ARS408 115 equal the previous one. On healthy drives (6 of nuScenes and RadarScenes,
+/// 8000 scans) at most 75 % of a scan's targets equal those of the previous one, and that at rest.
 class RepeatedTargets {
  public:
   void add(const TargetSet& targets);
@@ -21,10 +21,10 @@ class RepeatedTargets {
   [[nodiscard]] bool is_repeated() const { return is_repeated_; }
 
  private:
-  /// Equal if, and by chance only if, the targets are.
+  /// Other targets have equal sums only by chance.
   struct Sums {
     std::size_t targets = 0;
-    Eigen::Vector3d of = Eigen::Vector3d::Zero();  // x (m), y (m), Doppler (m/s).
+    Eigen::Vector3d of = Eigen::Vector3d::Zero();  // Of x (m), y (m), Doppler (m/s).
 
     bool operator==(const Sums& other) const { return targets == other.targets && of == other.of; }
   };

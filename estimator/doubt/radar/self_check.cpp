@@ -15,9 +15,9 @@ namespace {
 /// A time-averaged NIS above this shows too small a covariance: errors are 1.7 times as large as
 /// stated.
 constexpr double kMaxMeanNis = 3.0;
-/// Both above these show it too. Noise set three times too small gives 2.1 and 1.1 or more. Healthy
-/// recorded drives reach 2.3 by Doppler for seconds (nuScenes 0655 and 1094), but then 0.3 from
-/// motion to motion, where 1 is a vehicle that accelerates by its prior all the time.
+/// Both means above these show it too. Noise set three times too small gives 2.1 and 1.1 or more.
+/// Healthy recorded drives reach 2.3 by Doppler for seconds (nuScenes 0655 and 1094), but then 0.3
+/// from motion to motion (1: the vehicle accelerates as much as its prior all the time).
 constexpr double kMaxMeanByDoppler = 2.0;
 constexpr double kMaxMeanByNext = 0.8;
 /// A covariance is too large if both means are below these. Healthy drives have at least 0.4 and

@@ -19,8 +19,8 @@ enum Doubt : std::uint32_t {
   other_radars_contradict = 1U << 2U,           ///< OdometryFilter leaves the radar out.
   covariance_too_large = 1U << 3U,              ///< Configured noise is far too high.
   positions_contradict_speed = 1U << 4U,        ///< Wrong Doppler or rate of the stamps.
-  stamps_run_ahead = 1U << 5U,                  ///< Of those of all other buses.
-  stamps_run_behind = 1U << 6U,                 ///< Likewise.
+  stamps_run_ahead = 1U << 5U,                  ///< Ahead of those of all other buses.
+  stamps_run_behind = 1U << 6U,                 ///< Behind those of all other buses.
 };
 
 /// Compares independent estimates of one radar while driving. No ground truth is needed: if
@@ -39,11 +39,11 @@ class SelfCheck {
   /// nothing of the radar.
   void forget();
 
-  /// The positions tell another speed than the Doppler.
+  /// Positions contradict the speed or scale of Doppler.
   [[nodiscard]] bool contradicts_speed() const {
     return speed_.is_contradicted() || scale_.is_wrong();
   }
-  /// They told so by chance.
+  /// Discards this finding: other radars confirm the speed by Doppler.
   void acquit_speed();
 
   /// NIS of positions against Doppler (EgoMotion::doppler_nis).
@@ -60,9 +60,10 @@ class SelfCheck {
   /// The last scan repeats the one before: it is no measurement.
   [[nodiscard]] bool is_repeated() const { return repeated_.is_repeated(); }
 
-  /// Factor on the covariance of a radar that looks sideways, by these NIS. It registers
-  /// the reflections of passed objects, which move along: ANEES of such radars is 2 to 30 on
-  /// nuScenes, half of that in a tenth of their motions. 1 for others, which are doubted instead.
+  /// Factor on the covariance of the motions of a radar that looks sideways: the larger of
+  /// doppler() and next(), at least 1. Such a radar registers reflections on passed objects, which
+  /// move along with the vehicle: its ANEES is 2 to 30 on nuScenes, half of that in a tenth of its
+  /// motions. 1 for other radars, which are doubted instead.
   [[nodiscard]] double covariance_factor() const;
 
   /// Doubts by this radar's own estimates.

@@ -11,9 +11,9 @@ inline constexpr double kMaxSideVarianceM2 = 0.6 * 0.6;
 inline constexpr double kSideGateSigmas = 2.0;
 inline constexpr double kMaxSideGateM = 1.2;
 
-/// Whether two targets of two scans may be one, by their distance across the way and its variance.
-/// 5 % of true pairs are rejected, and all whose distance is so uncertain that a target in the next
-/// lane would pass.
+/// Whether targets of two scans may be the same, by their distance across the way and its variance.
+/// Rejects 5 % of true pairs, and all pairs whose distance is so uncertain that a target in the
+/// next lane would pass.
 inline bool is_within_side_gate(double across_m, double variance_m2) {
   return variance_m2 <= kMaxSideVarianceM2 &&
          squared(across_m) <= squared(kSideGateSigmas) * variance_m2;

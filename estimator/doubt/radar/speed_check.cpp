@@ -17,20 +17,20 @@ namespace {
 constexpr double kMaxSpeedStdMps = 0.3;
 /// Smaller differences are explained by the steps of 1 m/s and by acceleration in 0.2 s (10 m/s^2).
 constexpr double kMinDifferenceMps = 2.0;
-/// Of the votes of the best speed, those of Doppler's: figures in SpeedCheck.
+/// Doppler's share of the votes of the best speed that is no contradiction: figures at SpeedCheck.
 constexpr double kMaxShareOfBest = 0.6;
-/// Bound of the difference between two numbers of votes (Poisson).
+/// By how many sigmas Doppler's votes are fewer than the best speed's (Poisson) if contradicted.
 constexpr double kMinSigmas = 2.0;
-/// Times the bound that chance votes rarely exceed, those of another speed: the votes of three
-/// comparisons are added, so the same chance counts three times. Smooth walls of a simulated
+/// Least votes of a contradicting speed, over SpeedSupport::max_chance_votes: the votes of three
+/// comparisons are added, so a chance match may count three times. Smooth walls of a simulated
 /// tunnel, of which each scan sees other points, had 1.1 to 1.35.
 constexpr double kMinOfChance = 1.25;
 /// Of the targets nearer than this to each other only one votes. Without it 980 of 1778 comparisons
 /// on RadarScenes 105, with 200 targets a scan, contradict a right Doppler.
 constexpr double kMinSpacingM = 1.0;
 
-/// Change of the other speed from one comparison to the next: a step, and 2 m/s^2. A vehicle has
-/// one speed, chance another one each time.
+/// Largest change of the contradicting speed from one comparison to the next: a step of
+/// PositionSpeed, and 2 m/s^2. A vehicle has one speed, chance another one each time.
 constexpr double kMaxChangeMps = 1.5;
 
 }  // namespace
@@ -52,7 +52,7 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   const auto speed_mps = take(targets);
   if (is_contradicted_ && speed_mps &&
       is_doppler_step(*speed_mps - last_mps_, seconds_between(last_us_, stamp_us))) {
-    forget();  // A fault that ends: what was found of the Doppler before tells nothing of this one.
+    forget();  // A fault ends: the comparisons before the step tell nothing of Doppler after it.
   }
   if (speed_mps) {
     last_us_ = stamp_us;
@@ -80,7 +80,7 @@ void SpeedCheck::add(const TargetSet& targets, std::int64_t stamp_us) {
   }
 }
 
-/// The speed by Doppler, and the places that are at rest with it.
+/// Returns the speed by Doppler, and sets current_ to the targets that are at rest by it.
 std::optional<double> SpeedCheck::take(const TargetSet& targets) {
   const auto start = DopplerVelocityEstimator::search(targets);
   const auto velocity = doppler_.fit(targets, start, kArs408DopplerStdMps);

@@ -15,15 +15,17 @@ namespace cremed {
 /// stuck or over ground instead of relative to the sensor, and stamps that do not run at the rate
 /// of time.
 ///
-/// Compares every 0.2 s, with the targets that are at rest by Doppler. A contradiction is another
-/// speed, more than 2 m/s from Doppler's, of whose votes Doppler's has less than 0.6, and two
-/// standard deviations of their numbers fewer. Stuck Doppler has 0.3 to 0.6 of them; healthy drives
-/// 0.66 at least where the difference is that large (RadarScenes 105 and nuScenes, 20588
-/// comparisons at random phases; by number alone up to 3 standard deviations, since posts of guard
-/// rails repeat). With half of their targets or less by chance: then for another speed each time.
+/// Compares two scans every 0.2 s by their targets that are at rest by Doppler (PositionSpeed). It
+/// is a contradiction if the best speed is more than 2 m/s from Doppler's, and Doppler's has less
+/// than 0.6 of its votes and fewer by two standard deviations of the counts. With Doppler stuck the
+/// share is 0.3 to 0.6. On healthy drives it is 0.66 at least where the speeds differ by that much
+/// (RadarScenes 105 and nuScenes, 20588 comparisons at random phases); the counts alone differ by
+/// up to 3 standard deviations, since posts of guard rails repeat. With half of the targets or less
+/// healthy drives contradict by chance, but by another speed each time.
+///
 /// Contradictions by one speed count up, agreements count down; the doubt begins at
-/// kMaxContradictions and ends at 0, or with a step of the Doppler that no vehicle can make.
-/// Detection takes 1 s of driving.
+/// kMaxContradictions and ends at 0, or with a step of Doppler that no vehicle can make. Detection
+/// takes 1 s of driving.
 class SpeedCheck {
  public:
   /// Adds the targets of the next scan.
@@ -44,15 +46,15 @@ class SpeedCheck {
 
   PositionSpeed positions_;
   DopplerVelocityEstimator doppler_;
-  TargetSet current_;    // Fixed places.
-  TargetSet reference_;  // The same of an earlier scan.
+  TargetSet current_;    // Targets at rest of the newest scan.
+  TargetSet reference_;  // Targets at rest of the earlier scan.
   std::int64_t reference_us_ = 0;
   double reference_mps_ = 0.0;
-  std::int64_t last_us_ = 0;  // Of the newest speed by Doppler.
+  std::int64_t last_us_ = 0;  // Stamp of the newest speed by Doppler.
   double last_mps_ = 0.0;
   std::int64_t verdict_us_ = 0;
   int contradictions_ = 0;
-  double other_mps_ = 0.0;  // That of the last one.
+  double other_mps_ = 0.0;  // Best speed of the last contradiction.
   bool has_reference_ = false;
   bool has_verdict_ = false;
   bool is_contradicted_ = false;

@@ -10,14 +10,14 @@
 namespace cremed {
 namespace {
 
-/// A third more than the most of healthy drives, see SpeedJump.
+/// A third above the maximum of healthy drives, see SpeedJump.
 constexpr double kMinJumpMps = 0.45;
 constexpr double kSigmas = 5.0;
-/// Of the jump: change per scan before and after. Beside one scan that is wrong it is 1.
+/// Largest change before and after, as a share of the jump. It is 1 if a single scan is wrong.
 constexpr double kMaxShareBeside = 0.4;
-/// Of kMinJumpMps: no change of a scan stands out as much where there was no jump.
+/// Largest change that is steady, as a share of kMinJumpMps.
 constexpr double kSteadyShare = 0.5;
-/// A missing scan: over a longer time a vehicle changes its speed as well.
+/// Longer periods have a missing scan: over that time a vehicle too may change its speed.
 constexpr double kMaxPeriodS = 0.16;
 
 }  // namespace

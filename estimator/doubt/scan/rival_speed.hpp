@@ -22,7 +22,7 @@ struct SpeedVotes {
   std::size_t rival = 0;
   double rival_mps = 0.0;
   double own_mps = 0.0;   ///< Median speed of the votes for `own`.
-  std::size_t abeam = 0;  ///< Targets (not places) without a vote.
+  std::size_t abeam = 0;  ///< Targets (not places) abeam: no vote.
 };
 
 /// Counts the votes of two speeds. In a traffic jam most targets may be on cars of nearly the same
@@ -32,8 +32,8 @@ class RivalSpeed {
  public:
   explicit RivalSpeed(const Pose2& vehicle_from_radar) : vehicle_from_radar_(vehicle_from_radar) {}
 
-  /// `velocity` (m/s along x, m/s along y, rad/s): a mean over time. `change_mps`: bound of the
-  /// change of speed from then to the scan. Targets abeam have no vote.
+  /// `velocity` (m/s along x, m/s along y, rad/s): may be a mean over some time; `change_mps`
+  /// bounds the difference of the speed at the scan to it. Targets abeam have no vote.
   SpeedVotes count(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps);
 
  private:

@@ -8,7 +8,7 @@
 namespace cremed {
 namespace {
 
-/// Least number of places of a rival speed, and its least ratio to the places that fit.
+/// Least number of places of a rival speed, and its least ratio to those of the estimated speed.
 struct RivalLimits {
   std::size_t places;
   double share;

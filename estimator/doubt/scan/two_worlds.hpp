@@ -14,20 +14,21 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, which cannot be distinguished. The previous motion decides if it can continue at only one
-/// of the two speeds. Without a previous motion, if at least two places contradict the estimated
-/// speed, it needs more places than a truck has, and at the first start more than they are; a lone
-/// radar that looks sideways needs them always. The doubt ends after ten scans without a rival; a
-/// smaller rival maintains it.
+/// along, and that it is open which is the road. With a previous motion there is no doubt if the
+/// vehicle can continue at the estimated speed and not at the other one, its rival. Without a
+/// previous motion, a rival of at least two places raises it unless the estimated speed has more
+/// places than a truck, and at the first start no fewer than the rival. A lone radar that looks
+/// sideways needs more places than a truck even without a rival. The doubt ends after ten scans
+/// without a rival; a smaller rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.
   enum class Before : std::uint8_t {
     nothing,  ///< The first scans.
-    /// The same of the only radar, which looks sideways: along the way, where Doppler shows the
+    /// The first scans of a lone radar that looks sideways: along the way, where Doppler shows the
     /// speed, it may see nothing but a vehicle beside.
     nothing_beside,
-    fault,  ///< The odometry was lost: positions have to confirm what comes.
+    fault,  ///< The odometry was lost: positions have to confirm the next start.
     motion,
   };
 
@@ -59,7 +60,7 @@ class TwoWorlds {
   /// One place may be another car.
   static constexpr std::size_t kMinRivalPlaces = 2;
 
-  /// Whether one of the last scans had too few places.
+  /// Whether one of the last kClearScans scans had too few places.
   bool was_few(bool is_few) {
     few_scans_ = is_few ? kClearScans : std::max(0, few_scans_ - 1);
     return few_scans_ > 0;

@@ -15,10 +15,10 @@ constexpr double kMaxDecreaseToReturn = 4.0;
 /// Decrease of chi-square by which one set is better than another.
 constexpr double kClearlyBetter = 4.0;
 
-/// Those by which a set is judged.
+/// The epochs by which a set is judged.
 enum class Epochs : std::uint8_t { all, all_but_worst };
 
-/// Mean of the differences.
+/// Mean decrease of chi-square over the epochs.
 double decrease(const MotionEvidence& evidence, const MotionEvidence::ChiSquares& of_set,
                 const MotionEvidence::ChiSquares& without, Epochs by) {
   double sum = 0.0;
@@ -50,7 +50,7 @@ class Search {
     if (present == 0) {
       return {evidence_.judged()};
     }
-    // That of before is kept while it explains the measurements.
+    // All radars are believed while that explains the measurements.
     try_believed(present);
     if (best_.radars == 0) {
       try_less(present);
@@ -98,8 +98,8 @@ class Search {
     }
   }
 
-  /// Of many radars: without the one that contradicts the others most, and so on while most are
-  /// left.
+  /// Of many radars: leaves out the one that contradicts the others most, then the next, while more
+  /// than half are left.
   void try_without_worst(RadarSet present) {
     RadarSet set = present;
     while (best_.radars == 0 && 2 * (std::popcount(set) - 1) > std::popcount(present)) {
@@ -120,9 +120,10 @@ class Search {
     }
   }
 
-  /// Everything fits if two radars have each other's mount. A set without one radar that fits
-  /// leaves as little to chance: if another one drove backwards that may be its sign; then the
-  /// witnesses tell. Positions of the two do not count: they were found at the wrong mount.
+  /// Tries whether all measurements fit if two radars have each other's mounts. If a set without
+  /// one radar also fits, that is as simple an explanation (its Doppler may have the wrong sign);
+  /// then the witnesses decide. Positions of the two do not count: they were registered at wrong
+  /// mounts.
   void try_exchanged(RadarSet present) {
     ConsistentSet exchanged;
     double of_witnesses = 0.0;
@@ -152,14 +153,14 @@ class Search {
     }
   }
 
-  /// More than one of them, which may see a passing vehicle.
+  /// Whether more than one witness contradicts: a single one may see a passing vehicle.
   [[nodiscard]] bool do_witnesses_contradict() const {
     return evidence_.fit(best_.radars).of_witnesses > kMaxWitness;
   }
 
-  /// One registration of two scans that went wrong (0.98 +- 0.06 instead of 0.48 rad/s, on 1094
-  /// with 0.45 of its targets) does not change what is believed. A radar at fault returns by all
-  /// epochs.
+  /// Leaves out the worst epoch, so that one wrong registration of two scans (0.98 +- 0.06 instead
+  /// of 0.48 rad/s, on 1094 with 0.45 of its targets) does not change what is believed. A radar at
+  /// fault must be consistent in all epochs to return.
   void try_believed(RadarSet set) {
     try_set(set, (set & at_fault_) == 0 ? Epochs::all_but_worst : Epochs::all);
   }
@@ -169,7 +170,7 @@ class Search {
       return;
     }
     const double fit = evidence_.fit(set).chi_square();
-    // Of two single radars that are each right by their own none is better.
+    // Of two single radars, each confirmed by its own positions, neither is better.
     const double clearly_better =
         std::has_single_bit(set) ? std::numeric_limits<double>::infinity() : kClearlyBetter;
     if (best_.radars == 0 || fit < best_.chi_square - clearly_better) {
@@ -180,8 +181,9 @@ class Search {
     }
   }
 
-  /// The witnesses contradict the best set by more than a radar may, and not this smaller one: two
-  /// exchanged radars, one ahead and one behind, agree that the vehicle drives backwards.
+  /// Takes a smaller set if the witnesses contradict it less than the best one, by more than
+  /// kMaxWitness for each radar fewer: two exchanged radars, one ahead and one behind, agree that
+  /// the vehicle drives backwards.
   void try_smaller(RadarSet set) {
     const int fewer = std::popcount(best_.radars) - std::popcount(set);
     if (set == 0 || fewer <= 0) {

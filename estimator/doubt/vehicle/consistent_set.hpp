@@ -7,28 +7,34 @@
 
 namespace cremed {
 
-/// Largest decrease of chi-square by leaving out a radar, of 2 to 4 measurements. Healthy drives
-/// have 4.6 at most (nuScenes 0061, 0103, 0655, 0796, 1094, RadarScenes 105); a Doppler scale of
-/// 0.95 has 18 to 84, a mount 5 degrees off 22 to 35, a mirrored front radar 26 to 600 in turns.
+/// Largest decrease of chi-square by leaving out one radar (2 to 4 measurements) of a consistent
+/// set. Healthy drives have 4.6 at most (nuScenes 0061, 0103, 0655, 0796, 1094, RadarScenes 105); a
+/// Doppler scale of 0.95 has 18 to 84, a mount 5 degrees off 22 to 35, a mirrored front radar 26 to
+/// 600 in turns.
 inline constexpr double kMaxDecrease = 8.0;
 
 /// The set of radars that is believed.
 struct ConsistentSet {
-  RadarSet radars = 0;  ///< None: no set is consistent.
+  RadarSet radars = 0;  ///< 0: no set is consistent.
   double chi_square = 0.0;
   int rivals = 0;  ///< Consistent sets of the same size that fit as well.
-  /// Two radars with each other's mounts would explain all as well.
+  /// Two radars with each other's mounts would explain all measurements as well.
   bool is_exchange_possible = false;
 };
 
-/// Leaving out none of the set lowers its chi-square by more than kMaxDecrease, half of that for
-/// one that is at fault already. A single radar is compared with its own positions, and with those
-/// that look sideways.
+/// Whether leaving out any one radar of the set lowers chi-square by kMaxDecrease at most, by half
+/// of that if the radar is at fault already. A single radar is compared with its own positions and
+/// with the radars that look sideways.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
-/// All radars if they are consistent, else those that are not two with each other's mounts, if that
-/// alone explains all; else those of before; else the largest sets that are, with
-/// one or two radars less or of one radar.
+/// The first of these sets that is consistent:
+/// - all radars;
+/// - all that are not at fault;
+/// - all but one or two, of many radars also all but the worst ones; or a single radar. Of several
+///   that are consistent the one that fits best.
+///
+/// Two sets may replace it: a smaller one, if the witnesses contradict it; and all but two radars,
+/// if all measurements fit with these two at each other's mounts.
 ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault);
 
 }  // namespace cremed

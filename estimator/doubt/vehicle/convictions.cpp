@@ -11,10 +11,11 @@ namespace {
 /// First and longest time for which a radar stays at fault without new evidence.
 constexpr std::int64_t kFirstHoldUs = 5'000'000;
 constexpr std::int64_t kLongestHoldUs = 640'000'000;
-/// For each such time without one the hold is halved: of an hour ago nothing is held against it.
+/// The hold is halved for each such time without evidence, so that a fault of an hour ago hardly
+/// counts.
 constexpr std::int64_t kHalfLifeUs = kLongestHoldUs;
-constexpr std::int64_t kMostHalvings = 30;  // All of it.
-/// The first of radars that found themselves wrong, if they are most.
+constexpr std::int64_t kMostHalvings = 30;  // Nothing is left of any hold.
+/// First hold after a radar's own check while most radars are at fault.
 constexpr std::int64_t kFirstSharedHoldUs = 500'000;
 
 }  // namespace

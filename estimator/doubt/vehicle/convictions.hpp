@@ -12,36 +12,36 @@
 
 namespace cremed {
 
-/// Which radars are at fault, and until when: for some time after the last evidence, each time
-/// twice as long, halved again while nothing happens. A mirrored mount or a late bus shows in turns
-/// or when braking only.
+/// Which radars are at fault, and until when: for a hold time after the last evidence, since a
+/// mirrored mount or a late bus shows in turns or when braking only. The hold doubles each time a
+/// radar is found at fault, and is halved again over the time without.
 class Convictions {
  public:
-  /// `judged`: the radars that count for what is most of them.
+  /// `judged`: the radars of which accuse() takes the majority.
   Convictions(std::size_t radars, RadarSet judged) : verdicts_(radars), judged_(judged) {}
 
   /// To be called when the clock of the stamps was set: those at fault remain so.
   void leave_clock();
   void convict(std::size_t radar, std::int64_t time_us);
-  /// Likewise, by the radar's own check. That says itself when a fault is over: if most radars are
-  /// at fault, and there is no odometry, for a shorter time.
+  /// Likewise, by the radar's own check. If most radars are at fault, so that there is no odometry,
+  /// the hold is shorter: the own check itself tells when the fault is over.
   void accuse(std::size_t radar, std::int64_t time_us);
-  /// They are not at fault: those that convicted them are.
+  /// From now on these radars are not at fault.
   void acquit(RadarSet set);
-  /// Releases those whose time is over.
+  /// Releases the radars of `set` whose hold is over.
   void release(RadarSet set, std::int64_t time_us);
 
   [[nodiscard]] RadarSet at_fault() const { return at_fault_; }
-  /// By their own checks.
+  /// The radars at fault by their own checks.
   [[nodiscard]] RadarSet accused() const { return accused_; }
-  /// A radar was found at fault. Once.
+  /// True once after a radar was found at fault.
   bool take_new() { return std::exchange(is_new_, false); }
 
  private:
   struct Verdict {
-    std::optional<std::int64_t> until_us;  // None: not yet by the clock as it was set.
+    std::optional<std::int64_t> until_us;  // None since the clock was set.
     std::int64_t hold_us = 0;
-    std::int64_t shared_hold_us = 0;  // If most radars are at fault by their own checks.
+    std::int64_t shared_hold_us = 0;  // If most radars are at fault.
   };
 
   std::vector<Verdict> verdicts_;

@@ -26,43 +26,47 @@ struct Noise {
       return 1.0 / (squared(mps) + squared(share * speed_mps) + more_variance);
     }
   };
-  Axis along;  // The vehicle,
+  Axis along;  // The x axis of the vehicle.
   Axis across;
 };
-/// With that of the targets, of both, which with few targets is most of it. On healthy drives the
-/// sum is 0.02 to 0.05 m/s RMS along (nuScenes at 1 to 15 m/s, RadarScenes 105 at 18 m/s), 0.06 to
-/// 0.11 across; in a simulated field 0.12 and 0.24.
+/// The noise of the targets, of this radar and the others, is added; with few targets it is most of
+/// the sum. On healthy drives the sum is 0.02 to 0.05 m/s RMS along (nuScenes at 1 to 15 m/s,
+/// RadarScenes 105 at 18 m/s), 0.06 to 0.11 across; in a simulated field 0.12 and 0.24.
 constexpr Noise kNoise{{0.04, 0.003}, {0.08, 0.007}};
-/// Of a radar that looks sideways.
+/// The same of a radar that looks sideways.
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
-/// What they have of an offset is in the noise.
+/// An offset of theirs is in the noise.
 constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
-/// Of the sums, seven times a second: they remember ten seconds.
+/// Decay of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
-/// What another sign gains by chance has the variance 16 e^2 m^2 where both are noise: 2.5 sigma.
+/// Chance, over sqrt(chance_): where e and m are both noise, the decrease of chi-square by another
+/// sign has the variance 16 e^2 m^2. 2.5 sigma of it.
 constexpr double kChance = 10.0;
-/// A second.
+/// Velocities in a second: with fewer no cause is named.
 constexpr double kMinCount = 7.0;
-/// Of the mean of chi-square of two measurements with the cause.
+/// Largest mean chi-square (of two measurements) with a cause that explains the data.
 constexpr double kMaxExplained = 4.0;
-/// Of chi-square, likewise of exchanged mounts: what passes beside is no other fault.
+/// Exchanged mounts also explain the data if this share of chi-square is left, or less: vehicles
+/// that pass beside are no other fault.
 constexpr double kMaxShareExchanged = 0.1;
-/// By how much chi-square is more with any other cause and with none: 3.5 sigma. Of a scale 5.5:
-/// for seconds a late radar seems to have one while the vehicle brakes (0061, 500 ms).
+/// A cause is clear if chi-square with any other one, and with none, is larger by this: 3.5 sigma.
+/// For a scale 5.5: a late radar seems to have one for seconds while the vehicle brakes (0061, 500
+/// ms).
 constexpr double kMinDifference = 12.0;
 constexpr double kMinDifferenceOfScale = 30.0;  // And of an offset.
-/// Rarer than a scale, which differs from it by the changes of speed only: 2 sigma.
+/// The same for an offset as the other cause, 2 sigma: it is rarer than a scale, from which it
+/// differs only where the speed changes.
 constexpr double kMinDifferenceToOffset = 4.0;
-/// One motion may be missing. After a longer time lags are not those of the others.
+/// Longest time between motions: one may be missing. After a longer time the lags would differ.
 constexpr double kMaxStepS = 0.5;
 /// A larger error of the mount's yaw is a mount that was exchanged, or turned back to front.
 constexpr double kMaxMountYawRad = 0.6;
 constexpr double kMaxMountM = 3.0;
 /// A larger one is Doppler that is stuck.
 constexpr double kMaxOffsetMps = 2.0;
-/// Shorter ones are healthy.
+/// Healthy radars have shorter ones.
 constexpr double kMinDelayS = 0.05;
 constexpr double kMinScale = 0.3;
 constexpr double kMaxScale = 3.0;
@@ -138,7 +142,7 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
   const Eigen::Vector2d weight(noise.along.weight(speed_mps, variance.x()),
                                noise.across.weight(speed_mps, variance.y()));
   chance_ = kFade * chance_ + (own * of_others * weight.array().square()).sum();
-  // A yaw rate within its noise tells no place of the mount: what is expected has the same noise.
+  // A yaw rate within its noise does not tell the place of the mount: e has the same noise.
   const bool turns = squared(motion_.y()) > 9.0 * motion_covariance_(1, 1);
   const double w = turns ? motion_.y() : 0.0;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
@@ -268,7 +272,7 @@ bool FaultCauseSearch::explains(double chi_square) const {
   return chi_square < kMaxExplained * at_mount_[radar_].count();
 }
 
-/// Beyond chance.
+/// Decrease of chi-square beyond chance.
 double FaultCauseSearch::gain(double healthy, double chi_square) const {
   return explains(chi_square) ? std::max(0.0, healthy - chi_square - kChance * std::sqrt(chance_))
                               : 0.0;

@@ -18,15 +18,23 @@
 
 namespace cremed {
 
-/// Which systematic error explains the velocities by Doppler of a radar.
+/// Which systematic error explains the velocities of a radar by Doppler.
 ///
-/// The velocity m of the sensor by its Doppler is compared with e by the other radars over ten
-/// seconds, (e - f(m))^2 by the noise of healthy radars, which may also have a small error of scale
-/// and mount: f(m) is k m (scale), m + o u (offset, in the direction of view), -m (sign), m turned
-/// (mount yaw), m with left and right exchanged in the sensor's frame (upside down), m + w d across
-/// the vehicle (mount x); or e is that at an earlier time (late), or at the mount of another radar
-/// (exchanged). A cause is named if it alone explains them. Data that fit the mount of another
-/// radar at fault are taken for exchanged, whatever else would explain them.
+/// Over ten seconds the velocity m that the radar measures is compared with the velocity e that the
+/// other radars expect at its mount. Chi-square is (e - f(m))^2 over the noise of healthy radars,
+/// which may also have small errors of scale and mount. Causes:
+///
+///     scale          f(m) = k m
+///     offset         f(m) = m + o u, u direction of view
+///     sign           f(m) = -m
+///     mount yaw      f(m) = m turned
+///     upside down    f(m) = m with left and right exchanged in the sensor's frame
+///     mount x        f(m) = m + w d across the vehicle
+///     late           e at an earlier time
+///     exchanged      e at the mount of another radar
+///
+/// A cause is named if no other one explains the data. But if they fit the mount of another radar
+/// at fault, it is exchanged, whatever else would explain them.
 class FaultCauseSearch {
  public:
   /// `mounts` of all radars, which must outlive this object.
@@ -47,14 +55,14 @@ class FaultCauseSearch {
   struct Finding {
     FaultCause cause;
     double gain = 0.0;      ///< By how much it lowers chi-square; 0: it does not explain the data.
-    bool is_clear = false;  ///< No other cause explains them as well.
+    bool is_clear = false;  ///< No other cause explains the data as well.
   };
   [[nodiscard]] Finding find() const;
-  /// Likewise for the others: all of them are late, against which this radar seems to be early.
+  /// The finding that all other radars are late, so that this one seems to be early.
   [[nodiscard]] Finding find_others_late() const;
   /// By how much another radar's mount lowers chi-square; 0: it does not explain the data.
   [[nodiscard]] double gain_at(std::size_t mount) const;
-  /// `at_fault`: all radars that are. One that was exchanged with this is among them.
+  /// The cause to be reported. `at_fault`: all radars at fault; only these may be exchanged.
   [[nodiscard]] FaultCause cause(RadarSet at_fault) const;
 
  private:
@@ -63,11 +71,11 @@ class FaultCauseSearch {
   struct Past {
     std::int64_t time_us = 0;
     Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();  // By the others.
-    std::optional<Eigen::Vector2d> own_mps;                  // If it had a scan.
+    std::optional<Eigen::Vector2d> own_mps;                  // By this radar, if it had a scan.
   };
   struct Lag {
     VelocityMoments moments;
-    double delay_s = 0.0;  // Sum.
+    double delay_s = 0.0;  // Sum over the velocities.
   };
   using Lags = std::array<Lag, kLags>;
   struct Candidates;
@@ -85,9 +93,9 @@ class FaultCauseSearch {
   std::size_t motions_ = 0;
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
-  std::vector<VelocityMoments> at_mount_;  // By radar whose mount it is.
-  Lags lags_;                              // With what the others told before,
-  Lags leads_;                             // and of what it told before with the others.
+  std::vector<VelocityMoments> at_mount_;  // Of this radar at the mount of each.
+  Lags lags_;                              // Of this radar with earlier velocities by the others.
+  Lags leads_;                             // Of earlier velocities of this radar with the others.
   double chance_ = 0.0;
 };
 

@@ -12,32 +12,34 @@
 namespace cremed {
 namespace {
 
-/// Scale of Doppler that the filter learns by positions if two radars dispute it. Larger ones are
-/// told by each radar's own positions (DopplerScale).
+/// Largest difference of the Doppler scales of two radars that is left to the filter, which learns
+/// scales by positions. Larger ones are found by a radar's own positions (DopplerScale).
 constexpr double kMaxDisputedScale = 0.05;
-/// By how much a cause lowers chi-square over ten seconds, beyond chance. Healthy radars of
+/// Least decrease of chi-square by a cause over ten seconds, beyond chance. Healthy radars of
 /// nuScenes 0061, 0103, 0655, 0796, 1094 and RadarScenes 105 have 7.0 at most (mount x), and 6.9
 /// backwards; of simulated regimes with few targets 5.7 (lateness).
 constexpr double kMinGain = 25.0;
 
-/// Of chi-square in one epoch; of a set that is consistent 1 to 5. What contradicts itself more
-/// tells no cause: in the epoch before one of three radars is found at fault it is among the
-/// others.
+/// Largest chi-square of the believed radars in an epoch that is used to search for causes;
+/// consistent sets have 1 to 5. In the epoch before one of three radars is found at fault it is
+/// still among those with which the others are compared.
 constexpr double kMaxChiSquareOfEpoch = 32.0;
 
-/// Of two radars, where no third tells: healthy ones with 0.45 of their targets have 35.3 (105,
-/// unflagged), one 0.3 s late 39 to 43.
+/// Least decrease with two radars, where no third one decides: healthy ones with 0.45 of their
+/// targets have 35.3 (105, unflagged), one that is 0.3 s late 39 to 43.
 constexpr double kMinGainOfTwo = 37.5;
-/// Of one of two radars: a second, in which a seeming delay changes by a second.
+/// Of two radars one is late if its delay stays the same for a second. If another fault looks like
+/// a delay, that changes by a second in this time.
 constexpr std::size_t kEpochsOfLateness = 7;
 constexpr double kMaxChangeOfDelayS = 0.05;
 
-/// Of the speed: a larger scale is a radar's fault by its own check (DopplerScale).
+/// Radars whose speeds differ by less than this share have the same speed. A larger error of scale
+/// is found by the radar's own check (DopplerScale).
 constexpr double kMaxShareShared = 0.03;
-/// What all radars share (a scale) the check of each finds within this time.
+/// An error that all radars share (a scale) is found by the own check of each within this time.
 constexpr double kSharedFoundS = 5.0;
 
-/// Larger than those of healthy radars, and than what is learned.
+/// Whether the error is larger than those of healthy radars and than what the filter learns.
 bool is_grave(const FaultCause& cause) {
   switch (cause.kind) {
     case FaultKind::scale:
@@ -104,7 +106,7 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
   const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
-  // The vehicle did not jump: others do not tell so.
+  // Their speed jumped, and that of other radars did not: it was not the vehicle.
   convict(evidence_.take_jumped() & ~at_fault(), stamp_us);
   if (is_due && evidence_.epochs() >= kMinEpochs) {
     judge();
@@ -147,7 +149,7 @@ void FaultHypotheses::require_positions(bool is_after_step) {
 void FaultHypotheses::judge() {
   acquit_misjudged();
   const ConsistentSet best = find_consistent_set(evidence_, at_fault());
-  // Nobody exchanges radars on the way.
+  // Radars are not exchanged while driving.
   is_start_open_ = best.is_exchange_possible && !is_verified_;
   if (is_start_open_) {
     return;
@@ -168,8 +170,8 @@ void FaultHypotheses::judge() {
   }
 }
 
-/// Of radars that are right by their own positions, where all others found themselves wrong: what
-/// those told of them is wrong as well, however many they were.
+/// Acquits radars that their own positions confirm if all others are wrong by their own checks: the
+/// verdict of those others is wrong as well, however many they were.
 void FaultHypotheses::acquit_misjudged() {
   const RadarSet misjudged = evidence_.present() & at_fault() & ~convictions_.accused();
   const RadarSet others = evidence_.present() & ~misjudged;
@@ -200,22 +202,23 @@ bool FaultHypotheses::is_at_rest(RadarSet set) const {
   return std::abs(evidence_.sum(set).solution().x()) < state_.options().standstill_mps;
 }
 
-/// `believed`: none if it is not known which are right.
+/// `believed`: 0 if it is not known which are right.
 void FaultHypotheses::convict_others(RadarSet believed) {
   const RadarSet present = evidence_.present();
   const RadarSet misjudged = at_fault() & ~convictions_.accused();
-  // If others convicted all of them, which are now found wrong themselves, so is what those told.
+  // If radars that are now found wrong convicted all the believed ones, that verdict is reversed.
   if (believed != 0 && (present & ~at_fault() & ~believed) != 0 &&
       (believed & present & ~misjudged) == 0) {
     reverse(believed);
   }
-  // Radars that all found themselves wrong may agree: with the same fault.
+  // Radars that are all at fault may agree because they have the same fault: they convict none.
   const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
   convict(others, evidence_.time_us());
   convictions_.release(set_of(state_.radars()) - 1U, evidence_.time_us());
 }
 
-/// A radar that is wrong by itself has the Doppler of the set: the same is wrong with all.
+/// Whether a radar that is wrong by itself agrees with the Doppler of the set: the set then has the
+/// same fault.
 bool FaultHypotheses::is_refuted(RadarSet set) const {
   const MotionSums joint = evidence_.sum(set);
   return any_of(evidence_.present(), [&](std::size_t radar) {
@@ -225,8 +228,9 @@ bool FaultHypotheses::is_refuted(RadarSet set) const {
   });
 }
 
-/// Its positions contradict its Doppler. At rest all scans have the same map, which tells little;
-/// then its own check counts, which while driving takes a second longer to end.
+/// Whether a radar's positions contradict its Doppler. At rest, where positions of all scans fit
+/// the same map, its own check counts too; while driving it would find the end of a fault a second
+/// later.
 bool FaultHypotheses::is_wrong_by_itself(std::size_t radar) const {
   const bool is_accused_at_rest =
       evidence_.is_accused(radar) &&
@@ -234,8 +238,8 @@ bool FaultHypotheses::is_wrong_by_itself(std::size_t radar) const {
   return is_accused_at_rest || !is_consistent(evidence_, set_of(radar), at_fault());
 }
 
-/// If the only two radars differ by a few percent of the speed they are used as if each scale was
-/// as uncertain as that, and judged anew.
+/// If the only two radars differ by a few percent of the speed, they are used with each scale as
+/// uncertain as that, and judged anew.
 void FaultHypotheses::allow_for_scale() {
   const RadarSet present = evidence_.present();
   if (evidence_.disputed_scale() > 0.0 || std::popcount(present) != 2 ||
@@ -253,8 +257,9 @@ void FaultHypotheses::allow_for_scale() {
   }
 }
 
-/// What was measured before a radar is found at fault tells nothing of it, unless that shows it. In
-/// a turn one that looks sideways may seem to be late (1094, right).
+/// Discards what was measured before a radar is found at fault, unless its cause shows there: the
+/// fault may have begun just now. Data of a radar that looks sideways are always discarded: in a
+/// turn it may seem to be late (the right one of 1094).
 void FaultHypotheses::begin_search(std::size_t radar) {
   if (is_at_fault(radar)) {
     return;
@@ -267,8 +272,8 @@ void FaultHypotheses::begin_search(std::size_t radar) {
   }
 }
 
-/// Compares each radar with the motion by the others that are believed. Returns those that could be
-/// compared: of the rest nothing new is known.
+/// Compares each radar with the motion by the other believed radars. Returns those that could be
+/// compared: nothing new is known of the rest.
 RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   RadarSet compared = 0;
   believed &= evidence_.present();
@@ -290,9 +295,9 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   return compared;
 }
 
-/// Of two radars one may be too fast, or the other too slow. But none is early: a frame is not
-/// received before it was measured. After a scale that has just changed one seems to be late by
-/// more and more.
+/// Of two radars one may be too fast or the other too slow, but if one seems late, the other is not
+/// early: a frame is not received before it was measured. The delay must last: after a change of
+/// scale a radar seems to be late by more and more.
 void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding) {
   const double change_s = std::abs(finding.cause.value - lateness_.delay_s);
   const bool is_late =
@@ -320,7 +325,8 @@ void FaultHypotheses::convict_late_others() {
   reverse(early);
 }
 
-/// One error explains what a radar measures, and none as much what another does.
+/// Convicts a radar whose velocities one error explains, if no error explains another radar's half
+/// as well.
 void FaultHypotheses::convict_by_cause(RadarSet compared) {
   std::size_t guilty = 0;
   FaultCauseSearch::Finding best;

@@ -24,13 +24,13 @@ namespace cremed {
 
 /// Which radars have a systematic fault: scale, sign, mount, time. As in receiver autonomous
 /// integrity monitoring (RAIM) of satellite navigation the radars are compared with each other
-/// (MotionEvidence), not with the filter, which may follow the wrong one.
+/// (MotionEvidence), not with the filter, which may follow the wrong radar.
 ///
 /// If one set of radars is consistent and fits better than the others of its size (ConsistentSet),
-/// the radars that are not in it are at fault (Convictions); otherwise it is not known which.
+/// the radars that are not in it are at fault (Convictions); otherwise it is unknown which are.
 ///
-/// Radars that look sideways are witnesses: their velocity across the vehicle counts, up to a limit
-/// (they see passing vehicles), and they are not judged.
+/// Radars that look sideways are witnesses. They see passing vehicles: they are not judged, and
+/// their chi-square, mostly of the velocity across the vehicle, counts up to a limit.
 class FaultHypotheses {
  public:
   /// Uses options and mounts of `state`, which must outlive this object.
@@ -57,12 +57,12 @@ class FaultHypotheses {
   void add_motion(std::size_t radar, const EgoMotion& motion) {
     evidence_.add_motion(radar, motion);
   }
-  /// The velocity of a scan; judges if that is due.
+  /// The velocity of a scan by Doppler; judges the radars if that completes an epoch.
   void add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
 
   [[nodiscard]] RadarSet at_fault() const { return convictions_.at_fault(); }
   [[nodiscard]] bool is_at_fault(std::size_t radar) const { return contains(at_fault(), radar); }
-  /// Of a radar at fault.
+  /// The error that explains a radar at fault.
   [[nodiscard]] FaultCause cause(std::size_t radar) const {
     return causes_[radar].cause(at_fault());
   }
@@ -76,24 +76,27 @@ class FaultHypotheses {
                             evidence_.epochs() >= kMinEpochs &&
                             (judged() == 0 || std::popcount(evidence_.present()) > 1));
   }
-  /// The odometry was lost since the beginning: see require_positions().
+  /// The odometry was lost at least once: see require_positions().
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }
-  /// The radars in use were found wrong by those that were not: the state is theirs. Once.
+  /// True once after a verdict was reversed: the radars in use, which the state follows, are wrong,
+  /// and radars that they had convicted are right.
   bool take_reversal() { return std::exchange(is_reversed_, false); }
-  /// After a step of all radars (require_positions()) all stepped back: a fault's end. Once.
+  /// True once after a step of all radars (require_positions()), when all stepped back: the fault
+  /// has ended.
   bool take_step_back();
-  /// (v, w, slip) by those that are believed, if a radar was found at fault since the last call:
-  /// what was told with it may be wrong.
+  /// (v, w, slip) by the believed radars, if a radar was found at fault since the last call: the
+  /// state, which used it, may be wrong.
   std::optional<Eigen::Vector3d> take_correction();
-  /// Two radars, each right by its own, differ by this share of the speed, and none tells which is
-  /// wrong: both may be by that much. Once.
+  /// Returned once if two radars, each confirmed by its own positions, differ by this share of the
+  /// speed: the Doppler scale of either may be wrong by it.
   std::optional<double> take_scale_in_dispute() {
     return std::exchange(is_newly_disputed_, false) ? std::optional(evidence_.disputed_scale())
                                                     : std::nullopt;
   }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
-  /// positions must confirm them. `is_after_step`: their speed stepped (MajorityFollower). Then not
-  /// at rest, where a map of what does not move fits any targets, until it steps back.
+  /// positions must confirm them. `is_after_step`: the speed of all radars stepped
+  /// (MajorityFollower). Positions at rest then confirm nothing until all step back, since a map of
+  /// targets that do not move always fits.
   void require_positions(bool is_after_step);
 
  private:
@@ -120,8 +123,8 @@ class FaultHypotheses {
   MotionEvidence evidence_;
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
-  std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By its own check, by radar.
-  /// The radar that seems to be late, by how much, and for how long by the same.
+  std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By own checks, by radar.
+  /// The radar that seems to be late, its delay, and for how many epochs that has been the same.
   struct Lateness {
     std::size_t radar = 0;
     double delay_s = 0.0;
@@ -132,7 +135,7 @@ class FaultHypotheses {
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;
   bool is_verified_ = false;
-  bool is_start_open_ = false;  // One has another sign, or two are exchanged.
+  bool is_start_open_ = false;  // Wrong sign of one, or two exchanged?
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
 };

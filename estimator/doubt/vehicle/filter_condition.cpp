@@ -15,7 +15,7 @@ using namespace state_layout;
 /// Above this sigma a scan's Doppler sets the speed without a gate: max_doppler_nis would accept
 /// errors of 4 m/s and more, a usual speed of other cars relative to the vehicle.
 constexpr double kUnknownSpeedStdMps = 1.0;
-/// Longer than kScanVerdictValidS: no scan in doubt yet.
+/// Longer than kScanVerdictValidS: at the start no scan is in doubt yet.
 constexpr std::int64_t kLongAgoUs = 1'000'000;
 bool stands(const Odometry& odometry, double standstill_mps) {
   const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };

@@ -23,8 +23,8 @@ class FilterCondition {
   void start();
   /// Records that a scan's Doppler was used. `is_clear`: most of its targets are static.
   void use_scan(bool is_clear);
-  /// Records a scan that is not used since it is not known what tells the vehicle's motion: it
-  /// shows two worlds (TwoWorlds), or which radars are right is unknown.
+  /// Records a scan that is not used because it is unknown which of its targets, or which radars,
+  /// show the vehicle's motion: it shows two worlds (TwoWorlds), or radars contradict each other.
   void doubt() { doubt_us_ = state_.time_us(); }
 
   /// Ends the start if the state is known; true if it ends now.

@@ -18,33 +18,33 @@ namespace cremed {
 namespace {
 
 constexpr double kEpochS = 0.15;
-/// Of the times at which two radars see the same jump: a scan period.
+/// Largest difference of the times at which two radars see the same jump: a scan period.
 constexpr double kMaxSkewS = 0.08;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.
 constexpr double kMaxNoiseMps = 0.75;
-/// Largest standard deviation of a speed by positions that confirms the Doppler. With it 10 % are 3
-/// sigma.
+/// Largest standard deviation of a speed by positions that confirms Doppler: 3 sigma are then 10 %.
 constexpr double kSupportingStdMps = 0.1;
 constexpr double kSupportingShare = 0.02;
-/// Age of the speed by positions, in periods of the radar: of the same scan or the one before.
+/// Largest age of the speed by positions, in scan periods: of the same scan or the one before.
 constexpr double kMaxPeriodsOfPositions = 1.2;
-/// Change of the velocity between two scans other than linear.
+/// Error of a velocity that is interpolated linearly between two scans.
 constexpr double kBetweenScansMps = 0.05;
 /// Errors by positions: of the way, 1.1 % over 2 s on these drives, and that of one scan; of the
 /// yaw rate, 0.1 to 0.35 degrees a second, and turns registered 1 to 4 % too small.
 constexpr double kPositionSpeedShare = 0.01;
 constexpr double kPositionM = 0.05;
-/// Of the state's speed, which they correct.
+/// Error of the state's speed, which they correct.
 constexpr double kPositionMps = 0.05;
 constexpr double kPositionYawRateRadps = 0.008;
 constexpr double kPositionTurnShare = 0.03;
 /// In addition to OdometryOptions: a mount measured by hand that is a degree off is learned.
 constexpr double kMoreMountYawStdRad = 0.005;
-/// Speed along x of a radar that looks sideways: that of the reflections of passed objects.
+/// Error of the speed along x of a radar that looks sideways: reflections on passed objects move.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
-/// Lateral acceleration of turns: slow vehicles turn faster than at a start is assumed. With that
-/// alone a U-turn at full lock (0.85 rad/s) contradicts a lone radar by 8.
+/// Lateral acceleration of turns, which bounds the yaw rate: slow vehicles turn faster than the
+/// prior at a start allows. With that prior alone a U-turn at full lock (0.85 rad/s) contradicts a
+/// lone radar by 8.
 constexpr double kTurnStdMps2 = 3.0;
 constexpr double kMaxTurnStdRadps = 3.0;
 
@@ -142,12 +142,12 @@ RadarSet MotionEvidence::take_jumped() {
     return 0;
   }
   for_each(jumped, [&](std::size_t i) { tracks_[i].jump_us.reset(); });
-  // A kerb or a bump from behind jolts the vehicle; not every radar can tell.
+  // A kerb or a bump from behind jolts the vehicle: another radar must surely have seen none.
   return any_of(others, [&](std::size_t i) { return tracks_[i].jumps.is_steady(last_us); }) ? jumped
                                                                                             : 0U;
 }
 
-/// It measured a velocity lately.
+/// Whether the radar measured a velocity in the last scan periods.
 bool MotionEvidence::is_heard(const Track& track) const {
   return track.count > 0 &&
          seconds_between(track.velocities[1].stamp_us, newest_us_) <= kMaxScanPeriodS;
@@ -266,7 +266,7 @@ MotionSums MotionEvidence::prior(double yaw_rate_std_radps) const {
   return prior;
 }
 
-/// Of a turn at the speed that the judged radars have in the mean.
+/// Prior of the yaw rate at the mean speed of the judged radars.
 double MotionEvidence::turn_std_radps(const Epoch& epoch) const {
   double speeds_mps = 0.0;
   double count = 0.0;

@@ -21,7 +21,7 @@
 
 namespace cremed {
 
-/// Largest part of chi-square by a radar that looks sideways: it sees passing vehicles.
+/// Limit of the chi-square of a radar that looks sideways (a witness): it sees passing vehicles.
 inline constexpr double kMaxWitness = 9.0;
 
 /// What the radars measure of the vehicle's motion, in epochs: seven times a second, at a common
@@ -30,10 +30,10 @@ inline constexpr double kMaxWitness = 9.0;
 ///     velocity by Doppler        V = (v - w l_y, w l_x + s v)
 ///     speed and yaw rate by its own positions
 ///
-/// with the errors that radars have anyway (OdometryOptions). v, w and slip s are unknown.
+/// with the errors of healthy radars (OdometryOptions). v, w and slip s are unknown.
 class MotionEvidence {
  public:
-  /// Of a radar, in the axes of the vehicle.
+  /// Velocity of a radar, in the axes of the vehicle.
   struct Velocity {
     std::int64_t stamp_us = 0;
     Eigen::Vector2d mps = Eigen::Vector2d::Zero();
@@ -55,39 +55,39 @@ class MotionEvidence {
     tracks_[radar].accused_us = time_us;
   }
   void add_motion(std::size_t radar, const EgoMotion& motion);
-  /// The speed of all radars changed more than a vehicle's can. That of a radar is believed to be
-  /// wrong until it steps again,
+  /// The speed of all radars changed more than a vehicle's can. Each is suspect until its speed
+  /// steps again.
   void add_step() { set_after_step(true); }
-  /// or until positions confirm it.
+  /// Positions confirm the speed: no radar is suspect any more.
   void end_step() { set_after_step(false); }
-  /// All radars stepped again. Once.
+  /// True once after all radars stepped again.
   bool take_step_back() { return std::exchange(has_stepped_back_, false); }
   /// True if this completes an epoch.
   bool add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
-  /// Radars whose speed jumped (SpeedJump) while that of another did not. Each jump once,
-  /// when all that are heard have measured since.
+  /// Radars whose speed jumped (SpeedJump) while that of another surely did not. Each jump is
+  /// judged once, when all radars that are heard have measured since.
   RadarSet take_jumped();
-  /// From now on the scales of the radars that are judged may be off by that much.
+  /// From now on the Doppler scales of the judged radars may be off by `share`.
   void allow_for_scale(double share) {
     disputed_scale_ = share;
     count_ = 0;
   }
 
-  /// The radars that do not look sideways,
+  /// The radars that do not look sideways.
   [[nodiscard]] RadarSet judged() const { return judged_; }
-  /// and those that do: witnesses.
+  /// The radars that look sideways.
   [[nodiscard]] RadarSet witnesses() const { return set_of(tracks_.size()) - 1U - judged_; }
   [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
 
   static constexpr std::size_t kEpochs = 7;  ///< A second.
-  /// Of the last second, since which nothing was missing.
+  /// Number of epochs that are compared: a second, less after a start, a gap or a step back.
   [[nodiscard]] std::size_t epochs() const { return std::min(count_, kEpochs); }
-  /// Means over these: of the chi-square of the radars in a set with each other, and of the
+  /// Means of chi-square over the epochs: of the radars in a set with each other, and of the
   /// witnesses with them.
   struct Fit {
     double of_set = 0.0;
     double of_witnesses = 0.0;
-    double of_worst_witness = 0.0;  ///< Of several; 0 of a single one.
+    double of_worst_witness = 0.0;  ///< 0 if there is only one.
 
     [[nodiscard]] double chi_square() const { return of_set + of_witnesses; }
   };
@@ -98,17 +98,18 @@ class MotionEvidence {
     bool is_exchanged;
   };
   [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
-  /// Their sum in each epoch; 0 of an empty set and where there is no epoch.
+  /// Chi-square of set and witnesses in each epoch, of a lone radar without the worst witness; 0 of
+  /// an empty set and where there is no epoch.
   using ChiSquares = std::array<double, kEpochs>;
   [[nodiscard]] ChiSquares chi_squares(RadarSet set, std::optional<Pair> pair) const;
 
   // In the newest epoch:
   [[nodiscard]] std::int64_t time_us() const { return time_us_; }
-  [[nodiscard]] RadarSet present() const;  ///< Those that are judged.
+  [[nodiscard]] RadarSet present() const;  ///< Judged radars with a velocity.
   [[nodiscard]] const std::optional<Velocity>& velocity(std::size_t radar) const {
     return newest_epoch()[radar].velocity;
   }
-  /// A radar's speed by Doppler, less that by the set: means over the last second.
+  /// A radar's speed by Doppler minus that by a set of radars: means over the epochs.
   struct SpeedDifference {
     double speed_mps = 0.0;
     double difference_mps = 0.0;
@@ -125,9 +126,9 @@ class MotionEvidence {
   }
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
-  /// Since a step of all radars (add_step()) one that is heard in the set had no other.
+  /// Whether a radar of the set that is heard is suspect after a step (add_step()).
   [[nodiscard]] bool is_after_step(RadarSet set) const;
-  /// A radar's own check found it wrong, and not too long ago.
+  /// A radar's own check found it wrong, in one of its last scans.
   [[nodiscard]] bool is_accused(std::size_t radar) const {
     return tracks_[radar].accused_us && is_fresh(*tracks_[radar].accused_us);
   }

@@ -16,12 +16,11 @@ namespace {
 constexpr double kMemoryS = 0.5;
 /// A radar whose last scan is older does not count.
 constexpr double kRecentS = 0.5;
-/// What a velocity that counts as zero errs by besides noise: offsets of all Doppler at rest are
-/// 0.01 to 0.03 m/s.
+/// Error of a velocity at rest besides noise: offsets of all Doppler are then 0.01 to 0.03 m/s.
 constexpr double kFloorXMps = 0.03;
 constexpr double kFloorYMps = 0.05;
-/// Limits of q / (1 - q): beyond the first there are two worlds, below the second one, with errors
-/// in standard deviations; the last is that of each radar.
+/// Limits of q / (1 - q), with errors of kShareSigmas: above the first there are two worlds; below
+/// the second, and below the third for each radar alone, there is one.
 constexpr double kMaxTwoWorldsShare = 0.04;
 constexpr double kMaxSureShare = 0.06;
 constexpr double kMaxShareOfRadar = 0.08;
@@ -30,25 +29,27 @@ constexpr double kShareSigmas = 2.0;
 constexpr double kCorrelatedScans = 2.0;
 /// The noise of a creeping vehicle differs from that at rest by this share.
 constexpr double kNoiseError = 0.3;
-/// Standard deviation of a target's Doppler at least: that of a driving ARS408, whose grid hides it
-/// at rest; the share of a scan in it; and three steps of that grid, beyond which a target moves.
+/// Learned noise of a target's Doppler: its least standard deviation, that of a driving ARS408 (at
+/// rest its grid of values hides the noise); the share of a scan in it; and three steps of that
+/// grid, beyond which a target moves.
 constexpr double kMinDopplerStdMps = kArs408DopplerStdMps;
 constexpr double kLearningShare = 0.03;
 constexpr double kMovingDopplerMps = 0.75;
-/// Of the own lane: a car in it that starts as we do rests beside us, and does not count.
+/// Targets within the own lane do not count: a car ahead that starts with the vehicle seems to
+/// rest.
 constexpr double kHalfLaneM = 1.75;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
-/// Radars differ in velocity by this and this share, besides noise: a scan is up to 0.1 s older
-/// than another, and the inner radar of the tightest turn is slower. One that rests sees less than
-/// this share.
+/// Velocities of two radars may differ by kMaxDifferenceMps and kMaxDifferenceShare besides noise:
+/// a scan is up to 0.1 s older than another, and the inner radar of the tightest turn is slower. A
+/// radar that rests sees less than kMaxRestingShare of the departing velocity.
 constexpr double kMaxDifferenceMps = 0.1;
 constexpr double kMaxDifferenceShare = 0.3;
 constexpr double kMaxRestingShare = 0.5;
-/// Bound of that noise in standard deviations, with which one rests and with which it may.
+/// That noise in standard deviations, with which a radar surely rests, and with which it may rest.
 constexpr double kRestSigmas = 2.0;
 constexpr double kMayRestSigmas = 1.0;
-/// So many times as many targets outvote a radar.
+/// A radar is outvoted by this many times as many targets.
 constexpr double kMajority = 1.5;
 
 }  // namespace
@@ -171,7 +172,7 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
   return verdict_;
 }
 
-/// Radars that see something depart where most targets of the others do not, do not count.
+/// Radars do not count that see something depart where most targets of the others rest.
 void ParkedVehicle::leave_out_odd(std::int64_t stamp_us) {
   for (Look& look : looks_) {
     look.counts = look.scans > 0.0 && seconds_between(look.stamp_us, stamp_us) <= kRecentS;
@@ -194,7 +195,7 @@ void ParkedVehicle::leave_out_odd(std::int64_t stamp_us) {
   }
 }
 
-/// The fastest mean velocity of those that depart; zero if none does.
+/// The fastest mean velocity of the radars that see something depart; zero if none does.
 Eigen::Vector2d ParkedVehicle::fastest_mps() const {
   Eigen::Vector2d fastest = Eigen::Vector2d::Zero();
   for (const Look& look : looks_) {
@@ -232,7 +233,7 @@ ParkedVehicle::Verdict ParkedVehicle::judge_all() const {
                                                                     : Verdict::undecided;
 }
 
-/// Whether the velocity is none of a vehicle that rolls on its wheels.
+/// Whether the velocity is too far sideways for a vehicle that rolls on its wheels.
 bool ParkedVehicle::is_sideways(std::size_t radar) const {
   const Look& look = looks_[radar];
   const Eigen::Vector2d mps = look.mean_mps();

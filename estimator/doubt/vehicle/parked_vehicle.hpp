@@ -16,7 +16,8 @@
 
 namespace cremed {
 
-/// Whether a vehicle that stood for a while starts, or what it sees: a train, a convoy, a jam.
+/// Whether a vehicle that stood for a while starts, or what it sees departs: a train, a convoy, a
+/// jam.
 ///
 /// If a share q of the targets rests and the others depart with V, the fitted velocity is
 /// (1 - q) V and the residuals have the variance q (1 - q) V^2 besides the noise. Their ratio tells
@@ -24,12 +25,12 @@ namespace cremed {
 ///
 ///     (residuals^2 - noise^2) / fitted^2 = q / (1 - q)
 ///
-/// The noise is that of the targets while all rest. Radars that see different worlds, and a motion
-/// sideways, are no start either.
+/// The noise is that of the targets while all rest. It is no start either if radars see different
+/// worlds, or if the motion is sideways.
 class ParkedVehicle {
  public:
   enum class Verdict : std::uint8_t {
-    rests,       ///< Nothing departs, or what most targets of this scan show rests.
+    rests,       ///< Nothing departs, but for radars that most targets outvote.
     undecided,   ///< Something departs, too slowly to tell.
     two_worlds,  ///< Something departs and something rests.
     started,     ///< All departs as one world.
@@ -41,30 +42,31 @@ class ParkedVehicle {
   void clear() { is_parked_ = is_standing_ = false; }
   /// The newest output, before widen().
   void add_output(const Odometry& odometry);
-  /// A parked vehicle may move as estimated or not at all: adds the way since then, and the
+  /// A parked vehicle may move as estimated or not at all: adds the way since it rested, and the
   /// velocity, to the standard deviations.
   void widen(Odometry& odometry) const;
-  /// The way (x, y, yaw) that it seems to have gone since nothing departed.
+  /// The way (x, y, yaw) that the vehicle seems to have gone since nothing departed.
   [[nodiscard]] Eigen::Vector3d way() const { return relative_pose(rest_odom_pose_, odom_pose_); }
-  /// It stood for kParkedUs, and has not started since.
+  /// The vehicle stood for kParkedUs, and has not started since.
   [[nodiscard]] bool is_parked() const { return is_parked_; }
   /// The last verdict.
   [[nodiscard]] Verdict verdict() const { return is_parked_ ? verdict_ : Verdict::started; }
   /// Something departs, and it is not known whether the vehicle does.
   [[nodiscard]] bool is_in_doubt() const { return is_parked_ && verdict_ != Verdict::rests; }
-  /// Judges by a scan, and by the last ones of the other radars. Not parked if started.
+  /// Judges by a scan and the last scans of the other radars. A start ends is_parked(). Returns the
+  /// verdict; two_worlds for a radar that most targets of the others outvote.
   Verdict judge(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
                 std::int64_t stamp_us);
 
  private:
   static constexpr std::int64_t kParkedUs = 1'000'000;
 
-  /// q / (1 - q).
+  /// q / (1 - q) = rest / departing.
   struct Share {
     double rest = 0.0;
     double departing = 0.0;
-    double noise = 0.0;     // That was subtracted from `rest`,
-    double variance = 0.0;  // and the variance of its sum.
+    double noise = 0.0;     // Was subtracted from `rest`.
+    double variance = 0.0;  // Of `noise`.
 
     void add(const Share& other);
     [[nodiscard]] double value() const { return rest / departing; }
@@ -77,10 +79,10 @@ class ParkedVehicle {
     Eigen::Vector2d sum_mps = Eigen::Vector2d::Zero();
     Eigen::Vector2d sum_variance = Eigen::Vector2d::Zero();
     double targets = 0.0;
-    double missed = 0.0;    ///< Squares of residuals,
-    double expected = 0.0;  ///< and of the Doppler by the fitted velocity.
+    double missed = 0.0;    ///< Squares of residuals.
+    double expected = 0.0;  ///< Squares of Doppler by the fitted velocity.
     double noise = 0.0;     ///< Variance of a target's Doppler, learned at rest.
-    bool counts = false;    ///< It is recent, and the others do not outvote it.
+    bool counts = false;    ///< The radar is recent, and the others do not outvote it.
 
     [[nodiscard]] Eigen::Vector2d mean_mps() const { return sum_mps / scans; }
     [[nodiscard]] Eigen::Array2d std_mps() const { return sum_variance.array().sqrt() / scans; }

@@ -19,8 +19,8 @@ constexpr double kScanPeriodS = 0.1;
 /// with two radars: 1 in 135 (chi-square of three degrees of freedom above 12); lower with more.
 constexpr double kMaxDisagreement = 4.0;
 
-/// Covariance of a velocity of this age: with the errors of the radar, and the vehicle's
-/// acceleration since.
+/// Covariance of a velocity that is `age_s` old: with systematic errors of the radar, and the
+/// vehicle's acceleration since.
 Eigen::Matrix2d with_systematic_errors(const DopplerVelocity& velocity,
                                        const OdometryOptions& options, double age_s) {
   const double changed = squared(SharedErrorOptions().acceleration_std_mps2 * age_s);
@@ -50,7 +50,7 @@ std::optional<MotionSums> RadarConsensus::contradicting_majority(std::int64_t ti
   joint.add(Eigen::Vector3d::UnitY(), 0.0, squared(options.start_yaw_rate_std_radps));
   joint.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
   int radars = 0;
-  bool are_all_witnesses = true;  // They see passing vehicles, on both sides alike.
+  bool are_all_witnesses = true;  // Witnesses may see passing vehicles on both sides.
   for (std::size_t i = 0; i < trusts_.size(); ++i) {
     const RadarTrust& trust = trusts_[i];
     if (trust.votes(time_us) && !trust.agrees) {

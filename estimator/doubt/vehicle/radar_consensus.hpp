@@ -32,7 +32,7 @@ class RadarConsensus {
   /// The motion by the contradicting radars, if they are two or more, the majority, and agree with
   /// each other.
   [[nodiscard]] std::optional<MotionSums> contradicting_majority(std::int64_t time_us) const;
-  /// Every radar that contradicts did so after the last that agreed: all changed at once.
+  /// All contradictions are later than the last agreement: all radars changed at once.
   [[nodiscard]] bool is_step(std::int64_t time_us) const;
   /// Whether half or more of the contradicting radars contradict their own positions.
   [[nodiscard]] bool contradicts_positions(std::int64_t time_us) const;
@@ -43,7 +43,7 @@ class RadarConsensus {
   [[nodiscard]] bool is_left_out(std::size_t radar) const {
     return trusts_[radar].is_left_out && looks_across(state_.mount(radar));
   }
-  /// Those for which it lasts, as a bit set.
+  /// Radars that are left out for RadarTrust::kFaultyS and more, as a bit set.
   [[nodiscard]] std::uint32_t at_fault() const;
 
  private:

@@ -32,12 +32,12 @@ inline constexpr double kScanVerdictValidS = 0.3;
 
 /// How much a radar is trusted.
 struct RadarTrust {
-  /// Contradicting minus agreeing scans at which a radar is left out that looks sideways
+  /// Contradicting minus agreeing scans at which a radar that looks sideways is left out
   /// (FaultHypotheses judges the others): 0.4 s of an ARS408.
   static constexpr int kMaxContradictions = 5;
-  /// Time after which what was learned of it is doubted: a passing vehicle takes 2 s at most;
+  /// Left out for this time, its learned errors are doubted: a passing vehicle takes 2 s at most.
   static constexpr double kDoubtedS = 2.4;
-  /// and after which that is a fault.
+  /// Left out for this time, it is at fault.
   static constexpr double kFaultyS = 3.0;
 
   NisMean doppler;  ///< NIS of the last minute.
@@ -53,7 +53,7 @@ struct RadarTrust {
   // Its last scan:
   bool has_verdict = false;
   bool agrees = false;
-  bool contradicts_positions = false;  ///< Its Doppler, which the state does not.
+  bool contradicts_positions = false;  ///< By Doppler; the state agrees with them.
   std::int64_t verdict_us = 0;
   DopplerVelocity velocity;
 

@@ -26,9 +26,9 @@ constexpr double kSpeedOffsetPriorMps = 0.01;
 constexpr double kTurnScaleStd = 0.02;
 /// Speed by Doppler: its scale, and targets above the road.
 constexpr double kSpeedScaleStd = 0.005;
-/// What a radar's motions err by in common, for seconds: on straights its yaw walks by 0.1 to 0.35
-/// degrees each second (nuScenes). Without it a slow error is taken for a scale where the vehicle
-/// hardly turns: 17 +- 5 % on 0103.
+/// Error of a radar's motions that lasts for seconds: on straights its yaw walks by 0.1 to 0.35
+/// degrees each second (nuScenes). Without this noise it is taken for a scale of the signal where
+/// the vehicle hardly turns: 17 +- 5 % on 0103.
 constexpr OrnsteinUhlenbeck kYawRateError{0.005, 2.0};
 constexpr OrnsteinUhlenbeck kSpeedError{0.05, 0.5};
 /// Stamps of a radar, and the lead of its positions.

@@ -16,8 +16,8 @@
 namespace cremed {
 
 /// What is wrong with a signal of the vehicle's bus, by the radars' own motions from scan to scan.
-/// They do not depend on the filter, which follows a wrong yaw rate: it is far more precise than a
-/// radar's at one time, but not over the minute that this check looks back.
+/// Unlike the filter these do not follow a wrong yaw rate. At one time that signal is far more
+/// precise than a radar, but not over the minute that this check looks back.
 ///
 /// Over a motion of rate w (a speed or yaw rate) and its change c, the mean of the readings errs by
 ///
@@ -56,8 +56,8 @@ class SignalCheck {
   static constexpr std::size_t kCapacity = 128;
   struct Sum {
     std::int64_t utime_us = 0;
-    double value = 0.0;     ///< The reading,
-    double integral = 0.0;  ///< and the integral of all before it.
+    double value = 0.0;     ///< The reading.
+    double integral = 0.0;  ///< Over all readings until this one.
   };
 
   [[nodiscard]] std::optional<Sum> at(std::int64_t utime_us) const;
@@ -69,7 +69,7 @@ class SignalCheck {
   std::array<Sum, kCapacity> sums_{};
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  Eigen::Matrix3d prior_;  // Information, too.
+  Eigen::Matrix3d prior_;  // Information of the prior.
   Eigen::Matrix3d information_;
   Eigen::Vector3d weighted_ = Eigen::Vector3d::Zero();
   std::int64_t compared_us_ = 0;

@@ -9,7 +9,7 @@ namespace cremed {
 /// So it returns only after a long time of agreement, which doubles each time.
 class SignalTrust {
  public:
-  /// Contradicting minus agreeing measurements at which it is left out: 0.25 s at 20 Hz.
+  /// Contradicting minus agreeing measurements at which a signal is left out: 0.25 s at 20 Hz.
   static constexpr int kMaxContradictions = 5;
   /// Agreeing measurements in a row until it returns: 10 s, and at most 11 minutes.
   static constexpr int kAgreementsToReturn = 200;

@@ -9,8 +9,8 @@ namespace cremed {
 /// Whether a signal repeats one value: a sender that has frozen, or a vehicle at standstill.
 class StandingValue {
  public:
-  /// `max_change`: change of the filter's value in that time, beyond its uncertainty, that proves
-  /// the signal frozen.
+  /// `max_change`: change of the filter's value while the signal repeats, beyond its uncertainty,
+  /// that proves the signal frozen.
   explicit StandingValue(double max_change) : max_change_(max_change) {}
 
   void add(std::int64_t stamp_us, double value);
@@ -42,8 +42,8 @@ class StandingValue {
   std::int64_t since_us_ = 0;
   std::int64_t last_us_ = 0;
   bool has_range_ = false;
-  double lowest_ = 0.0;   // Of what the filter's value is at most,
-  double highest_ = 0.0;  // and at least.
+  double lowest_ = 0.0;   // Lowest upper bound of the filter's value.
+  double highest_ = 0.0;  // Highest lower bound of it.
 };
 
 }  // namespace cremed

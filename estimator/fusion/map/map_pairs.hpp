@@ -50,7 +50,7 @@ class MapPairs {
   [[nodiscard]] Eigen::Vector2d at_m(std::size_t k) const { return {x_m_[k], y_m_[k]}; }
   [[nodiscard]] Symmetric2 information(std::size_t k) const { return {xx_[k], xy_[k], yy_[k]}; }
   [[nodiscard]] std::uint8_t node(std::size_t k) const { return node_[k]; }
-  /// Of the map's target, seen from the radar then.
+  /// Azimuth of the map's target in the radar's frame when it was measured.
   [[nodiscard]] double azimuth_rad(std::size_t k) const { return azimuth_rad_[k]; }
 
  private:
@@ -60,7 +60,7 @@ class MapPairs {
   PairSums sum_up_avx2(std::size_t begin, std::size_t end, const Eigen::Vector2d& at_m);
 
   std::size_t size_ = 0;
-  // Of the capacity from the beginning. Of the map's target:
+  // Allocated once, for kMaxPairs. Of the map's target:
   std::vector<double> x_m_;
   std::vector<double> y_m_;
   std::vector<double> azimuth_rad_;

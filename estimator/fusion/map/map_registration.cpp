@@ -17,19 +17,21 @@ namespace {
 /// Clutter, 1/m^2: the density of an ARS408's targets within 50 m. From 0.005 to 0.1 the yaw error
 /// on scenes 0061, 0103, 1094 and RadarScenes 105 changes by less than a tenth.
 constexpr double kMapClutterPerM2 = 0.02;
-/// Of the predicted pose, which is better: 0.05 m, 0.1 degrees. It keeps the search in its basin.
+/// Of the prior, the predicted pose, which is better: 0.05 m, 0.1 degrees. The prior keeps the
+/// search in its basin.
 const Eigen::Vector3d kPriorStd(0.1, 0.3, 0.02);
-/// Most matches of RadarScenes use all. With steps 1.5 or 1.8 times as long, nearer to the optimum,
-/// its path errs by 0.78 and 0.81 % instead of 0.74, and those of nuScenes not otherwise.
+/// Most matches on RadarScenes use all steps. With steps 1.5 or 1.8 times as long, which end nearer
+/// to the optimum, its path errs by 0.78 and 0.81 % instead of 0.74, and those of nuScenes are the
+/// same.
 constexpr int kMaxSteps = 8;
-/// Squared step over the standard deviation: 1 % of it.
+/// Squared length of the last step in standard deviations: 1 %.
 constexpr double kConverged = 1e-4;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 /// Squared distance in sigmas from the predicted pose beyond which a pair is left out: 5 sigma, and
 /// two that a correction may take away. With 10 sigma the odometry is the same to 5e-4 sigma.
 constexpr double kOutOfReach = 49.0;
-/// Least share of the complete information, in every direction, that is left after the missing
-/// information, for a step and for a result. Where less is left neighbours are confused.
+/// Least share of the complete information, in every direction, that is left when the missing
+/// information is subtracted, for a step and for a result. With less, neighbours are confused.
 constexpr double kMinObservedShareOfStep = 0.2;
 constexpr double kMinObservedShareOfResult = 0.1;
 
@@ -106,7 +108,7 @@ MapRegistration::Sums MapRegistration::sum_up(const TargetSet& targets,
 void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap& map,
                                       const Pose2& mount, MapMatch& match) const {
   match.by_node.fill(Eigen::Matrix3d::Zero());
-  // Of all at the same points as that of each node.
+  // Information of all pairs, at the same points as that of each node.
   Eigen::Matrix3d complete = Eigen::Matrix3d::Zero();
   complete(0, 0) = 1.0 / squared(kPriorStd.x());
   const Eigen::Vector2d radar_m(mount.x_m, mount.y_m);

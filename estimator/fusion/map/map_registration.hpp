@@ -23,11 +23,11 @@ struct MapMatch {
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();
   /// Its covariance, with the noise of both targets of each pair.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  /// Derivative of the targets' best pose by a motion of those of each node: the node's share of
-  /// their information. On the diagonal all add up to 1.
+  /// Derivative of the pose that fits best, without prior, by a motion of each node's targets: the
+  /// node's share of the information. The diagonals of all nodes add up to 1.
   std::array<Eigen::Matrix3d, TargetMap::kNodes> by_node;
-  /// Of the targets in the observed information of x; the rest is the prior. Of a displacement
-  /// along x the correction has this share.
+  /// Share of the targets in the observed information of x; the rest is the prior's. `correction`
+  /// has this share of a displacement along x.
   double x_share = 1.0;
   /// Derivative of `correction` by a scale error of all azimuths: true = (1 + error) reported.
   Eigen::Vector3d by_azimuth_scale = Eigen::Vector3d::Zero();
@@ -41,7 +41,7 @@ struct MapMatch {
 ///
 /// n number of scans in the map, rho density of clutter, f position_std_factor. Gauss-Newton with
 /// the observed information (6) of this mixture, where that is positive definite. The predicted
-/// pose is a weak prior during the search; the result is linearised without that of y and yaw.
+/// pose is a weak prior during the search; the result keeps only the prior of x.
 class MapRegistration {
  public:
   /// `position_std_factor`: OdometryOptions.

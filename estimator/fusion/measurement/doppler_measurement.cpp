@@ -54,7 +54,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   result.depend_on(first + kOffset, by_offset);
   result.depend_on(first + kLeverX, 0.0, w);
   result.depend_on(first + kLeverY, -w * scale, d * w);
-  // What passes a lateral radar makes the difference in each scan; the factors of its noise hold
+  // In each scan of a lateral radar passing objects make this difference: its noise factors have
   // it.
   result.noise.topLeftCorner<2, 2>() =
       looks_across(state.mount(radar)) ? velocity.covariance : velocity.covariance_in_traffic();

@@ -13,18 +13,18 @@
 
 namespace cremed {
 
-/// x, y and yaw of a scan registered against the radar's map, with G_k the share of
-/// node k in the information (MapMatch::by_node) and (x_k, y_k, psi_k) its pose in the frame of the
-/// scan's; (11) of the README:
+/// x, y and yaw of a scan registered against the radar's map. With the share G_k of node k in the
+/// information (MapMatch::by_node) and its pose (x_k, y_k, psi_k) in the frame of the pose at the
+/// scan, (11) of the README:
 ///
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
-///         + sum_k G_k (d Jl_k - (q, r + r_c) x_k) + h (e + e_c)
+///         + sum_k G_k (d Jl_k - (q, r + r_c) x_k) + h (g + g_c)
 ///
 /// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, q lateral and
-/// r yaw error over distance, e scale error of azimuths (r_c, e_c common to all radars) with its
+/// r yaw error over distance, g scale error of azimuths (r_c, g_c common to all radars) with its
 /// effect h (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are
-/// neglected in G_k. At any time Doppler knows x far better; over seconds x tells the scale of
-/// Doppler.
+/// neglected in G_k. Doppler measures x far better in a single scan; over seconds x shows the scale
+/// of Doppler.
 struct MapMeasurement {
   const OdometryState& state;
   const TargetMap& map;

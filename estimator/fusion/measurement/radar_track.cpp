@@ -10,11 +10,11 @@
 namespace cremed {
 namespace {
 
-/// Number of targets over which residuals are averaged, five to ten scans, and the largest weight
+/// Number of targets over which residuals are averaged (five to ten scans), and the largest weight
 /// of one scan.
 constexpr double kLearningTargets = 500.0;
 constexpr double kMaxLearningShare = 0.1;
-/// The same where less than this share of the targets is static, seven seconds and more. Residuals
+/// The same where less than kShareWithoutTraffic is static: seven seconds and more. Residuals
 /// of a group that moves nearly alike widen the weights, which then include more of it (1094, in a
 /// turn: from 0.12 to 0.33 m/s in 0.4 s). Traffic passes, the noise of a radar stays.
 constexpr double kLearningTargetsInTraffic = 10'000.0;

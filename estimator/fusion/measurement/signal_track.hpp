@@ -29,8 +29,8 @@ class SignalTrack {
   void pop();
 
  private:
-  /// At 20 Hz this is longer than the filter goes on without scans (max_gap_s). Of more, the
-  /// earliest are dropped.
+  /// At 20 Hz this is longer than the filter goes on without scans (max_gap_s). If it is full, the
+  /// earliest mean is dropped.
   static constexpr std::size_t kCapacity = 64;
 
   void push(const Value& value);

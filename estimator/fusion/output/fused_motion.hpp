@@ -10,9 +10,9 @@ namespace cremed {
 /// The motion since the previous output as an EgoMotion: an estimate if the odometry is ok or
 /// standing_still. initialising becomes no_reference, predicted and lost become gap_too_long, and
 /// ambiguous is kept. standing_still becomes ok if the mean speed was above `standstill_mps` (the
-/// vehicle stopped). implausible, if a scan corrected a pose of large sigma by more than a vehicle
-/// drives since the scan of another radar, which may be a millisecond before. `targets`: number in
-/// the scan at its end.
+/// vehicle stopped). An estimate becomes implausible if a scan corrected a pose of large sigma by
+/// more than a vehicle drives since the scan of another radar, which may be a millisecond before.
+/// `targets`: number in the scan at its end.
 EgoMotion fused_motion(const Odometry& odometry, std::size_t targets, double standstill_mps);
 
 }  // namespace cremed

@@ -33,8 +33,8 @@ class OdometryOutput {
   /// published value, moved for max_gap_s at most as the vehicle did before; its covariance grows
   /// by the unknown motion in `gap_s`.
   void restart(std::int64_t time_us, double gap_s);
-  /// To be called when the clock of the stamps was set, before a restart at its new time: what was
-  /// published at later times of the old one does not count. The gap is at most max_gap_s.
+  /// To be called when the clock of the stamps was set, before a restart at the new time: what was
+  /// published at later times of the old clock does not count. Assumes a gap of max_gap_s.
   void leave_clock();
 
   /// Propagates the state and renews the anchor on the way if it is due.
@@ -52,7 +52,7 @@ class OdometryOutput {
   std::optional<Odometry> predict_next(std::int64_t now_us);
 
  private:
-  /// Pose since the start, with covariance, of the frame of the state's poses.
+  /// The frame of the state's poses: its pose since the start, with covariance.
   struct Anchor {
     std::int64_t utime_us = 0;
     Eigen::Vector3d pose = Eigen::Vector3d::Zero();
@@ -78,7 +78,7 @@ class OdometryOutput {
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_ = 0;
-  /// The same for the last prediction.
+  /// Of the last prediction: time, pose since the start, and radars used since.
   std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();
   Eigen::Vector3d predicted_odom_pose_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_since_prediction_ = 0;

@@ -21,13 +21,13 @@ double StateError::std_at(double speed_mps, double yaw_rate_radps) const {
           process.per_speed_across * (across * std::abs(speed_mps)) + process.if_across * across);
 }
 
-// What is considered, not estimated, seems observable where each scan is linearised at another
-// speed or yaw rate, but hardly is. As estimated states, scales of azimuths ran to -20 % in turns,
-// and lever arms of 0.1 m to 3.4 m in an hour straight on. By Doppler alone the common Doppler
-// scale drifted by 1 % in 15 minutes of a simulated town at a sigma of 0.2 %, and by y and yaw of
-// positions too the speed became 0.3 % too small. At rest nothing observes mount yaws and Doppler
-// scales, and all scans have the same map, whose noise they would learn: 0.4 degrees in three
-// minutes. Those of a single radar are not separable from slip and speed.
+// Errors that are considered, not estimated, are hardly observable. They only seem to be, because
+// each scan is linearised at another speed or yaw rate. As estimated states, scales of azimuths ran
+// to -20 % in turns, and lever arms of 0.1 m to 3.4 m in an hour straight on. By Doppler alone the
+// common Doppler scale drifted by 1 % in 15 minutes of a simulated town at a sigma of 0.2 %, and by
+// y and yaw of positions too the speed became 0.3 % too small. At rest nothing observes mount yaws
+// and Doppler scales, and all scans have the same map, whose noise they would learn: 0.4 degrees in
+// three minutes. With a single radar they are not separable from slip and speed.
 
 std::vector<StateError> common_errors(const OdometryOptions& o) {
   const OrnsteinUhlenbeck slip = bounded_walk(o.slip_std_rad, o.slip_walk);

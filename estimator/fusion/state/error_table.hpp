@@ -19,14 +19,14 @@ struct StateError {
   enum class Reset {
     never,
     doubt,  ///< Doubt about its radar: to the variance of its prior, around the estimate.
-    scene,  ///< That and a restart: to its prior. It passes within seconds.
+    scene,  ///< Doubt or a restart: to its prior, since it passes within seconds.
   };
   /// Measurements as bits.
   static constexpr unsigned kNone = 0;
   static constexpr unsigned kVelocities = 1U << 0U;  ///< By Doppler, or of the vehicle's bus.
-  static constexpr unsigned kX = 1U << 1U;           ///< By positions,
-  static constexpr unsigned kYAndYaw = 1U << 2U;     ///< likewise.
-  static constexpr unsigned kAtRest = 1U << 3U;      ///< All of a vehicle that stands.
+  static constexpr unsigned kX = 1U << 1U;           ///< x by positions.
+  static constexpr unsigned kYAndYaw = 1U << 2U;     ///< y and yaw by positions.
+  static constexpr unsigned kAtRest = 1U << 3U;      ///< All while the vehicle stands.
   static constexpr unsigned kPositions = kX | kYAndYaw;
   static constexpr unsigned kAllButX = kVelocities | kYAndYaw | kAtRest;
   static constexpr unsigned kAll = kAllButX | kX;
@@ -38,7 +38,7 @@ struct StateError {
   /// Measurements that do not change its mean: for them it is a consider parameter
   /// (Schmidt-Kalman).
   unsigned considered_by = kNone;
-  /// Share of the forward velocity across the axis of its radar, where azimuths measure it.
+  /// Share of the forward velocity that is across the axis of its radar, where azimuths measure it.
   double across = 0.0;
 
   /// Standard deviation of the process at this motion; at rest that of the prior.

@@ -10,7 +10,7 @@
 
 namespace cremed {
 
-/// What a measurement differs by from what a state expects, with the gain by which it updates that
+/// Difference of a measurement to what a state expects, with the gain by which it updates that
 /// state.
 struct Innovation {
   static constexpr int kNumbers = 3;      ///< Of a LinearMeasurement.
@@ -73,7 +73,7 @@ class GaussianState {
 
   [[nodiscard]] Innovation innovate(const LinearMeasurement& measurement) const;
   /// A consider parameter (Schmidt-Kalman): only the numbers of a measurement before `from` change
-  /// its mean; by the others its variance, and covariances with such states, stay.
+  /// its mean. The others leave its variance, and its covariances with other considered states.
   struct Considered {
     int state;
     int from = 0;

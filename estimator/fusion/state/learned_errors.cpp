@@ -13,7 +13,8 @@ namespace {
 
 /// See prior_after().
 constexpr double kMinStdShare = 0.25;
-/// The file may be another vehicle's, or the radar mounted anew: the error is then the value.
+/// The values may be another vehicle's, or the radar was mounted anew: they are then wrong
+/// altogether.
 constexpr double kSigmasIfWrong = 4.0;
 
 }  // namespace

@@ -18,8 +18,8 @@ struct LinearMeasurement {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< Covariance of z.
   int states = 0;
-  std::array<int, kMaxStates> state{};        ///< Which state,
-  std::array<Column, kMaxStates> jacobian{};  ///< and its column of dh/dx.
+  std::array<int, kMaxStates> state{};        ///< Indices of the states.
+  std::array<Column, kMaxStates> jacobian{};  ///< Column of dh/dx by each.
 
   /// `column`: of the first numbers, as many as it has.
   template <typename Derived>

@@ -69,7 +69,7 @@ enum class FaultKind : std::uint8_t {
   mount_x,      ///< It is further ahead or back.
   late,         ///< Its scans have later stamps than they were measured at.
   exchanged,    ///< Its data are those of a radar at another radar's mount.
-  offset,       ///< The same in all Doppler.
+  offset,       ///< An error that is the same in all Doppler.
 };
 
 struct FaultCause {
@@ -116,7 +116,7 @@ struct VehicleSignalReport {
   bool is_used = false;      ///< It is configured; otherwise all is 0.
   bool is_lost = false;      ///< No valid frame for VehicleOptions::lost_s.
   bool is_frozen = false;    ///< It repeats one value while the filter's changes.
-  bool is_left_out = false;  ///< It contradicts the filter.
+  bool is_left_out = false;  ///< It contradicts the filter or the radars.
   int times_lost = 0;        ///< How often each of these began.
   int times_frozen = 0;
   int times_left_out = 0;
@@ -133,7 +133,7 @@ struct VehicleSignalReport {
   SignalFault fault = SignalFault::none;
   double seen_offset = 0.0;  ///< m/s or rad/s
   double seen_scale = 0.0;
-  double seen_delay_s = 0.0;  ///< More than the configured one.
+  double seen_delay_s = 0.0;  ///< Beyond the configured one.
 };
 
 }  // namespace cremed

@@ -106,10 +106,10 @@ struct OdometryOptions {
   double doppler_scale_restart_std = 0.0005;
   double lever_std_m = 0.1;          ///< Of the mount's position, along each axis.
   double doppler_scale_std = 0.002;  ///< Of one radar, after calibration.
-  /// Correlation time of that. What radars err by in common is hardly observable: without it their
-  /// mean drifted by 0.16 % in 15 minutes of a simulated town.
+  /// Correlation time of a radar's Doppler scale. The mean of all radars is hardly observable:
+  /// without this it drifted by 0.16 % in 15 minutes of a simulated town.
   double doppler_scale_time_s = 600.0;
-  /// Common to all radars: the effect of the elevation of targets on Doppler differs between
+  /// Doppler scale common to all radars: the effect of the elevation of targets differs between
   /// drives.
   double common_scale_std = 0.003;
   /// Scale of azimuths of one radar, which scales the velocity across the radar's axis.
@@ -123,21 +123,22 @@ struct OdometryOptions {
   /// sideways all targets share the error of 0.25 / sqrt(12) while the speed along its axis is
   /// constant.
   ErrorProcess offset{.std = 0.03, .time_s = 2.0, .per_yaw_rate = 0.03, .if_across = 0.07};
-  /// Common to all radars.
+  /// m/s: all Doppler of all radars.
   ErrorProcess common_offset{.std = 0.01, .time_s = 1.0, .per_yaw_rate = 0.1};
   /// Scale of azimuths in positions: of one radar, and common to all. Not estimated: in a turn it
   /// cannot be separated from the turn, and on a straight not from drifting targets.
   double position_azimuth_scale_std = 0.005;
   double common_azimuth_scale_std = 0.005;
   /// Of a scan against the map: yaw error for each metre driven since the map's scans, of one radar
-  /// and common to all, and y for each metre. Against gyro and truth (0061, 0103, 1094, RadarScenes
+  /// and common to all. Against gyro and truth (0061, 0103, 1094, RadarScenes
   /// 105) yaw scatters by 0.1 to 0.2 degrees, whatever the distance; a third of that variance lasts
   /// for a second, and each radar has a mean of 0.0001 rad/m in a drive, up to 0.0007 for 15 s. The
   /// common part is considered only, since Doppler tells the yaw rate less well. Without it, and
   /// with 0.0004 for one radar, yaw errs by a fifth more.
   ErrorProcess yaw_per_metre{0.0002, 1.5};
   double common_yaw_per_metre_std = 0.0002;
-  /// In fast turns tyres slip otherwise than k has it. With 0.02 always, the path errs by 0.32 %
+  /// y error for each metre driven since the map's scans. It grows in fast turns, where tyres slip
+  /// otherwise than by slip_per_lateral_acceleration. With 0.02 always, the path errs by 0.32 %
   /// instead of 0.30 on nuScenes and by 0.65 instead of 0.61 on RadarScenes 105; with 0.005 on a
   /// straight by 0.28, but a front mount 3 degrees off then puts 3.4 % of the poses of 0061 beyond
   /// 5 sigma before it is named.
@@ -146,8 +147,8 @@ struct OdometryOptions {
   // Doppler.
   /// Of one target: initial value, adapted to the residuals.
   double doppler_std_mps = kArs408DopplerStdMps;
-  double velocity_floor_x_mps = 0.005;  ///< Added noise of a scan's velocity,
-  double velocity_floor_y_mps = 0.02;   ///< sideways.
+  double velocity_floor_x_mps = 0.005;  ///< Added noise of a scan's velocity, forward.
+  double velocity_floor_y_mps = 0.02;   ///< Added noise of a scan's velocity, sideways.
   /// Factor on the covariance of a radar that looks sideways, where others do not: it sees passing
   /// vehicles. With 10 in place of 1 the yaw errs by 0.31 degrees in place of 0.37 on scene 0061,
   /// by 0.41 in place of 0.47 on 1094.
@@ -158,9 +159,11 @@ struct OdometryOptions {
   double static_doppler_mps = 0.5;  ///< A static target's Doppler is expected to within this.
   int min_targets = 20;             ///< With fewer static ones, chance neighbours match.
   double min_matched_share = 0.2;   ///< Least share of matched targets: half are new in a turn.
-  double node_period_s = 0.25;      ///< Least time between scans of a map,
-  double node_way_m = 0.3;          ///< if the vehicle moved by this
-  double node_turn_rad = 0.02;      ///< or turned by this.
+  /// A map takes a scan after this time if the vehicle moved by node_way_m or turned by
+  /// node_turn_rad.
+  double node_period_s = 0.25;
+  double node_way_m = 0.3;
+  double node_turn_rad = 0.02;
   /// Factor on the standard deviations of positions while partners are sought. Positions of the
   /// same target scatter by less than an ARS408 reports (calibrate: azimuths by half).
   double position_std_factor = 0.7;
@@ -169,16 +172,17 @@ struct OdometryOptions {
   /// azimuth from scan to scan where the reported noise with that factor is 0.7: 0.15. From 0.1 to
   /// 0.5 errors change by less than a tenth; NoiseFactor widens it for noise that is all white.
   double position_noise_factor = 0.2;
-  /// Factor on that of a radar that looks sideways, where others do not: the reflections of passed
+  /// Factor on the same covariance where all radars look sideways: the reflections of passed
   /// objects move along with the vehicle. Without it up to 24 % of the poses by the right radar of
-  /// 0796 are beyond 5 sigma.
+  /// 0796 are beyond 5 sigma. Where others look ahead or back, positions of such a radar are not
+  /// used.
   double position_noise_factor_across = 30.0;
-  double position_lateral_floor_m = 0.01;  ///< Added noise of a scan against the map,
-  double position_yaw_floor_rad = 0.0005;  ///< in yaw,
-  double position_yaw_per_turn = 0.01;     ///< for each radian turned since the map's scans,
-  /// in x, for each metre. Of radars that look ahead or back it scatters by 0.004 to 0.009 from
-  /// scan to scan and by 0.002 to 0.005 over 2 s, since scans share the map (nuScenes, RadarScenes
-  /// 105).
+  double position_lateral_floor_m = 0.01;  ///< Added noise of a scan against the map, x and y.
+  double position_yaw_floor_rad = 0.0005;  ///< Added noise of yaw.
+  double position_yaw_per_turn = 0.01;     ///< Added for each radian turned since the map's scans.
+  /// Added noise of x, for each metre driven since the map's scans. With radars that look ahead or
+  /// back x scatters by 0.004 to 0.009 from scan to scan and by 0.002 to 0.005 over 2 s, since
+  /// scans share the map (nuScenes, RadarScenes 105).
   double position_x_per_metre = 0.045;
   double max_position_nis = 18.0;  ///< Gate, 2 DoF: false-alarm rate 0.01 %.
 

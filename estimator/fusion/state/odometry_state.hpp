@@ -32,7 +32,7 @@ class OdometryState {
 
   /// Resets the state to its prior, with the anchor at its pose.
   void start(std::int64_t time_us = 0);
-  /// The same, but keeps what has been learned of slip and radars.
+  /// As start(), but keeps what has been learned of slip and radars.
   void restart(std::int64_t time_us);
   /// Resets speed and yaw rate to `value` (v, w) with `covariance`, and the accelerations to their
   /// prior.
@@ -50,7 +50,7 @@ class OdometryState {
 
   /// Resets the errors of a signal of the vehicle's bus to their prior.
   void start_signal(VehicleSignal signal);
-  /// Propagates them.
+  /// Propagates the errors of a signal.
   void advance_signal(VehicleSignal signal, double dt_s);
 
   /// Kalman update with an innovation of `gaussian`, which does not change the mean of errors that
@@ -59,9 +59,9 @@ class OdometryState {
 
   /// Pose at a scan that is `age_s` older than the state.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
-  /// The same, with its derivative by the motion states.
+  /// Pose at a scan that is `age_s` older, with its derivative by the motion states.
   [[nodiscard]] Eigen::Vector3d pose_before(double age_s, PoseJacobian& jacobian) const;
-  /// Clones the pose at such a scan as a node.
+  /// Clones the pose at a scan that is `age_s` older than the state as a node.
   void clone_node(std::size_t node, double age_s);
   [[nodiscard]] Eigen::Vector3d node_pose(std::size_t node) const;
   void clone_output();
@@ -76,10 +76,10 @@ class OdometryState {
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
   [[nodiscard]] std::span<const Pose2> mounts() const { return mounts_; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
-  /// Whether a radar looks sideways, where others do not. Past it the reflections of targets move
-  /// along with the vehicle: its positions shorten the way by 16 to 38 %, and are not used. It does
-  /// not hold the odometry either: without the others 1.8 % of the rows were beyond 5 sigma
-  /// (passing vehicles, nuScenes).
+  /// Whether a radar looks sideways, where others do not (a witness). Reflections on the objects
+  /// that it passes move along with the vehicle: its positions shorten the way by 16 to 38 %, and
+  /// are not used. Nor does its Doppler alone count as use of a scan (FilterCondition): without the
+  /// others 1.8 % of the rows were beyond 5 sigma (passing vehicles, nuScenes).
   [[nodiscard]] bool is_witness(std::size_t radar) const {
     return has_forward_radar_ && looks_across(mounts_[radar]);
   }
@@ -87,7 +87,7 @@ class OdometryState {
   [[nodiscard]] Eigen::Vector2d radar_velocity(std::size_t radar) const;
   /// Index in `gaussian` of one of a radar's errors.
   [[nodiscard]] int error(std::size_t radar, int which) const;
-  /// The same of an error of a signal; only with options().vehicle.is_used().
+  /// Index of one of the errors of the vehicle's signals; only with options().vehicle.is_used().
   [[nodiscard]] int vehicle_error(int which) const;
 
   GaussianState gaussian;
@@ -112,7 +112,7 @@ class OdometryState {
   std::vector<StateError> common_errors_;
   std::vector<std::vector<StateError>> radar_errors_;
   std::vector<std::vector<StateError>> signal_errors_;  // None if no signal is used.
-  /// States that updates consider only: those by Doppler or signals, by positions, at rest.
+  /// Consider parameters of updates by Doppler or signals, by positions, and of all at rest.
   struct {
     std::vector<GaussianState::Considered> by_velocities;
     std::vector<GaussianState::Considered> by_positions;

@@ -29,7 +29,7 @@ inline constexpr int kCommonScale = 12;         ///< 1
 inline constexpr int kCommonYawPerMetre = 13;   ///< rad/m
 inline constexpr int kOutput = 14;              ///< Clone of the pose at the last output.
 inline constexpr int kPose = 3;                 ///< States of a clone.
-/// Clones of past poses on which the maps of the radars hang.
+/// Clones of past poses to which the scans of the radars' maps are attached.
 inline constexpr int kFirstNode = kOutput + kPose;
 inline constexpr int kNodes = 12;
 inline constexpr int kFirstRadar = kFirstNode + kNodes * kPose;

@@ -17,8 +17,8 @@ namespace cremed {
 ///
 /// (x, y, psi) pose, v speed, a acceleration, w yaw rate, c yaw acceleration, s slip, m velocity of
 /// the body over v, k slip per centripetal acceleration, in the order of state_layout. a, c, s and
-/// m are Ornstein-Uhlenbeck processes
-/// (Singer, IEEE Trans. Aerosp. Electron. Syst. 1970). Integrated by the midpoint rule.
+/// m are Ornstein-Uhlenbeck processes (Singer, IEEE Trans. Aerosp. Electron. Syst. 1970).
+/// Integrated by the midpoint rule.
 struct MotionStep {
   using Vector = Eigen::Matrix<double, state_layout::kMotionStates, 1>;
   using Matrix = Eigen::Matrix<double, state_layout::kMotionStates, state_layout::kMotionStates>;

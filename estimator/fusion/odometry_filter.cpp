@@ -255,8 +255,8 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
   }
   if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
-      condition_.used_scans() == 0) {
-    // The speed, and so the distance, was unknown since the start: restart here.
+      (condition_.used_scans() == 0 || condition_.is_lost())) {
+    // The speed, and so the distance, was unknown since the start or the loss: restart here.
     output_.restart(state_.time_us(), 0.0);
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }

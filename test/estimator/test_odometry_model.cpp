@@ -331,6 +331,32 @@ TEST_CASE("the motion model follows a circle at constant yaw rate") {
   CHECK(state(kY) == Approx(20.0 * (1.0 - std::cos(0.5))).epsilon(1e-5));
 }
 
+TEST_CASE("of a vehicle of unknown motion the way across is as uncertain as drawn motions say") {
+  OdometryOptions options;
+  options.acceleration.std = 1e-3;
+  options.yaw_acceleration.std = 1e-3;
+  const double speed_mps = GENERATE(0.0, 5.0);
+  VehicleEstimate start{MotionStep::Vector::Unit(kSpeed) * speed_mps, MotionStep::Matrix::Zero()};
+  const double speed_std_mps = 4.0;
+  const double yaw_rate_std_radps = 0.2;
+  start.covariance(kSpeed, kSpeed) = speed_std_mps * speed_std_mps;
+  start.covariance(kYawRate, kYawRate) = yaw_rate_std_radps * yaw_rate_std_radps;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const double time_s = 1.5;
+  double sum = 0.0;
+  constexpr int kDraws = 2000;
+  for (int i = 0; i < kDraws; ++i) {
+    VehicleEstimate drawn{start.mean, MotionStep::Matrix::Zero()};
+    drawn.mean(kSpeed) += speed_std_mps * normal(random);
+    drawn.mean(kYawRate) += yaw_rate_std_radps * normal(random);
+    const double y_m = drawn.predicted(time_s, options).mean(kY);
+    sum += y_m * y_m;
+  }
+  const double std_m = std::sqrt(start.predicted(time_s, options).covariance(kY, kY));
+  CHECK(std_m == Approx(std::sqrt(sum / kDraws)).epsilon(0.15));
+}
+
 TEST_CASE("process noise does not depend on the step length") {
   const OdometryOptions options;
   const MotionStep::Vector at = MotionStep::Vector::Unit(kSpeed) * 8.0;

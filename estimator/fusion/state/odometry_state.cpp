@@ -173,7 +173,11 @@ void OdometryState::advance_to(std::int64_t time_us) {
        left_s -= kMaxMotionStepS) {
     const double step_s = std::min(left_s, kMaxMotionStepS);
     const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
+    const double before = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
+    const double after = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
+    gaussian.add_variance(kX, std::max(0.0, after - before));
+    gaussian.add_variance(kY, std::max(0.0, after - before));
     for (const StateError& error : common_errors_) {
       if (error.state >= kMotionStates) {
         advance(error, step_s);

@@ -12,8 +12,8 @@ namespace {
 
 using namespace state_layout;
 
-/// Random walk of the position (m^2/s). To first order the way across is slip times mean speed:
-/// without this walk the covariance of a vehicle of unknown speed, with mean 0, is singular.
+/// Random walk of the position (m^2/s): at standstill nothing else is uncertain across, and the
+/// covariance would be singular.
 constexpr double kPositionWalkM2PerS = 1e-8;
 
 /// Decay of an Ornstein-Uhlenbeck process from 1 after dt, and its integral over dt.
@@ -112,12 +112,19 @@ double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s) {
          (2.0 * steps - 3.0 + 4.0 * left - left * left);
 }
 
+double variance_by_product(const Eigen::Ref<const Eigen::Matrix3d>& pose_covariance) {
+  return 0.25 * pose_covariance.topLeftCorner<2, 2>().trace() * pose_covariance(kYaw, kYaw);
+}
+
 VehicleEstimate VehicleEstimate::predicted(double dt_s, const OdometryOptions& options) const {
   VehicleEstimate result = *this;
   for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
     const MotionStep step = moved(result.mean, std::min(left_s, kMaxMotionStepS), options);
     const MotionStep::Matrix moved_covariance = step.jacobian * result.covariance;
+    const double before = variance_by_product(result.covariance.topLeftCorner<kPose, kPose>());
     result.covariance = moved_covariance * step.jacobian.transpose() + step.noise;
+    const double after = variance_by_product(result.covariance.topLeftCorner<kPose, kPose>());
+    result.covariance.diagonal().head<2>().array() += std::max(0.0, after - before);
     result.mean = step.state;
   }
   return result;

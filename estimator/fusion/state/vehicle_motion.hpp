@@ -37,6 +37,10 @@ OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& o
 /// Variance of a rate after `dt_s`, by the noise of its derivative since.
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s);
 
+/// Variance of x and of y by the product of the errors of way and heading, y = way * psi / 2, which
+/// the first order lacks. After a time at unknown speed, with mean 0, it is all there is of y.
+double variance_by_product(const Eigen::Ref<const Eigen::Matrix3d>& pose_covariance);
+
 /// Longest step: accelerations are nearly constant in it.
 inline constexpr double kMaxMotionStepS = 0.1;
 

@@ -183,3 +183,29 @@ TEST_CASE("Regimes: among cars that drive as we do, a radar without a motion fla
   CHECK(rear.share(MotionStatus::ok) <= 0.02);
   if (rear.all.count() > 0) CHECK(rear.all.rmse_m() <= 0.006);
 }
+
+TEST_CASE(
+    "Regimes: in a crowd four radars without a motion flag are never sure of a wrong motion") {
+  std::vector<RadarConfiguration> radars;
+  for (const Pose2& mount : {Pose2{3.4, 0.8, 0.5}, Pose2{3.4, -0.8, -0.5}, Pose2{-0.7, 0.8, 2.6},
+                             Pose2{-0.7, -0.8, -2.6}}) {
+    radars.push_back(default_radars()[kRear]);
+    radars.back().name = "radar" + std::to_string(radars.size());
+    radars.back().interface = "can" + std::to_string(radars.size());
+    radars.back().ego_motion.vehicle_from_radar = mount;
+  }
+  SimulationOptions options;
+  options.seed = GENERATE(101U, 102U, 103U, 104U, 105U, 106U);
+  const Drive simulated = drive(scenario("crowd"), radars, options);
+  const TrueTrajectory truth = truth_of(simulated);
+  int wrong = 0;
+  for (const Odometry& odometry : run_pipeline(radars, simulated.frames).odometries) {
+    const bool is_good =
+        odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
+    const auto motion = truth.motion(odometry.utime_anchor_us, odometry.utime_us);
+    if (!is_good || !motion) continue;
+    const Eigen::Array3d error = (odometry.pose - *motion).array().abs();
+    wrong += (error > 5.0 * odometry.covariance.diagonal().array().sqrt()).any() ? 1 : 0;
+  }
+  CHECK(wrong == 0);
+}

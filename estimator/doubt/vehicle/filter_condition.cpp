@@ -17,6 +17,8 @@ using namespace state_layout;
 constexpr double kUnknownSpeedStdMps = 1.0;
 /// Longer than kScanVerdictValidS: at the start no scan is in doubt yet.
 constexpr std::int64_t kLongAgoUs = 1'000'000;
+/// Half a second of two radars. Among cars that drive alike some scans in between show only these.
+constexpr int kMaxDoubts = 10;
 bool stands(const Odometry& odometry, double standstill_mps) {
   const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };
   return std::abs(odometry.twist.x()) <= standstill_mps && std(0) <= standstill_mps &&
@@ -30,12 +32,19 @@ void FilterCondition::start() {
   used_scans_ = 0;
   used_us_ = clear_us_ = state_.time_us();
   doubt_us_ = state_.time_us() - kLongAgoUs;
+  doubts_ = 0;
+}
+
+void FilterCondition::doubt() {
+  doubt_us_ = state_.time_us();
+  doubts_ = std::min(doubts_ + 1, kMaxDoubts);
 }
 
 void FilterCondition::use_scan(bool is_clear) {
   used_us_ = state_.time_us();
   clear_us_ = is_clear ? used_us_ : clear_us_;
   ++used_scans_;
+  doubts_ = std::max(0, doubts_ - 1);
 }
 
 bool FilterCondition::settle() {
@@ -52,7 +61,7 @@ bool FilterCondition::is_known() const {
   const OdometryOptions& options = state_.options();
   return state_.gaussian.std(kSpeed) <= options.settled_speed_std_mps &&
          state_.gaussian.std(kYawRate) <= options.settled_yaw_rate_std_radps &&
-         used_scans_ >= options.settled_scans && faults_.is_verified() &&
+         used_scans_ >= options.settled_scans && doubts_ == 0 && faults_.is_verified() &&
          consensus_.agreeing(used_us_) > consensus_.contradicting(used_us_);
 }
 

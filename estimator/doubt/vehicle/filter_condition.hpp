@@ -25,7 +25,7 @@ class FilterCondition {
   void use_scan(bool is_clear);
   /// Records a scan that is not used because it is unknown which of its targets, or which radars,
   /// show the vehicle's motion: it shows two worlds (TwoWorlds), or radars contradict each other.
-  void doubt() { doubt_us_ = state_.time_us(); }
+  void doubt();
 
   /// Ends the start if the state is known; true if it ends now.
   bool settle();
@@ -51,6 +51,7 @@ class FilterCondition {
   std::int64_t used_us_ = 0;   // Last scan used.
   std::int64_t clear_us_ = 0;  // Last clear scan used.
   std::int64_t doubt_us_ = 0;  // Last scan in doubt.
+  int doubts_ = 0;             // Scans in doubt less scans used, 0 to kMaxDoubts.
 };
 
 }  // namespace cremed

@@ -76,7 +76,8 @@ def each_once(heard_messages):
     for heard in heard_messages:
         message = heard.message
         stream, key = (type(message), getattr(message, "source", "")), (message.utime, message.seq)
-        if 0 < message.utime < LATEST_US and last.get(stream) != key:  # 0: a status from before the first frame.
+        is_dated = message.utime != 0 or not isinstance(message, cremed.status_t)  # That from before the first frame.
+        if is_dated and 0 <= message.utime < LATEST_US and last.get(stream) != key:
             last[stream] = key
             yield heard
 

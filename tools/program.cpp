@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/program.hpp"
 
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cremed/version.hpp"
+#include "daemon/process/message_text.hpp"
 #include "daemon/process/process_setup.hpp"
 #include "daemon/process/usage_error.hpp"
 
@@ -45,6 +47,16 @@ int run_program(const char* name, const char* description, ProgramRun run, int a
   } catch (const std::exception& error) {
     return report(name, error, kFailure);
   }
+}
+
+CLI::Validator number_in(double least, double most) {
+  const CLI::Range range(least, most);
+  const auto problem = [range](const std::string& text) {
+    double value = 0.0;
+    const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+    return is_nan ? concat({"Value ", text, " is not a number"}) : range(text);
+  };
+  return {problem, range.get_description()};
 }
 
 }  // namespace cremed

@@ -4,7 +4,8 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's.
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace cremed {
 
@@ -14,5 +15,8 @@ using ProgramRun = int (*)(CLI::App& app, int argc, char** argv);
 /// main() of a tool: runs it and reports errors. Returns 0, 1 after a failure, or 2 after bad usage
 /// or a bad configuration.
 int run_program(const char* name, const char* description, ProgramRun run, int argc, char** argv);
+
+/// The check of an option's number. NaN is in no range, but in CLI::Range.
+CLI::Validator number_in(double least, double most);
 
 }  // namespace cremed

@@ -21,10 +21,11 @@ def replaced_file(path):
         with _written_to(path) if _is_stream(path) else _replaced(os.path.realpath(path)) as file:
             yield file
     except OSError as error:
-        if error.filename is None:  # Of another file.
-            error.filename = "standard output" if path == "-" else str(path)
-            raise OSError(f"cannot write {error.filename}: {error.strerror or error}") from error
-        raise
+        if error.filename is not None:  # Of another file.
+            raise
+        name = "standard output" if path == "-" else path
+        # With a name, although of nothing: a file that is written beside this one must not claim the error.
+        raise OSError(error.errno, f"cannot write {name}: {error.strerror or error}", "") from error
 
 
 def _is_stream(path):

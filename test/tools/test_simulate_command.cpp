@@ -74,6 +74,16 @@ TEST_CASE("cremed-simulate names its scenarios") {
   }
 }
 
+TEST_CASE("ARS408s that are not told the motion say so in 0x201") {
+  const TemporaryFolder folder;
+  CHECK(run_simulate(folder, "--help").output.find("  --not-told  ") != std::string::npos);
+  const auto log = [&](const std::string& more) {
+    return run_simulate(folder, "--scenario bends --duration 1 --output - " + more).output;
+  };
+  CHECK(log("").find("can0 201#4019000010180000") != std::string::npos);
+  CHECK(log("--not-told").find("can0 201#4019000010D80000") != std::string::npos);
+}
+
 TEST_CASE("cremed-simulate takes its radars from the daemon's configuration") {
   const TemporaryFolder folder;
   std::ofstream(folder.file("radars.toml")) << R"(
@@ -119,6 +129,7 @@ TEST_CASE("cremed-simulate says what is wrong") {
       Refusal{"--scenario city", 2, "--output is required"},
       Refusal{"--scenario city --output - --speed 3", 2, "--speed"},
       Refusal{"--scenario city --output - --duration -1", 2, "--duration"},
+      Refusal{"--scenario city --output - --duration nan", 2, "--duration: Value nan is not"},
       Refusal{"--scenario city --output - --duration 1 --config /no/such/file.toml", 2,
               "/no/such/file.toml"},
       Refusal{"--scenario city --duration 1 --output /no/such/folder/log", 1, "cannot write"},

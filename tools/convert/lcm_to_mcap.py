@@ -3,6 +3,7 @@
 """An LCM log of cremed as MCAP."""
 import json
 import math
+import re
 import sys
 
 import cremed
@@ -45,7 +46,8 @@ def as_json(message):
 
 
 def topic_of(message):
-    source = getattr(message, "source", "")
+    """Which also becomes the name of a file: a name of a damaged log, or of another's, may hold a path."""
+    source = re.sub(r"[^\w-]", "_", getattr(message, "source", ""))
     return TOPICS[type(message)] + (f"_{source.upper()}" if source else "")
 
 
@@ -74,7 +76,8 @@ def each_once(heard_messages):
     for heard in heard_messages:
         message = heard.message
         stream, key = (type(message), getattr(message, "source", "")), (message.utime, message.seq)
-        if 0 < message.utime < LATEST_US and last.get(stream) != key:  # 0: a status from before the first frame.
+        is_dated = message.utime != 0 or not isinstance(message, cremed.status_t)  # That from before the first frame.
+        if is_dated and 0 <= message.utime < LATEST_US and last.get(stream) != key:
             last[stream] = key
             yield heard
 
@@ -87,8 +90,9 @@ def write_messages(log, writer, profile):
     try:
         for heard in each_once(cremed.read_log(log)):
             message = heard.message
+            published_us = min(max(heard.received_us, 0), LATEST_US)  # Of a damaged log it may be anything.
             for topic, kind, content in profile.records(message):
-                writer.add(topic, kind, message.seq, message.utime * 1000, max(heard.received_us, 0) * 1000, content)
+                writer.add(topic, kind, message.seq, message.utime * 1000, published_us * 1000, content)
                 count += 1
     except cremed.DamagedLog as damage:
         return count, damage

@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """An LCM log of cremed as a folder of CSV files, one a source, whose rows are all of one kind."""
+import contextlib
 import csv
+import io
 import pathlib
 
 import cremed
 from lcm_to_mcap import STATUS_NAMES, each_once, topic_of
+from replaced_file import replaced_file
 
 
 def is_list_of_targets(value):
@@ -22,8 +25,8 @@ def columns_of(kind):
 
 
 class Table:
-    def __init__(self, path, kind):
-        self.file = open(path, "w", newline="", encoding="utf-8")  # pylint: disable=consider-using-with
+    def __init__(self, file, kind):
+        self.file = io.TextIOWrapper(file, encoding="utf-8", newline="")
         self.rows, self.kind = csv.writer(self.file, lineterminator="\n"), kind
         self.columns, self.targets = columns_of(kind)
         self.rows.writerow(["time_s", *(["status_name"] if STATUS_NAMES[kind] else []),
@@ -40,19 +43,28 @@ class Table:
             self.rows.writerow([*cells, *target])
 
 
-def convert(log, folder):
-    """Raises, after it has converted what comes before damage, where there is any."""
+def write_tables(log, folder, files):
+    """How many; and what is wrong with the log, if anything. `files` keeps those that are written open."""
     tables = {}
     try:
         for heard in each_once(cremed.read_log(log)):
             topic = topic_of(heard.message)
             if topic not in tables:
                 pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
-                name = topic.removeprefix("CREMED_").lower()
-                tables[topic] = Table(pathlib.Path(folder) / f"{name}.csv", type(heard.message))
+                path = pathlib.Path(folder) / f"{topic.removeprefix('CREMED_').lower()}.csv"
+                tables[topic] = Table(files.enter_context(replaced_file(path)), type(heard.message))
+                files.callback(tables[topic].file.detach)  # Flushes.
             tables[topic].add(heard.message)
-    finally:
-        for table in tables.values():
-            table.file.close()
-    if not tables:
+    except cremed.DamagedLog as damage:
+        return len(tables), damage
+    return len(tables), None
+
+
+def convert(log, folder):
+    """Raises, after it has converted what comes before damage, where there is any."""
+    with contextlib.ExitStack() as files:
+        count, damage = write_tables(log, folder, files)
+    if damage:
+        raise damage
+    if count == 0:
         raise ValueError(f"{log}: has none of cremed's messages; record with lcm-logger")

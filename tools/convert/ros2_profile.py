@@ -3,6 +3,7 @@
 """cremed's messages as those of ROS 2. Frames as REP 105 has them: odom, base_link (the centre of the
 rear axle), and one a radar."""
 import math
+import re
 import struct
 
 import cremed
@@ -66,7 +67,7 @@ CAUSE_NAMES = names_of(cremed.status_t, "CAUSE_")
 
 
 def frame_of(radar):
-    return "radar_" + radar.lower().replace("-", "_")  # Which a topic of ROS must not have.
+    return "radar_" + re.sub(r"\W", "_", radar.lower(), flags=re.ASCII)  # What a topic of ROS may have.
 
 
 def header(utime, frame):

@@ -57,7 +57,7 @@ struct Arguments {
 void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--config", arguments.config, "Configuration (default: /etc/cremed/cremed.toml)");
   app.add_option("--seconds", arguments.seconds, "How long to listen")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(number_in(0.1, 3600.0))
       ->capture_default_str();
   app.add_option("--replay", arguments.replay,
                  "Diagnose a candump log instead of the live bus; - for standard input");
@@ -90,7 +90,7 @@ void add_talk_options(CLI::App& app, Arguments& arguments) {
                         ->check(name_problem);
   app.add_option("--max-distance", arguments.setup.max_distance_m,
                  "Also set its range in m (by model 196 to 260, or up to 1200)")
-      ->check(CLI::Range(196.0, 1200.0))
+      ->check(number_in(196.0, 1200.0))
       ->needs(configure);
   app.add_flag("--store", arguments.setup.store,
                "Write its settings to its flash, to keep them after power-off")

@@ -32,6 +32,12 @@ constexpr std::string_view kMount =
 
 constexpr std::string_view kNoMount = "mount = { x_m = 0, y_m = 0, yaw_rad = 0 }\n";
 
+/// What is written of a radar beside its type and place.
+struct TableEnd {
+  std::string_view mount;
+  bool has_output;  ///< As it is sent; else clusters.
+};
+
 /// A common odometry needs the mounts, a radar's own motion with 2 degrees of freedom too.
 constexpr std::string_view kExamined =
     "odometry.enabled = false\nestimator.degrees_of_freedom = 3\n";
@@ -114,11 +120,11 @@ std::string info_line(const RadarSettings& radar) {
 }
 
 std::string table(const BusObservation& bus, const RadarSettings& radar, std::size_t number,
-                  RadarFamilies families, std::string_view mount) {
+                  RadarFamilies families, const TableEnd& end) {
   return concat({"\n[[radar]]\nname = \"radar", std::to_string(number), "\"\ntype = \"",
                  radar.family().type, "\"", others_like(radar.family(), families),
                  "\ninterface = \"", bus.interface, "\"\n", radar.key(), "\n", info_line(radar),
-                 mount == kMount ? output_line(bus, radar) : "", mount});
+                 end.has_output ? output_line(bus, radar) : "", end.mount});
 }
 
 /// A configuration refuses radars of one bus that share an identifier.
@@ -128,7 +134,7 @@ std::string left_out(const BusObservation& bus, const RadarSettings& radar, cons
                  " with a radar above; give it other identifiers, or a bus of its own.\n"});
 }
 
-std::string tables_of(const BusObservation& bus, RadarFamilies families, std::string_view mount,
+std::string tables_of(const BusObservation& bus, RadarFamilies families, const TableEnd& end,
                       std::size_t& count) {
   std::string comments;
   IdSet used;
@@ -145,18 +151,17 @@ std::string tables_of(const BusObservation& bus, RadarFamilies families, std::st
   std::string tables;
   for (const RadarSettings& radar : radars) {
     tables += count < kMaxRadars
-                  ? table(bus, with_free_info_id(radar, used), ++count, families, mount)
+                  ? table(bus, with_free_info_id(radar, used), ++count, families, end)
                   : "";
   }
   return tables + comments;
 }
 
-std::string tables_of(const Observation& observation, RadarFamilies families,
-                      std::string_view mount) {
+std::string tables_of(const Observation& observation, RadarFamilies families, const TableEnd& end) {
   std::string tables;
   std::size_t count = 0;
   for (const BusObservation* bus : by_name(observation)) {
-    tables += tables_of(*bus, families, mount, count);
+    tables += tables_of(*bus, families, end, count);
   }
   return tables;
 }
@@ -164,12 +169,13 @@ std::string tables_of(const Observation& observation, RadarFamilies families,
 }  // namespace
 
 std::string suggested_configuration(const Observation& observation, RadarFamilies families) {
-  const std::string tables = tables_of(observation, families, kMount);
+  const std::string tables = tables_of(observation, families, {kMount, true});
   return tables.empty() ? "" : concat({kHeading, tables});
 }
 
-Configuration examined_configuration(const Observation& observation) {
-  const std::string tables = tables_of(observation, radar_families(), kNoMount);
+Configuration examined_configuration(const Observation& observation, ExaminedOutput output) {
+  const std::string tables =
+      tables_of(observation, radar_families(), {kNoMount, output == ExaminedOutput::as_sent});
   return tables.empty() ? Configuration()
                         : parse_configuration(concat({kExamined, tables}), "suggestion");
 }

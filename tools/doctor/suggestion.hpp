@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "cremed/can_decoders/radar_family.hpp"
@@ -16,9 +17,13 @@ namespace cremed {
 std::string suggested_configuration(const Observation& observation,
                                     RadarFamilies families = radar_families());
 
+/// What an ARS408 is examined for: what it should send, or what it does.
+enum class ExaminedOutput : std::uint8_t { clusters, as_sent };
+
 /// The same radars, to examine each without a mount: it is 0, and the motion free in all
 /// directions. Without radars if none was recognised.
-Configuration examined_configuration(const Observation& observation);
+Configuration examined_configuration(const Observation& observation,
+                                     ExaminedOutput output = ExaminedOutput::clusters);
 
 /// With that configuration: what may be wrong with the mount or the motion is no finding. A wrong
 /// Doppler is one for any mount.

@@ -10,7 +10,6 @@
 #include "daemon/configuration/first_configuration.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
-#include "tools/doctor/suggestion.hpp"
 
 namespace cremed {
 namespace {
@@ -41,8 +40,8 @@ bool is_pipe(const std::string& log) {
   return log == "-" || std::filesystem::is_fifo(log, error);
 }
 
-Configuration examined_radars(const Observation& observation) {
-  Configuration configuration = examined_configuration(observation);
+Configuration examined_radars(const Observation& observation, ExaminedOutput output) {
+  Configuration configuration = examined_configuration(observation, output);
   if (configuration.radars.empty()) {
     throw std::runtime_error(no_suggestion(observation));
   }

@@ -7,6 +7,7 @@
 #include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/observation.hpp"
+#include "tools/doctor/suggestion.hpp"
 
 // For one who has a log, or buses, and no configuration yet.
 namespace cremed {
@@ -22,7 +23,8 @@ bool is_pipe(const std::string& log);
 
 /// The radars observed, to examine each alone (examined_configuration). Throws std::runtime_error
 /// with the traffic and advice if there are none.
-Configuration examined_radars(const Observation& observation);
+Configuration examined_radars(const Observation& observation,
+                              ExaminedOutput output = ExaminedOutput::clusters);
 
 /// The same, with findings that tell what they are, which buses are silent and how to write a
 /// configuration.

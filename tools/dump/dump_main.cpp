@@ -51,6 +51,11 @@ Configuration selected(const std::string& wanted, Configuration configuration) {
   return configuration;
 }
 
+/// The radars observed, as they are. Throws std::runtime_error with advice if there are none.
+Configuration as_sent(const Observation& observation) {
+  return examined_radars(observation, ExaminedOutput::as_sent);
+}
+
 /// Nothing: the radars are to be found in the log itself, while it is read.
 std::optional<LocatedRadars> located(const Arguments& arguments) {
   if (!is_unconfigured(arguments.config)) {
@@ -62,7 +67,7 @@ std::optional<LocatedRadars> located(const Arguments& arguments) {
     return std::nullopt;
   }
   return LocatedRadars{
-      selected(arguments.radar, examined_radars(observe_log(without_radars(), arguments.log))), {}};
+      selected(arguments.radar, as_sent(observe_log(without_radars(), arguments.log))), {}};
 }
 
 /// The longest period of a radar's messages is a second.
@@ -91,7 +96,7 @@ class LogHead {
     if (!first_us_) {
       throw std::runtime_error(log.no_frame());
     }
-    return examined_radars(observer_.finish());
+    return as_sent(observer_.finish());
   }
   /// All lines that were added, in order; they are kept no longer.
   void hand_over(ScanReader& reader) {

@@ -27,6 +27,7 @@ struct Arguments {
   std::string truth;
   std::string config;
   std::int64_t start_s = 1'700'000'000;
+  bool is_not_told = false;
   SimulationOptions options;
 };
 
@@ -43,13 +44,13 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
                  "Seconds to drive; default: the scenario's")
-      ->check(CLI::Range(0.5, 7200.0));
+      ->check(number_in(0.5, 7200.0));
   app.add_option("--start", arguments.start_s, "Time of the start, seconds since the Unix epoch")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{4'000'000'000}))
       ->capture_default_str();
   const auto add_std = [&](const char* name, double& value, double max, const char* description) {
     app.add_option(name, value, std::string("Standard deviation ") + description)
-        ->check(CLI::Range(0.0, max))
+        ->check(number_in(0.0, max))
         ->capture_default_str();
   };
   SimulationOptions& options = arguments.options;
@@ -64,7 +65,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
           "in rad of a radar's yaw from the configured one, drawn once per drive");
   add_std("--mount-position-std", options.mount_position_std_m, 1.0,
           "in m of x and y of its mount, drawn once per drive");
-  app.add_flag("!--not-told", arguments.options.is_told_motion,
+  app.add_flag("--not-told", arguments.is_not_told,
                "ARS408s do not receive the vehicle's speed and yaw rate: they take static targets "
                "for moving, report radial velocities only and do not extrapolate positions");
 }
@@ -106,6 +107,7 @@ void simulate(Arguments& arguments) {
   refuse_aliases({{"--config", arguments.config}},
                  {{"--output", arguments.output}, {"--truth", arguments.truth}});
   arguments.options.start_us = arguments.start_s * 1'000'000;
+  arguments.options.is_told_motion = !arguments.is_not_told;
   Simulation simulation(scenario, configuration.radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
   LineStream log(arguments.output);

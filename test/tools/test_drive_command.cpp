@@ -344,14 +344,14 @@ TEST_CASE("Wheels that cannot be those of the drive are refused") {
     const char* wheels;
     const char* told;
   };
-  const Row row = GENERATE(
-      Row{"header only", "", "no row but the header"},
-      Row{"another time", "9000000,10,0\n9900000,10,0\n",
-          "its time, utime 9000000 to 9900000, has no motion of"},
-      Row{"nanoseconds", "1000000000,10,0\n3000000000,10,0\n",
-          "utime 1000000 to 3000000, in it that truth has too; is it of the same drive, and in "
-          "microseconds?"},
-      Row{"seconds", "1.0,10,0\n3.0,10,0\n", "is it in seconds?"});
+  const Row row = GENERATE(Row{"header only", "", "no row but the header"},
+                           Row{"another time", "9000000,10,0\n9900000,10,0\n",
+                               "its time, utime 9000000 to 9900000, has no motion of"},
+                           Row{"nanoseconds", "1000000000,10,0\n3000000000,10,0\n",
+                               "in it that truth has too; is it of the same drive, and in "
+                               "microseconds? The odometry has utime "
+                               "1000000 to 3000000"},
+                           Row{"seconds", "1.0,10,0\n3.0,10,0\n", "is it in seconds?"});
   CAPTURE(row.what);
   const TemporaryFolder folder;
   const std::string wheels = write_wheels(folder);

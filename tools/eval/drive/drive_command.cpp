@@ -79,10 +79,10 @@ void check_overlap(const DriveFiles& files, const std::vector<SourceEvaluation>&
   const bool is_outside = std::ranges::any_of(
       sources, [](const SourceEvaluation& source) { return source.outside_truth != 0; });
   if (is_outside && !any_compared(sources)) {
-    throw std::runtime_error(
-        concat({files.truth, ": its time, ", told_time(truth.utime_us()), ", has no motion of ",
-                files.odometry, ", ", told_time(drive_time(sources)),
-                ", in it; is it of the same drive, and in microseconds?"}));
+    throw std::runtime_error(concat(
+        {files.truth, ": its time, ", told_time(truth.utime_us()), ", has no motion of ",
+         files.odometry, " in it; is it of the same drive, and in microseconds? The odometry has ",
+         told_time(drive_time(sources))}));
   }
 }
 
@@ -96,10 +96,11 @@ void check_wheels(const DriveFiles& files, const std::vector<SourceEvaluation>& 
   if (reference.wheels->utime_us().empty()) {
     throw std::runtime_error(files.wheels + ": no row but the header");
   }
-  throw std::runtime_error(
-      concat({files.wheels, ": its time, ", told_time(reference.wheels->utime_us()),
-              ", has no motion of ", files.odometry, ", ", told_time(drive_time(sources)),
-              ", in it that truth has too; is it of the same drive, and in microseconds?"}));
+  throw std::runtime_error(concat(
+      {files.wheels, ": its time, ", told_time(reference.wheels->utime_us()), ", has no motion of ",
+       files.odometry,
+       " in it that truth has too; is it of the same drive, and in microseconds? The odometry has ",
+       told_time(drive_time(sources))}));
 }
 
 /// From the interval of a fast radar's scans to where the wheels' own error dominates.

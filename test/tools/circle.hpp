@@ -84,6 +84,19 @@ inline TrueTrajectory exact_truth(const Circle& circle, std::size_t steps) {
   return circle.truth(kStepUs, steps, Eigen::Vector3d::Zero(), unused);
 }
 
+/// Without the poses from `first` to `last`.
+inline TrueTrajectory with_gap(const TrueTrajectory& truth, std::size_t first, std::size_t last) {
+  std::vector<std::int64_t> utime_us;
+  std::vector<Pose2> poses;
+  for (std::size_t i = 0; i < truth.poses().size(); ++i) {
+    if (i < first || i > last) {
+      utime_us.push_back(truth.utime_us()[i]);
+      poses.push_back(truth.poses()[i]);
+    }
+  }
+  return {std::move(utime_us), std::move(poses)};
+}
+
 inline WheelReference read_wheels(const std::string& csv, const WheelStd& std = {}) {
   std::istringstream input(csv);
   return WheelReference(input, std);

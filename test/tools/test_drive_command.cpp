@@ -338,6 +338,62 @@ TEST_CASE("Truth that cannot be that of the drive is asked about") {
   CHECK_THAT(result.error, Catch::Contains(row.told));
 }
 
+TEST_CASE("Wheels that cannot be those of the drive are refused") {
+  struct Row {
+    const char* what;
+    const char* wheels;
+    const char* told;
+  };
+  const Row row = GENERATE(Row{"header only", "", "no row but the header"},
+                           Row{"another time", "9000000,10,0\n9900000,10,0\n",
+                               "its time, utime 9000000 to 9900000, has no motion of"},
+                           Row{"nanoseconds", "1000000000,10,0\n3000000000,10,0\n",
+                               "in it that truth has too; is it of the same drive, and in "
+                               "microseconds? The odometry has utime "
+                               "1000000 to 3000000"},
+                           Row{"seconds", "1.0,10,0\n3.0,10,0\n", "is it in seconds?"});
+  CAPTURE(row.what);
+  const TemporaryFolder folder;
+  const std::string wheels = write_wheels(folder);
+  std::ofstream(folder.file("wheels.csv")) << "utime,speed_mps,yaw_rate_radps\n" << row.wheels;
+  const ToolRun result = run_eval(folder, write_drive(folder, {"front"}) + wheels);
+  CHECK(result.status == 1);
+  CHECK(result.output.empty());
+  CHECK_THAT(result.error, Catch::Contains(folder.file("wheels.csv")));
+  CHECK_THAT(result.error, Catch::Contains(row.told));
+}
+
+TEST_CASE("cremed-eval drive knows nothing of the time in which truth or wheels are missing") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front"}) + write_wheels(folder);
+  // What is missing was driven at twice the speed.
+  std::ofstream truth(folder.file("truth.csv"));
+  std::ofstream wheels(folder.file("wheels.csv"));
+  truth << "utime,x_m,y_m,yaw_rad\n";
+  wheels << "utime,speed_mps,yaw_rate_radps\n";
+  for (int i = 0; i <= 20; ++i) {
+    if (i <= 8 || i >= 15) {
+      truth << 1'000'000 + 100'000 * i << ',' << (i <= 8 ? 50 : 56) + i << ",60,0\n";
+      wheels << 1'000'000 + 100'000 * i << ",10,0\n";
+    }
+  }
+  truth.close();
+  wheels.close();
+  const ToolRun result = run_eval(folder, drive);
+  CAPTURE(result.error);
+  REQUIRE(result.status == 0);
+  CHECK(cells(result.output)[0][1] == "13");
+  CHECK(cells(result.output)[0][2] == "0.01000");
+  CHECK(words(result.output, "front           x m/s ")[0] == "13");
+  CHECK_THAT(result.error,
+             Catch::Contains("truth.csv: 0.7 s are missing, nothing from 0.8 s to 1.5 s\n") &&
+                 Catch::Contains("wheels.csv: 0.7 s are missing, nothing from 0.8 s to 1.5 s\n"));
+  const auto json = nlohmann::json::parse(run_eval(folder, drive + " --json").output);
+  REQUIRE(json["truth_gaps"].size() == 1);
+  CHECK(json["truth_gaps"][0]["begin_us"] == 1'800'000);
+  CHECK(json["wheels_gaps"][0]["end_us"] == 2'500'000);
+}
+
 TEST_CASE("Odometry and truth in the wrong order are recognised") {
   const TemporaryFolder folder;
   write_drive(folder, {"front"});

@@ -47,6 +47,28 @@ TEST_CASE("Truth is interpolated and turned into the start's frame") {
   CHECK_FALSE(turning_truth().at(2'000'001));
 }
 
+TEST_CASE("Truth is not interpolated where poses are missing") {
+  std::istringstream csv(
+      "utime,x_m,y_m,yaw_rad\n"
+      "0,0,0,0\n100000,1,0,0\n200000,2,0,0\n450000,4,0,0\n550000,5,0,0\n5550000,5,9,1\n"
+      "5650000,6,9,1\n");
+  const TrueTrajectory truth(csv);
+  REQUIRE(truth.gaps().size() == 1);
+  CHECK(truth.gaps()[0].begin_us == 550'000);
+  CHECK(truth.gaps()[0].end_us == 5'550'000);
+  CHECK(truth.at(300'000));
+  CHECK(truth.at(550'000));
+  CHECK_FALSE(truth.at(550'001));
+  CHECK(truth.at(5'550'000));
+  CHECK(truth.motion(0, 550'000));
+  CHECK(truth.motion(0, 5'550'000));
+  CHECK(truth.touches_gap(0, 5'550'000));
+  CHECK_FALSE(truth.touches_gap(0, 550'000));
+  CHECK(truth.motion(5'550'000, 5'600'000));
+  std::istringstream slow("utime,x_m,y_m,yaw_rad\n0,0,0,0\n1000000,9,0,0\n3000000,9,9,1\n");
+  CHECK(TrueTrajectory(slow).gaps().empty());
+}
+
 TEST_CASE("Yaw is interpolated the short way round") {
   std::istringstream csv("utime,x_m,y_m,yaw_rad\n0,0,0,3.1\n1000000,0,0,-3.1\n");
   const TrueTrajectory trajectory(csv);

@@ -30,11 +30,14 @@ struct Turn {
   static double y_m(int step) { return 10.0 * (1.0 - std::cos(yaw_rad(step))); }
 };
 
-std::string tum(double scale) {
+std::string tum(double scale, int first_missing = Turn::kSteps, int count = 0) {
   std::ostringstream text;
   text << "# time x y z qx qy qz qw\n";
   text.precision(12);
   for (int i = 0; i <= Turn::kSteps; ++i) {
+    if (i >= first_missing && i < first_missing + count) {
+      continue;
+    }
     const double yaw_rad = Turn::yaw_rad(i) + 1.0;
     const double x = scale * (std::cos(1.0) * Turn::x_m(i) - std::sin(1.0) * Turn::y_m(i)) - 7.0;
     const double y = scale * (std::sin(1.0) * Turn::x_m(i) + std::cos(1.0) * Turn::y_m(i)) + 3.0;
@@ -87,13 +90,15 @@ std::string write_odometry(const TemporaryFolder& folder) {
   return write(folder, "odometry.csv", text.str());
 }
 
+constexpr TimeSpan kDrive{1'000'000'000, 1'002'000'000};
+
 }  // namespace
 
 TEST_CASE("A trajectory in TUM format and one of a camera in KITTI's are the same motions") {
   const TemporaryFolder folder;
-  const auto of_tum = read_other_trajectory(write(folder, "lidar.tum", tum(1.0)));
-  const auto of_kitti = read_other_trajectory(write(folder, "camera.txt", kitti()) + "," +
-                                              write(folder, "times.txt", times()));
+  const auto of_tum = read_other_trajectory(write(folder, "lidar.tum", tum(1.0)), kDrive);
+  const auto of_kitti = read_other_trajectory(
+      write(folder, "camera.txt", kitti()) + "," + write(folder, "times.txt", times()), kDrive);
   CHECK(of_tum.source == "lidar");
   CHECK(of_kitti.source == "camera");
   REQUIRE(of_tum.estimates.size() == Turn::kSteps);
@@ -141,6 +146,27 @@ TEST_CASE("cremed-eval drive shows other systems in the same tables, wherever th
   CHECK(picture.status == 0);
 }
 
+TEST_CASE("What another system did in a gap is not known, and the gap is told") {
+  const TemporaryFolder folder;
+  const std::string file = write(folder, "lidar.tum", tum(1.0, 6, 7));
+  const RecordedOdometry lidar = read_other_trajectory(file, kDrive);
+  CHECK(lidar.estimates.size() == Turn::kSteps - 8);
+  CHECK(lidar.availability.percent == Approx(60.0));
+  // Of the drive: it ends half a second before, or goes on for longer.
+  CHECK(read_other_trajectory(file, {kDrive.begin_us, kDrive.end_us + 500'000})
+            .availability.percent == Approx(48.0));
+  CHECK(read_other_trajectory(file, {kDrive.begin_us, kDrive.end_us - 1'000'000})
+            .availability.percent == Approx(50.0));
+  const ToolRun run =
+      run_tool("cremed-eval", folder,
+               "drive " + write_odometry(folder) + " " + write_truth(folder) + " --other " + file);
+  CAPTURE(run.error);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.output, Catch::Contains("lidar           a usable estimate for 60.0 %"));
+  CHECK_THAT(run.error, Catch::Contains("lidar: 0 rows without estimate, 0 estimates outside of "
+                                        "truth's time, nothing from 0.5 s to 1.3 s\n"));
+}
+
 TEST_CASE("A trajectory that cannot be read is told with its line") {
   const TemporaryFolder folder;
   const std::string drive = "drive " + write_odometry(folder) + " " + write_truth(folder);
@@ -154,7 +180,9 @@ TEST_CASE("A trajectory that cannot be read is told with its line") {
   refused("1 nan 0 0 0 0 0 1\n", "line 1: 'nan' is no number");
   refused("1000 0 0 0 0 0 0 1\n", "fewer than two poses");
   refused("1000 0 0 0 0 0 0 1\n1000 1 0 0 0 0 0 1\n", "pose 2: its time is not later");
-  refused("1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n", "no pose within truth's time");
+  refused(
+      "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n",
+      "no pose within truth's time: it is utime 1000000 to 2000000, truth's utime 1000000000 to");
   refused("1e15 0 0 0 0 0 0 1\n", "is no time in seconds");
   check(run_tool("cremed-eval", folder,
                  drive + " --other " + write(folder, "camera", kitti()) + "," +

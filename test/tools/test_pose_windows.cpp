@@ -100,6 +100,20 @@ TEST_CASE("A window across a gap is left out; stamps that differ by their roundi
   CHECK(windows() == 4 + 4);  // Begun up to 2 s, or from 5.5 s on.
 }
 
+TEST_CASE("A window with an end in a gap of truth, or with a long gap in it, is left out") {
+  const Circle circle;
+  const auto steps = exact_steps(circle, kStepUs, 100);
+  const auto errors = [&](std::size_t first, std::size_t last) {
+    return window_errors(ChainedPoses(steps), with_gap(exact_truth(circle, 100), first, last),
+                         500'000, 2'000'000);
+  };
+  CHECK(errors(53, 53).windows == 16);  // One pose less is interpolated.
+  CHECK(errors(48, 52).windows == 14);  // Not those that begin or end at 5 s.
+  CHECK(errors(48, 52).rmse.x() < 1e-6);
+  CHECK(errors(48, 52).position_percent < 0.01);
+  CHECK(errors(40, 70).windows == 3 + 2);  // Up to 3.9 s, or from 7.1 s on.
+}
+
 TEST_CASE("Standing still, an error counts as one over a metre") {
   const Circle circle{1e-9, 1e-9};
   auto steps = exact_steps(circle, kStepUs, 50);

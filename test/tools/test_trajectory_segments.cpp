@@ -162,6 +162,27 @@ TEST_CASE("Segments across a gap and beyond truth are left out") {
   CHECK(std::isnan(of(none, "50 m").anees));
 }
 
+TEST_CASE("Segments that begin or end in a gap of truth are left out") {
+  const Circle circle;
+  Random random(25, 0);
+  const auto estimates = circle.estimates(kStepUs, 400, diagonal_covariance(), random);
+  const auto all = segments_of(estimates, with_gap(exact_truth(circle, 400), 150, 159));
+  // Windows: begun up to 4.5 s, or from 16 to 30 s. Chains: not those begun or ended from 15 to
+  // 15.5 s.
+  CHECK(of(all, "10 s").segments == 9 + 29);
+  CHECK(of(all, "10 s").chains == 60 - 4);
+}
+
+TEST_CASE("A chain whose nearest row is its begin is none") {
+  const Circle circle;
+  Random random(28, 0);
+  const auto all = segments_of(circle.estimates(3'000'000, 20, diagonal_covariance(), random),
+                               exact_truth(circle, 600));
+  CHECK(of(all, "1 s").chains == 0);
+  CHECK(std::isnan(of(all, "1 s").anees));
+  CHECK(of(all, "5 s").chains == 18);
+}
+
 TEST_CASE("Motions of two degrees of freedom are chained in three") {
   const Circle circle;
   Random random(26, 0);

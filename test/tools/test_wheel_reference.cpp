@@ -41,6 +41,23 @@ TEST_CASE("Changing speed is integrated by the trapezoid rule, rates are interpo
   CHECK(wheels.std().yaw_rate_radps == 0.003);
 }
 
+TEST_CASE("What the wheels did in a gap is not known") {
+  std::string csv = "utime,speed_mps,yaw_rate_radps\n";
+  for (int i = 0; i <= 100; ++i) {
+    csv += i > 40 && i < 70 ? "" : std::to_string(100'000 * i) + ",8,0.1\n";
+  }
+  const WheelReference wheels = read_wheels(csv);
+  REQUIRE(wheels.gaps().size() == 1);
+  CHECK(wheels.gaps()[0].begin_us == 4'000'000);
+  CHECK(wheels.gaps()[0].end_us == 7'000'000);
+  CHECK(wheels.motion(3'000'000, 4'000'000));
+  CHECK_FALSE(wheels.motion(3'000'000, 4'000'001));
+  CHECK_FALSE(wheels.motion(3'000'000, 8'000'000));
+  CHECK(wheels.motion(7'000'000, 8'000'000));
+  CHECK(wheels.rates(4'000'000));
+  CHECK_FALSE(wheels.rates(5'000'000));
+}
+
 TEST_CASE("Wheels tell nothing outside of their time, and bad files are refused with the place") {
   const WheelReference wheels = read_wheels(Circle{}.wheels_csv(1.0));
   CHECK_FALSE(wheels.motion(-1, 500'000));

@@ -95,6 +95,14 @@ long long CsvTable::integer(std::size_t row, std::size_t column) const {
   return parse<long long>(row, column);
 }
 
+long long CsvTable::utime_us(std::size_t row, std::size_t column) const {
+  if (const std::string& cell = text(row, column); cell.find('.') != std::string::npos) {
+    throw std::runtime_error(line(row) + ", " + header_[column] + ": '" + cell +
+                             "': is it in seconds? Whole microseconds are expected");
+  }
+  return integer(row, column);
+}
+
 Eigen::Vector3d read_vector(const CsvTable& table, std::size_t row, const VectorColumns& names) {
   Eigen::Vector3d vector;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -32,8 +32,10 @@ class CsvTable {
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
   /// A cell as a number that is finite; throws std::runtime_error.
   [[nodiscard]] double finite(std::size_t row, std::size_t column) const;
-  /// A cell as an integer, for time stamps; throws std::runtime_error.
+  /// A cell as an integer; throws std::runtime_error.
   [[nodiscard]] long long integer(std::size_t row, std::size_t column) const;
+  /// The same for a time stamp: asks about seconds.
+  [[nodiscard]] long long utime_us(std::size_t row, std::size_t column) const;
 
  private:
   template <typename Number>

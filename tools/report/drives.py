@@ -96,6 +96,9 @@ def measure(drive, programs, told):
             data["findings"].append(findings.finding("note", wrong, "a log for each part, and truth in the same clock"))
         elif drive.truth:
             data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
+            if gaps := data["truth"]["gaps"]:
+                data["findings"].append(findings.finding("note", f"truth is missing {findings.told(gaps)}",
+                                                         "errors are those of the rest of the drive"))
         told(1.0)
         return data
 

@@ -108,7 +108,7 @@ def read_table(path):
 
 
 def evaluate(programs, lcm_log, drive, folder):
-    """(figures, errors, drift) of all sources against truth, those of the odometry first."""
+    """(figures, errors, drift) of all sources against truth, those of the odometry first, and truth's gaps."""
     motions, states = folder / "motions.csv", folder / "states.csv"
     # It fails where the log is damaged, which the report says already.
     run([programs / "cremed-lcm-to-csv", lcm_log, "--output", motions, "--odometry", states], (0, 1))
@@ -122,10 +122,11 @@ def evaluate(programs, lcm_log, drive, folder):
                         *stds])
         except ValueError as error:  # It knows the temporary file only.
             raise ValueError(str(error).replace(str(rows), drive.logs[0])) from error
-        figures += json.loads(told)["sources"]
+        told = json.loads(told)
+        figures += told["sources"]
         errors |= read_table(tables / "errors.csv")
         drift |= read_table(tables / "drift.csv")
-    return figures, errors, drift
+    return figures, errors, drift, told["truth_gaps"]
 
 
 def read_poses(path):

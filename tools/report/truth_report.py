@@ -8,13 +8,14 @@ from thinning import extremes, rounded
 
 
 def truth_data(programs, lcm_log, drive, heard, folder):
-    figures, errors, drift = evaluate(programs, lcm_log, drive, folder)
+    figures, errors, drift, gaps = evaluate(programs, lcm_log, drive, folder)
     poses = read_poses(drive.truth)
     begin_s = (poses[0][0] - heard.begin_us) * 1e-6  # cremed-eval counts from truth's begin.
     return {"figures": figures, "truth_std": drive.truth_stds,
             "errors": {source: error_series(columns, begin_s) for source, columns in errors.items()},
             "drift": {source: {name: rounded(column) for name, column in columns.items()}
                       for source, columns in drift.items()},
+            "gaps": [[round((gap[name] - heard.begin_us) * 1e-6, 3) for name in ("begin_us", "end_us")] for gap in gaps],
             "path": true_path(poses, heard.odometry)}
 
 

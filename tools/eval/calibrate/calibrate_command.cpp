@@ -24,6 +24,7 @@
 #include "tools/eval/calibrate/calibration.hpp"
 #include "tools/eval/calibrate/calibration_keys.hpp"
 #include "tools/eval/calibrate/configuration_edit.hpp"
+#include "tools/eval/drive/missing_time.hpp"
 #include "tools/eval/input_file.hpp"
 
 namespace cremed {
@@ -104,7 +105,9 @@ void print_vehicle(const Calibration& calibration) {
                vehicle.value[kRoll] * kDegPerRad, vehicle.std[kRoll] * kDegPerRad);
   std::fprintf(stderr, "rear axle slips by %.2f +- %.2f deg at 1 m/s^2 across%s\n",
                vehicle.value[kSlip] * kDegPerRad, vehicle.std[kSlip] * kDegPerRad,
-               calibration.is_slip_changed ? "" : ": kept");
+               calibration.is_slip_refused ? ": kept, as it fits other parts of the drive no better"
+               : calibration.is_slip_changed ? ""
+                                             : ": kept");
 }
 
 void print_check(const Calibration& calibration) {
@@ -281,6 +284,9 @@ void run_calibrate(const CalibrateArguments& arguments) {
   require_near(configuration, calibration);
   const Values values = found_values(configuration, calibration);
   print_table(configuration, calibration);
+  if (truth) {
+    say_gaps(arguments.truth, truth->gaps(), truth->utime_us());
+  }
   print_toml(configuration, calibration, values);
   if (arguments.write) {
     write_back(arguments.config, values);

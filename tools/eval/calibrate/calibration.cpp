@@ -134,6 +134,9 @@ class Calibrator {
   [[nodiscard]] Configuration trial() const;
   [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
   [[nodiscard]] double yaw_std_rad(std::size_t radar) const;
+  [[nodiscard]] double configured_slip() const;
+  [[nodiscard]] double slip_std() const;
+  [[nodiscard]] bool is_slip_better() const;
   void choose_changes();
   void limit_kept();
   bool drop_changes();
@@ -152,6 +155,8 @@ class Calibrator {
   int round_ = 0;
   std::vector<RadarCalibration> radars_;
   std::optional<HeldOutCheck> check_;
+  bool is_slip_checked_ = false;
+  bool is_slip_refused_ = false;
 };
 
 /// Throws if truth tells nothing of these scans.
@@ -353,10 +358,22 @@ void Calibrator::settle() {
   } while (drop_changes());
 }
 
+double Calibrator::configured_slip() const {
+  return configuration_.odometry.filter.slip_per_lateral_acceleration;
+}
+
+double Calibrator::slip_std() const { return std::hypot(fit_.vehicle().std[kSlip], errors_.slip); }
+
+bool Calibrator::is_slip_better() const {
+  const double change = std::abs(fit_.vehicle().value[kSlip] - configured_slip());
+  return slip_std() <= kWorstSlipStd && change > kSignificant * slip_std();
+}
+
 /// Refuses what fits no better in the parts of the drive where it was not found.
 void Calibrator::check() {
   std::vector<ChangedStates> changed;
-  bool is_any = false;
+  is_slip_checked_ = is_slip_better();
+  bool is_any = is_slip_checked_;
   for (const RadarCalibration& radar : radars_) {
     changed.push_back(radar.is_changed);
     is_any = is_any || std::ranges::any_of(changed.back(), [](bool is) { return is; });
@@ -364,7 +381,9 @@ void Calibrator::check() {
   if (!is_any) {
     return;
   }
-  check_ = check_held_out(fit_, changed);
+  check_ = check_held_out(fit_, changed,
+                          is_slip_checked_ ? std::optional(configured_slip()) : std::nullopt);
+  is_slip_refused_ = is_slip_checked_ && !(check_->is_better && check_->is_slip_better);
   bool is_any_refused = false;
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     if (!check_->is_better || !check_->is_radar_better[i]) {
@@ -384,12 +403,11 @@ void Calibrator::finish() {
 }
 
 Calibration Calibrator::result() const {
-  Calibration result{radars_, fit_.vehicle(), false, has_truth_, check_};
-  double& std = result.vehicle.std[kSlip];
-  std = std::hypot(std, errors_.slip);
-  const double configured = configuration_.odometry.filter.slip_per_lateral_acceleration;
-  const double change = std::abs(result.vehicle.value[kSlip] - configured);
-  result.is_slip_changed = std <= kWorstSlipStd && change > kSignificant * std;
+  Calibration result{
+      .radars = radars_, .vehicle = fit_.vehicle(), .has_truth = has_truth_, .check = check_};
+  result.vehicle.std[kSlip] = slip_std();
+  result.is_slip_refused = is_slip_refused_;
+  result.is_slip_changed = is_slip_checked_ && !is_slip_refused_ && is_slip_better();
   return result;
 }
 

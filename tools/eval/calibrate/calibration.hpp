@@ -33,6 +33,7 @@ struct Calibration {
   std::vector<RadarCalibration> radars;
   FittedVehicle vehicle;
   bool is_slip_changed = false;  ///< false: the configured one was kept.
+  bool is_slip_refused = false;  ///< What was found fits other parts of the drive no better.
   bool has_truth = false;
   std::optional<HeldOutCheck> check;  ///< Of what was found; nothing if that was nothing.
 };

@@ -323,12 +323,17 @@ CalibrationFit CalibrationFit::part(std::size_t index, std::size_t count, bool i
   return result;
 }
 
-double CalibrationFit::misfit(const std::vector<CalibrationVector>& values) const {
+double CalibrationFit::misfit(const std::vector<CalibrationVector>& values,
+                              const std::optional<double>& slip) const {
   CalibrationFit trial = *this;
   trial.yaw_std_rad_.clear();
   for (std::size_t radar = 0; radar < values.size(); ++radar) {
     trial.radars_[radar].prior = trial.radars_[radar].value = values[radar];
     trial.radars_[radar].prior_std = {};
+  }
+  if (slip) {
+    trial.vehicle_.prior[kSlip] = trial.vehicle_.value[kSlip] = *slip;
+    trial.vehicle_.prior_std[kSlip] = 0.0;
   }
   CalibrationProblem problem(trial);
   problem.squares.solve();

@@ -130,9 +130,10 @@ class CalibrationFit {
   /// The fit with the measurements within one of so many equal parts of their time, in which pauses
   /// do not count, or with those of the others.
   [[nodiscard]] CalibrationFit part(std::size_t index, std::size_t count, bool is_inside) const;
-  /// Half the sum of squares (with outliers weighted down) that these values of the radars leave in
-  /// the measurements at best.
-  [[nodiscard]] double misfit(const std::vector<CalibrationVector>& values) const;
+  /// Half the sum of squares (with outliers weighted down) that these values of the radars, and
+  /// this slip if there is one, leave in the measurements at best.
+  [[nodiscard]] double misfit(const std::vector<CalibrationVector>& values,
+                              const std::optional<double>& slip = {}) const;
 
   [[nodiscard]] const std::vector<FittedRadar>& radars() const { return radars_; }
   [[nodiscard]] const FittedVehicle& vehicle() const { return vehicle_; }

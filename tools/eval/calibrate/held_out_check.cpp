@@ -50,26 +50,34 @@ std::vector<CalibrationVector> values_of(const CalibrationFit& fit,
 
 }  // namespace
 
-HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<ChangedStates>& changed) {
+HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<ChangedStates>& changed,
+                            const std::optional<double>& configured_slip) {
   HeldOutCheck check;
   Gain gain;
+  Gain slip_gain;
   std::vector<Gain> gains(changed.size());
   for (std::size_t part = 0; part < kHeldOutParts; ++part) {
     CalibrationFit others = fit.part(part, kHeldOutParts, false);
     others.minimise();
     const CalibrationFit own = fit.part(part, kHeldOutParts, true);
-    const double configured =
-        own.misfit(values_of(others, changed, [](std::size_t) { return true; }));
-    const double found = own.misfit(values_of(others, changed, [](std::size_t) { return false; }));
+    const auto slip = configured_slip ? std::optional(others.vehicle().value[kSlip]) : std::nullopt;
+    const auto all_configured = values_of(others, changed, [](std::size_t) { return true; });
+    const auto all_found = values_of(others, changed, [](std::size_t) { return false; });
+    const double configured = own.misfit(all_configured, configured_slip);
+    const double found = own.misfit(all_found, slip);
     check.configured += configured;
     check.found += found;
     gain.add(configured - found);
+    if (configured_slip) {
+      slip_gain.add(own.misfit(all_found, configured_slip) - found);
+    }
     for (std::size_t radar = 0; radar < changed.size(); ++radar) {
       const auto is_own = [radar](std::size_t other) { return other == radar; };
-      gains[radar].add(own.misfit(values_of(others, changed, is_own)) - found);
+      gains[radar].add(own.misfit(values_of(others, changed, is_own), slip) - found);
     }
   }
   check.is_better = gain.is_significant();
+  check.is_slip_better = !configured_slip || slip_gain.is_significant();
   for (std::size_t radar = 0; radar < changed.size(); ++radar) {
     const bool is_changed = std::ranges::count(changed[radar], true) != 0;
     check.is_radar_better.push_back(!is_changed || gains[radar].is_significant());

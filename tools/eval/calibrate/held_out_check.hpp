@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "tools/eval/calibrate/calibration_fit.hpp"
@@ -22,11 +23,14 @@ struct HeldOutCheck {
   bool is_better = true;    ///< By more than the scatter between the parts.
   /// By radar: whether those of this radar contribute to that.
   std::vector<bool> is_radar_better;
+  bool is_slip_better = true;  ///< Whether the slip contributes, if it is to be changed.
 };
 
 inline constexpr std::size_t kHeldOutParts = 5;
 
-/// `fit`: solved; `changed`: by radar.
-HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<ChangedStates>& changed);
+/// `fit`: solved; `changed`: by radar; `configured_slip`: if the slip is to be changed, otherwise
+/// it is free, as the motion is.
+HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<ChangedStates>& changed,
+                            const std::optional<double>& configured_slip = {});
 
 }  // namespace cremed

@@ -10,6 +10,7 @@
 #include "tools/eval/drive/baselines.hpp"
 #include "tools/eval/drive/drive_json.hpp"
 #include "tools/eval/drive/drive_report.hpp"
+#include "tools/eval/drive/missing_time.hpp"
 #include "tools/eval/drive/other_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/plot.hpp"
@@ -37,37 +38,20 @@ void plot_drive(const std::vector<SourceEvaluation>& sources, const TrueTrajecto
   draw_plot("plot_drive", write_tables(folder.file(""), sources, truth), picture);
 }
 
-/// Shorter ones are a scan or two.
-constexpr std::int64_t kLongSpanUs = 500'000;
-constexpr std::size_t kMostSpans = 3;
-
-/// ", nothing from 20.1 s to 22.0 s and 2 times more", in truth's time, as the tables have it.
-std::string told(const std::vector<TimeSpan>& without, std::int64_t begin_us) {
-  const auto seconds = [&](std::int64_t utime_us) {
-    return tenths(static_cast<double>(utime_us - begin_us) * 1e-6) + " s";
-  };
-  std::string text;
-  std::size_t count = 0;
-  for (const TimeSpan& span : without) {
-    if (span.end_us - span.begin_us >= kLongSpanUs && ++count <= kMostSpans) {
-      text += concat({count == 1 ? ", nothing from " : ", from ", seconds(span.begin_us), " to ",
-                      seconds(span.end_us)});
-    }
-  }
-  return count <= kMostSpans
-             ? text
-             : concat({text, " and ", counted(count - kMostSpans, "time"), " more"});
-}
-
-void say_what_is_missing(const std::vector<SourceEvaluation>& sources,
-                         const TrueTrajectory& truth) {
+void say_what_is_missing(const DriveFiles& files, const std::vector<SourceEvaluation>& sources,
+                         const DriveReference& reference) {
+  const TrueTrajectory& truth = reference.truth;
   for (const SourceEvaluation& source : sources) {
-    const std::string spans = told(source.availability.without, truth.utime_us().front());
+    const std::string spans = told_spans(source.availability.without, truth.utime_us().front());
     if (source.without_estimate + source.outside_truth != 0 || !spans.empty()) {
       std::fprintf(
           stderr, "%s: %zu rows without estimate, %zu estimates outside of truth's time%s\n",
           source.source.c_str(), source.without_estimate, source.outside_truth, spans.c_str());
     }
+  }
+  say_gaps(files.truth, truth.gaps(), truth.utime_us());
+  if (reference.wheels) {
+    say_gaps(files.wheels, reference.wheels->gaps(), reference.wheels->utime_us());
   }
 }
 
@@ -76,16 +60,47 @@ bool any_compared(const std::vector<SourceEvaluation>& sources) {
                              [](const SourceEvaluation& source) { return !source.errors.empty(); });
 }
 
+/// Of all sources together.
+TimeSpan drive_time(const std::vector<SourceEvaluation>& sources) {
+  TimeSpan drive;
+  for (const SourceEvaluation& source : sources) {
+    const bool is_first = drive.end_us == 0;
+    if (source.time.end_us != 0) {
+      drive.begin_us =
+          is_first ? source.time.begin_us : std::min(drive.begin_us, source.time.begin_us);
+      drive.end_us = std::max(drive.end_us, source.time.end_us);
+    }
+  }
+  return drive;
+}
+
 void check_overlap(const DriveFiles& files, const std::vector<SourceEvaluation>& sources,
                    const TrueTrajectory& truth) {
   const bool is_outside = std::ranges::any_of(
       sources, [](const SourceEvaluation& source) { return source.outside_truth != 0; });
   if (is_outside && !any_compared(sources)) {
-    throw std::runtime_error(
-        concat({files.truth, ": its time, utime ", std::to_string(truth.utime_us().front()), " to ",
-                std::to_string(truth.utime_us().back()), ", has no motion of ", files.odometry,
-                " in it; is it of the same drive, and in microseconds?"}));
+    throw std::runtime_error(concat(
+        {files.truth, ": its time, ", told_time(truth.utime_us()), ", has no motion of ",
+         files.odometry, " in it; is it of the same drive, and in microseconds? The odometry has ",
+         told_time(drive_time(sources))}));
   }
+}
+
+void check_wheels(const DriveFiles& files, const std::vector<SourceEvaluation>& sources,
+                  const DriveReference& reference) {
+  if (!reference.wheels || !any_compared(sources) ||
+      std::ranges::any_of(
+          sources, [](const SourceEvaluation& source) { return source.wheels->x.count != 0; })) {
+    return;
+  }
+  if (reference.wheels->utime_us().empty()) {
+    throw std::runtime_error(files.wheels + ": no row but the header");
+  }
+  throw std::runtime_error(concat(
+      {files.wheels, ": its time, ", told_time(reference.wheels->utime_us()), ", has no motion of ",
+       files.odometry,
+       " in it that truth has too; is it of the same drive, and in microseconds? The odometry has ",
+       told_time(drive_time(sources))}));
 }
 
 /// From the interval of a fast radar's scans to where the wheels' own error dominates.
@@ -127,11 +142,14 @@ void add_baselines(const DriveFiles& files, const DriveReference& reference,
 
 void add_others(const DriveFiles& files, const DriveReference& reference,
                 std::vector<SourceEvaluation>& sources) {
+  const TimeSpan drive = drive_time(sources);
   for (const std::string& other : files.others) {
-    const RecordedOdometry odometry = read_other_trajectory(other);
+    const RecordedOdometry odometry = read_other_trajectory(other, drive);
     sources.push_back(evaluate_source(odometry, reference, sources.front().first_window_us));
     if (sources.back().errors.empty()) {
-      throw std::runtime_error(other + ": no pose within truth's time");
+      throw std::runtime_error(
+          concat({other, ": no pose within truth's time: it is ", told_time(sources.back().time),
+                  ", truth's ", told_time(reference.truth.utime_us())}));
     }
   }
 }
@@ -163,11 +181,12 @@ void run_drive(const DriveFiles& files) {
     throw std::runtime_error(files.odometry + ": no odometry");
   }
   check_overlap(files, sources, reference.truth);
+  check_wheels(files, sources, reference);
   add_baselines(files, reference, sources);
   add_others(files, reference, sources);
   const auto print = files.as_json ? print_json : print_tables;
   print(stdout, sources, reference, compare_references(reference));
-  say_what_is_missing(sources, reference.truth);
+  say_what_is_missing(files, sources, reference);
   if (!files.truth_tum.empty()) {
     write_truth_tum(files.truth_tum, sources);
   }

@@ -59,6 +59,9 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveRe
   result.source = odometry.source;
   result.degrees_of_freedom = degrees_of_freedom(odometry);
   result.credibility = Credibility(result.degrees_of_freedom);
+  if (!odometry.estimates.empty()) {
+    result.time = {odometry.estimates.front().start_us, odometry.estimates.back().end_us};
+  }
   result.availability = odometry.availability;
   result.without_estimate = odometry.without_estimate;
   compare_estimates(odometry.estimates, reference, result);

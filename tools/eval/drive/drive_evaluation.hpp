@@ -51,7 +51,8 @@ struct SourceEvaluation {
   std::string source;
   int degrees_of_freedom = 2;
   Credibility credibility{2};
-  Availability availability;           ///< Of rows that cremed wrote.
+  TimeSpan time;  ///< Of the estimates; zero without any.
+  Availability availability;
   std::size_t without_estimate = 0;    ///< Rows whose status has no estimate.
   std::size_t outside_truth = 0;       ///< Estimates outside of truth's time.
   std::vector<EstimateError> errors;   ///< Of all other estimates.

@@ -64,6 +64,8 @@ Json to_json(const TruthAgainstWheels& truth) {
           {"rms_yaw_rad", truth.rms_yaw_rad}};
 }
 
+Json to_json(const TimeSpan& gap) { return {{"begin_us", gap.begin_us}, {"end_us", gap.end_us}}; }
+
 Json to_json(const RelativePoseStd& std) {
   return {
       {"x_m", std.x_m}, {"y_m", std.y_m}, {"yaw_rad", std.yaw_rad}, {"interval_s", std.interval_s}};
@@ -114,10 +116,12 @@ Json credibility_json(const Credibility& c) {
 void print_json(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                 const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth) {
   Json json{{"sources", rows_json(sources)},
-            {"truth_std", rows_json(reference.truth_noise.stds())}};
+            {"truth_std", rows_json(reference.truth_noise.stds())},
+            {"truth_gaps", rows_json(reference.truth.gaps())}};
   if (reference.wheels) {
     json["wheels_std"] = {{"speed_mps", reference.wheels->std().speed_mps},
                           {"yaw_rate_radps", reference.wheels->std().yaw_rate_radps}};
+    json["wheels_gaps"] = rows_json(reference.wheels->gaps());
     json["truth_against_wheels"] = rows_json(truth);
   }
   std::fprintf(file, "%s\n", json.dump(2).c_str());

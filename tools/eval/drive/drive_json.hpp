@@ -16,8 +16,9 @@ namespace cremed {
 nlohmann::ordered_json credibility_json(const Credibility& credibility);
 
 /// The output of cremed-eval drive as one JSON object: "sources" in order of appearance, with
-/// "drift", "segments" and, with wheels, "wheels" and "twist"; then "truth_std" and
-/// "truth_against_wheels". Names carry units; missing values are null.
+/// "drift", "segments" and, with wheels, "wheels" and "twist"; then "truth_std", "truth_gaps",
+/// "wheels_std", "wheels_gaps" and "truth_against_wheels". Names carry units; missing values are
+/// null.
 void print_json(std::FILE* file, const std::vector<SourceEvaluation>& sources,
                 const DriveReference& reference, const std::vector<TruthAgainstWheels>& truth);
 

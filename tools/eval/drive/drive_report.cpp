@@ -83,12 +83,11 @@ void print_truth(std::FILE* file, const std::vector<TruthAgainstWheels>& truth) 
 }
 
 void print_segment(std::FILE* file, const std::string& source, const SegmentErrors& errors) {
-  fmt::print(file,
-             "# {:<15} {:>6} {:8} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.2f} {:8} {:>8.2f} {:>8.2f} "
-             "{:>8.2f} {:>8.2f}\n",
-             source, to_text(errors.length), errors.segments, errors.rmse.x(), errors.rmse.y(),
-             kDegPerRad * errors.rmse.z(), errors.position_percent, errors.chains, errors.anees,
-             errors.nees.x(), errors.nees.y(), errors.nees.z());
+  fmt::print(file, "# {:<15} {:>6} {:8} {:>8} {:>8} {:>8} {:>8} {:8} {:>8} {:>8} {:>8} {:>8}\n",
+             source, to_text(errors.length), errors.segments, text(errors.rmse.x(), 3),
+             text(errors.rmse.y(), 3), text(kDegPerRad * errors.rmse.z(), 3),
+             text(errors.position_percent, 2), errors.chains, text(errors.anees, 2),
+             text(errors.nees.x(), 2), text(errors.nees.y(), 2), text(errors.nees.z(), 2));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ std::vector<TimedPose> read_kitti(const std::string& path, const std::string& ti
 
 }  // namespace
 
-RecordedOdometry read_other_trajectory(const std::string& files) {
+RecordedOdometry read_other_trajectory(const std::string& files, const TimeSpan& drive) {
   const std::size_t comma = files.find(',');
   const std::string path = files.substr(0, comma);
   const std::vector<TimedPose> poses =
@@ -121,6 +121,13 @@ RecordedOdometry read_other_trajectory(const std::string& files) {
   if (poses.size() < 2) {
     throw std::runtime_error(path + ": fewer than two poses");
   }
+  std::vector<RowTime> rows;
+  std::vector<std::int64_t> utimes_us;
+  for (const TimedPose& pose : poses) {
+    rows.push_back({pose.utime_us, true});
+    utimes_us.push_back(pose.utime_us);
+  }
+  const std::int64_t longest_us = longest_step_us(utimes_us);
   RecordedOdometry odometry{std::filesystem::path(path).stem(), {}, 0};
   const Eigen::Matrix3d unknown =
       Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -131,9 +138,12 @@ RecordedOdometry read_other_trajectory(const std::string& files) {
       throw std::runtime_error(path + ": pose " + std::to_string(i + 1) +
                                ": its time is not later than that before it");
     }
-    odometry.estimates.push_back(
-        {from.utime_us, to.utime_us, motion_between(from.pose, to.pose), unknown});
+    if (to.utime_us - from.utime_us <= longest_us) {
+      odometry.estimates.push_back(
+          {from.utime_us, to.utime_us, motion_between(from.pose, to.pose), unknown});
+    }
   }
+  odometry.availability = availability(rows, drive);
   return odometry;
 }
 

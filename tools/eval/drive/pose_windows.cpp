@@ -17,14 +17,24 @@ namespace {
 /// against the noise of truth.
 constexpr std::int64_t kPathStepUs = 100'000;
 
+/// Across a gap the path is the chord, unless it takes longer.
+constexpr std::int64_t kLongestChordUs = 1'000'000;
+
 /// Standing still has no path to refer to.
 constexpr double kLeastPathM = 1.0;
 
-double true_path_m(const TrueTrajectory& truth, std::int64_t start_us, std::int64_t end_us) {
+/// Nothing across a long gap, in which the path is not known.
+std::optional<double> true_path_m(const TrueTrajectory& truth, std::int64_t start_us,
+                                  std::int64_t end_us) {
   double path_m = 0.0;
-  for (std::int64_t from_us = start_us; from_us + kPathStepUs <= end_us; from_us += kPathStepUs) {
-    if (const auto motion = truth.motion(from_us, from_us + kPathStepUs)) {
+  std::int64_t from_us = start_us;
+  for (std::int64_t to_us = start_us + kPathStepUs; to_us <= end_us; to_us += kPathStepUs) {
+    if (to_us - from_us > kLongestChordUs) {
+      return std::nullopt;
+    }
+    if (const auto motion = truth.motion(from_us, to_us)) {
       path_m += motion->head<2>().norm();
+      from_us = to_us;
     }
   }
   return std::max(path_m, kLeastPathM);
@@ -96,12 +106,12 @@ WindowErrors window_errors(const ChainedPoses& poses, const TrueTrajectory& trut
     const std::int64_t end_us = begin_us + length_us;
     const auto motion = poses.motion(begin_us, end_us);
     const auto true_motion = truth.motion(begin_us, end_us);
-    if (motion && true_motion) {
+    const auto path_m = true_path_m(truth, begin_us, end_us);
+    if (motion && true_motion && path_m) {
       const Eigen::Vector3d error = estimation_error(*motion, *true_motion);
       ++errors.windows;
       errors.rmse += error.cwiseAbs2();
-      errors.position_percent +=
-          100.0 * error.head<2>().norm() / true_path_m(truth, begin_us, end_us);
+      errors.position_percent += 100.0 * error.head<2>().norm() / *path_m;
     }
   }
   const double count = errors.windows == 0 ? std::numeric_limits<double>::quiet_NaN()

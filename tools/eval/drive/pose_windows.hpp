@@ -56,8 +56,8 @@ struct WindowErrors {
 std::int64_t first_window_us(const std::vector<RecordedOdometry>& sources,
                              const TrueTrajectory& truth);
 
-/// Every window of that length, begun kWindowStepUs apart from `first_us` on, that both cover
-/// without a gap.
+/// Every window of that length, begun kWindowStepUs apart from `first_us` on, that both cover: the
+/// poses without a gap, truth at both ends and without a gap of more than a second.
 WindowErrors window_errors(const ChainedPoses& poses, const TrueTrajectory& truth,
                            std::int64_t first_us, std::int64_t length_us);
 

@@ -3,7 +3,6 @@
 #include "tools/eval/drive/recorded_odometry.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "tools/eval/csv_table.hpp"
@@ -11,19 +10,10 @@
 namespace cremed {
 namespace {
 
-constexpr std::int64_t kShortestPauseUs = 250'000;
-
-std::int64_t longest_distance_us(const std::vector<RowTime>& rows) {
-  std::vector<std::int64_t> distances_us;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    distances_us.push_back(rows[i].utime_us - rows[i - 1].utime_us);
-  }
-  if (distances_us.empty()) {
-    return kShortestPauseUs;
-  }
-  const auto middle = distances_us.begin() + static_cast<std::ptrdiff_t>(distances_us.size() / 2);
-  std::nth_element(distances_us.begin(), middle, distances_us.end());
-  return std::max(kShortestPauseUs, 2 * *middle);
+std::vector<std::int64_t> times_of(const std::vector<RowTime>& rows) {
+  std::vector<std::int64_t> utime_us(rows.size());
+  std::ranges::transform(rows, utime_us.begin(), &RowTime::utime_us);
+  return utime_us;
 }
 
 void add_span(const TimeSpan& span, std::vector<TimeSpan>& spans) {
@@ -59,13 +49,14 @@ SourceRows& rows_of(std::vector<SourceRows>& sources, const std::string& name) {
 
 Availability availability(const std::vector<RowTime>& rows, const TimeSpan& drive) {
   Availability result;
-  const std::int64_t longest_us = longest_distance_us(rows);
+  const std::int64_t longest_us = longest_step_us(times_of(rows));
   std::int64_t told_us = drive.begin_us;
   for (const RowTime& row : rows) {
-    if (!row.is_usable || row.utime_us - told_us > longest_us) {
-      add_span({told_us, row.utime_us}, result.without);
+    const std::int64_t utime_us = std::min(row.utime_us, drive.end_us);
+    if (!row.is_usable || utime_us - told_us > longest_us) {
+      add_span({told_us, utime_us}, result.without);
     }
-    told_us = std::max(told_us, row.utime_us);
+    told_us = std::max(told_us, utime_us);
   }
   add_span({told_us, drive.end_us}, result.without);
   if (drive.end_us > drive.begin_us) {

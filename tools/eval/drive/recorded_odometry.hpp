@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "tools/eval/csv_table.hpp"
+#include "tools/eval/drive/time_bracket.hpp"
 
 namespace cremed {
 
@@ -21,20 +22,14 @@ struct RowTime {
   bool is_usable = false;
 };
 
-struct TimeSpan {
-  std::int64_t begin_us = 0;
-  std::int64_t end_us = 0;
-};
-
 struct Availability {
   double percent = std::numeric_limits<double>::quiet_NaN();  ///< Of the drive's time.
   std::vector<TimeSpan> without;                              ///< In order.
 };
 
 /// For how much of the drive there was a usable estimate: a usable row tells of the time since the
-/// row before it, unless that is a pause: longer than 0.25 s, after which the odometry predicts
-/// only, and than twice the usual distance of rows (their median). tools/report/availability.py
-/// does the same.
+/// row before it, unless that is a pause (longest_step_us), in which the odometry predicts only.
+/// tools/report/availability.py does the same.
 Availability availability(const std::vector<RowTime>& rows, const TimeSpan& drive);
 
 /// A row of odometry CSV that holds an estimate. Order of states: (x_m, y_m, yaw_rad).

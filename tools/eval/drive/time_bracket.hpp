@@ -17,6 +17,27 @@ struct TimeBracket {
   double share = 0.0;     ///< Fraction of the interval from left to right.
 };
 
+struct TimeSpan {
+  std::int64_t begin_us = 0;
+  std::int64_t end_us = 0;
+};
+
+/// Times of a table that are farther apart are a gap, which nothing is known of: 0.25 s, or twice
+/// the usual distance (the median) if that is longer.
+inline std::int64_t longest_step_us(const std::vector<std::int64_t>& utime_us) {
+  constexpr std::int64_t kLeastUs = 250'000;
+  std::vector<std::int64_t> steps_us;
+  for (std::size_t i = 1; i < utime_us.size(); ++i) {
+    steps_us.push_back(utime_us[i] - utime_us[i - 1]);
+  }
+  if (steps_us.empty()) {
+    return kLeastUs;
+  }
+  const auto middle = steps_us.begin() + static_cast<std::ptrdiff_t>(steps_us.size() / 2);
+  std::nth_element(steps_us.begin(), middle, steps_us.end());
+  return std::max(kLeastUs, 2 * *middle);
+}
+
 /// Nothing outside of the table's time; its times must increase.
 inline std::optional<TimeBracket> bracket(const std::vector<std::int64_t>& utime_us,
                                           std::int64_t wanted_us) {

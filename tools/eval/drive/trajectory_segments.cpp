@@ -81,7 +81,10 @@ class LengthErrors {
     const double wanted_s = errors_.length.time_s;
     const bool is_before_nearer =
         wanted_s < kNoLimit && wanted_s - time_before_s < time_s - wanted_s;
-    add(is_before_nearer ? before : chain, begin_us, truth, noise);
+    const MotionChain& nearest = is_before_nearer ? before : chain;
+    if (nearest.end_us() > begin_us) {  // Else there is no row near that time.
+      add(nearest, begin_us, truth, noise);
+    }
   }
 
   /// `windows`: of that time; nothing for a distance.

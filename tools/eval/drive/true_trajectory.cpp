@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "tools/eval/csv_table.hpp"
-#include "tools/eval/drive/time_bracket.hpp"
 
 namespace cremed {
 namespace {
@@ -24,6 +23,17 @@ void check_order(const std::vector<std::int64_t>& utime_us) {
     throw std::runtime_error("row " + std::to_string(late - utime_us.begin() + 2) +
                              ": utime does not increase");
   }
+}
+
+std::vector<TimeSpan> gaps_in(const std::vector<std::int64_t>& utime_us) {
+  const std::int64_t longest_us = longest_step_us(utime_us);
+  std::vector<TimeSpan> gaps;
+  for (std::size_t i = 1; i < utime_us.size(); ++i) {
+    if (utime_us[i] - utime_us[i - 1] > longest_us) {
+      gaps.push_back({utime_us[i - 1], utime_us[i]});
+    }
+  }
+  return gaps;
 }
 
 /// How well the path runs along the vehicle's axis, forward or back, if yaw is in this unit: 1 if
@@ -60,14 +70,6 @@ void check_kind(const CsvTable& table) {
   }
 }
 
-std::int64_t read_utime_us(const CsvTable& table, std::size_t row, std::size_t column) {
-  if (const std::string& cell = table.text(row, column); cell.find('.') != std::string::npos) {
-    throw std::runtime_error(table.line(row) + ", utime: '" + cell +
-                             "': is it in seconds? Whole microseconds are expected");
-  }
-  return table.integer(row, column);
-}
-
 }  // namespace
 
 TrueTrajectory::TrueTrajectory(std::istream& input) {
@@ -78,21 +80,28 @@ TrueTrajectory::TrueTrajectory(std::istream& input) {
   const std::size_t y = table.column("y_m");
   const std::size_t yaw = table.column("yaw_rad");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    utime_us_.push_back(read_utime_us(table, row, utime));
+    utime_us_.push_back(table.utime_us(row, utime));
     poses_.push_back({table.finite(row, x), table.finite(row, y), table.finite(row, yaw)});
   }
   check_order(utime_us_);
   check_unit(poses_);
+  gaps_ = gaps_in(utime_us_);
 }
 
 TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)
     : utime_us_(std::move(utime_us)), poses_(std::move(poses)) {
   check_order(utime_us_);
+  gaps_ = gaps_in(utime_us_);
+}
+
+bool TrueTrajectory::touches_gap(std::int64_t start_us, std::int64_t end_us) const {
+  const auto gap = std::ranges::upper_bound(gaps_, start_us, {}, &TimeSpan::end_us);
+  return gap != gaps_.end() && gap->begin_us < end_us;
 }
 
 std::optional<Pose2> TrueTrajectory::at(std::int64_t utime_us) const {
   const auto place = bracket(utime_us_, utime_us);
-  if (!place) {
+  if (!place || touches_gap(utime_us, utime_us)) {
     return std::nullopt;
   }
   const double share = place->share;

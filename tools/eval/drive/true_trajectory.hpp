@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/scan/pose2.hpp"
+#include "tools/eval/drive/time_bracket.hpp"
 
 namespace cremed {
 
@@ -23,11 +24,15 @@ class TrueTrajectory {
   TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses);
   TrueTrajectory() = default;
 
-  /// Pose at a time; nothing outside of the recorded time.
+  /// Pose at a time; nothing outside of the recorded time, or in a gap.
   [[nodiscard]] std::optional<Pose2> at(std::int64_t utime_us) const;
   /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
+  /// Where poses are missing: neighbours that are farther apart than longest_step_us.
+  [[nodiscard]] const std::vector<TimeSpan>& gaps() const { return gaps_; }
+  /// Whether a gap is between these times, in part or all.
+  [[nodiscard]] bool touches_gap(std::int64_t start_us, std::int64_t end_us) const;
   /// All recorded poses and their times.
   [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }
   [[nodiscard]] const std::vector<std::int64_t>& utime_us() const { return utime_us_; }
@@ -35,6 +40,7 @@ class TrueTrajectory {
  private:
   std::vector<std::int64_t> utime_us_;
   std::vector<Pose2> poses_;
+  std::vector<TimeSpan> gaps_;
 };
 
 /// Pose `end` in the frame of pose `start`: (x_m, y_m, yaw_rad).

@@ -30,7 +30,7 @@ WheelReference::WheelReference(std::istream& input, const WheelStd& std) : std_(
   std::vector<std::int64_t> utime_us;
   std::vector<Pose2> poses;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    utime_us.push_back(table.integer(row, utime));
+    utime_us.push_back(table.utime_us(row, utime));
     rates_.emplace_back(table.finite(row, speed), table.finite(row, yaw_rate));
     poses.push_back(row == 0 ? Pose2{}
                              : step(poses.back(), rates_[row - 1], rates_[row],
@@ -41,14 +41,15 @@ WheelReference::WheelReference(std::istream& input, const WheelStd& std) : std_(
 
 std::optional<Eigen::Vector3d> WheelReference::motion(std::int64_t start_us,
                                                       std::int64_t end_us) const {
-  return dead_reckoning_.motion(start_us, end_us);
+  return dead_reckoning_.touches_gap(start_us, end_us) ? std::nullopt
+                                                       : dead_reckoning_.motion(start_us, end_us);
 }
 
 std::optional<Eigen::Vector2d> WheelReference::rates(std::int64_t utime_us) const {
-  const auto place = bracket(dead_reckoning_.utime_us(), utime_us);
-  if (!place) {
+  if (!dead_reckoning_.at(utime_us)) {
     return std::nullopt;
   }
+  const auto place = bracket(dead_reckoning_.utime_us(), utime_us);
   return (1.0 - place->share) * rates_[place->left] + place->share * rates_[place->right];
 }
 

@@ -28,12 +28,14 @@ class WheelReference {
   explicit WheelReference(std::istream& input, const WheelStd& std = {});
 
   /// Pose at `end_us` in the vehicle's frame at `start_us`, (x_m, y_m, yaw_rad): speed and yaw rate
-  /// integrated by the trapezoid rule, y without slip. Nothing outside of the recorded time.
+  /// integrated by the trapezoid rule, y without slip. Nothing outside of the recorded time, or
+  /// across a gap of it.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
   /// (speed_mps, yaw_rate_radps) at a time, interpolated linearly.
   [[nodiscard]] std::optional<Eigen::Vector2d> rates(std::int64_t utime_us) const;
   [[nodiscard]] const WheelStd& std() const { return std_; }
+  [[nodiscard]] const std::vector<TimeSpan>& gaps() const { return dead_reckoning_.gaps(); }
   [[nodiscard]] const std::vector<std::int64_t>& utime_us() const {
     return dead_reckoning_.utime_us();
   }

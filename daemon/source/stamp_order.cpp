@@ -13,8 +13,6 @@ namespace {
 /// list are equal.
 constexpr std::uint64_t kMostStepsBackPercent = 3;
 constexpr std::uint64_t kFewSteps = 10;
-/// The longest delay of candump between frames of several interfaces.
-constexpr std::int64_t kDisorderUs = 500'000;
 /// Longer than any drive: stamps beyond are times since 1970.
 constexpr std::int64_t kLongestDriveUs = 1'000'000'000'000;
 
@@ -30,7 +28,7 @@ void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
     }
     ++count_;
     known->name = interface;
-    is_joined_ = is_joined_ || stamp_us < latest_us_ - kDisorderUs;
+    is_joined_ = is_joined_ || stamp_us < latest_us_ - kLongestDisorderUs;
   } else {
     is_joined_ = is_joined_ && known + 1 == end;
     ++steps_;

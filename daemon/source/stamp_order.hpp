@@ -10,6 +10,9 @@
 
 namespace cremed {
 
+/// The longest delay of candump between frames of several interfaces.
+inline constexpr std::int64_t kLongestDisorderUs = 500'000;
+
 /// Whether the stamps of a log are times. Those of one interface never run backwards, unless the
 /// clock was set; the times between frames of `candump -td` do, and so do shuffled lines. A log
 /// that was written without times may have one stamp throughout. Logs of one interface each that

@@ -103,7 +103,8 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
     findings.push_back(
         {Severity::warning,
          concat({counted(status.bad_frames, "frame"), " ", id,
-                 " cannot be read: too short, or a speed that its direction contradicts"}),
+                 " cannot be read: too short, remote, FD, or a speed that its direction "
+                 "contradicts"}),
          "is it laid out as for an ARS408?"});
   }
   return findings;

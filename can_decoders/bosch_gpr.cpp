@@ -74,13 +74,14 @@ std::size_t BoschGprDecoder::index_of(const CanFrame& frame) const {
   return frame.id == options_.info_id ? kInfoIndex : kForeign;
 }
 
-bool BoschGprDecoder::check_crc(const Payload& payload) {
+bool BoschGprDecoder::check_crc(const Payload& payload, std::size_t index) {
   if (options_.crc_policy == CrcPolicy::off ||
       crc8_j1850(std::span(payload).first(kCrcByte)) == payload[kCrcByte]) {
     return true;
   }
   ++counters_.crc_errors;
-  return options_.crc_policy == CrcPolicy::count;
+  // 0x100 is common: what another node sends there would be read as faults of the sensor.
+  return options_.crc_policy == CrcPolicy::count && index != kInfoIndex;
 }
 
 bool BoschGprDecoder::check_slot(const Payload& payload, std::size_t index) {
@@ -116,7 +117,8 @@ bool BoschGprDecoder::accept(const CanFrame& frame) {
 }
 
 bool BoschGprDecoder::trust(const Payload& payload, std::size_t index) {
-  const bool trusted = check_crc(payload) && (index == kInfoIndex || check_slot(payload, index));
+  const bool trusted =
+      check_crc(payload, index) && (index == kInfoIndex || check_slot(payload, index));
   if (!trusted) {
     last_counters_[index] = kAnyCounter;
   }

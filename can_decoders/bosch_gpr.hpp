@@ -13,7 +13,8 @@
 
 namespace cremed {
 
-/// off: not checked. count: counted, frame used. enforce: counted, frame dropped.
+/// off: not checked. count: counted, frame used if it is a target's. enforce: counted, frame
+/// dropped.
 enum class CrcPolicy : std::uint8_t { off, count, enforce };
 
 struct BoschGprOptions {
@@ -117,7 +118,7 @@ class BoschGprDecoder final : public RadarDecoder {
   [[nodiscard]] std::size_t index_of(const CanFrame& frame) const;
   bool accept(const CanFrame& frame);
   bool trust(const Payload& payload, std::size_t index);
-  bool check_crc(const Payload& payload);
+  bool check_crc(const Payload& payload, std::size_t index);
   bool check_slot(const Payload& payload, std::size_t index);
   void check_counter(std::uint8_t counter, std::size_t index);
 

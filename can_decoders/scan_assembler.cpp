@@ -18,6 +18,8 @@ constexpr std::uint32_t kMaxLostCycles = 8;
 /// gives one small step, a bus that loses every second list many large ones.
 constexpr std::uint32_t kSmallerSteps = 2;
 constexpr std::uint32_t kLargerSteps = 16;
+/// Less than the cycle of any radar.
+constexpr std::uint64_t kShortestCycleUs = 50'000;
 
 /// Bits 0 to message - 1.
 constexpr unsigned before(unsigned message) { return (1U << message) - 1U; }
@@ -265,7 +267,7 @@ bool ScanAssembler::admit(std::uint8_t slot) {
 
 void ScanAssembler::open(const ScanPart& part, std::uint16_t announced, bool may_repeat) {
   if (!may_repeat) {
-    note_step(part.counter);
+    note_step(part);
   }
   open_ = {.stamp_us = part.stamp_us,
            .last_part_us = part.stamp_us,
@@ -278,12 +280,12 @@ void ScanAssembler::open(const ScanPart& part, std::uint16_t announced, bool may
   }
 }
 
-void ScanAssembler::note_step(std::uint16_t counter) {
+void ScanAssembler::note_step(const ScanPart& part) {
   if (!closed_counter_) {
     return;
   }
   const std::uint32_t modulus = framing_.counter_modulus;
-  std::uint32_t step = step_to(counter, *closed_counter_);
+  std::uint32_t step = step_to(part.counter, *closed_counter_);
   if (framing_.has_header && step > modulus / 2) {
     return;
   }
@@ -293,7 +295,9 @@ void ScanAssembler::note_step(std::uint16_t counter) {
   if (cycle_step_ == 0 || equal_steps_ >= (step < cycle_step_ ? kSmallerSteps : kLargerSteps)) {
     cycle_step_ = step;
   }
-  counters_.missed_scans += std::max(step / cycle_step_, 1U) - 1;
+  const std::uint32_t missed = std::max(step / cycle_step_, 1U) - 1;
+  const bool is_gap = missed <= distance(part.stamp_us, closed_part_us_) / kShortestCycleUs;
+  counters_.missed_scans += is_gap || !framing_.has_header ? missed : 0;
 }
 
 std::size_t ScanAssembler::capacity() const {

@@ -57,8 +57,8 @@ struct AssemblerCounters {
 /// then the sensor's counter stands still, and the list is a new scan.
 ///
 /// Counter steps: the first step is one cycle until a smaller one comes twice in a row, or a larger
-/// one 16 times; larger steps are gaps. A 16-bit counter that goes back by less than half its range
-/// is a restarted sensor, not a gap.
+/// one 16 times; larger steps are gaps. A 16-bit counter that goes back by less than half its
+/// range, or skips more cycles than the time held, is that of a restarted sensor, not a gap.
 ///
 /// Stamps may run backwards. A part is in time if it is within the time-out of the last part, in
 /// either direction.
@@ -144,7 +144,7 @@ class ScanAssembler {
   bool admit(std::uint8_t slot);
 
   void open(const ScanPart& part, std::uint16_t announced, bool may_repeat);
-  void note_step(std::uint16_t counter);
+  void note_step(const ScanPart& part);
   [[nodiscard]] std::size_t capacity() const;
   [[nodiscard]] std::uint64_t missing_parts(std::uint64_t targets) const;
   [[nodiscard]] bool is_whole() const;

@@ -29,10 +29,10 @@ std::string state_file(const CommandLine& command_line, const Configuration& con
 /// A file would grow for months, and writing may block; lcm-logger records instead.
 void refuse_files(const CommandLine& command_line, const Configuration& configuration) {
   if (command_line.output_csv || command_line.output_odometry || command_line.output_tum ||
-      command_line.timing) {
+      command_line.timing || command_line.speed != 0.0) {
     throw UsageError(
-        "--output-csv, --output-odometry, --output-tum and --timing need --replay; record a live "
-        "drive with "
+        "--output-csv, --output-odometry, --output-tum, --speed and --timing need --replay; record "
+        "a live drive with "
         "`lcm-logger` and turn it into CSV with cremed-lcm-to-csv");
   }
   const OutputConfiguration& output = configuration.output;

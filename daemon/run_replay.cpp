@@ -193,9 +193,6 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   const int stopped_by = *stop;
   pipeline.finish();
   const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
-  if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {
-    replace_file(learned->path(), *text);
-  }
 
   const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
@@ -206,6 +203,9 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
     log_durations(configuration, pipeline);
   }
   const bool output_good = report_sinks(sinks);
+  if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {
+    replace_file(learned->path(), *text);
+  }
   if (stopped_by != 0) {
     report_interruption(*replay);
     return output_good ? kSignalStatus + stopped_by : 1;

@@ -14,7 +14,7 @@ VehicleListener::VehicleListener(const Configuration& configuration)
 }
 
 std::optional<VehicleReading> VehicleListener::read(const CanFrame& frame) {
-  if (frame.interface != interface_ || !frame.is_classic_data()) {
+  if (frame.interface != interface_ || frame.extended || frame.error) {
     return std::nullopt;
   }
   for (std::size_t i = 0; i < ids_.size(); ++i) {

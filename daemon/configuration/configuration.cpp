@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -109,12 +110,13 @@ void read_live(TomlReader& reader, LiveConfiguration& live) {
 void check_live(TomlReader& reader, const Configuration& configuration) {
   const double max_latency_s = configuration.live.max_latency_s;
   for (const RadarConfiguration& radar : configuration.radars) {
-    if (max_latency_s + radar.stamp_offset_s < kLeastLatencyS) {
+    // 0.2 + 0.4 is more than 0.6.
+    const double least_s = std::round((kLeastLatencyS - radar.stamp_offset_s) * 1e6) / 1e6;
+    if (max_latency_s < least_s) {
       reader.report("max_latency_s",
                     concat({"is ", digits(max_latency_s), " while stamp_offset_s of ",
                             in_quotes(radar.name), " is ", digits(radar.stamp_offset_s),
-                            ": every scan would be stale; must be at least ",
-                            digits(kLeastLatencyS - radar.stamp_offset_s)}));
+                            ": every scan would be stale; must be at least ", digits(least_s)}));
     }
   }
 }

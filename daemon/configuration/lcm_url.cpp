@@ -30,8 +30,8 @@ bool is_multicast(std::string_view text) {
   bool is_good = !has_port || is_integer(address, 1, 65535);
   while (!text.empty()) {
     std::string_view value = take_until('&', text);
-    const bool is_ttl = take_until('=', value) == "ttl";
-    is_good = is_good && (!is_ttl || is_integer(value, 0, 255));
+    const std::string_view key = take_until('=', value);
+    is_good = is_good && (key == "ttl" ? is_integer(value, 0, 255) : key == "recv_buf_size");
   }
   return is_good;
 }

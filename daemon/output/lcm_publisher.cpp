@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
@@ -259,8 +260,11 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
 std::string LcmPublisher::open() {
   const std::string path = lcm_file(url_);
   if (!path.empty() && url_.ends_with("mode=w")) {
+    errno = 0;
     file_.emplace(path);
-    return file_->is_open() ? std::string() : concat({"cannot write ", path, "; must be a file"});
+    return file_->is_open() ? std::string()
+                            : concat({"cannot write ", path, ": ",
+                                      errno != 0 ? std::strerror(errno) : "it is a pipe"});
   }
   if (std::string problem = multicast_problem(url_); !problem.empty()) {
     return problem;

@@ -75,6 +75,7 @@ class TemporaryFile {
   void give_name() {
     const std::string content = kDescriptors + std::to_string(file_);
     const std::string name = concat({target_, ".", std::to_string(::gettid())});
+    ::unlink(name.c_str());  // Of a process with this number that ended here, as at a power cut.
     check(::linkat(AT_FDCWD, content.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0);
     path_ = name;
   }

@@ -77,11 +77,13 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
     return is_present || (with_past && times > 0);
   };
   if (is_named(report.is_lost, report.times_lost)) {
+    const std::string missing = concat({"no ", status.bad_frames != 0 ? "readable " : "", "frame ",
+                                        id, " on ", vehicle.interface});
     findings.push_back(
         {Severity::warning,
-         report.readings == 0 ? concat({"no frame ", id, " on ", vehicle.interface})
-                              : concat({"lost: no frame ", id, " on ", vehicle.interface,
-                                        times_text(report.is_lost, report.times_lost)}),
+         report.readings == 0
+             ? missing
+             : concat({"lost: ", missing, times_text(report.is_lost, report.times_lost)}),
          "check its sender, or set [vehicle] interface = \"off\"; the radars go on without it"});
   }
   if (is_named(report.is_frozen, report.times_frozen)) {
@@ -98,10 +100,12 @@ std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, Vehic
                         "check its unit, sign, factor and delay ([vehicle])"});
   }
   if (status.bad_frames != 0) {
-    findings.push_back({Severity::warning,
-                        concat({counted(status.bad_frames, "frame"), " ", id,
-                                " cannot be read: too short, or a speed at standstill"}),
-                        "is it laid out as for an ARS408?"});
+    findings.push_back(
+        {Severity::warning,
+         concat({counted(status.bad_frames, "frame"), " ", id,
+                 " cannot be read: too short, remote, FD, or a speed that its direction "
+                 "contradicts"}),
+         "is it laid out as for an ARS408?"});
   }
   return findings;
 }

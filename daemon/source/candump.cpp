@@ -374,7 +374,8 @@ CandumpLine parse_candump_line(std::string_view line) {
   if (text.starts_with(kDropPrefix)) {
     return parse_drop_count(text);
   }
-  return parse_other(text);
+  // `candump -e` explains an error frame in lines that begin with a tab.
+  return line.starts_with('\t') ? CandumpLine{} : parse_other(text);
 }
 
 }  // namespace cremed

@@ -33,10 +33,6 @@ bool CandumpReader::next(CandumpLine& line) {
         refuse_foreign_format(text, path_);
       }
       line = parse_candump_line(text);
-      if (lines_.is_unfinished() && !can_be_whole(line)) {
-        is_cut_off_ = true;
-        line = {};
-      }
       break;
     case LineReader::Status::too_long:
       line.status = CandumpStatus::malformed;
@@ -49,6 +45,10 @@ bool CandumpReader::next(CandumpLine& line) {
       return false;
     case LineReader::Status::end:
       return false;
+  }
+  if (lines_.is_unfinished() && !can_be_whole(line)) {
+    is_cut_off_ = true;
+    line = {};
   }
   if (line.status == CandumpStatus::frame) {
     stamps_.add(line.interface_name, line.frame.stamp_us);

@@ -54,7 +54,7 @@ LineReader::Status LineReader::next(std::string_view& line) {
     const char* const last = buffer_.data() + end_;
     const void* const found = std::memchr(first, '\n', end_ - begin_);
     const char* const feed = found == nullptr ? last : static_cast<const char*>(found);
-    is_unfinished_ = feed == last && at_end_ && first != last;
+    is_unfinished_ = feed == last && at_end_ && (first != last || skipping_);
     if (feed != last || is_unfinished_) {
       begin_ += static_cast<std::size_t>(feed - first) + (is_unfinished_ ? 0U : 1U);
       ++line_number_;

@@ -36,6 +36,7 @@ constexpr std::array kFormats = {
            "compressed by xz", Way::unpack, "xzcat"},
     Format{"\x28\xB5\x2F\xFD"sv, "compressed by zstd", Way::unpack, "zstdcat"},
     Format{"BZh"sv, "compressed by bzip2", Way::unpack, "bzcat"},
+    Format{"\x04\x22\x4D\x18"sv, "compressed by lz4", Way::unpack, "lz4cat"},
     Format{"PK\x03\x04"sv, "a zip archive", Way::unpack, "unzip -p"},
     Format{"LOGG"sv, "a BLF log", Way::convert, ""},
     Format{";$FILEVERSION"sv, "a PCAN trace", Way::convert, ""},

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "daemon/process/clocks.hpp"
+#include "daemon/source/stamp_order.hpp"
 
 namespace cremed {
 namespace {
 
-/// Longest delay of candump between frames of several interfaces.
-constexpr std::int64_t kLookAheadUs = 500'000;
-/// More than fit on a full bus at 1 Mbit/s in that time, 111 us per frame of 8 bytes.
+/// More than fit on a full bus at 1 Mbit/s in kLongestDisorderUs, 111 us per frame of 8 bytes.
 constexpr std::size_t kLaneFrames = 8192;
 
 /// A longer step of the log's clock means that it was set or the log paused.
@@ -101,7 +100,7 @@ void Replay::read(std::size_t log) {
 void Replay::add(std::size_t log, const ReceivedFrame& frame) {
   Reading& reading = readings_[log];
   const std::int64_t stamp_us = frame.received_us;
-  if (reading.has_begun && stamp_us < reading.newest_us - kLookAheadUs) {
+  if (reading.has_begun && stamp_us < reading.newest_us - kLongestDisorderUs) {
     reading.has_begun = false;
     reading.held = frame;
     set_read_until(log, std::numeric_limits<std::int64_t>::max());
@@ -110,7 +109,7 @@ void Replay::add(std::size_t log, const ReceivedFrame& frame) {
   reading.newest_us = reading.has_begun ? std::max(reading.newest_us, stamp_us) : stamp_us;
   reading.has_begun = true;
   merge_.push(lane(log, frame.frame.interface), frame);
-  set_read_until(log, reading.newest_us - kLookAheadUs);
+  set_read_until(log, reading.newest_us - kLongestDisorderUs);
 }
 
 void Replay::release_held() {

@@ -9,7 +9,8 @@
 namespace cremed {
 namespace {
 
-/// Of all steps; a clock that is set makes a few.
+/// Of the steps that are not 0; a clock that is set makes a few. Most times between the frames of a
+/// list are equal.
 constexpr std::uint64_t kMostStepsBackPercent = 3;
 constexpr std::uint64_t kFewSteps = 10;
 /// Longer than any drive: stamps beyond are times since 1970.
@@ -27,7 +28,9 @@ void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
     }
     ++count_;
     known->name = interface;
+    is_joined_ = is_joined_ || stamp_us < latest_us_ - kLongestDisorderUs;
   } else {
+    is_joined_ = is_joined_ && known + 1 == end;
     ++steps_;
     steps_still_ += stamp_us == known->last_us ? 1 : 0;
     steps_back_ += stamp_us < known->last_us ? 1 : 0;
@@ -42,7 +45,13 @@ std::string StampOrder::problem(const std::string& path) const {
                    " none differs from the one before; without times there is no odometry, record "
                    "with `candump -l`"});
   }
-  if (steps_back_ <= kFewSteps || 100 * steps_back_ <= kMostStepsBackPercent * steps_) {
+  if (is_joined_) {
+    return concat({printable(path),
+                   ": one interface follows another, with stamps of the time before: logs of "
+                   "interfaces were joined; `sort -s -k1,1 LOG` corrects that"});
+  }
+  if (steps_back_ <= kFewSteps ||
+      100 * steps_back_ <= kMostStepsBackPercent * (steps_ - steps_still_)) {
     return {};
   }
   const std::string what = concat({printable(path), ": the stamps run backwards ",

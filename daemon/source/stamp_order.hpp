@@ -10,9 +10,13 @@
 
 namespace cremed {
 
+/// The longest delay of candump between frames of several interfaces.
+inline constexpr std::int64_t kLongestDisorderUs = 500'000;
+
 /// Whether the stamps of a log are times. Those of one interface never run backwards, unless the
 /// clock was set; the times between frames of `candump -td` do, and so do shuffled lines. A log
-/// that was written without times may have one stamp throughout.
+/// that was written without times may have one stamp throughout. Logs of one interface each that
+/// were joined end to end have the time of the drive more than once.
 class StampOrder {
  public:
   void add(std::string_view interface, std::int64_t stamp_us);
@@ -29,6 +33,7 @@ class StampOrder {
 
   std::array<Interface, kMostInterfaces> interfaces_;
   std::size_t count_ = 0;
+  bool is_joined_ = false;  ///< One interface ended before an earlier stamp of the next.
   std::uint64_t steps_ = 0;
   std::uint64_t steps_still_ = 0;
   std::uint64_t steps_back_ = 0;

@@ -115,6 +115,7 @@ TEST_CASE("Skipped counters are missed scans") {
   for (const Row& row : rows) {
     ScanBench bench(kWithHeader);
     for (const std::uint16_t counter : row.counters) {
+      bench.now_us += 3'600'000'000;  // Time enough for any gap.
       bench.list(counter, 1);
     }
     CAPTURE(row.counters);
@@ -123,16 +124,39 @@ TEST_CASE("Skipped counters are missed scans") {
   }
 }
 
+TEST_CASE("More cycles than the time holds are a restart, not missed scans") {
+  struct Row {
+    std::int64_t pause_us;
+    std::uint64_t missed;
+  };
+  for (const Row& row : {Row{3'000'000, 0}, Row{3'600'000'000, 12767}}) {
+    CAPTURE(row.pause_us);
+    ScanBench bench(kWithHeader);
+    for (const std::uint16_t counter : std::vector<std::uint16_t>{39998, 40000}) {
+      bench.list(counter, 1);
+      bench.now_us += 75'000;
+    }
+    bench.now_us += row.pause_us;
+    for (const std::uint16_t counter : std::vector<std::uint16_t>{0, 2, 8}) {  // Two are missing.
+      bench.list(counter, 1);
+      bench.now_us += 200'000;
+    }
+    CHECK(bench.counters().missed_scans == row.missed + 2);
+  }
+}
+
 TEST_CASE("A first step that was a glitch is forgotten") {
   ScanBench bench(kWithHeader);
   bench.list(1, 1);
   for (std::uint16_t counter = 2; counter < 42; counter = static_cast<std::uint16_t>(counter + 2)) {
+    bench.now_us += 75'000;
     bench.list(counter, 1);
   }
   const std::uint64_t missed = bench.counters().missed_scans;
   CHECK(missed < 20);
   for (std::uint16_t counter = 42; counter < 82;
        counter = static_cast<std::uint16_t>(counter + 2)) {
+    bench.now_us += 75'000;
     bench.list(counter, 1);
   }
   CHECK(bench.counters().missed_scans == missed);

@@ -188,12 +188,14 @@ TEST_CASE("every truncation of a frame is a shorter frame or malformed, never an
   }
 }
 
-TEST_CASE("comments, empty lines and damaged drop reports are no frames and no errors") {
+TEST_CASE(
+    "comments, empty lines, damaged drop reports and texts of errors are no frames and no errors") {
   const std::string text = GENERATE(
       "", "\n", "\r\n", "# comment", "DROPCOUNT", "DROPCOUNT: dropped",
       "DROPCOUNT: dropped x CAN frames on 'can0'", "DROPCOUNT: dropped 5 CAN frames on can0 socket",
       "DROPCOUNT: dropped 5 CAN frames on '' socket", "DROPCOUNT: dropped 5 on 'can0",
-      "DROPCOUNT: dropped 99999999999999999999999 CAN frames on 'can0' socket");
+      "DROPCOUNT: dropped 99999999999999999999999 CAN frames on 'can0' socket",
+      "\tcontroller-problem{rx-overflow}", "\tbus-error\r\n");
   const CandumpLine line = parse_candump_line(text);
   CAPTURE(text);
   CHECK(line.status == CandumpStatus::skipped);

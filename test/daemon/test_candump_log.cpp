@@ -71,6 +71,17 @@ TEST_CASE("A log that ends inside a line was cut off, which is no malformed line
       (row.is_cut_off ? file.path() + ":2: the log ends within this line, which is left out" : ""));
 }
 
+TEST_CASE("The zeros that a power failure leaves at the end of a log are no malformed line") {
+  const auto size = GENERATE(as<std::size_t>{}, 4096, 131072);
+  const TemporaryFile file("(1.000000) can0 600#0000000010\n" + std::string(size, '\0'));
+  CandumpLog log(file.path(), {"can0"}, &not_stopped);
+  CanFrame frame;
+  CHECK(log.next(frame) == SourceEvent::frame);
+  CHECK(log.next(frame) == SourceEvent::end);
+  CHECK(log.reader().malformed().empty());
+  CHECK_FALSE(log.reader().cut_off().empty());
+}
+
 TEST_CASE("A last line that is malformed but whole is a fault") {
   const TemporaryFile file("(1.000000) can0 600#0000000010\n(1.000100) can0 60\n");
   CandumpLog log(file.path(), {"can0"}, &not_stopped);

@@ -38,7 +38,12 @@ TEST_CASE("values that contradict each other are refused") {
        "is the file of csv", "another path"},
       {kArs408 + "[output]\ncsv = \"a\"\ntum = \"a\"\n", 8, "output.tum", "is the file of csv",
        "another path"},
+      {kArs408 + "calibration.stamp_offset_s = -0.4\n[live]\nmax_latency_s = 0.59\n", 8,
+       "live.max_latency_s", "is 0.59 while stamp_offset_s of \"front\" is -0.4",
+       "must be at least 0.6"},
   });
+  CHECK(message_of(kArs408 + "calibration.stamp_offset_s = -0.4\n[live]\nmax_latency_s = 0.6\n") ==
+        "accepted");
 }
 
 TEST_CASE("radars that cannot be told apart are refused at the later one") {

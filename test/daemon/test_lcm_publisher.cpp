@@ -382,6 +382,8 @@ TEST_CASE("A URL that cannot work is refused with what would be right, time and 
     CHECK_THAT(pigeon.connect(), Catch::Contains("udpm://239.255.76.67:7667"));
   }
   CHECK_FALSE(pigeon.is_connected());
+  CHECK_THAT(LcmPublisher("file:///nowhere/a.lcm?mode=w", two_radars()).connect(),
+             Catch::EndsWith("cannot write /nowhere/a.lcm: No such file or directory"));
 }
 
 TEST_CASE("A lack of descriptors is called that, whatever lacks them") {

@@ -26,6 +26,7 @@ TEST_CASE("LCM URLs that are refused: other schemes, those that wait, and what I
                "udpm://239.255.76.67:", "udpm://239.255.76.67:7667?ttl=256",
                "udpm://239.255.76.67:7667?ttl=-1",
                "udpm://239.255.76.67:7667?ttl=", "udpm://239.255.76.67:7667?ttl=a",
+               "udpm://239.255.76.67:7667?tll=1", "udpm://239.255.76.67:7667?TTL=1",
                "udpm://239.255.76.67:7667?recv_buf_size=9000&ttl=999", "file:///tmp/a.lcm",
                "file:///tmp/a.lcm?mode=r", "file://?mode=w");
   CAPTURE(url);

@@ -65,6 +65,15 @@ TEST_CASE("A line longer than the buffer is passed over and the next is found") 
   }
 }
 
+TEST_CASE("Of a file that ends within a line longer than the buffer, that line is told") {
+  for (const std::size_t length : {65536U, 65537U, 131072U}) {
+    const TemporaryFile file("first\n" + std::string(length, '\0'));
+    LineReader reader(file.path());
+    CHECK(read_all(reader) == std::vector<std::string>{"first", "<too long>"});
+    CHECK(reader.line_number() == 2);
+  }
+}
+
 TEST_CASE("A file that cannot be opened is named with the reason") {
   CHECK_THROWS_WITH(LineReader("/nonexistent/log"),
                     Catch::Contains("/nonexistent/log") && Catch::Contains("No such file"));

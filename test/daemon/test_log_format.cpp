@@ -23,7 +23,7 @@ TEST_CASE("What is no candump log is answered with the command that makes one of
           "7zXZ\0\0"sv,
           "`xzcat "},
       Row{"\x28\xB5\x2F\xFD\x04"sv, "`zstdcat "}, Row{"BZh91AY"sv, "`bzcat "},
-      Row{"PK\x03\x04\x14"sv, "`unzip -p "},
+      Row{"\x04\x22\x4D\x18\x64"sv, "`lz4cat "}, Row{"PK\x03\x04\x14"sv, "`unzip -p "},
       Row{"LOGG\x90\0\0\0"sv, "a BLF log; `python3 -m can.logconvert "},
       Row{";$FILEVERSION=1.1\r\n"sv, "`python3 -m can.logconvert "},
       Row{"date Fri Jul 10 2026\nbase hex  timestamps absolute\n"sv, "`asc2log -I "},

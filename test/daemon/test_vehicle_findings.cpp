@@ -93,7 +93,9 @@ TEST_CASE("frames that cannot be read are counted, after the fault that they cau
   status.bad_frames = 3;
   CHECK_THAT(only_finding(status), Catch::StartsWith("3 frames 0x301 cannot be read"));
   status.odometry.is_lost = true;
-  CHECK_THAT(findings_of(status).front().what, Catch::StartsWith("lost"));
+  CHECK(findings_of(status).front().what == "lost: no readable frame 0x301 on can0");
+  status.odometry.readings = 0;
+  CHECK(findings_of(status).front().what == "no readable frame 0x301 on can0");
 }
 
 }  // namespace

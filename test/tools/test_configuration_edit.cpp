@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "daemon/process/replaced_file.hpp"
 #include "tools/eval/calibrate/configuration_edit.hpp"
@@ -158,6 +159,15 @@ TEST_CASE("a file is replaced through a link, with its permissions, and no other
   REQUIRE(::stat(folder.file("none.toml").c_str(), &status) == 0);
   CHECK((status.st_mode & 07777U) == 0644U);
   CHECK_THROWS(replace_file(folder.file("none/none.toml"), ""));
+}
+
+TEST_CASE("what a power cut left of writing a file is no obstacle to the next time") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("learned.toml");
+  std::ofstream(file + "." + std::to_string(::gettid())) << "old";
+  replace_file(file, "new");
+  std::ifstream input(file);
+  CHECK(std::string(std::istreambuf_iterator<char>(input), {}) == "new");
 }
 
 }  // namespace

@@ -87,8 +87,25 @@ TEST_CASE("at the start a speed that more places contradict is in doubt, whateve
   CHECK_FALSE(is_in_doubt(Before::nothing));
   add_places(targets, 9, 16.0, -0.5);
   CHECK(is_in_doubt(Before::nothing));
-  CHECK_FALSE(is_in_doubt(Before::fault));
   CHECK_FALSE(is_in_doubt(Before::motion));
+}
+
+TEST_CASE("before a motion is known a slower rival is in doubt, after a loss every rival") {
+  TargetSet targets;
+  using Before = TwoWorlds::Before;
+  const auto is_in_doubt = [&](double speed_mps, Before before) {
+    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d(speed_mps, 0.0, 0.0), 0.0, before,
+                                    [&](double other_mps) { return other_mps == speed_mps; });
+  };
+  add_places(targets, 10, 0.0, 0.2);
+  add_places(targets, 9, 8.0, -0.2);
+  CHECK_FALSE(is_in_doubt(0.0, Before::nothing));
+  CHECK(is_in_doubt(0.0, Before::fault));
+  CHECK_FALSE(is_in_doubt(0.0, Before::motion));
+  add_places(targets, 9, 8.0, -0.5);
+  CHECK(is_in_doubt(8.0, Before::nothing));
+  CHECK(is_in_doubt(8.0, Before::fault));
+  CHECK_FALSE(is_in_doubt(8.0, Before::motion));
 }
 
 TEST_CASE("of a lone radar that looks sideways six places along the way tell the road") {

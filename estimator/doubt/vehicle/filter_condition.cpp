@@ -32,7 +32,6 @@ void FilterCondition::start() {
   used_scans_ = 0;
   used_us_ = clear_us_ = state_.time_us();
   doubt_us_ = state_.time_us() - kLongAgoUs;
-  doubts_ = 0;
 }
 
 void FilterCondition::doubt() {

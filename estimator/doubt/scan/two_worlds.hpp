@@ -15,13 +15,13 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, and that it is open which is the road. With a previous motion there is no doubt if the
-/// vehicle can continue at the estimated speed and not at the other one, its rival. Without a
-/// previous motion a rival of two places raises it too unless the estimated speed has more places
-/// than a truck; at the first start, where traffic may pass a parked vehicle, a larger one only if
-/// it has more places than the estimated speed or is slower. A lone radar that looks sideways needs
-/// more places than a truck even without a rival. The doubt ends after ten scans without a rival; a
-/// smaller rival maintains it.
+/// along, and that it is open which is the road. There is no doubt if the vehicle can continue at
+/// the estimated speed and not at the other one, its rival; after a loss there is. At the first
+/// start there is too if the rival has more places or is slower: it is not known whether traffic
+/// passes a parked vehicle. Without a previous motion a rival of two places is enough unless the
+/// estimated speed has more places than a truck. A lone radar that looks sideways needs more places
+/// than a truck even without a rival. The doubt ends after ten scans without a rival; a smaller
+/// rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.
@@ -42,19 +42,13 @@ class TwoWorlds {
   bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
              Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
-    const auto is_possible = [&] {
-      switch (before) {
-        case Before::motion:
-          return continues(votes.rival_mps) || !continues(velocity.x());
-        case Before::fault:
-          return true;
-        default:
-          return votes.rival > votes.own || std::abs(votes.rival_mps) < std::abs(votes.own_mps);
-      }
-    };
+    const bool is_possible =
+        before == Before::fault || continues(votes.rival_mps) || !continues(velocity.x()) ||
+        (before != Before::motion &&
+         (votes.rival > votes.own || std::abs(votes.rival_mps) < std::abs(votes.own_mps)));
     const bool is_open = (before != Before::motion && votes.rival >= kMinRivalPlaces &&
                           votes.own + votes.abeam < kMinRoadPlaces) ||
-                         (is_rival(votes) && is_possible());
+                         (is_rival(votes) && is_possible);
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     const bool may_be_a_vehicle =
         before == Before::nothing_beside && was_few(votes.own < kMinRoadPlaces);

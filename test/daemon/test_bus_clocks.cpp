@@ -173,7 +173,7 @@ TEST_CASE("lost scans and a counter that begins anew show no step") {
 }
 
 /// As a Bosch GPR's: four counts of 0.1 s.
-constexpr std::uint32_t kShort = 4;
+constexpr int kShort = 4;
 constexpr std::int64_t kGprPeriodUs = 100'000;
 
 RadarScan gpr_scan(int number, std::int64_t later_us = 0) {

@@ -17,11 +17,11 @@ namespace cremed {
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
 /// along, and that it is open which is the road. There is no doubt if the vehicle can continue at
 /// the estimated speed and not at the other one, its rival; after a loss there is. At the first
-/// start there is too if the rival has more places or is slower: it is not known whether traffic
-/// passes a parked vehicle. Without a previous motion a rival of two places is enough unless the
-/// estimated speed has more places than a truck. A lone radar that looks sideways needs more places
-/// than a truck even without a rival. The doubt ends after ten scans without a rival; a smaller
-/// rival maintains it.
+/// start there is too if the rival is slower: it is not known whether traffic passes a parked
+/// vehicle. Without a previous motion a rival of two places is enough unless the estimated speed
+/// has more places than a truck, and at the first start no fewer than the rival. A lone radar that
+/// looks sideways needs more places than a truck even without a rival. The doubt ends after ten
+/// scans without a rival; a smaller rival maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.
@@ -42,13 +42,15 @@ class TwoWorlds {
   bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
              Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
+    const bool is_first_start = before == Before::nothing || before == Before::nothing_beside;
     const bool is_possible =
         before == Before::fault || continues(votes.rival_mps) || !continues(velocity.x()) ||
-        (before != Before::motion &&
-         (votes.rival > votes.own || std::abs(votes.rival_mps) < std::abs(votes.own_mps)));
-    const bool is_open = (before != Before::motion && votes.rival >= kMinRivalPlaces &&
-                          votes.own + votes.abeam < kMinRoadPlaces) ||
-                         (is_rival(votes) && is_possible);
+        (is_first_start && std::abs(votes.rival_mps) < std::abs(votes.own_mps));
+    const bool is_open =
+        (before != Before::motion && votes.rival >= kMinRivalPlaces &&
+         votes.own + votes.abeam < kMinRoadPlaces) ||
+        (is_first_start && votes.rival >= kMinRivalPlaces && votes.rival > votes.own) ||
+        (is_rival(votes) && is_possible);
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     const bool may_be_a_vehicle =
         before == Before::nothing_beside && was_few(votes.own < kMinRoadPlaces);

@@ -14,6 +14,7 @@
 
 #include "daemon/process/message_text.hpp"
 #include "tools/eval/calibrate/matched_turns.hpp"
+#include "tools/eval/drive/missing_time.hpp"
 #include "tools/eval/recorded_drive.hpp"
 
 namespace cremed {
@@ -169,8 +170,7 @@ void check_overlap(const std::vector<RecordedRadar>& recorded, const TrueTraject
     }
   }
   throw std::runtime_error(
-      concat({"truth: its time, utime ", std::to_string(truth.utime_us().front()), " to ",
-              std::to_string(truth.utime_us().back()),
+      concat({"truth: its time, ", told_time(truth.utime_us()),
               ", has no scan of the logs in it; is it of this drive, in microseconds?"}));
 }
 

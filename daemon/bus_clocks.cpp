@@ -90,9 +90,15 @@ ScanTiming ScanClock::judge(const RadarScan& scan) {
     confirmations_ = std::min(confirmations_ + 1, kMinConfirmations);
     return ScanTiming::steady;
   }
+  step_ = {periods * period_s_, passed_s - periods * period_s_};
   period_s_ = passed_s / periods;
   confirmations_ = 0;
   return is_late ? ScanTiming::set_forward : ScanTiming::steady;
+}
+
+std::optional<ForwardStep> ScanClock::step() const {
+  const bool is_known = step_.by_s > kStepS && step_.counted_s < kMaxPauseS;
+  return is_known ? std::optional(step_) : std::nullopt;
 }
 
 double ScanClock::lateness_s(double passed_s, std::uint32_t counts) const {

@@ -94,6 +94,12 @@ enum class ScanTiming : std::uint8_t {
   set_forward,  ///< The clock was set; without the counter it would be a pause.
 };
 
+/// A clock that was set forward, by the scans before and after it.
+struct ForwardStep {
+  double counted_s = 0.0;  ///< Between the scans, by the radar's counter.
+  double by_s = 0.0;       ///< Between their stamps, beyond that.
+};
+
 /// The stamps of one radar's scans compared with its cycle counter.
 class ScanClock {
  public:
@@ -101,6 +107,9 @@ class ScanClock {
 
   ScanTiming judge(const RadarScan& scan);
   void forget();
+  /// After ScanTiming::set_forward: the step, if the counter goes on. After a long pause it proves
+  /// nothing: logs may have been joined.
+  [[nodiscard]] std::optional<ForwardStep> step() const;
 
  private:
   /// Least difference of stamp and counter that is a step. On recorded drives (nuScenes,
@@ -133,6 +142,7 @@ class ScanClock {
   int confirmations_ = 0;
   double late_s_ = 0.0;  // Of the last late scan.
   int late_scans_ = 0;   // In a row.
+  ForwardStep step_;     // Of the last late scan.
 };
 
 }  // namespace cremed

@@ -81,6 +81,7 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   odometry_.make_room(radar.index);
   const ScanTiming timing = radar.scan_clock.judge(scan);
   if (timing == ScanTiming::set_forward) {
+    count(radar.scan_clock.step());
     forget_motions();
   }
   const std::int64_t solve_begin_us = clock_.now_us();
@@ -206,6 +207,14 @@ void Pipeline::on_clock_step() {
     use_scans(*radar, clock_.now_us());
   }
   forget_motions();
+}
+
+void Pipeline::count(const std::optional<ForwardStep>& step) {
+  if (step) {
+    ++forward_steps_.count;
+    forward_steps_.longest_s = std::max(forward_steps_.longest_s, step->by_s);
+    forward_steps_.last = *step;
+  }
 }
 
 /// No motion spans a step of the clock.

@@ -22,6 +22,13 @@
 
 namespace cremed {
 
+/// Steps forward of the clock of the stamps, by the radars' cycle counters.
+struct ForwardSteps {
+  std::uint64_t count = 0;
+  double longest_s = 0.0;
+  ForwardStep last;
+};
+
 /// The whole path from a frame to a message:
 ///
 ///     FrameSource -> RadarDecoder -> ScanAssembler -> EgoMotionEstimator -> OdometrySink
@@ -74,6 +81,7 @@ class Pipeline {
   /// The learned errors, by radar, for the next start; empty unless the odometry is ok or
   /// standing_still. Not for the hot path.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
+  [[nodiscard]] const ForwardSteps& forward_steps() const { return forward_steps_; }
   /// State of a signal of [vehicle].
   [[nodiscard]] VehicleStatus vehicle(VehicleSignal signal) const;
   /// The odometry of the last scan; nothing before the first.
@@ -90,6 +98,7 @@ class Pipeline {
   void use(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
   void check(RadarChannel& radar, EgoMotion& motion);
   void hold(RadarChannel& radar, const EgoMotion& motion);
+  void count(const std::optional<ForwardStep>& step);
   void forget_motions();
   void publish_status();
 
@@ -99,6 +108,7 @@ class Pipeline {
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   VehicleListener vehicle_;
   BusClocks clocks_;
+  ForwardSteps forward_steps_;
   OdometryStage odometry_;
   std::optional<std::int64_t> time_us_;  // Of the last event with a time.
   StatusTimer status_timer_;

@@ -58,6 +58,16 @@ bool report_logs(const Replay& replay) {
   return good;
 }
 
+void report_clock(const ForwardSteps& steps) {
+  if (steps.count != 0) {
+    spdlog::warn(
+        "the clock was set forward while this was recorded, {}, by up to {:.2f} s: the radars "
+        "count "
+        "their cycles on; no motion spans it",
+        counted(steps.count, "time"), steps.longest_s);
+  }
+}
+
 std::string other_interfaces(const Replay& replay) {
   std::set<std::string> names;
   for (const auto& log : replay.logs()) {
@@ -171,6 +181,7 @@ bool report_replay(const Replayed& replayed) {
   if (!replayed.is_stopped) {
     report_absent_interfaces(replayed.configuration, replayed.replay);
   }
+  report_clock(replayed.pipeline.forward_steps());
   const bool is_good = report_radars(replayed);
   if (replayed.configuration.odometry.enabled) {
     log_odometry(replayed.odometry);

@@ -131,7 +131,19 @@ TEST_CASE("stamps that are later than the counter says show a clock that was set
   expect_steady(scans, clock, 400, 0.008);
   CHECK(scans.next(clock, step_s) == ScanTiming::late);
   CHECK(scans.next(clock) == ScanTiming::set_forward);
+  REQUIRE(clock.step());
+  CHECK(clock.step()->by_s == Approx(step_s).margin(0.01));
+  CHECK(clock.step()->counted_s == Approx(0.15).margin(0.001));
   expect_steady(scans, clock, 20);
+}
+
+TEST_CASE("after a long pause a counter shows no step: logs may have been joined") {
+  ScanClock clock(65536);
+  Scans scans;
+  expect_steady(scans, clock, 400);
+  CHECK(scans.next(clock, 80'000.0, 200) == ScanTiming::late);
+  CHECK(scans.next(clock) == ScanTiming::set_forward);
+  CHECK_FALSE(clock.step());
 }
 
 TEST_CASE("scans that waited while the computer stood still are late, and the clock was not set") {

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 #include <catch2/catch.hpp>
 
+#include "daemon/process/message_text.hpp"
 #include "test/tools/doctor_bench.hpp"
 
 using namespace cremed;
@@ -389,6 +391,56 @@ TEST_CASE("A clock that is set back is not blamed on lost frames") {
   const std::string text = all_text(diagnose(configuration, observe(configuration, traffic)));
   CHECK_THAT(text, Catch::Contains("run backwards"));
   CHECK_THAT(text, !Catch::Contains("lost"));
+}
+
+/// The recording with a clock that is set forward at `at_s`.
+Recording with_step(Recording traffic, double at_s, double step_s) {
+  const auto is_after = is_between(traffic, at_s, 9.0);
+  for (BusFrame& entry : traffic) {
+    entry.frame.stamp_us += is_after(entry) ? std::llround(step_s * 1e6) : 0;
+  }
+  return traffic;
+}
+
+TEST_CASE("A clock that is set forward is told, and not blamed on supply and plug") {
+  const double step_s = GENERATE(0.3, 3.0, 9.5, 15.0, 3600.0);
+  const Configuration configuration = demo_configuration();
+  const Recording traffic = recording_of(configuration.radars);
+  const Observation observation = observe(configuration, with_step(traffic, 1.5, step_s));
+  const auto findings = diagnose(configuration, observation);
+  check_first(findings, Severity::warning,
+              "the clock was set forward 1 time, by up to " + tenths(step_s) + " s", "timedatectl");
+  CHECK(findings.size() == 1);
+  CHECK(observation.seconds == Approx(3.0).margin(0.2));
+  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
+             Catch::Matches("front: 1[34]\\.[0-9] scans/s, [34][0-9] estimates"));
+}
+
+TEST_CASE("A pause beside a clock that was set is told too, and where it is without that") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  remove_if(traffic, [is_then = is_between(traffic, 1.7, 2.8)](const auto& entry) {
+    return entry.interface == "can1" && is_then(entry);
+  });
+  const std::string text =
+      all_text(diagnose(configuration, observe(configuration, with_step(traffic, 1.5, 5.0))));
+  CHECK_THAT(text, Catch::Contains("the clock was set forward 1 time, by up to 5.0 s"));
+  CHECK_THAT(text, Catch::Matches("(.|\n)*rear: no scan from 1\\.[67] to 2\\.[89] of [23](.|\n)*"));
+  CHECK_THAT(text, !Catch::Contains("front:"));
+}
+
+TEST_CASE("Without a radar that counts on it is left open why no bus has a frame") {
+  Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  configuration.radars = {configuration.radars[1], configuration.radars[1]};
+  configuration.radars[0].name = "other";
+  const auto paused = diagnose(configuration, observe(configuration, with_step(traffic, 1.5, 3.0)));
+  check_first(paused, Severity::warning, "other: no scan from 1.", "its clock was set");
+  Observation observation = observe(configuration, with_step(traffic, 1.5, 3600.0));
+  observation.is_live = false;
+  check_first(diagnose(configuration, observation), Severity::note,
+              "the stamps of can1 leap forward by 3600.",
+              "the clock was set, the recording paused");
 }
 
 TEST_CASE("The rate of a radar that fell silent is that of the time before") {

@@ -151,6 +151,13 @@ void add_losses(const BusObservation& bus, std::vector<Finding>& findings) {
 
 void add_clock(const BusObservation& bus, const Observation& observation,
                std::vector<Finding>& findings) {
+  const double leap_s = static_cast<double>(bus.longest_leap_us) * 1e-6;
+  if (leap_s >= kLongestPauseS && !observation.is_live && observation.forward_steps == 0) {
+    findings.push_back(
+        {Severity::note,
+         concat({"the stamps of ", bus.interface, " leap forward by ", tenths(leap_s), " s"}),
+         "the clock was set, the recording paused, or logs were joined: no motion spans it"});
+  }
   if (bus.stamps_back == 0) {
     return;
   }

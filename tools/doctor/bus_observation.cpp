@@ -18,6 +18,7 @@ void BusObservation::note_stamp(std::int64_t stamp_us) {
   const std::int64_t back_us = last_stamp_us.value_or(stamp_us) - stamp_us;
   stamps_back += back_us > kRoundingUs ? 1 : 0;
   longest_back_us = std::max(longest_back_us, back_us);
+  longest_leap_us = std::max(longest_leap_us, -back_us);
   last_stamp_us = stamp_us;
 }
 

@@ -34,6 +34,7 @@ struct BusObservation {
   std::uint64_t foreign_frames = 0;   ///< Extended, remote or FD: not sent by the supported radars.
   std::uint64_t stamps_back = 0;      ///< Frames with an earlier stamp than the frame before.
   std::int64_t longest_back_us = 0;   ///< The longest of these steps.
+  std::int64_t longest_leap_us = 0;   ///< The longest step forward.
   std::optional<std::int64_t> last_stamp_us;
   BusTraffic traffic;
 

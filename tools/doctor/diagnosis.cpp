@@ -66,6 +66,19 @@ void add_radar(const Configuration& configuration, const Observation& observatio
   append(own, findings);
 }
 
+/// One that was set back is told by the stamps of each bus.
+void add_clock(const Observation& observation, Findings& findings) {
+  if (observation.forward_steps != 0) {
+    findings.push_back(
+        {Severity::warning,
+         concat({"the clock was set forward ", counted(observation.forward_steps, "time"),
+                 ", by up to ", tenths(std::max(observation.longest_step_s, 0.1)),
+                 " s: the radars count their cycles on"}),
+         "no motion spans that; find what sets it, `timedatectl`, and let it be set before a "
+         "drive"});
+  }
+}
+
 void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observation,
                  Findings& findings) {
   for (std::size_t i = 0; i < observation.vehicle.size(); ++i) {
@@ -95,7 +108,7 @@ Json to_json(const RadarConfiguration& radar, const RadarObservation& observed) 
           {"scans", observed.status.assembler.scans},
           {"incomplete_scans", observed.status.assembler.incomplete_scans},
           {"estimates", estimates(observed.status)},
-          {"longest_pause_s", observed.times.longest_pause_s}};
+          {"longest_pause_s", observed.times.longest.length_s}};
 }
 
 }  // namespace
@@ -110,6 +123,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
       add_radar(configuration, observation, i, findings);
     }
     add_buses(configuration, observation, findings);
+    add_clock(observation, findings);
     add_vehicle(configuration.vehicle, observation, findings);
     if (const auto finding = unusable_odometry(observation.odometry)) {
       findings.push_back(*finding);
@@ -147,7 +161,7 @@ std::string vital_signs(const RadarConfiguration& radar, const RadarObservation&
                         double seconds) {
   const auto scans = static_cast<double>(observation.status.assembler.scans);
   const bool has_pause = fell_silent(observation, seconds);
-  const double sent_s = seconds - (has_pause ? observation.times.longest_pause_s : 0.0);
+  const double sent_s = seconds - (has_pause ? observation.times.longest.length_s : 0.0);
   return concat({radar.name, ": ", tenths(sent_s > 0.0 ? scans / sent_s : 0.0), " scans/s",
                  has_pause ? concat({" in ", tenths(sent_s), " of ", tenths(seconds), " s"}) : "",
                  ", ", std::to_string(estimates(observation.status)), " estimates"});

@@ -21,20 +21,41 @@ struct IncompleteScans {
   std::uint16_t most_announced = 0;
 };
 
-/// Times of scans, in seconds of traffic.
+/// A longer one in a log is a clock that was set, or a paused recording, and no traffic.
+inline constexpr double kLongestPauseS = 10.0;
+
+struct Pause {
+  double begin_s = 0.0;
+  double length_s = 0.0;
+
+  [[nodiscard]] double end_s() const { return begin_s + length_s; }
+};
+
+/// Times of scans, or of all frames, in seconds of traffic.
 struct ScanTimes {
   double last_s = 0.0;  ///< The latest; 0: none yet.
-  double longest_pause_s = 0.0;
-  double pause_begin_s = 0.0;
+  Pause longest;
+  Pause longest_before;    ///< Until that one.
   bool is_paused = false;  ///< The longest pause lasts until the end of the observation.
 
   void note(double now_s) {
-    is_paused = now_s - last_s > longest_pause_s;
+    is_paused = now_s - last_s > longest.length_s;
     if (is_paused) {
-      longest_pause_s = now_s - last_s;
-      pause_begin_s = last_s;
+      longest_before = longest;
+      longest = {last_s, now_s - last_s};
     }
     last_s = now_s;
+  }
+  /// A clock that was set forward at `at_s` made a pause of this length.
+  void leave_out(double at_s, double length_s) {
+    if (last_s < at_s + length_s) {
+      return;  // None since: the next is noted without it.
+    }
+    last_s -= length_s;
+    if (longest.length_s >= length_s && longest.begin_s < at_s + length_s &&
+        longest.end_s() > at_s) {
+      longest = longest_before;
+    }
   }
 };
 
@@ -49,7 +70,10 @@ struct RadarObservation {
 struct Observation {
   bool is_live = false;
   bool kernel_has_can = true;
-  double seconds = 0.0;  ///< Of traffic.
+  double seconds = 0.0;             ///< Of traffic.
+  ScanTimes frames;                 ///< Of any bus.
+  std::uint64_t forward_steps = 0;  ///< Of the clock, by the radars' cycle counters.
+  double longest_step_s = 0.0;
   std::string lcm_problem;
   std::string malformed_lines;           ///< Of a log, the first and how many; empty: none.
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.

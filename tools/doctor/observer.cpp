@@ -3,6 +3,7 @@
 #include "tools/doctor/observer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -11,12 +12,12 @@
 namespace cremed {
 namespace {
 
-/// A longer step is a clock that was set, or a paused log.
-constexpr std::int64_t kClockJumpUs = 10'000'000;
 /// Lines of a log may be out of order by this much.
 constexpr std::int64_t kOutOfOrderUs = 1'000'000;
 
 std::int64_t no_clock() { return 0; }
+
+double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 
@@ -55,10 +56,12 @@ void Observer::add(std::string_view interface, CanFrame frame) {
   }
   bus(interface).add(frame);
   advance(bus_clocks_[index], frame.stamp_us);
+  observation_.frames.note(observation_.seconds);
   if (index < configured_buses_) {
     frame.interface = static_cast<std::uint8_t>(index);
     source_.count_frame();
     pipeline_.on_frame(frame);
+    note_steps();
   }
 }
 
@@ -80,11 +83,41 @@ void Observer::advance(Clock& clock, std::int64_t now_us) {
   if (step_us < 0 && step_us > -kOutOfOrderUs) {
     return;
   }
-  const bool is_passed = clock.last_us && step_us >= 0 && step_us < kClockJumpUs;
-  clock.passed_s =
-      is_passed ? clock.passed_s + static_cast<double>(step_us) * 1e-6 : observation_.seconds;
+  const bool is_passed = clock.last_us && step_us >= 0 && seconds(step_us) < kLongestPauseS;
+  clock.passed_s = is_passed ? clock.passed_s + seconds(step_us) : observation_.seconds;
   clock.last_us = now_us;
   observation_.seconds = std::max(observation_.seconds, clock.passed_s);
+}
+
+void Observer::note_steps() {
+  const ForwardSteps& steps = pipeline_.forward_steps();
+  if (std::exchange(observation_.forward_steps, steps.count) == steps.count) {
+    return;
+  }
+  observation_.longest_step_s = steps.longest_s;
+  if (steps.last.by_s < kLongestPauseS) {  // A longer one was not counted as traffic.
+    leave_out(steps.last);
+  }
+}
+
+/// Sets all times after the step back by it.
+void Observer::leave_out(const ForwardStep& step) {
+  const double at_s = observation_.seconds - step.by_s - step.counted_s;
+  const auto step_us = std::llround(step.by_s * 1e6);
+  const auto correct = [&](Clock& clock) {
+    if (clock.passed_s >= at_s + step.by_s) {
+      clock.passed_s -= step.by_s;
+    } else if (clock.last_us) {
+      *clock.last_us += step_us;
+    }
+  };
+  std::ranges::for_each(bus_clocks_, correct);
+  correct(clock_);
+  for (RadarObservation& radar : observation_.radars) {
+    radar.times.leave_out(at_s, step.by_s);
+  }
+  observation_.frames.leave_out(at_s, step.by_s);
+  observation_.seconds -= step.by_s;
 }
 
 Observation Observer::finish() {

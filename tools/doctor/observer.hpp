@@ -62,6 +62,8 @@ class Observer {
   };
 
   void advance(Clock& clock, std::int64_t now_us);
+  void note_steps();
+  void leave_out(const ForwardStep& step);
   [[nodiscard]] std::size_t index_of(std::string_view interface) const;
   [[nodiscard]] bool is_full() const;
   std::size_t configured_buses_;  // The first of observation_.buses, in the pipeline's order.

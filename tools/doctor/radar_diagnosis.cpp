@@ -192,7 +192,7 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
   constexpr double kShortestS = 0.5;
   const AssemblerCounters& scans = observed.status.assembler;
   const bool is_gpr = radar.decoder.as<BoschGprOptions>() != nullptr;
-  const double pause_s = fell_silent(observed, seconds) ? observed.times.longest_pause_s : 0.0;
+  const double pause_s = fell_silent(observed, seconds) ? observed.times.longest.length_s : 0.0;
   const std::uint64_t lists = lists_of(radar.decoder, bus.traffic);
   const double lists_hz = static_cast<double>(lists) / std::max(seconds - pause_s, kShortestS);
   const bool is_twin = lists_hz > (is_gpr ? 15.0 : 22.0);
@@ -209,22 +209,32 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
            twin_remedy(radar, is_echo)}};
 }
 
+/// Whether the frames of several radars pause then, but for a scan before and one after.
+bool is_of_all(const Pause& pause, const Observation& all) {
+  constexpr double kScansS = 0.3;
+  const Pause& of_all = all.frames.longest;
+  return all.radars.size() > 1 && of_all.length_s > pause.length_s - kScansS &&
+         of_all.begin_s < pause.end_s() && of_all.end_s() > pause.begin_s;
+}
+
 /// The radar sent scans, but stopped or paused.
-void add_pause(const RadarObservation& observed, double seconds, Findings& findings) {
-  if (!fell_silent(observed, seconds)) {
+void add_pause(const RadarObservation& observed, const Observation& all, Findings& findings) {
+  if (!fell_silent(observed, all.seconds)) {
     return;
   }
   const ScanTimes& times = observed.times;
-  const double end_s = times.pause_begin_s + times.longest_pause_s;
   findings.push_back(
       {times.is_paused ? Severity::error : Severity::warning,
        concat({"no scan ",
-               times.is_paused
-                   ? concat({"in the last ", tenths(times.longest_pause_s)})
-                   : concat({"from ", tenths(times.pause_begin_s), " to ", tenths(end_s)}),
-               " of ", tenths(seconds), " s, although it sent scans ",
-               times.pause_begin_s > 0.0 ? "before" : "after that"}),
-       "check its supply and plug for loose contacts; it may have restarted"});
+               times.is_paused ? concat({"in the last ", tenths(times.longest.length_s)})
+                               : concat({"from ", tenths(times.longest.begin_s), " to ",
+                                         tenths(times.longest.end_s())}),
+               " of ", tenths(all.seconds), " s, although it sent scans ",
+               times.longest.begin_s > 0.0 ? "before" : "after that"}),
+       is_of_all(times.longest, all)
+           ? "no bus has a frame then: the computer stood still, its clock was set, or the supply "
+             "failed"
+           : "check its supply and plug for loose contacts; it may have restarted"});
 }
 
 std::string wrong_content_remedy(const RadarSettings& radar) {
@@ -294,7 +304,7 @@ bool fell_silent(const RadarObservation& observed, double seconds) {
   constexpr double kShortestS = 0.3;
   constexpr double kLongestS = 1.0;
   return observed.status.assembler.scans != 0 &&
-         observed.times.longest_pause_s > std::clamp(seconds / 3.0, kShortestS, kLongestS);
+         observed.times.longest.length_s > std::clamp(seconds / 3.0, kShortestS, kLongestS);
 }
 
 Findings find_elsewhere(const Configuration& configuration, const Observation& observation,
@@ -336,7 +346,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
     return twin;
   }
   Findings findings = radar_findings(wanted, observed.status, configuration.radars);
-  add_pause(observed, observation.seconds, findings);
+  add_pause(observed, observation, findings);
   if (!has_error(findings)) {
     add_incomplete(wanted, observed, findings);
   }

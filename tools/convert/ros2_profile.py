@@ -138,7 +138,7 @@ class Ros2Profile:
 
     def __init__(self):
         self.status = None  # Of the odometry.
-        self.too_late = 0   # Messages that are left out.
+        self.too_late = self.damaged = 0  # Messages that are left out.
         self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
                         "with `cremed --publish-scans`")
         self.take = {cremed.odometry_t: self.of_odometry, cremed.radar_scan_t: self.of_scan,
@@ -153,12 +153,22 @@ class Ros2Profile:
         if message.utime > LATEST_US:
             self.too_late += 1
             return []
-        return [(topic, kind, DEFINITIONS.encode(kind, content))
-                for topic, kind, content in self.take[type(message)](message)]
+        try:
+            return [(topic, kind, DEFINITIONS.encode(kind, content))
+                    for topic, kind, content in self.take[type(message)](message)]
+        except ValueError:  # Of math.cos.
+            self.damaged += 1
+            return []
 
     def left_out(self):
-        return self.too_late and (f"{self.too_late} messages are left out: their times are after January 2038, which ROS 2 "
-                                  "cannot express; was the clock right? --profile json has them")
+        reasons = []
+        if self.too_late:
+            reasons.append(f"{self.too_late} messages are left out: their times are after January 2038, which ROS 2 "
+                           "cannot express; was the clock right? --profile json has them")
+        if self.damaged:
+            reasons.append(f"{self.damaged} messages are left out: they hold an infinite angle; is the log damaged? --profile "
+                           "json has what else they hold")
+        return "; ".join(reasons)
 
     def of_odometry(self, message):
         found = []

@@ -124,8 +124,12 @@ TEST_CASE("A radar that shares an identifier with another of its bus is left out
   CAPTURE(text);
   CHECK(radars_in(text) == std::vector<std::string>{"can0: a Bosch GPR with base id 0x300",
                                                     "can1: an ARS408 with sensor id 3"});
-  CHECK_THAT(text, Catch::Contains("# Left out: an ARS408 with sensor id 3 on can0, which shares "
-                                   "CAN identifier 0x330 with a radar above; "));
+  CHECK_THAT(text, Catch::Contains("# an ARS408 with sensor id 3 on can0 is left out: it shares "
+                                   "CAN identifier 0x330 with another radar there; "));
+  const auto told = radars_left_out(observed(traffic));
+  check_first(told, Severity::warning, "an ARS408 with sensor id 3 on can0 is left out",
+              "of its own");
+  CHECK(told.size() == 1);
 }
 
 TEST_CASE("An ARS408 that sends objects, or nothing, is suggested with what sets it right") {

@@ -127,34 +127,49 @@ std::string table(const BusObservation& bus, const RadarSettings& radar, std::si
                  end.has_output ? output_line(bus, radar) : "", end.mount});
 }
 
-/// A configuration refuses radars of one bus that share an identifier.
-std::string left_out(const BusObservation& bus, const RadarSettings& radar, const IdSet& shared) {
-  return concat({"\n# Left out: ", radar.describe(), " on ", bus.interface, ", which shares CAN ",
-                 "identifier ", hexadecimal(shared._Find_first()),
-                 " with a radar above; give it other identifiers, or a bus of its own.\n"});
+Finding left_out(const BusObservation& bus, const RadarSettings& radar, const IdSet& shared) {
+  return {
+      Severity::warning,
+      concat({radar.describe(), " on ", bus.interface, " is left out: it shares CAN identifier ",
+              hexadecimal(shared._Find_first()), " with another radar there"}),
+      "give it other identifiers, or a bus of its own"};
+}
+
+/// Radars of a bus that a configuration may have together, and the others: it refuses those that
+/// share an identifier.
+struct Recognised {
+  std::vector<RadarSettings> radars;
+  IdSet used;
+  std::vector<Finding> left_out;
+};
+
+Recognised recognised(const BusObservation& bus, RadarFamilies families) {
+  Recognised on_bus;
+  for (const RadarSettings& radar : seen_radars(bus.traffic, families)) {
+    const IdSet ids = observed_ids(radar);
+    if ((on_bus.used & ids).any()) {
+      on_bus.left_out.push_back(left_out(bus, radar, on_bus.used & ids));
+    } else {
+      on_bus.used |= ids;
+      on_bus.radars.push_back(radar);
+    }
+  }
+  return on_bus;
 }
 
 std::string tables_of(const BusObservation& bus, RadarFamilies families, const TableEnd& end,
                       std::size_t& count) {
-  std::string comments;
-  IdSet used;
-  std::vector<RadarSettings> radars;
-  for (const RadarSettings& radar : seen_radars(bus.traffic, families)) {
-    const IdSet ids = observed_ids(radar);
-    if ((used & ids).any()) {
-      comments += left_out(bus, radar, used & ids);
-    } else {
-      used |= ids;
-      radars.push_back(radar);
-    }
-  }
+  Recognised on_bus = recognised(bus, families);
   std::string tables;
-  for (const RadarSettings& radar : radars) {
+  for (const RadarSettings& radar : on_bus.radars) {
     tables += count < kMaxRadars
-                  ? table(bus, with_free_info_id(radar, used), ++count, families, end)
+                  ? table(bus, with_free_info_id(radar, on_bus.used), ++count, families, end)
                   : "";
   }
-  return tables + comments;
+  for (const Finding& finding : on_bus.left_out) {
+    tables += concat({"\n# ", to_text(finding), ".\n"});
+  }
+  return tables;
 }
 
 std::string tables_of(const Observation& observation, RadarFamilies families, const TableEnd& end) {
@@ -178,6 +193,15 @@ Configuration examined_configuration(const Observation& observation, ExaminedOut
       tables_of(observation, radar_families(), {kNoMount, output == ExaminedOutput::as_sent});
   return tables.empty() ? Configuration()
                         : parse_configuration(concat({kExamined, tables}), "suggestion");
+}
+
+std::vector<Finding> radars_left_out(const Observation& observation) {
+  std::vector<Finding> findings;
+  for (const BusObservation* bus : by_name(observation)) {
+    const Recognised on_bus = recognised(*bus, radar_families());
+    findings.insert(findings.end(), on_bus.left_out.begin(), on_bus.left_out.end());
+  }
+  return findings;
 }
 
 void drop_doubts_of_mounts(Observation& observation) {

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "cremed/can_decoders/radar_family.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/report/finding.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {
@@ -24,6 +26,10 @@ enum class ExaminedOutput : std::uint8_t { clusters, as_sent };
 /// directions. Without radars if none was recognised.
 Configuration examined_configuration(const Observation& observation,
                                      ExaminedOutput output = ExaminedOutput::clusters);
+
+/// A finding for each radar that shares an identifier with another of its bus: no configuration has
+/// both.
+std::vector<Finding> radars_left_out(const Observation& observation);
 
 /// With that configuration: what may be wrong with the mount or the motion is no finding. A wrong
 /// Doppler is one for any mount.

@@ -40,16 +40,16 @@ bool is_pipe(const std::string& log) {
   return log == "-" || std::filesystem::is_fifo(log, error);
 }
 
-Configuration examined_radars(const Observation& observation, ExaminedOutput output) {
-  Configuration configuration = examined_configuration(observation, output);
-  if (configuration.radars.empty()) {
+LocatedRadars examined_radars(const Observation& observation, ExaminedOutput output) {
+  LocatedRadars examined{examined_configuration(observation, output), radars_left_out(observation)};
+  if (examined.configuration.radars.empty()) {
     throw std::runtime_error(no_suggestion(observation));
   }
-  return configuration;
+  return examined;
 }
 
 LocatedRadars found_radars(const Observation& observation) {
-  LocatedRadars found{examined_radars(observation), {}};
+  LocatedRadars found = examined_radars(observation);
   std::string radars;
   for (const RadarConfiguration& radar : found.configuration.radars) {
     radars += concat({radars.empty() ? "" : ", ", radar.name, ": ", radar.decoder.describe(),

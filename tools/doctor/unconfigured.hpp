@@ -21,12 +21,12 @@ bool is_unconfigured(const std::string& named);
 /// A log that cannot be read twice.
 bool is_pipe(const std::string& log);
 
-/// The radars observed, to examine each alone (examined_configuration). Throws std::runtime_error
-/// with the traffic and advice if there are none.
-Configuration examined_radars(const Observation& observation,
+/// The radars observed, to examine each alone (examined_configuration), with findings that tell
+/// which are left out. Throws std::runtime_error with the traffic and advice if there are none.
+LocatedRadars examined_radars(const Observation& observation,
                               ExaminedOutput output = ExaminedOutput::clusters);
 
-/// The same, with findings that tell what they are, which buses are silent and how to write a
+/// The same, also with findings that tell what they are, which buses are silent and how to write a
 /// configuration.
 LocatedRadars found_radars(const Observation& observation);
 

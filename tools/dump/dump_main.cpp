@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -51,9 +52,12 @@ Configuration selected(const std::string& wanted, Configuration configuration) {
   return configuration;
 }
 
-/// The radars observed, as they are. Throws std::runtime_error with advice if there are none.
-Configuration as_sent(const Observation& observation) {
-  return examined_radars(observation, ExaminedOutput::as_sent);
+/// The radars observed, as they are, of which one may be wanted only. Throws std::runtime_error
+/// with advice if there are none.
+LocatedRadars as_sent(const Observation& observation, const std::string& wanted) {
+  LocatedRadars radars = examined_radars(observation, ExaminedOutput::as_sent);
+  radars.configuration = selected(wanted, std::move(radars.configuration));
+  return radars;
 }
 
 /// Nothing: the radars are to be found in the log itself, while it is read.
@@ -66,8 +70,7 @@ std::optional<LocatedRadars> located(const Arguments& arguments) {
   if (is_pipe(arguments.log)) {
     return std::nullopt;
   }
-  return LocatedRadars{
-      selected(arguments.radar, as_sent(observe_log(without_radars(), arguments.log))), {}};
+  return as_sent(observe_log(without_radars(), arguments.log), arguments.radar);
 }
 
 /// The longest period of a radar's messages is a second.
@@ -90,13 +93,12 @@ class LogHead {
   }
   /// Every radar that was on has been seen.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
-  /// The radars in what was added of `log`. Throws std::runtime_error with advice if there are
-  /// none. Call it once.
-  [[nodiscard]] Configuration examined(const CandumpReader& log) {
+  /// The radars in what was added of `log`, as as_sent(). Call it once.
+  [[nodiscard]] LocatedRadars examined(const CandumpReader& log, const std::string& wanted) {
     if (!first_us_) {
       throw std::runtime_error(log.no_frame());
     }
-    return as_sent(observer_.finish());
+    return as_sent(observer_.finish(), wanted);
   }
   /// All lines that were added, in order; they are kept no longer.
   void hand_over(ScanReader& reader) {
@@ -127,11 +129,7 @@ class Dump {
         writer_(make_record_writer(
             std::cout, {arguments.is_json, !arguments.without_targets, is_pipe(arguments.log)})) {
     if (const auto known = located(arguments)) {
-      for (const Finding& finding : known->findings) {
-        std::cerr << "cremed-dump: " << to_text(finding) << '\n';
-      }
-      are_located_ = known->findings.empty();
-      reader_.emplace(known->configuration, *writer_);
+      read(*known);
     }
   }
 
@@ -167,8 +165,16 @@ class Dump {
   }
 
  private:
+  void read(const LocatedRadars& radars) {
+    for (const Finding& finding : radars.findings) {
+      std::cerr << "cremed-dump: " << to_text(finding) << '\n';
+    }
+    are_located_ = radars.findings.empty();
+    reader_.emplace(radars.configuration, *writer_);
+  }
+
   void end_head() {
-    reader_.emplace(selected(arguments_.radar, head_.examined(log_)), *writer_);
+    read(head_.examined(log_, arguments_.radar));
     head_.hand_over(*reader_);
   }
 
@@ -186,7 +192,7 @@ class Dump {
   const Arguments& arguments_;
   CandumpReader log_;
   std::unique_ptr<RecordWriter> writer_;
-  bool are_located_ = true;  // All radars of the configuration.
+  bool are_located_ = true;  // All radars of the configuration, or of the log.
   LogHead head_;
   std::optional<ScanReader> reader_;
 };

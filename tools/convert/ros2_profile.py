@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """cremed's messages as those of ROS 2. Frames as REP 105 has them: odom, base_link (the centre of the
 rear axle), and one a radar."""
+import itertools
 import math
 import re
 import struct
@@ -66,10 +67,6 @@ FAULT_NAMES = names_of(cremed.status_t, "FAULT_")
 CAUSE_NAMES = names_of(cremed.status_t, "CAUSE_")
 
 
-def frame_of(radar):
-    return "radar_" + re.sub(r"\W", "_", radar.lower(), flags=re.ASCII)  # What a topic of ROS may have.
-
-
 def header(utime, frame):
     return {"stamp": {"sec": utime // 1_000_000, "nanosec": utime % 1_000_000 * 1000}, "frame_id": frame}
 
@@ -104,13 +101,13 @@ def transform(utime, frame, child, x, y, yaw):
                             "transform": {"translation": {"x": x, "y": y}, "rotation": turned(yaw)}}]}
 
 
-def cloud(scan):
+def cloud(scan, frame):
     targets = zip(scan.range_m, scan.azimuth_rad, scan.doppler_mps, scan.rcs_dbm2, scan.range_std_m,
                   scan.azimuth_std_rad, scan.doppler_std_mps, scan.id, scan.validity)
     data = b"".join(POINT.pack(length * math.cos(azimuth), length * math.sin(azimuth), 0.0, *others[:-2],
                                others[-2] & 0xFFFF, others[-1] & 0xFF)
                     for length, azimuth, *others in targets)
-    return {"header": header(scan.utime, frame_of(scan.source)), "height": 1, "width": scan.num_detections,
+    return {"header": header(scan.utime, frame), "height": 1, "width": scan.num_detections,
             "fields": [{"name": name, "offset": offset, "datatype": kind, "count": 1}
                        for name, offset, kind in POINT_FIELDS],
             "point_step": POINT.size, "row_step": len(data), "data": data, "is_dense": all(map(math.isfinite, (*scan.range_m, *scan.azimuth_rad)))}
@@ -139,6 +136,7 @@ class Ros2Profile:
     def __init__(self):
         self.status = None  # Of the odometry.
         self.too_late = self.damaged = 0  # Messages that are left out.
+        self.frames = {}    # By radar.
         self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
                         "with `cremed --publish-scans`")
         self.take = {cremed.odometry_t: self.of_odometry, cremed.radar_scan_t: self.of_scan,
@@ -182,13 +180,21 @@ class Ros2Profile:
             found.append(("/tf", "tf2_msgs/TFMessage", transform(message.utime, ODOM, BASE, *pose)))
         return found
 
+    def frame_of(self, radar):
+        """Of what a topic of ROS may have; names that are the same in that get a number."""
+        if radar not in self.frames:
+            name = "radar_" + re.sub(r"\W", "_", radar.lower(), flags=re.ASCII)
+            numbered = (f"{name}_{number}" for number in itertools.count(2))
+            self.frames[radar] = next(one for one in itertools.chain([name], numbered) if one not in self.frames.values())
+        return self.frames[radar]
+
     def of_scan(self, message):
         """With its mount: /tf_static is lost on who joins late, where a player does not know that it must last."""
         self.missing = ""
         mount = (message.mount_x_in_vehicle_frame_m, message.mount_y_in_vehicle_frame_m,
                  message.mount_yaw_in_vehicle_frame_rad)
-        frame = frame_of(message.source)
-        return [(f"/{frame}/points", "sensor_msgs/PointCloud2", cloud(message)),
+        frame = self.frame_of(message.source)
+        return [(f"/{frame}/points", "sensor_msgs/PointCloud2", cloud(message, frame)),
                 ("/tf", "tf2_msgs/TFMessage", transform(message.utime, BASE, frame, *mount))]
 
     def of_status(self, message):

@@ -4,6 +4,7 @@
 // What cremed-spy's table shows of each message of an LCM log: PrintRows LOG
 import cremed.ego_motion_t;
 import cremed.odometry_t;
+import cremed.radar_scan_t;
 import cremed.spy.MessageRows;
 import cremed.spy.MessageWindow;
 import cremed.status_t;
@@ -17,8 +18,10 @@ public final class PrintRows {
         return new odometry_t(event.data);
       case "CREMED_EGO_MOTION":
         return new ego_motion_t(event.data);
+      case "CREMED_STATUS":
+        return new status_t(event.data);
       default:
-        return event.channel.equals("CREMED_STATUS") ? new status_t(event.data) : null;
+        return event.channel.startsWith("CREMED_SCAN_") ? new radar_scan_t(event.data) : null;
     }
   }
 

@@ -3,6 +3,7 @@
 package cremed.spy;
 
 import cremed.ego_motion_t;
+import cremed.radar_scan_t;
 import java.lang.reflect.Array;
 import java.lang.reflect.Field;
 import java.lang.reflect.Modifier;
@@ -24,6 +25,7 @@ public final class MessageRows {
           "link_state", new Code("LINK_", false),
           "bus_state", new Code("BUS_", false),
           "radar_output", new Code("OUTPUT_", false),
+          "odometry_fault", new Code("CAUSE_", false),
           "radar_faults", new Code("FAULT_", true),
           "doubts", new Code("DOUBT_", true));
   /** Arrays of a status_t: their places have the names of these constants. */
@@ -103,13 +105,14 @@ public final class MessageRows {
     // The constants of a motion's status are in the motion's message.
     Class<?> holder =
         field.getName().equals("last_motion_status") ? ego_motion_t.class : message.getClass();
+    String prefix = message instanceof radar_scan_t ? "SCAN_" : code.prefix;  // Of its status.
     int value = ((Number) field.get(message)).intValue();
     StringJoiner names = new StringJoiner(", ");
     for (Field constant : holder.getFields()) {
-      if (Modifier.isStatic(constant.getModifiers()) && constant.getName().startsWith(code.prefix)) {
+      if (Modifier.isStatic(constant.getModifiers()) && constant.getName().startsWith(prefix)) {
         int number = ((Number) constant.get(null)).intValue();
         if (code.isSum ? (value & number) != 0 : value == number) {
-          names.add(constant.getName().substring(code.prefix.length()).toLowerCase(Locale.ROOT));
+          names.add(constant.getName().substring(prefix.length()).toLowerCase(Locale.ROOT));
         }
       }
     }

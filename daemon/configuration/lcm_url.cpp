@@ -3,6 +3,9 @@
 #include "daemon/configuration/lcm_url.hpp"
 
 #include <charconv>
+#include <string>
+
+#include <arpa/inet.h>
 
 namespace cremed {
 namespace {
@@ -22,12 +25,17 @@ std::string_view take_until(char separator, std::string_view& text) {
   return taken;
 }
 
-/// "239.255.76.67:7667?ttl=0"; each part is optional. multicast_problem checks the group.
+bool is_group(const std::string& text) {
+  in_addr address{};
+  return ::inet_pton(AF_INET, text.c_str(), &address) == 1 && IN_MULTICAST(ntohl(address.s_addr));
+}
+
+/// "239.255.76.67:7667?ttl=0"; each part is optional.
 bool is_multicast(std::string_view text) {
   std::string_view address = take_until('?', text);
   const bool has_port = address.find(':') != std::string_view::npos;
-  take_until(':', address);
-  bool is_good = !has_port || is_integer(address, 1, 65535);
+  const std::string group(take_until(':', address));
+  bool is_good = (group.empty() || is_group(group)) && (!has_port || is_integer(address, 1, 65535));
   while (!text.empty()) {
     std::string_view value = take_until('&', text);
     const std::string_view key = take_until('=', value);

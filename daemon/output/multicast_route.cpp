@@ -47,10 +47,7 @@ std::string multicast_problem(const std::string& url) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(kDefaultPort);
-  if (::inet_pton(AF_INET, group.c_str(), &address.sin_addr) != 1 ||
-      !IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
-    return concat({"'", group, "' is no IPv4 multicast address, such as ", kDefaultGroup});
-  }
+  ::inet_pton(AF_INET, group.c_str(), &address.sin_addr);  // is_lcm_url() has checked it.
   return route_problem(address, group);
 }
 

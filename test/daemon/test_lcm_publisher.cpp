@@ -375,10 +375,8 @@ TEST_CASE("status_t holds every counter and fits one datagram") {
 }
 
 TEST_CASE("A URL that cannot work is refused with what would be right, time and again") {
-  LcmPublisher nowhere("udpm://nowhere:7667?ttl=0", two_radars());
   LcmPublisher pigeon("carrier-pigeon://", two_radars());
   for (int i = 0; i < 3; ++i) {
-    CHECK_THAT(nowhere.connect(), Catch::Contains("no IPv4 multicast address"));
     CHECK_THAT(pigeon.connect(), Catch::Contains("udpm://239.255.76.67:7667"));
   }
   CHECK_FALSE(pigeon.is_connected());

@@ -77,10 +77,15 @@ function showTiles() {
 
 // ---- What depends on the slider's time ------------------------------------------------------------
 
+/** No line where a part begins anew. */
+function drawParts(plane, {x, y, begins}, color, width) {
+  const ends = [...begins, x.length];
+  [0, ...begins].forEach((begin, i) => plane.line(x.slice(begin, ends[i]), y.slice(begin, ends[i]), color, width));
+}
+
 function drawMap(plane) {
-  if (truth) plane.line(truth.path.x, truth.path.y, TRUTH, 6);
-  const begins = [0, ...path.begins, path.x.length];
-  begins.slice(1).forEach((end, i) => plane.line(path.x.slice(begins[i], end), path.y.slice(begins[i], end), INK, 1.6));
+  if (truth) drawParts(plane, truth.path, TRUTH, 6);
+  drawParts(plane, path, INK, 1.6);
   if (!path.t.length) return;
   const i = indexAt(path.t, now);
   const pose = {x: path.x[i], y: path.y[i], yaw: path.yaw[i]};

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What a drive's report has where there is truth: cremed-eval measures, this picks and places."""
+import bisect
 import math
 
 from programs import evaluate, read_poses
@@ -16,7 +17,7 @@ def truth_data(programs, lcm_log, drive, heard, folder):
             "drift": {source: {name: rounded(column) for name, column in columns.items()}
                       for source, columns in drift.items()},
             "gaps": [[round((gap[name] - heard.begin_us) * 1e-6, 3) for name in ("begin_us", "end_us")] for gap in gaps],
-            "path": true_path(poses, heard.odometry)}
+            "path": true_path(poses, heard.odometry, [gap["end_us"] for gap in gaps])}
 
 
 def error_series(columns, begin_s):
@@ -27,17 +28,22 @@ def error_series(columns, begin_s):
                                "true_speed_mps")}}
 
 
-def true_path(poses, odometry):
-    """Truth in the frame "odom": laid onto the odometry at the first time that both tell."""
+def true_path(poses, odometry, gap_ends):
+    """Truth in the frame "odom": laid onto the odometry at the first time that both tell. It begins anew after
+    each gap, at the places in `begins`."""
     first = next((i for i, utime in enumerate(odometry["utime"])
                   if poses[0][0] <= utime <= poses[-1][0]), None)
     if first is None:
-        return {"x": [], "y": []}
+        return {"x": [], "y": [], "begins": []}
     _, x0, y0, yaw0 = min(poses, key=lambda pose: abs(pose[0] - odometry["utime"][first]))
     turn = odometry["yaw"][first] - yaw0
     cos, sin = math.cos(turn), math.sin(turn)
     placed = [(odometry["x"][first] + cos * (x - x0) - sin * (y - y0),
                odometry["y"][first] + sin * (x - x0) + cos * (y - y0)) for utime, x, y, _ in poses
               if utime <= odometry["utime"][-1]]
-    kept = extremes([[x for x, _ in placed], [y for _, y in placed]])
-    return {"x": rounded((placed[i][0] for i in kept), 6), "y": rounded((placed[i][1] for i in kept), 6)}
+    times = [utime for utime, *_ in poses[:len(placed)]]
+    first_of_part = [i for i in (bisect.bisect_left(times, end) for end in gap_ends) if 0 < i < len(placed)]
+    ends = {place for i in first_of_part for place in (i - 1, i)}
+    kept = sorted({*extremes([[x for x, _ in placed], [y for _, y in placed]]), *ends})
+    return {"x": rounded((placed[i][0] for i in kept), 6), "y": rounded((placed[i][1] for i in kept), 6),
+            "begins": [kept.index(i) for i in first_of_part]}

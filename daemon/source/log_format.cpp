@@ -40,6 +40,7 @@ constexpr std::array kFormats = {
     Format{"PK\x03\x04"sv, "a zip archive", Way::unpack, "unzip -p"},
     Format{"LOGG"sv, "a BLF log", Way::convert, ""},
     Format{";$FILEVERSION"sv, "a PCAN trace", Way::convert, ""},
+    Format{";####"sv, "a PCAN trace 1.0", Way::convert, ""},
     Format{"date "sv, "an ASC log", Way::asc, ""},
     Format{"\xED\xA1\xDA\x01"sv, "an LCM log", Way::results, ""},
     Format{"\xFF\xFE"sv, "UTF-16 text", Way::unpack, "iconv -f UTF-16 -t UTF-8"},
@@ -60,6 +61,10 @@ constexpr std::array kFormats = {
 constexpr std::string_view kCsvColumns = "timestamp,arbitration_id,extended,remote,error,dlc,data";
 constexpr std::string_view kCsvFrame = "timestamp,arbitration_id,";
 constexpr long kMinCommas = 3;
+
+/// In every line of `candump -c` and `-ca`; with the sequences that begin so the rest is a log.
+constexpr std::string_view kColour = "\x1B[";
+constexpr std::string_view kWithoutColours = "sed 's/\\x1B\\[[0-9;]*m//g'";
 
 std::string remedy(Way way, std::string_view command, const std::string& path) {
   const std::string file = path == "-" ? "LOG" : in_shell(path);
@@ -102,6 +107,10 @@ std::string foreign_format(std::string_view begin, const std::string& path) {
     return concat({what, found->name, "; ", remedy(found->way, found->command, path)});
   }
   const std::string_view line = begin.substr(0, begin.find('\n'));
+  if (line.find(kColour) != std::string_view::npos) {
+    return concat({what, "text in the colours of `candump -c`; ",
+                   remedy(Way::unpack, kWithoutColours, path)});
+  }
   return is_csv(line) ? concat({what, csv_text(line, path)}) : std::string();
 }
 

@@ -22,6 +22,9 @@ enum class CandumpStatus : std::uint8_t {
   malformed,  ///< Anything else; `error` states the correct form.
 };
 
+/// Of which `candump any` loses frames: one socket has those of all.
+inline constexpr std::string_view kAllInterfaces = "any";
+
 struct CandumpLine {
   CandumpStatus status = CandumpStatus::skipped;
   CanFrame frame;                   ///< `interface` stays 0: the caller maps names.

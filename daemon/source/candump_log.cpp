@@ -22,7 +22,14 @@ CandumpLog::CandumpLog(const std::string& path, std::vector<std::string> interfa
 
 SourceEvent CandumpLog::next(CanFrame& frame) {
   CandumpLine line;
-  while (*stop_ == 0 && reader_.next(line)) {
+  while (*stop_ == 0) {
+    if (untold_losses_ != 0) {
+      frame.interface = static_cast<std::uint8_t>(interfaces_.size() - untold_losses_--);
+      return SourceEvent::dropped;
+    }
+    if (!reader_.next(line)) {
+      break;
+    }
     const std::size_t interface = index_of(line.interface_name);
     const bool is_ours = interface != interfaces_.size();
     if (line.status == CandumpStatus::dropped) {
@@ -31,6 +38,7 @@ SourceEvent CandumpLog::next(CanFrame& frame) {
         frame.interface = static_cast<std::uint8_t>(interface);
         return SourceEvent::dropped;
       }
+      untold_losses_ = line.interface_name == kAllInterfaces ? interfaces_.size() : 0;
     } else if (line.status == CandumpStatus::frame && is_ours) {
       ++counters_.frames;
       has_frames_[interface] = true;

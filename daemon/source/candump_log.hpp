@@ -41,6 +41,7 @@ class CandumpLog final : public FrameSource {
   std::vector<std::string> interfaces_;
   std::vector<bool> has_frames_;
   std::vector<std::string> other_interfaces_;
+  std::size_t untold_losses_ = 0;  // Interfaces that `candump any` may have lost frames of.
   const volatile std::sig_atomic_t* stop_;
 };
 

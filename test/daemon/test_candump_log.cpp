@@ -47,6 +47,24 @@ TEST_CASE("A log hands out frames of known interfaces and counts the rest") {
              Catch::StartsWith(file.path() + ":4: ") && Catch::EndsWith(" (1 such line)"));
 }
 
+TEST_CASE("What candump lost of all interfaces may be of each") {
+  const TemporaryFile file(
+      "(1.000000) can1 600#0000000010\n"
+      "DROPCOUNT: dropped 12 CAN frames on 'any' socket (total drops 12)\n"
+      "(1.000300) can0 701#0011223344556677\n");
+  CandumpLog log(file.path(), {"can0", "can1"}, &not_stopped);
+  CanFrame frame;
+  REQUIRE(log.next(frame) == SourceEvent::frame);
+  for (std::uint8_t interface = 0; interface < 2; ++interface) {
+    REQUIRE(log.next(frame) == SourceEvent::dropped);
+    CHECK(frame.interface == interface);
+  }
+  REQUIRE(log.next(frame) == SourceEvent::frame);
+  CHECK(frame.id == 0x701);
+  CHECK(log.next(frame) == SourceEvent::end);
+  CHECK(log.counters().lost_frames == 12);
+}
+
 TEST_CASE("A log that ends inside a line was cut off, which is no malformed line") {
   struct Row {
     const char* end;

@@ -88,6 +88,10 @@ TEST_CASE("cremed-doctor: lost frames that the log itself reports") {
       folder, "sed \"100i DROPCOUNT: dropped 9 CAN frames on 'can0' socket (total drops 9)\"");
   CHECK(result.status == 1);
   CHECK_THAT(result.output, Catch::StartsWith("warning: 9 frames of can0 lost before"));
+  const ToolRun of_any = doctor_of_filtered(
+      folder, "sed \"100i DROPCOUNT: dropped 9 CAN frames on 'any' socket (total drops 9)\"");
+  CHECK(of_any.status == 1);
+  CHECK_THAT(of_any.output, Catch::StartsWith("warning: 9 frames lost before they were read, of "));
 }
 
 TEST_CASE("cremed-doctor: LCM is checked with a log only if asked for") {

@@ -134,6 +134,12 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
                         "they are left out, and frames that they held are missing; record with "
                         "`candump -l`"});
   }
+  if (observation.frames_lost_of_any != 0) {
+    findings.push_back({Severity::warning,
+                        concat({counted(observation.frames_lost_of_any, "frame"),
+                                " lost before they were read, of any bus"}),
+                        "find what keeps the processor busy, or record with `candump -r 1048576`"});
+  }
   if (observation.frames_left_out != 0) {
     findings.push_back({Severity::warning,
                         concat({counted(observation.frames_left_out, "frame"),

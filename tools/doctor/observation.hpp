@@ -77,6 +77,7 @@ struct Observation {
   std::string lcm_problem;
   std::string malformed_lines;           ///< Of a log, the first and how many; empty: none.
   std::vector<BusObservation> buses;     ///< Those of the configuration, and others that exist.
+  std::uint64_t frames_lost_of_any = 0;  ///< By `candump any`, of an unknown bus.
   std::uint64_t frames_left_out = 0;     ///< Of interfaces beyond kMaxBuses.
   std::vector<RadarObservation> radars;  ///< In the order of the configuration.
   OdometryTally odometry;

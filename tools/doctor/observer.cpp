@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/configuration/interfaces.hpp"
+#include "daemon/source/candump.hpp"
 
 namespace cremed {
 namespace {
@@ -66,6 +67,14 @@ void Observer::add(std::string_view interface, CanFrame frame) {
 }
 
 void Observer::add_lost(std::string_view interface, std::uint64_t frames) {
+  if (interface == kAllInterfaces) {
+    observation_.frames_lost_of_any += frames;
+    source_.count_lost(frames);
+    for (std::size_t i = 0; i < configured_buses_; ++i) {
+      pipeline_.on_dropped(static_cast<std::uint8_t>(i));
+    }
+    return;
+  }
   const std::size_t index = index_of(interface);
   if (index == observation_.buses.size() && is_full()) {
     observation_.frames_left_out += frames;

@@ -52,7 +52,7 @@ void ScanReader::add(const CandumpLine& line) {
   } else if (line.status == CandumpStatus::dropped) {
     writer_.lost(std::string(line.interface_name), line.dropped_frames);
     for (const auto& radar : radars_) {
-      if (radar->interface == line.interface_name) {
+      if (radar->interface == line.interface_name || line.interface_name == kAllInterfaces) {
         radar->assembler.mark_dropped();
       }
     }

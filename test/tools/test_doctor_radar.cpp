@@ -337,6 +337,15 @@ const std::vector<Case>& cases() {
   return kAll;
 }
 
+/// The recording with a clock that is set forward at `at_s`.
+Recording with_step(Recording traffic, double at_s, double step_s) {
+  const auto is_after = is_between(traffic, at_s, 9.0);
+  for (BusFrame& entry : traffic) {
+    entry.frame.stamp_us += is_after(entry) ? std::llround(step_s * 1e6) : 0;
+  }
+  return traffic;
+}
+
 }  // namespace
 
 TEST_CASE("A healthy drive has no finding") {
@@ -391,15 +400,6 @@ TEST_CASE("A clock that is set back is not blamed on lost frames") {
   const std::string text = all_text(diagnose(configuration, observe(configuration, traffic)));
   CHECK_THAT(text, Catch::Contains("run backwards"));
   CHECK_THAT(text, !Catch::Contains("lost"));
-}
-
-/// The recording with a clock that is set forward at `at_s`.
-Recording with_step(Recording traffic, double at_s, double step_s) {
-  const auto is_after = is_between(traffic, at_s, 9.0);
-  for (BusFrame& entry : traffic) {
-    entry.frame.stamp_us += is_after(entry) ? std::llround(step_s * 1e6) : 0;
-  }
-  return traffic;
 }
 
 TEST_CASE("A clock that is set forward is told, and not blamed on supply and plug") {

@@ -62,8 +62,7 @@ void report_clock(const ForwardSteps& steps) {
   if (steps.count != 0) {
     spdlog::warn(
         "the clock was set forward while this was recorded, {}, by up to {:.2f} s: the radars "
-        "count "
-        "their cycles on; no motion spans it",
+        "count their cycles on; no motion spans it",
         counted(steps.count, "time"), steps.longest_s);
   }
 }

@@ -443,6 +443,25 @@ TEST_CASE("Without a radar that counts on it is left open why no bus has a frame
               "the clock was set, the recording paused");
 }
 
+TEST_CASE("Of several silences of all buses each is told as that, whichever is a radar's longest") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  const auto silence = [&](const char* interface, double begin_s, double end_s) {
+    remove_if(traffic, [=, is_then = is_between(traffic, begin_s, end_s)](const auto& entry) {
+      return entry.interface == interface && is_then(entry);
+    });
+  };
+  silence("can0", 0.25, 1.45);
+  silence("can1", 0.5, 1.45);
+  silence("can0", 1.65, 2.75);
+  silence("can1", 1.6, 2.75);
+  const std::string text = all_text(diagnose(configuration, observe(configuration, traffic)));
+  CHECK_THAT(text, Catch::Matches("(.|\n)*front: no scan from 0\\.[12] to 1\\.[45](.|\n)*"));
+  CHECK_THAT(text, Catch::Matches("(.|\n)*rear: no scan from 1\\.[56] to 2\\.[78](.|\n)*"));
+  CHECK_THAT(text, Catch::Contains("no bus has a frame then"));
+  CHECK_THAT(text, !Catch::Contains("supply and plug"));
+}
+
 TEST_CASE("The rate of a radar that fell silent is that of the time before") {
   const Configuration configuration = demo_configuration();
   Recording traffic = recording_of(configuration.radars);

@@ -24,14 +24,20 @@ struct IncompleteScans {
 /// A longer one in a log is a clock that was set, or a paused recording, and no traffic.
 inline constexpr double kLongestPauseS = 10.0;
 
+/// A shorter one between scans or frames is none: three scans of most radars.
+inline constexpr double kShortestPauseS = 0.3;
+
 struct Pause {
   double begin_s = 0.0;
   double length_s = 0.0;
 
   [[nodiscard]] double end_s() const { return begin_s + length_s; }
+  [[nodiscard]] bool overlaps(const Pause& other) const {
+    return begin_s < other.end_s() && other.begin_s < end_s();
+  }
 };
 
-/// Times of scans, or of all frames, in seconds of traffic.
+/// Times of a radar's scans, in seconds of traffic.
 struct ScanTimes {
   double last_s = 0.0;  ///< The latest; 0: none yet.
   Pause longest;
@@ -46,14 +52,13 @@ struct ScanTimes {
     }
     last_s = now_s;
   }
-  /// A clock that was set forward at `at_s` made a pause of this length.
-  void leave_out(double at_s, double length_s) {
-    if (last_s < at_s + length_s) {
+  /// A clock that was set forward made this pause.
+  void leave_out(const Pause& step) {
+    if (last_s < step.end_s()) {
       return;  // None since: the next is noted without it.
     }
-    last_s -= length_s;
-    if (longest.length_s >= length_s && longest.begin_s < at_s + length_s &&
-        longest.end_s() > at_s) {
+    last_s -= step.length_s;
+    if (longest.length_s >= step.length_s && longest.overlaps(step)) {
       longest = longest_before;
     }
   }
@@ -71,7 +76,7 @@ struct Observation {
   bool is_live = false;
   bool kernel_has_can = true;
   double seconds = 0.0;             ///< Of traffic.
-  ScanTimes frames;                 ///< Of any bus.
+  std::vector<Pause> silences;      ///< Longer than kShortestPauseS, without a frame of any bus.
   std::uint64_t forward_steps = 0;  ///< Of the clock, by the radars' cycle counters.
   double longest_step_s = 0.0;
   std::string lcm_problem;

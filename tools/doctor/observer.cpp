@@ -57,7 +57,7 @@ void Observer::add(std::string_view interface, CanFrame frame) {
   }
   bus(interface).add(frame);
   advance(bus_clocks_[index], frame.stamp_us);
-  observation_.frames.note(observation_.seconds);
+  note_silence();
   if (index < configured_buses_) {
     frame.interface = static_cast<std::uint8_t>(index);
     source_.count_frame();
@@ -98,6 +98,14 @@ void Observer::advance(Clock& clock, std::int64_t now_us) {
   observation_.seconds = std::max(observation_.seconds, clock.passed_s);
 }
 
+void Observer::note_silence() {
+  const double length_s = observation_.seconds - last_frame_s_;
+  if (length_s > kShortestPauseS) {
+    observation_.silences.push_back({last_frame_s_, length_s});
+  }
+  last_frame_s_ = observation_.seconds;
+}
+
 void Observer::note_steps() {
   const ForwardSteps& steps = pipeline_.forward_steps();
   if (std::exchange(observation_.forward_steps, steps.count) == steps.count) {
@@ -111,10 +119,10 @@ void Observer::note_steps() {
 
 /// Sets all times after the step back by it.
 void Observer::leave_out(const ForwardStep& step) {
-  const double at_s = observation_.seconds - step.by_s - step.counted_s;
+  const Pause left_out{observation_.seconds - step.by_s - step.counted_s, step.by_s};
   const auto step_us = std::llround(step.by_s * 1e6);
   const auto correct = [&](Clock& clock) {
-    if (clock.passed_s >= at_s + step.by_s) {
+    if (clock.passed_s >= left_out.end_s()) {
       clock.passed_s -= step.by_s;
     } else if (clock.last_us) {
       *clock.last_us += step_us;
@@ -123,9 +131,13 @@ void Observer::leave_out(const ForwardStep& step) {
   std::ranges::for_each(bus_clocks_, correct);
   correct(clock_);
   for (RadarObservation& radar : observation_.radars) {
-    radar.times.leave_out(at_s, step.by_s);
+    radar.times.leave_out(left_out);
   }
-  observation_.frames.leave_out(at_s, step.by_s);
+  auto& silences = observation_.silences;
+  if (!silences.empty() && silences.back().overlaps(left_out)) {
+    silences.pop_back();
+  }
+  last_frame_s_ -= step.by_s;
   observation_.seconds -= step.by_s;
 }
 

@@ -62,6 +62,7 @@ class Observer {
   };
 
   void advance(Clock& clock, std::int64_t now_us);
+  void note_silence();
   void note_steps();
   void leave_out(const ForwardStep& step);
   [[nodiscard]] std::size_t index_of(std::string_view interface) const;
@@ -73,6 +74,7 @@ class Observer {
   Pipeline pipeline_;
   std::array<Clock, kMaxBuses> bus_clocks_;
   Clock clock_;  // Of the computer.
+  double last_frame_s_ = 0.0;
 };
 
 }  // namespace cremed

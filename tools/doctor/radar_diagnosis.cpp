@@ -211,10 +211,9 @@ Findings find_twin(const RadarConfiguration& radar, const RadarObservation& obse
 
 /// Whether the frames of several radars pause then, but for a scan before and one after.
 bool is_of_all(const Pause& pause, const Observation& all) {
-  constexpr double kScansS = 0.3;
-  const Pause& of_all = all.frames.longest;
-  return all.radars.size() > 1 && of_all.length_s > pause.length_s - kScansS &&
-         of_all.begin_s < pause.end_s() && of_all.end_s() > pause.begin_s;
+  return all.radars.size() > 1 && std::ranges::any_of(all.silences, [&](const Pause& silence) {
+           return silence.overlaps(pause) && silence.length_s > pause.length_s - kShortestPauseS;
+         });
 }
 
 /// The radar sent scans, but stopped or paused.
@@ -301,10 +300,9 @@ bool has_error(const Findings& findings) {
 }  // namespace
 
 bool fell_silent(const RadarObservation& observed, double seconds) {
-  constexpr double kShortestS = 0.3;
   constexpr double kLongestS = 1.0;
   return observed.status.assembler.scans != 0 &&
-         observed.times.longest.length_s > std::clamp(seconds / 3.0, kShortestS, kLongestS);
+         observed.times.longest.length_s > std::clamp(seconds / 3.0, kShortestPauseS, kLongestS);
 }
 
 Findings find_elsewhere(const Configuration& configuration, const Observation& observation,

@@ -346,6 +346,13 @@ Recording with_step(Recording traffic, double at_s, double step_s) {
   return traffic;
 }
 
+/// Three seconds of a healthy front radar.
+void check_time_and_rate(const Configuration& configuration, const Observation& observation) {
+  CHECK(observation.seconds == Approx(3.0).margin(0.2));
+  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
+             Catch::Matches("front: 1[34]\\.[0-9] scans/s, [34][0-9] estimates"));
+}
+
 }  // namespace
 
 TEST_CASE("A healthy drive has no finding") {
@@ -354,9 +361,7 @@ TEST_CASE("A healthy drive has no finding") {
   report_state(traffic, "can0", good_state());
   const Observation observation = observe(configuration, traffic);
   CHECK(all_text(diagnose(configuration, observation)).empty());
-  CHECK(observation.seconds == Approx(3.0).margin(0.2));
-  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
-             Catch::Matches("front: 1[34]\\.[0-9] scans/s, [34][0-9] estimates"));
+  check_time_and_rate(configuration, observation);
 }
 
 TEST_CASE("A drive observed from the middle of a scan has no finding") {
@@ -411,9 +416,7 @@ TEST_CASE("A clock that is set forward is told, and not blamed on supply and plu
   check_first(findings, Severity::warning,
               "the clock was set forward 1 time, by up to " + tenths(step_s) + " s", "timedatectl");
   CHECK(findings.size() == 1);
-  CHECK(observation.seconds == Approx(3.0).margin(0.2));
-  CHECK_THAT(vital_signs(configuration.radars[0], observation.radars[0], observation.seconds),
-             Catch::Matches("front: 1[34]\\.[0-9] scans/s, [34][0-9] estimates"));
+  check_time_and_rate(configuration, observation);
 }
 
 TEST_CASE("A pause beside a clock that was set is told too, and where it is without that") {

@@ -190,6 +190,33 @@ TEST_CASE("A train that starts alongside causes no motion backwards") {
   CHECK(stage.wrong == before);
 }
 
+TEST_CASE("In a jam whose cars hide the road for some seconds there is no standstill") {
+  const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U);
+  Stage stage(seed);
+  World standing = road(stage, 12);
+  World cars = world(stage.random(), 60, {6.0, -6.0}, {50.0, 6.0});
+  for (int i = 0; i < 40; ++i) {
+    stage.next({&standing, &cars}, 0.0);
+  }
+  CHECK(stage.last == OdometryStatus::standing_still);
+  while (cars.speed_mps < 4.0) {
+    cars.speed_mps += 1.0 * kPeriodS;
+    stage.next({&standing, &cars}, cars.speed_mps);
+  }
+  CHECK(stage.last == OdometryStatus::ambiguous);
+  for (int i = 0; i < 50; ++i) {
+    stage.next({&cars}, cars.speed_mps);
+    CHECK(stage.last != OdometryStatus::ok);
+    CHECK(stage.last != OdometryStatus::standing_still);
+  }
+  // All stand, and the road shows again.
+  cars.speed_mps = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    stage.next({&standing, &cars}, 0.0);
+  }
+  CHECK(stage.last == OdometryStatus::standing_still);
+}
+
 TEST_CASE("A rival speed that is no continuation does not make a radar ambiguous") {
   Stage stage(1);
   World open = road(stage, 60);

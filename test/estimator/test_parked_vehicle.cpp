@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/vehicle/parked_vehicle.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 #include "test/estimator/simulation.hpp"
 
 namespace cremed {
@@ -95,6 +96,23 @@ TEST_CASE("A vehicle is parked after a second, and nothing departs") {
   for (int i = 0; i < 100; ++i) {
     CHECK(parked.see(static_cast<std::size_t>(i % 2), {}) == Verdict::rests);
   }
+}
+
+TEST_CASE("A start at rest counts to that second, a start with an unknown speed does not") {
+  const double std_mps = GENERATE(0.05, 5.0);
+  const OdometryState state(OdometryOptions(), kFrontAndRear);
+  ParkedVehicle vehicle(state);
+  Odometry odometry;
+  odometry.utime_us = 1'000'000'000;
+  odometry.twist_covariance(0, 0) = squared(std_mps);
+  vehicle.add_output(odometry);
+  odometry.utime_us += 1'100'000;
+  vehicle.add_output(odometry);
+  CHECK_FALSE(vehicle.is_parked());
+  odometry.utime_us += 100'000;
+  odometry.status = OdometryStatus::standing_still;
+  vehicle.add_output(odometry);
+  CHECK(vehicle.is_parked() == (std_mps < 1.0));
 }
 
 TEST_CASE("An own start is one world: it is never doubted, and told below 1.2 m/s") {

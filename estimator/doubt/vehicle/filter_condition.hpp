@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
@@ -42,6 +43,8 @@ class FilterCondition {
 
  private:
   [[nodiscard]] bool is_known() const;
+  /// The state is at rest, but so may be traffic relative to the vehicle.
+  [[nodiscard]] bool may_drive_in_traffic() const;
 
   const OdometryState& state_;
   const RadarConsensus& consensus_;
@@ -50,8 +53,9 @@ class FilterCondition {
   int used_scans_ = 0;
   std::int64_t used_us_ = 0;   // Last scan used.
   std::int64_t clear_us_ = 0;  // Last clear scan used.
-  std::int64_t doubt_us_ = 0;  // Last scan in doubt.
-  int doubts_ = 0;             // Scans in doubt less scans used, 0 to kMaxDoubts.
+  // Last scan in doubt.
+  std::int64_t doubt_us_ = std::numeric_limits<std::int64_t>::min() / 2;
+  int doubts_ = 0;  // Scans in doubt less scans used, 0 to kMaxDoubts.
 };
 
 }  // namespace cremed

@@ -38,6 +38,8 @@ constexpr double kMovingDopplerMps = 0.75;
 /// Targets within the own lane do not count: a car ahead that starts with the vehicle seems to
 /// rest.
 constexpr double kHalfLaneM = 1.75;
+/// Speed, and its sigma, of a start that is at rest.
+constexpr double kStartAtRestMps = 0.1;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
 /// Velocities of two radars may differ by kMaxDifferenceMps and kMaxDifferenceShare besides noise:
@@ -51,6 +53,12 @@ constexpr double kRestSigmas = 2.0;
 constexpr double kMayRestSigmas = 1.0;
 /// A radar is outvoted by this many times as many targets.
 constexpr double kMajority = 1.5;
+
+bool starts_at_rest(const Odometry& odometry) {
+  return odometry.status == OdometryStatus::initialising &&
+         std::abs(odometry.twist.x()) <= kStartAtRestMps &&
+         odometry.twist_covariance(0, 0) <= squared(kStartAtRestMps);
+}
 
 }  // namespace
 
@@ -124,9 +132,10 @@ double ParkedVehicle::Share::error() const {
 
 void ParkedVehicle::add_output(const Odometry& odometry) {
   const bool is_standing = odometry.status == OdometryStatus::standing_still;
-  standing_us_ = is_standing && !is_standing_ ? odometry.utime_us : standing_us_;
-  is_standing_ = is_standing;
-  if (!is_parked_ && is_standing && odometry.utime_us - standing_us_ >= kParkedUs) {
+  const bool may_rest = is_standing || starts_at_rest(odometry);
+  rest_us_ = may_rest && !may_rest_ ? odometry.utime_us : rest_us_;
+  may_rest_ = may_rest;
+  if (!is_parked_ && is_standing && odometry.utime_us - rest_us_ >= kParkedUs) {
     is_parked_ = true;
     verdict_ = Verdict::rests;
     std::fill(looks_.begin(), looks_.end(), Look());

@@ -39,7 +39,7 @@ class ParkedVehicle {
   /// Uses the mounts of `state`, which must outlive this object.
   explicit ParkedVehicle(const OdometryState& state) : state_(state), looks_(state.radars()) {}
 
-  void clear() { is_parked_ = is_standing_ = false; }
+  void clear() { is_parked_ = may_rest_ = false; }
   /// The newest output, before widen().
   void add_output(const Odometry& odometry);
   /// A parked vehicle may move as estimated or not at all: adds the way since it rested, and the
@@ -47,7 +47,7 @@ class ParkedVehicle {
   void widen(Odometry& odometry) const;
   /// The way (x, y, yaw) that the vehicle seems to have gone since nothing departed.
   [[nodiscard]] Eigen::Vector3d way() const { return relative_pose(rest_odom_pose_, odom_pose_); }
-  /// The vehicle stood for kParkedUs, and has not started since.
+  /// The vehicle stood for kParkedUs, at the start too, and has not started since.
   [[nodiscard]] bool is_parked() const { return is_parked_; }
   /// The last verdict.
   [[nodiscard]] Verdict verdict() const { return is_parked_ ? verdict_ : Verdict::started; }
@@ -102,8 +102,8 @@ class ParkedVehicle {
   std::vector<Look> looks_;
   Verdict verdict_ = Verdict::rests;
   bool is_parked_ = false;
-  bool is_standing_ = false;
-  std::int64_t standing_us_ = 0;  // Since when.
+  bool may_rest_ = false;     // It stands still, or the start is at rest.
+  std::int64_t rest_us_ = 0;  // Since when.
   // Poses of the last output, and of the last one at rest: since the anchor and since the start.
   std::int64_t anchor_us_ = 0;
   Eigen::Vector3d parked_pose_ = Eigen::Vector3d::Zero();

@@ -83,6 +83,19 @@ TEST_CASE(
   CHECK(bench.nodes().since_s(node) == Approx(0.5));
 }
 
+TEST_CASE("after the clock was set back an error of the speed adds up since a node again") {
+  Bench bench;
+  bench.set_motion(10.0, 0.0);
+  bench.move_and_add(100.0);
+  bench.state().restart(0);
+  bench.nodes().clear();
+  bench.set_motion(10.0, 0.0);
+  bench.move_and_add(0.1);
+  const std::size_t node = bench.nodes().newest();
+  bench.move_and_add(0.2);
+  CHECK(bench.nodes().since_s(node) == Approx(0.2));
+}
+
 TEST_CASE("a turn on the spot is a motion, in either direction") {
   Bench bench;
   CHECK(bench.move_and_add(0.05));

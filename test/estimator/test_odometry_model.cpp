@@ -432,5 +432,26 @@ TEST_CASE("a new anchor changes no relative pose and no covariance of one") {
   CHECK(state.gaussian.covariance().topRows<3>().norm() == 0.0);
 }
 
+TEST_CASE("sigma of a predicted pose does not depend on the length of the steps") {
+  const OdometryOptions options;
+  VehicleEstimate known;
+  known.mean.setZero();
+  known.mean(kSpeed) = 10.0;
+  known.mean(kYawRate) = GENERATE(0.0, 0.4);
+  known.covariance.setZero();
+  known.covariance(kAcceleration, kAcceleration) = 0.1;
+  const VehicleEstimate at_once = known.predicted(kMaxMotionStepS, options);
+  VehicleEstimate in_steps = known;
+  constexpr int kSteps = 100;
+  for (int i = 0; i < kSteps; ++i) {
+    in_steps = in_steps.predicted(kMaxMotionStepS / kSteps, options);
+  }
+  for (const int i : {kX, kYaw}) {
+    CAPTURE(i);
+    CHECK(std::sqrt(at_once.covariance(i, i)) ==
+          Approx(std::sqrt(in_steps.covariance(i, i))).epsilon(0.05));
+  }
+}
+
 }  // namespace
 }  // namespace cremed

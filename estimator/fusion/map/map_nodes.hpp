@@ -19,7 +19,10 @@ class MapNodes {
   /// `state` must outlive this object.
   explicit MapNodes(OdometryState& state) : state_(state) {}
 
-  void clear() { is_empty_ = true; }
+  void clear() {
+    is_empty_ = true;
+    is_moving_ = false;  // moving_since_us_ may be a time of a clock that was set since.
+  }
   /// Notes whether the vehicle moves, to be called at each scan.
   void advance();
   /// Adds the pose at a scan that is `age_s` older than the state, if a node is due: node_period_s

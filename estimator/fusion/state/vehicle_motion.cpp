@@ -42,6 +42,17 @@ void add_rate_noise(const OrnsteinUhlenbeck& noise, double dt_s, int rate,
   sum(rate + 1, rate + 1) += variance * (1.0 - left * left);
 }
 
+/// Moves the pose by the noise of the rates within the step. White noise drives the acceleration:
+/// given the rate's noise at the end of a short step, its expected mean over the step is 3/8 of it.
+void add_pose_noise(MotionStep& step) {
+  constexpr double kMeanShare = 3.0 / 8.0;
+  auto by_noise = MotionStep::Matrix::Identity().eval();
+  for (const int rate : {kSpeed, kYawRate}) {
+    by_noise.col(rate).head<kPose>() = kMeanShare * step.jacobian.col(rate).head<kPose>();
+  }
+  step.noise = (by_noise * step.noise * by_noise.transpose()).eval();
+}
+
 void move_pose(const MotionStep::Vector& state, double dt_s, const Decay& a, const Decay& c,
                MotionStep& step) {
   const double v = state(kSpeed) + 0.5 * a.integral_s * state(kAcceleration);
@@ -96,6 +107,7 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   add_rate_noise(yaw_acceleration, dt_s, kYawRate, step.noise);
   move_process(kSlip, bounded_walk(options.slip_std_rad, options.slip_walk), dt_s, step);
   move_process(kBodyVelocity, options.body_velocity, dt_s, step);
+  add_pose_noise(step);
   return step;
 }
 

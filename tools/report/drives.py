@@ -213,6 +213,7 @@ def stop_at_once():
     """A process of the pool, while it waits."""
     for number in main_program.SIGNALS:
         signal.signal(number, signal.SIG_DFL)
+    main_program.release_signals()  # make_at_once() holds them back.
 
 
 def make_one_apart(*arguments):
@@ -231,8 +232,10 @@ def make_at_once(drives, jobs, *arguments):
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(min(jobs, len(drives)), context, stop_at_once) as pool:
         try:
+            main_program.hold_back_signals()  # What is raised while a process is forked is lost.
             results = [pool.submit(make_one_apart, number, drive, *arguments)
                        for number, drive in enumerate(drives)]
+            main_program.release_signals()
             while concurrent.futures.wait(results, 0.2).not_done:
                 PROGRESS.show()
             return [result.result() for result in results]

@@ -169,7 +169,7 @@ RadarChannel* Pipeline::first_to_close(Condition condition) {
 void Pipeline::on_time(std::size_t clock, std::int64_t now_us) {
   time_us_ = now_us;
   if (status_timer_.is_due(clock, now_us)) {
-    status_timer_.restart();
+    status_timer_.restart(clock);
     publish_status();
   }
 }

@@ -29,10 +29,12 @@ class StatusTimer {
     return is_first || told.elapsed_us >= kPeriodUs;
   }
 
-  /// A status was published: the next is due a second from now, by any clock.
-  void restart() {
-    for (Clock& clock : clocks_) {
-      clock.elapsed_us = 0;
+  /// A status was published at a time of this clock: the next is due a second from now, by any
+  /// clock. Of the others' present steps, the part that has passed is not known: they do not count.
+  void restart(std::size_t clock) {
+    for (std::size_t other = 0; other < clocks_.size(); ++other) {
+      clocks_[other].elapsed_us = 0;
+      clocks_[other].has_begun = clocks_[other].has_begun && other == clock;
     }
   }
 

@@ -19,7 +19,7 @@ int statuses(std::int64_t apart_us, int seconds) {
   for (std::int64_t now_us = 0; now_us < seconds * 1000 * kMs; now_us += kMs) {
     for (const std::size_t clock : {std::size_t{0}, std::size_t{1}}) {
       if (timer.is_due(clock, now_us + (clock == 0 ? 0 : apart_us))) {
-        timer.restart();
+        timer.restart(clock);
         ++count;
       }
     }
@@ -43,9 +43,22 @@ TEST_CASE("A clock that is set does not silence the status, nor multiply it") {
   int count = 0;
   for (std::int64_t i = 0; i < 10'000; ++i) {
     if (timer.is_due(0, i * kMs + (i >= 5500 ? step_s * 1000 * kMs : 0))) {
-      timer.restart();
+      timer.restart(0);
       ++count;
     }
   }
   CHECK(count == 10);
+}
+
+TEST_CASE("A status a second also where each of four buses has a frame a second") {
+  StatusTimer timer;
+  int count = 0;
+  for (std::int64_t i = 0; i < 4 * 50; ++i) {
+    const std::size_t clock = i % 4;
+    if (timer.is_due(clock, i * 250 * kMs)) {
+      timer.restart(clock);
+      ++count;
+    }
+  }
+  CHECK(count == 50);
 }

@@ -78,8 +78,10 @@ struct Subscriber {
       estimate.add(static_cast<double>(last.utime - last.utime_anchor) * 1e-6,
                    gyro.turn_rad(last.utime_anchor, last.utime), last.yaw_in_anchor_frame_rad,
                    last.covariance_x_y_yaw_in_anchor_frame_m_rad[8]);
-      // Messages were lost.
-      estimate.yaw_rad += gyro.turn_rad(last.utime, message->utime_anchor);
+      // Messages were lost, or the radars were silent.
+      const double missing_s = static_cast<double>(message->utime_anchor - last.utime) * 1e-6;
+      estimate.yaw_rad +=
+          gyro.turn_rad(last.utime, message->utime_anchor) - estimate.bias_radps * missing_s;
       std::printf("%" PRId64 " yaw %.5f rad, bias %.5f +- %.5f rad/s\n", message->utime_anchor,
                   estimate.yaw_rad, estimate.bias_radps, std::sqrt(estimate.bias_variance));
       std::fflush(stdout);

@@ -63,8 +63,9 @@ def main():
             begin, end = last.utime_anchor, last.utime
             estimate.add((end - begin) * 1e-6, gyro.turn_rad(begin, end), last.yaw_in_anchor_frame_rad,
                          last.covariance_x_y_yaw_in_anchor_frame_m_rad[8])
-            # Messages were lost.
-            estimate.yaw_rad += gyro.turn_rad(end, message.utime_anchor)
+            # Messages were lost, or the radars were silent.
+            missing_s = (message.utime_anchor - end) * 1e-6
+            estimate.yaw_rad += gyro.turn_rad(end, message.utime_anchor) - estimate.bias_radps * missing_s
             print(f"{message.utime_anchor} yaw {estimate.yaw_rad:.5f} rad, bias "
                   f"{estimate.bias_radps:.5f} +- {estimate.bias_variance**0.5:.5f} rad/s", flush=True)
         last = message

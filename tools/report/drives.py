@@ -17,7 +17,7 @@ from drive_report import DriveReport
 from heard_drive import HeardDrive
 from index_page import Row, index
 from page import data_of, page
-from programs import is_lcm, replay
+from programs import errors_in, is_lcm, replay
 from replaced_file import replaced_file
 from truth_report import truth_data
 from unconfigured import STANDARD, examined_configuration, is_unwritten
@@ -89,7 +89,7 @@ def measure(drive, programs, told):
         data = {"logs": [os.path.basename(log) for log in drive.logs],
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)
-        data["findings"] = findings_of(drive, programs, data, found, is_candump and config)
+        data["findings"] = findings_of(drive, programs, data, found, is_candump)
         if drive.truth and data["breaks"]:
             wrong = "there is no comparison with truth: the log does not go on as it began"
             drive.troubles.append(f"{drive.logs[0]}: {wrong}")
@@ -103,17 +103,18 @@ def measure(drive, programs, told):
         return data
 
 
-def findings_of(drive, programs, data, found, config):
-    """`config`: of a candump log. The doctor reads that again, so it is asked only where cremed warned."""
+def findings_of(drive, programs, data, found, is_candump):
+    """The doctor reads a candump log again, so it is asked only where cremed warned."""
     of_drive = findings.of_the_drive(data)
     if found:  # Without a configuration all else follows from that.
         return found
-    if config and len(drive.logs) == 1 and data["warnings"]:
-        of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, config)
+    if is_candump and len(drive.logs) == 1 and data["warnings"]:
+        of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, drive.config)
         found += findings.without_what_is_told(of_doctor, of_drive)
-    elif not config:
-        found += [findings.finding("error", trouble) for trouble in drive.troubles]
-        found += [findings.of_messages()] if of_drive else []
+    if not any(one["severity"] == "error" for one in found):  # It does not see what several logs lack.
+        found += [findings.finding("error", error) for error in errors_in(drive.troubles)]
+    if not is_candump and of_drive:
+        found.append(findings.of_messages())
     return findings.in_order(found + of_drive)
 
 
@@ -212,6 +213,7 @@ def stop_at_once():
     """A process of the pool, while it waits."""
     for number in main_program.SIGNALS:
         signal.signal(number, signal.SIG_DFL)
+    main_program.release_signals()  # make_at_once() holds them back.
 
 
 def make_one_apart(*arguments):
@@ -230,8 +232,10 @@ def make_at_once(drives, jobs, *arguments):
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(min(jobs, len(drives)), context, stop_at_once) as pool:
         try:
+            main_program.hold_back_signals()  # What is raised while a process is forked is lost.
             results = [pool.submit(make_one_apart, number, drive, *arguments)
                        for number, drive in enumerate(drives)]
+            main_program.release_signals()
             while concurrent.futures.wait(results, 0.2).not_done:
                 PROGRESS.show()
             return [result.result() for result in results]

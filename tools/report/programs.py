@@ -9,6 +9,7 @@ import re
 import subprocess
 
 MAGIC_LCM = bytes.fromhex("EDA1DA01")
+SAID = "cremed said:\n"
 
 
 def is_lcm_log(path):
@@ -52,6 +53,11 @@ def errors_of(said):
     return errors
 
 
+def errors_in(troubles):
+    """One by one, without what tells a terminal that they are errors of cremed."""
+    return [error for trouble in troubles for error in re.split("(?:^|\n)error: ", trouble.removeprefix(SAID)) if error]
+
+
 def has_ended(process, within_s):
     try:
         process.wait(within_s)
@@ -62,7 +68,7 @@ def has_ended(process, within_s):
 
 def replay(cremed, logs, config, folder, told):
     """Runs candump logs through cremed; returns the LCM log, what cremed warned of, and its errors where
-    it failed: the log has what is good. `told` is called with the part that is done."""
+    it failed: the log has what is good, unless the disk was full. `told` is called with the part that is done."""
     lcm_log, words = folder / "heard.lcm", folder / "words"
     command = [cremed, "--publish-scans", "--lcm-url", f"file://{lcm_log}?mode=w"]
     command += ["--config", config] if config else []
@@ -82,8 +88,8 @@ def replay(cremed, logs, config, folder, told):
     troubles = []
     if process.returncode != 0:
         errors = errors_of(said) or said[-5:]
-        troubles = ["cremed said:\n" + "\n".join(errors)]
-        if not lcm_log.exists():
+        troubles = [SAID + "\n".join(errors)]
+        if not lcm_log.exists() or any("could not be written" in error for error in errors):
             raise ValueError(*troubles)
     return lcm_log, [line for line in said if not line.startswith("info: ")], troubles
 

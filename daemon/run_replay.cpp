@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/run_replay.hpp"
 
+#include <algorithm>
 #include <csignal>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,14 +30,6 @@
 
 namespace cremed {
 namespace {
-
-std::vector<std::string> radar_names(const Configuration& configuration) {
-  std::vector<std::string> names;
-  for (const RadarConfiguration& radar : configuration.radars) {
-    names.push_back(radar.name);
-  }
-  return names;
-}
 
 /// Never the configuration's: a vehicle would drive by the old odometry on the service's channels.
 std::string lcm_url(const CommandLine& command_line) {
@@ -83,7 +77,10 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
     sinks.owned.push_back(std::move(publisher));
   }
   if (!output.csv.empty()) {
-    sinks.owned.push_back(std::make_unique<CsvWriter>(output.csv, radar_names(configuration)));
+    std::vector<std::string> names;
+    std::ranges::transform(configuration.radars, std::back_inserter(names),
+                           &RadarConfiguration::name);
+    sinks.owned.push_back(std::make_unique<CsvWriter>(output.csv, std::move(names)));
   }
   if (!output.odometry.empty()) {
     sinks.owned.push_back(std::make_unique<OdometryWriter>(output.odometry));

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -19,23 +21,19 @@ constexpr double kLargestYawRad = 3.15;
 
 constexpr const char* kRow = "{:<15} {:<9} {:<15} {:>8} {:>8} {:>8}  {}\n";
 
-std::string joined(std::string list, const std::string& item) {
-  return list.empty() ? item : list.append(", ").append(item);
-}
-
 /// "0x600, 0x701-0x702"
 std::string text_of(const IdSet& ids) {
-  std::string text;
+  std::vector<std::string> runs;
   for (std::size_t first = ids._Find_first(); first < ids.size();) {
     std::size_t end = first;
     while (end < ids.size() && ids[end]) {
       ++end;
     }
-    text = joined(text, end == first + 1 ? fmt::format("0x{:X}", first)
-                                         : fmt::format("0x{:X}-0x{:X}", first, end - 1));
+    runs.push_back(end == first + 1 ? fmt::format("0x{:X}", first)
+                                    : fmt::format("0x{:X}-0x{:X}", first, end - 1));
     first = ids._Find_next(end - 1);
   }
-  return text;
+  return joined(runs);
 }
 
 std::string row_of(const RadarConfiguration& radar) {
@@ -48,21 +46,14 @@ std::string row_of(const RadarConfiguration& radar) {
 
 std::string names_of(const std::vector<RadarConfiguration>& radars,
                      bool (*is_asked)(const RadarConfiguration&)) {
-  std::string names;
-  for (const RadarConfiguration& radar : radars) {
-    names = is_asked(radar) ? joined(names, radar.name) : names;
-  }
-  return names;
+  return joined(radars | std::views::filter(is_asked), &RadarConfiguration::name);
 }
 
 /// "front 1.01, left 1"
 std::string azimuth_scales(const std::vector<RadarConfiguration>& radars) {
-  std::string text;
-  for (const RadarConfiguration& radar : radars) {
-    text =
-        joined(text, fmt::format("{} {:g}", radar.name, radar.ego_motion.correction.azimuth_scale));
-  }
-  return text;
+  return joined(radars, [](const RadarConfiguration& radar) {
+    return fmt::format("{} {:g}", radar.name, radar.ego_motion.correction.azimuth_scale);
+  });
 }
 
 std::string odometry_text(const Configuration& configuration) {
@@ -78,26 +69,26 @@ std::string odometry_text(const Configuration& configuration) {
 }
 
 std::string vehicle_text(const VehicleConfiguration& vehicle) {
-  std::string ids;
+  std::vector<std::string> ids;
   for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
     if (vehicle.is_used(signal)) {
-      ids = joined(ids,
-                   fmt::format("{} (0x{:X})", signal == VehicleSignal::speed ? "speed" : "yaw rate",
-                               *vehicle.id(signal)));
+      ids.push_back(fmt::format("{} (0x{:X})",
+                                signal == VehicleSignal::speed ? "speed" : "yaw rate",
+                                *vehicle.id(signal)));
     }
   }
-  return ids.empty() ? "" : "\nvehicle bus: " + ids + " on " + vehicle.interface;
+  return ids.empty() ? "" : "\nvehicle bus: " + joined(ids) + " on " + vehicle.interface;
 }
 
 std::string output_text(const OutputConfiguration& output) {
-  std::string text = output.lcm_url == "none" ? "" : "LCM " + output.lcm_url;
-  if (!text.empty() && !output.nav_msgs_odometry.empty()) {
-    text += " with " + output.nav_msgs_odometry;
+  const std::string& nav_msgs = output.nav_msgs_odometry;
+  std::vector<std::string> outputs{output.csv, output.odometry, output.tum};
+  if (output.lcm_url != "none") {
+    outputs.insert(outputs.begin(),
+                   concat({"LCM ", output.lcm_url, nav_msgs.empty() ? "" : " with ", nav_msgs}));
   }
-  for (const std::string& file : {output.csv, output.odometry, output.tum}) {
-    text = file.empty() ? text : joined(text, file);
-  }
-  return text.empty() ? "none" : text;
+  std::erase(outputs, "");
+  return outputs.empty() ? "none" : joined(outputs);
 }
 
 std::string sent_text(const Configuration& configuration) {

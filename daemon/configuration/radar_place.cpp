@@ -6,6 +6,7 @@
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/radar_identifiers.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -19,16 +20,12 @@ bool shows(const HeardBus& bus, const RadarSettings& wanted) {
 
 /// "can0: a Bosch GPR with base id 0x200; can1: no radar"
 std::string heard_text(const std::vector<HeardBus>& buses, const RadarSettings& wanted) {
-  std::string text;
-  for (const HeardBus& bus : buses) {
-    std::string radars;
-    for (const RadarSettings& radar : seen_radars(bus.traffic)) {
-      radars += concat({radars.empty() ? "" : ", ", radar.describe_to(wanted)});
-    }
-    text += concat({text.empty() ? "" : "; ", printable(bus.interface), ": ",
-                    radars.empty() ? "no radar" : radars});
-  }
-  return text.empty() ? "no CAN interface is up" : text;
+  const auto description = [&](const RadarSettings& radar) { return radar.describe_to(wanted); };
+  const auto text = [&](const HeardBus& bus) {
+    const std::string radars = joined(seen_radars(bus.traffic), description);
+    return concat({printable(bus.interface), ": ", radars.empty() ? "no radar" : radars});
+  };
+  return buses.empty() ? "no CAN interface is up" : joined(buses, text, "; ");
 }
 
 RadarPlace not_there(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
@@ -59,22 +56,21 @@ RadarPlace checked(std::size_t radar, const Configuration& configuration,
 RadarPlace place_of(std::size_t radar, const Configuration& configuration,
                     const std::vector<HeardBus>& buses) {
   const RadarConfiguration& wanted = configuration.radars[radar];
-  std::string names;
-  std::string name;
+  std::vector<std::string> names;
   for (const HeardBus& bus : buses) {
     if (shows(bus, wanted.decoder)) {
-      names += concat({names.empty() ? "" : " and on ", printable(bus.interface)});
-      name = bus.interface;
+      names.push_back(bus.interface);
     }
   }
   if (names.empty()) {
     return not_there(wanted, buses);
   }
-  if (names != name) {
-    return {PlaceStatus::ambiguous, "", concat({wanted.decoder.describe(), " is on ", names}),
+  if (names.size() > 1) {
+    return {PlaceStatus::ambiguous, "",
+            concat({wanted.decoder.describe(), " is on ", joined(names, printable, " and on ")}),
             concat({"set interface to one of them for radar ", in_quotes(wanted.name)})};
   }
-  return checked(radar, configuration, name);
+  return checked(radar, configuration, names.front());
 }
 
 }  // namespace

@@ -23,9 +23,6 @@ struct FaultVerdict {
   bool is_recovered = true;    ///< Soon after the fault's end.
   bool is_cause_right = true;  ///< If a cause is named for a guilty radar, it is its cause.
 
-  [[nodiscard]] bool is_all() const {
-    return is_right && is_guilty_named && is_no_innocent_named && is_recovered && is_cause_right;
-  }
   /// A letter for each demand that does not hold.
   [[nodiscard]] std::string failures() const {
     return std::string(is_right ? "" : "B") + (is_guilty_named ? "" : "U") +

@@ -45,29 +45,6 @@ TEST_CASE("One target on one target costs as its normal density says") {
         Approx(-std::log(density) - std::log(doppler)));
 }
 
-TEST_CASE("The gradient is the cost's, with and without Doppler and scaling of states") {
-  const auto degrees_of_freedom = GENERATE(2, 3);
-  const auto doppler = GENERATE(false, true);
-  CAPTURE(degrees_of_freedom, doppler);
-  const test::ScanPair scans = test::scan_pair({0.3, 0.0, 0.04}, 0.1);
-  RegistrationContext context = context_of(degrees_of_freedom, doppler);
-  context.vehicle_from_radar = {3.0, 0.5, 0.1};
-  for (const Eigen::Vector3d& motion :
-       {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.25, 0.0, 0.03)}) {
-    Eigen::Vector3d expected =
-        numeric::central_differences(motion, 1e-6, [&](const Eigen::Vector3d& at) {
-          return sum_approximation_cost(scans.previous, scans.current, context, at);
-        });
-    if (degrees_of_freedom == 2) {
-      expected.y() = 0.0;
-    }
-    const Eigen::Vector3d gradient =
-        sum_approximation_gradient(scans.previous, scans.current, context, motion);
-    CHECK((gradient - expected).norm() < 1e-5 * (1.0 + expected.norm()));
-    CHECK(gradient.norm() > 1.0);
-  }
-}
-
 TEST_CASE("The summing approximation finds a small true motion when there is no noise") {
   const auto degrees_of_freedom = GENERATE(2, 3);
   const auto doppler = GENERATE(false, true);
@@ -84,8 +61,12 @@ TEST_CASE("The summing approximation finds a small true motion when there is no 
   CHECK(result.motion.x() == Approx(truth.x_m).margin(2e-3));
   CHECK(result.motion.y() == Approx(truth.y_m).margin(2e-3));
   CHECK(result.motion.z() == Approx(truth.yaw_rad).margin(2e-4));
-  CHECK(sum_approximation_gradient(scans.previous, scans.current, context, result.motion).norm() <
-        1e-2);
+  Eigen::Vector3d gradient =
+      numeric::central_differences(result.motion, 1e-6, [&](const Eigen::Vector3d& at) {
+        return sum_approximation_cost(scans.previous, scans.current, context, at);
+      });
+  gradient.y() = degrees_of_freedom == 3 ? gradient.y() : 0.0;
+  CHECK(gradient.norm() < 1e-2);
   CHECK(result.covariance(0, 0) > 0.0);
   CHECK((result.covariance(1, 1) == 0.0) == (degrees_of_freedom == 2));
   CHECK(numeric::eigenvalues(result.covariance)(0) >= -1e-15);

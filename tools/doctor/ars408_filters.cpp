@@ -13,6 +13,7 @@
 #include "cremed/can_decoders/ars408_commands.hpp"
 #include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -128,12 +129,9 @@ bool exchange(const CanFrame& frame, const std::optional<Ars408FilterState>& wan
 
 /// After a failure: what was set before it stays.
 void tell_written(std::span<const Ars408FilterState> written, std::ostream& out) {
-  std::string list;
-  for (const Ars408FilterState& filter : written) {
-    list += concat({list.empty() ? "" : "; ", to_text(filter)});
-  }
-  if (!list.empty()) {
-    out << "already in its flash: " << list << '\n';
+  if (!written.empty()) {
+    const auto text = [](const Ars408FilterState& filter) { return to_text(filter); };
+    out << "already in its flash: " << joined(written, text, "; ") << '\n';
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <ranges>
 #include <string>
 
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -33,13 +35,10 @@ std::string statistics_command(const BusObservation& bus) {
 }
 
 std::string other_interfaces(const Observation& observation) {
-  std::string names;
-  for (const BusObservation& bus : observation.buses) {
-    if (bus.state != InterfaceState::absent && bus.state != InterfaceState::not_can) {
-      names += concat({names.empty() ? "" : ", ", bus.interface});
-    }
-  }
-  return names;
+  const auto is_other = [](const BusObservation& bus) {
+    return bus.state != InterfaceState::absent && bus.state != InterfaceState::not_can;
+  };
+  return joined(observation.buses | std::views::filter(is_other), &BusObservation::interface);
 }
 
 Finding absent(const BusObservation& bus, const Observation& observation) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iostream>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/lcm_url.hpp"
 #include "daemon/output/multicast_route.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "tools/doctor/ars408_filters.hpp"
@@ -212,17 +214,15 @@ int run_suggestion(const Arguments& arguments) {
 
 const RadarConfiguration& ars408_named(const std::string& name,
                                        const Configuration& configuration) {
-  std::string names;
-  for (const RadarConfiguration& radar : configuration.radars) {
-    if (radar.decoder.as<Ars408Options>() != nullptr) {
-      if (radar.name == name) {
-        return radar;
-      }
-      names += (names.empty() ? "" : ", ") + radar.name;
-    }
+  auto all = configuration.radars | std::views::filter([](const RadarConfiguration& radar) {
+               return radar.decoder.as<Ars408Options>() != nullptr;
+             });
+  const auto found = std::ranges::find(all, name, &RadarConfiguration::name);
+  if (found == all.end()) {
+    throw UsageError("'" + name + "' is not an ARS408 of the configuration, which has " +
+                     (all.empty() ? "none" : joined(all, &RadarConfiguration::name)));
   }
-  throw UsageError("'" + name + "' is not an ARS408 of the configuration, which has " +
-                   (names.empty() ? "none" : names));
+  return *found;
 }
 
 std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {

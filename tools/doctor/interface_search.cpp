@@ -11,6 +11,7 @@
 #include "daemon/source/candump_reader.hpp"
 #include "daemon/source/radar_search.hpp"
 #include "tools/doctor/observer.hpp"
+#include "tools/doctor/unconfigured.hpp"
 
 namespace cremed {
 namespace {
@@ -43,26 +44,18 @@ LocatedRadars located(const Configuration& found, const std::vector<Sighting>& s
   return result;
 }
 
-void hear(const CandumpLine& line, std::vector<HeardBus>& buses) {
-  if (line.status != CandumpStatus::frame) {
-    return;
-  }
-  auto bus = std::ranges::find(buses, line.interface_name, &HeardBus::interface);
-  if (bus == buses.end()) {
-    if (buses.size() >= kMaxBuses) {
-      return;
-    }
-    bus = buses.emplace(buses.end());
-    bus->interface = line.interface_name;
-  }
-  bus->traffic.add(line.frame);
-}
-
 std::vector<HeardBus> heard_in(const std::string& path) {
-  std::vector<HeardBus> buses;
+  Observer observer(without_radars());
   CandumpReader log(path);
   for (CandumpLine line; log.next(line);) {
-    hear(line, buses);
+    if (line.status == CandumpStatus::frame) {
+      observer.add(line.interface_name, line.frame);
+    }
+  }
+  std::vector<HeardBus> buses;
+  const Observation heard = observer.finish();
+  for (const BusObservation& bus : heard.buses) {
+    buses.push_back({bus.interface, bus.traffic});
   }
   return buses;
 }

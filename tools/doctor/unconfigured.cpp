@@ -8,6 +8,7 @@
 
 #include "daemon/configuration/configuration_path.hpp"
 #include "daemon/configuration/first_configuration.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/doctor/bus_findings.hpp"
 
@@ -50,11 +51,10 @@ LocatedRadars examined_radars(const Observation& observation, ExaminedOutput out
 
 LocatedRadars found_radars(const Observation& observation) {
   LocatedRadars found = examined_radars(observation);
-  std::string radars;
-  for (const RadarConfiguration& radar : found.configuration.radars) {
-    radars += concat({radars.empty() ? "" : ", ", radar.name, ": ", radar.decoder.describe(),
-                      " on ", radar.interface});
-  }
+  const auto text = [](const RadarConfiguration& radar) {
+    return concat({radar.name, ": ", radar.decoder.describe(), " on ", radar.interface});
+  };
+  const std::string radars = joined(found.configuration.radars, text);
   found.findings.push_back(
       {Severity::note,
        concat({"there is no configuration, so each radar is examined alone (", radars, ")"}),

@@ -12,6 +12,7 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/configuration/configuration_path.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "daemon/source/candump_reader.hpp"
@@ -39,10 +40,7 @@ struct Arguments {
 
 /// With the radar that was asked for only.
 Configuration selected(const std::string& wanted, Configuration configuration) {
-  std::string names;
-  for (const RadarConfiguration& radar : configuration.radars) {
-    names += (names.empty() ? "" : ", ") + radar.name;
-  }
+  const std::string names = joined(configuration.radars, &RadarConfiguration::name);
   std::erase_if(configuration.radars, [&](const RadarConfiguration& radar) {
     return !wanted.empty() && radar.name != wanted;
   });

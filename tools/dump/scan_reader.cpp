@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "daemon/process/joined.hpp"
 
 namespace cremed {
 
@@ -91,13 +93,8 @@ void ScanReader::finish() {
 }
 
 std::string ScanReader::silent() const {
-  std::string names;
-  for (const auto& radar : radars_) {
-    if (radar->assembler.counters().scans == 0) {
-      names += (names.empty() ? "" : ", ") + radar->name;
-    }
-  }
-  return names;
+  const auto is_silent = [](const auto& radar) { return radar->assembler.counters().scans == 0; };
+  return joined(radars_ | std::views::filter(is_silent), &Radar::name);
 }
 
 }  // namespace cremed

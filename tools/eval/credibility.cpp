@@ -15,9 +15,7 @@
 namespace cremed {
 namespace {
 
-double mean(double sum, std::size_t count) {
-  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
-}
+double mean(double sum, std::size_t count) { return sum / divisor(count); }
 
 }  // namespace
 
@@ -37,6 +35,10 @@ double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Ma
   const Eigen::Vector2d free_error = error(states);
   const Eigen::Matrix2d free_covariance = covariance(states, states);
   return free_error.dot(free_covariance.ldlt().solve(free_error));
+}
+
+double divisor(std::size_t count) {
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(count);
 }
 
 void Credibility::add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,

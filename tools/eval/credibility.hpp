@@ -18,6 +18,9 @@ Eigen::Vector3d estimation_error(const Eigen::Vector3d& estimate, const Eigen::V
 double normalised_error_squared(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
                                 const Eigen::Vector3d& truth, int degrees_of_freedom);
 
+/// What a sum is divided by for its mean: NaN for none.
+double divisor(std::size_t count);
+
 /// Agreement of estimates and their covariances with truth. Order of states: (x_m, y_m, yaw_rad).
 /// In two degrees of freedom y is estimated as 0 and excluded from the ANEES, but its error counts
 /// in the RMSE. Where a covariance is unknown (NaN), so are ANEES and coverage.

@@ -64,10 +64,6 @@ void run_script(std::vector<std::string> command, const std::string& picture) {
   }
 }
 
-std::string content(std::istream& input) {
-  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 std::string picture_problem(const std::string& path) {

@@ -12,6 +12,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/process/joined.hpp"
 
 namespace cremed {
 namespace {
@@ -129,10 +130,8 @@ void add_pose(const Json& pose, std::vector<ScreenLine>& lines) {
 }
 
 std::string doubts(const Json& status) {
-  std::string text;
-  for (const Json& doubt : status["doubts"]) {
-    text += (text.empty() ? "" : ", ") + doubt.get<std::string>();
-  }
+  std::string text =
+      joined(status["doubts"], [](const Json& doubt) { return doubt.get<std::string>(); });
   if (status["left_out"].get<bool>()) {
     text += (text.empty() ? "left out: " : "; left out: ") + status["cause"].get<std::string>();
   }

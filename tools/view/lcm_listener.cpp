@@ -16,6 +16,7 @@
 
 #include "daemon/output/multicast_route.hpp"
 #include "daemon/process/file_aliases.hpp"
+#include "daemon/process/joined.hpp"
 
 namespace cremed {
 namespace {
@@ -120,10 +121,8 @@ LcmListener::LcmListener(const std::string& url, HeardState& state)
 bool LcmListener::listen() { return log_ ? play() : lcm_handle_timeout(lcm_.get(), kWaitMs) >= 0; }
 
 std::string LcmListener::other_versions() const {
-  std::string counts;
-  for (const auto& [name, count] : other_versions_) {
-    counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-  }
+  const std::string counts = joined(
+      other_versions_, [](const auto& of) { return std::to_string(of.second) + " " + of.first; });
   return counts.empty() ? ""
                         : "messages of another version of cremed, or damaged, are left out (" +
                               counts + "): use the tools of the version that sent them";

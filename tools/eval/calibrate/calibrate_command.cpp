@@ -19,6 +19,7 @@
 
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "tools/eval/calibrate/calibration.hpp"
@@ -198,10 +199,7 @@ std::vector<Distance> too_far(const Configuration& configuration, const Calibrat
 /// Throws if a radar is configured too wrongly for its errors to be found. Which it is remains
 /// open: a wrong one may draw the motion of all to itself, and others seem wrong.
 void require_near(const Configuration& configuration, const Calibration& calibration) {
-  std::string names;
-  for (const Distance& distance : too_far(configuration, calibration)) {
-    names += (names.empty() ? "" : ", ") + text_of(distance);
-  }
+  const std::string names = joined(too_far(configuration, calibration), text_of);
   if (!names.empty()) {
     const bool is_alone = calibration.radars.size() == 1;
     throw std::runtime_error(concat(
@@ -254,12 +252,8 @@ void print_toml(const Configuration& configuration, const Calibration& calibrati
   }
 }
 
-std::string read_text(std::istream& input) {
-  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-}
-
 void write_back(const std::string& path, const Values& values) {
-  const std::string before = with_input(path, read_text);
+  const std::string before = with_input(path, content);
   const std::string after = edited_configuration(before, values.radars, values.vehicle);
   if (after != before) {
     replace_file(path, after);

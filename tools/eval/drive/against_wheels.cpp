@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::int64_t kStepUs = 10'000;
 
-double divisor(std::size_t count) {
-  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(count);
-}
-
 /// Errors of one motion on one axis, against the wheels.
 struct AxisErrors {
   double estimate = 0.0;
@@ -133,8 +129,7 @@ TwistAgainstWheels against_wheels(const std::vector<Odometry>& states,
       result.rms_yaw_rate_radps += yaw_rate_2;
     }
   }
-  const double count = result.count == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                         : static_cast<double>(result.count);
+  const double count = divisor(result.count);
   result.nees_speed /= count;
   result.nees_yaw_rate /= count;
   result.rms_speed_mps = std::sqrt(result.rms_speed_mps / count);

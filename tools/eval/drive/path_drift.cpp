@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cremed/estimator/scan/degrees.hpp"
+#include "tools/eval/credibility.hpp"
 
 namespace cremed {
 namespace {
@@ -24,8 +25,7 @@ PathPose moved_on(const PathPose& from, std::int64_t utime_us, const Pose2& trut
 
 /// Sums during accumulation, means afterwards.
 void divide_by_segments(PathDrift& drift) {
-  const double count = drift.segments == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                           : static_cast<double>(drift.segments);
+  const double count = divisor(drift.segments);
   drift.translation_percent /= count;
   drift.rotation_deg_per_m /= count;
 }

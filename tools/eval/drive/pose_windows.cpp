@@ -114,8 +114,7 @@ WindowErrors window_errors(const ChainedPoses& poses, const TrueTrajectory& trut
       errors.position_percent += 100.0 * error.head<2>().norm() / *path_m;
     }
   }
-  const double count = errors.windows == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                           : static_cast<double>(errors.windows);
+  const double count = divisor(errors.windows);
   errors.rmse = (errors.rmse / count).cwiseSqrt();
   errors.position_percent /= count;
   return errors;

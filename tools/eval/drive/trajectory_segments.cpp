@@ -90,8 +90,7 @@ class LengthErrors {
   /// `windows`: of that time; nothing for a distance.
   [[nodiscard]] SegmentErrors mean(const std::optional<WindowErrors>& windows) const {
     SegmentErrors mean = errors_;
-    const double count = mean.chains == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                          : static_cast<double>(mean.chains);
+    const double count = divisor(mean.chains);
     mean.anees /= count;
     mean.nees /= count;
     mean.segments = windows ? windows->windows : mean.chains;

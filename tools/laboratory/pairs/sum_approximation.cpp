@@ -153,11 +153,6 @@ template <int kStates>
 using States = Eigen::Matrix<double, kStates, 1>;
 
 template <int kStates>
-States<kStates> free_part(const Eigen::Vector3d& motion) {
-  return motion(free_states(kStates));
-}
-
-template <int kStates>
 Eigen::Matrix3d hessian(const Function<kStates>& function, const States<kStates>& at) {
   Eigen::Matrix<double, kStates, kStates> block;
   for (int k = 0; k < kStates; ++k) {
@@ -228,18 +223,6 @@ RegistrationResult solve(const TargetSet& previous, const TargetSet& current,
   return result;
 }
 
-template <int kStates>
-Eigen::Vector3d gradient(const TargetSet& previous, const TargetSet& current,
-                         const RegistrationContext& context, const Eigen::Vector3d& motion) {
-  const Function<kStates> function(new Cost<kStates>(previous, current, context, 1.0, 1.0));
-  double cost = 0.0;
-  States<kStates> derivative = States<kStates>::Zero();
-  function.Evaluate(free_part<kStates>(motion).data(), &cost, derivative.data());
-  Eigen::Vector3d result = Eigen::Vector3d::Zero();
-  result(free_states(kStates)) = derivative;
-  return result;
-}
-
 }  // namespace
 
 double sum_approximation_cost(const TargetSet& previous, const TargetSet& current,
@@ -247,13 +230,6 @@ double sum_approximation_cost(const TargetSet& previous, const TargetSet& curren
   double cost = 0.0;
   Cost<3>(previous, current, context, 1.0, 1.0)(motion.data(), &cost);
   return cost;
-}
-
-Eigen::Vector3d sum_approximation_gradient(const TargetSet& previous, const TargetSet& current,
-                                           const RegistrationContext& context,
-                                           const Eigen::Vector3d& motion) {
-  return context.options.degrees_of_freedom == 2 ? gradient<2>(previous, current, context, motion)
-                                                 : gradient<3>(previous, current, context, motion);
 }
 
 RegistrationResult register_sum_approximation(const TargetSet& previous, const TargetSet& current,

@@ -15,11 +15,6 @@ namespace cremed {
 double sum_approximation_cost(const TargetSet& previous, const TargetSet& current,
                               const RegistrationContext& context, const Eigen::Vector3d& motion);
 
-/// Its derivative with respect to (x, y, yaw); y's is 0 in 2 DoF.
-Eigen::Vector3d sum_approximation_gradient(const TargetSet& previous, const TargetSet& current,
-                                           const RegistrationContext& context,
-                                           const Eigen::Vector3d& motion);
-
 /// Minimises the cost from zero by BFGS, in the two stages of Registration; the covariance is the
 /// inverse Hessian (central differences of the automatic gradient), degenerate if it is not
 /// positive definite.

@@ -54,9 +54,7 @@ void run_drive_table(const DriveTableOptions& options, bool write) {
     return;
   }
   const std::string path = std::filesystem::path(options.project) / kReadmeWithTables;
-  std::string text = with_input(path, [](std::istream& input) {
-    return std::string(std::istreambuf_iterator<char>(input), {});
-  });
+  std::string text = with_input(path, content);
   for (const ReadmeTable& table : tables) {
     text = with_table(text, table);
   }

@@ -267,8 +267,9 @@ TEST_CASE("Self-check: a clock at another pace than time shows within 2 s of dri
   const double front_s = doubted_after_s(sink, kFront, positions_contradict_speed, start_us);
   const double rear_s = doubted_after_s(sink, kRear, positions_contradict_speed, start_us);
   CAPTURE(pace, front_s, rear_s);
-  CHECK(std::min(front_s, rear_s) <= 2.1);  // Statuses come once a second.
-  CHECK(std::max(front_s, rear_s) <= 5.0);
+  // Statuses come once a second, up to 0.1 s after it.
+  CHECK(std::min(front_s, rear_s) <= 2.1);
+  CHECK(std::max(front_s, rear_s) <= 5.1);
 }
 
 TEST_CASE("Self-check: a sensor that is knocked askew on the way shows within a minute", "[long]") {

@@ -61,6 +61,15 @@ TEST_CASE("cremed-doctor: findings are one a line, the status says that there ar
   CHECK_THAT(lossy.output, Catch::StartsWith("warning: front: 8 of 41 scans are incomplete"));
 }
 
+TEST_CASE("cremed-doctor: a log of a scan or two blames nobody") {
+  const TemporaryFolder folder;
+  const auto lines = GENERATE("20", "100", "400");
+  const ToolRun cut = doctor_of_filtered(folder, "head -" + std::string(lines));
+  CHECK(cut.status == 1);
+  CHECK_THAT(cut.output, Catch::StartsWith("error: the log lasts less than half a second: too "
+                                           "short to tell anything; record 10 s or more\nfront: "));
+}
+
 TEST_CASE("cremed-doctor: a log shows the interfaces that are to be found") {
   const TemporaryFolder folder;
   const auto changed = [&](const std::string& change) {
@@ -179,7 +188,8 @@ TEST_CASE("cremed-doctor takes the log to suggest from with either option") {
 TEST_CASE("cremed-doctor: nothing of a log or a name is a command to the terminal") {
   const TemporaryFolder folder;
   const std::string evil = "e\x1B]0;x\x07\x9B\xC2\x9B\x7F";
-  std::ofstream(folder.file("log")) << "(1.000000) " << evil << " 123#00\n(2.000000) can7 123#00\n";
+  std::ofstream(folder.file("log"))
+      << "(1.000000) can7 123#00\n(2.000000) " << evil << " 123#00\n(2.000000) can7 123#00\n";
   const std::string config = "--config " + kData + "bends.toml ";
   for (const std::string& arguments :
        {config + "--replay " + folder.file("log"), "--suggest-config " + folder.file("log"),

@@ -20,6 +20,9 @@ namespace {
 
 using Findings = std::vector<Finding>;
 
+/// Within this time each radar sends some whole scans.
+constexpr double kShortestLogS = 0.5;
+
 void append(const Findings& more, Findings& findings) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
@@ -118,6 +121,10 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
   if (!observation.kernel_has_can) {
     findings.push_back({Severity::error, "the kernel has no CAN sockets",
                         "`modprobe can_raw`, or a kernel built with CONFIG_CAN"});
+  } else if (!observation.is_live && observation.seconds < kShortestLogS) {
+    findings.push_back({Severity::error,
+                        "the log lasts less than half a second: too short to tell anything",
+                        "record 10 s or more"});
   } else {
     for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
       add_radar(configuration, observation, i, findings);

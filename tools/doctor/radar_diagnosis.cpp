@@ -279,7 +279,7 @@ bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
 }
 
 /// Findings if nothing else explains a missing estimate.
-void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
+void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status, bool is_live,
                      Findings& findings) {
   if (status.assembler.scans == 0) {
     const bool is_ars408 = radar.decoder.as<Ars408Options>() != nullptr;
@@ -288,7 +288,7 @@ void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
                                   : "see its data sheet for what makes it send them"});
   } else if (estimates(status) == 0) {
     findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
-                        "listen longer, `--seconds 10`"});
+                        is_live ? "listen longer, `--seconds 10`" : "record 10 s or more"});
   }
 }
 
@@ -349,7 +349,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
     add_incomplete(wanted, observed, findings);
   }
   if (!has_error(findings)) {
-    add_no_estimate(wanted, observed.status, findings);
+    add_no_estimate(wanted, observed.status, observation.is_live, findings);
   }
   add_bad_frames(wanted, observed.status, findings);
   return findings;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -46,7 +45,7 @@ std::string row_of(const RadarConfiguration& radar) {
 
 std::string names_of(const std::vector<RadarConfiguration>& radars,
                      bool (*is_asked)(const RadarConfiguration&)) {
-  return joined(radars | std::views::filter(is_asked), &RadarConfiguration::name);
+  return joined_if(radars, is_asked, &RadarConfiguration::name);
 }
 
 /// "front 1.01, left 1"

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cremed {
 
@@ -18,6 +19,18 @@ std::string joined(Range&& range, const Text& text = {}, std::string_view separa
     is_first = false;
   }
   return list;
+}
+
+/// Likewise, of those that are listed. (Clang 14 does not compile the views of GCC 12's library.)
+template <typename Range, typename Listed, typename Text>
+std::string joined_if(const Range& range, const Listed& is_listed, const Text& text) {
+  std::vector<std::string> listed;
+  for (const auto& item : range) {
+    if (is_listed(item)) {
+      listed.emplace_back(std::invoke(text, item));
+    }
+  }
+  return joined(listed);
 }
 
 }  // namespace cremed

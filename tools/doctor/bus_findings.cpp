@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ranges>
 #include <string>
 
 #include "daemon/process/joined.hpp"
@@ -38,7 +37,7 @@ std::string other_interfaces(const Observation& observation) {
   const auto is_other = [](const BusObservation& bus) {
     return bus.state != InterfaceState::absent && bus.state != InterfaceState::not_can;
   };
-  return joined(observation.buses | std::views::filter(is_other), &BusObservation::interface);
+  return joined_if(observation.buses, is_other, &BusObservation::interface);
 }
 
 Finding absent(const BusObservation& bus, const Observation& observation) {

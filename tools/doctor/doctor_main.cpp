@@ -5,7 +5,6 @@
 #include <cstring>
 #include <iostream>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -214,13 +213,15 @@ int run_suggestion(const Arguments& arguments) {
 
 const RadarConfiguration& ars408_named(const std::string& name,
                                        const Configuration& configuration) {
-  auto all = configuration.radars | std::views::filter([](const RadarConfiguration& radar) {
-               return radar.decoder.as<Ars408Options>() != nullptr;
-             });
-  const auto found = std::ranges::find(all, name, &RadarConfiguration::name);
-  if (found == all.end()) {
+  const auto is_ars408 = [](const RadarConfiguration& radar) {
+    return radar.decoder.as<Ars408Options>() != nullptr;
+  };
+  const auto& radars = configuration.radars;
+  const auto found = std::ranges::find(radars, name, &RadarConfiguration::name);
+  if (found == radars.end() || !is_ars408(*found)) {
+    const std::string names = joined_if(radars, is_ars408, &RadarConfiguration::name);
     throw UsageError("'" + name + "' is not an ARS408 of the configuration, which has " +
-                     (all.empty() ? "none" : joined(all, &RadarConfiguration::name)));
+                     (names.empty() ? "none" : names));
   }
   return *found;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "daemon/process/joined.hpp"
@@ -94,7 +93,7 @@ void ScanReader::finish() {
 
 std::string ScanReader::silent() const {
   const auto is_silent = [](const auto& radar) { return radar->assembler.counters().scans == 0; };
-  return joined(radars_ | std::views::filter(is_silent), &Radar::name);
+  return joined_if(radars_, is_silent, &Radar::name);
 }
 
 }  // namespace cremed

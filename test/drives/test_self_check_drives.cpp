@@ -263,13 +263,20 @@ TEST_CASE("Self-check: a clock at another pace than time shows within 2 s of dri
     const auto after_us = static_cast<double>(frame.stamp_us - start_us);
     frame.stamp_us = start_us + static_cast<std::int64_t>(pace * after_us);
   }
-  const RecordingSink sink = run_pipeline(other.radars, other.frames);
-  const double front_s = doubted_after_s(sink, kFront, positions_contradict_speed, start_us);
-  const double rear_s = doubted_after_s(sink, kRear, positions_contradict_speed, start_us);
-  CAPTURE(pace, front_s, rear_s);
-  // Statuses come once a second, up to 0.1 s after it.
-  CHECK(std::min(front_s, rear_s) <= 2.1);
-  CHECK(std::max(front_s, rear_s) <= 5.1);
+  const NoSource source;
+  Pipeline pipeline(configuration_of(other.radars), source, {}, {&no_clock});
+  std::vector<double> after_s(other.radars.size(), std::numeric_limits<double>::infinity());
+  for (const CanFrame& frame : other.frames) {
+    pipeline.on_frame(frame);
+    for (std::size_t i = 0; i < after_s.size(); ++i) {
+      if ((pipeline.radars()[i]->self_check.doubts() & positions_contradict_speed) != 0) {
+        after_s[i] = std::min(after_s[i], static_cast<double>(frame.stamp_us - start_us) * 1e-6);
+      }
+    }
+  }
+  CAPTURE(pace, after_s);
+  CHECK(std::ranges::min(after_s) <= 2.1);
+  CHECK(std::ranges::max(after_s) <= 5.0);
 }
 
 TEST_CASE("Self-check: a sensor that is knocked askew on the way shows within a minute", "[long]") {

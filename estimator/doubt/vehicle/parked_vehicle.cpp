@@ -38,8 +38,6 @@ constexpr double kMovingDopplerMps = 0.75;
 /// Targets within the own lane do not count: a car ahead that starts with the vehicle seems to
 /// rest.
 constexpr double kHalfLaneM = 1.75;
-/// Speed, and its sigma, of a start that is at rest.
-constexpr double kStartAtRestMps = 0.1;
 /// Turning circle of a small car, 8 m.
 constexpr double kMinRadiusM = 4.0;
 /// Velocities of two radars may differ by kMaxDifferenceMps and kMaxDifferenceShare besides noise:
@@ -54,10 +52,10 @@ constexpr double kMayRestSigmas = 1.0;
 /// A radar is outvoted by this many times as many targets.
 constexpr double kMajority = 1.5;
 
-bool starts_at_rest(const Odometry& odometry) {
+bool starts_at_rest(const Odometry& odometry, double standstill_mps) {
   return odometry.status == OdometryStatus::initialising &&
-         std::abs(odometry.twist.x()) <= kStartAtRestMps &&
-         odometry.twist_covariance(0, 0) <= squared(kStartAtRestMps);
+         std::abs(odometry.twist.x()) <= standstill_mps &&
+         odometry.twist_covariance(0, 0) <= squared(standstill_mps);
 }
 
 }  // namespace
@@ -132,7 +130,7 @@ double ParkedVehicle::Share::error() const {
 
 void ParkedVehicle::add_output(const Odometry& odometry) {
   const bool is_standing = odometry.status == OdometryStatus::standing_still;
-  const bool may_rest = is_standing || starts_at_rest(odometry);
+  const bool may_rest = is_standing || starts_at_rest(odometry, state_.options().standstill_mps);
   rest_us_ = may_rest && !may_rest_ ? odometry.utime_us : rest_us_;
   may_rest_ = may_rest;
   if (!is_parked_ && is_standing && odometry.utime_us - rest_us_ >= kParkedUs) {

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/cost/consider_parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/cost/doppler_rounding.hpp"
 #include "cremed/estimator/cost/shared_doppler.hpp"
+#include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
 namespace {
@@ -26,10 +29,13 @@ void add_consider_covariance(const SharedErrorOptions& errors, const Eigen::Vect
   const double noise_m = std::sqrt(covariance(0, 0));
   const double by_velocity_m =
       driving_share(motion, noise_m, dt_s) * errors.velocity_std_mps * dt_s;
+  const double speed_mps = (motion.head<2>().norm() - noise_m) / dt_s;
+  const double by_rounding_m =
+      by_doppler ? rounding_share(std::max(0.0, speed_mps)) * errors.rounding_std_mps * dt_s : 0.0;
   const double by_jerk_m =
       by_doppler ? kJerkPerAcceleration * errors.acceleration_std_mps2 * std::pow(dt_s, 3) / 12.0
                  : 0.0;
-  const double variance_m2 = by_velocity_m * by_velocity_m + by_jerk_m * by_jerk_m;
+  const double variance_m2 = squared(by_velocity_m) + squared(by_rounding_m) + squared(by_jerk_m);
   covariance(0, 0) += variance_m2;
   covariance(1, 1) += degrees_of_freedom == 3 ? variance_m2 : 0.0;
 }

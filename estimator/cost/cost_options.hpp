@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cremed/estimator/cost/doppler_rounding.hpp"
+
 namespace cremed {
 
 /// Conic ray of Gaussians along the sensor's axis (Sola 2007). It explains targets that were not in
@@ -51,6 +53,7 @@ struct SharedErrorOptions {
   /// Accelerations of the vehicle between two scans, which the Doppler of both scans observes.
   double acceleration_std_mps2 = 3.0;
   double yaw_acceleration_std_radps2 = 0.5;
+  double rounding_std_mps = kRoundingStdMps;  ///< Of the speed, while creeping.
 };
 
 }  // namespace cremed

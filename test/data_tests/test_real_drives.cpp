@@ -131,3 +131,10 @@ TEST_CASE(
   CHECK(fused.rmse_m() <= 0.0050);
   CHECK(fused.rmse_deg() <= 0.032);
 }
+
+TEST_CASE("Real drives: a start that creeps for a second is as uncertain as it is") {
+  const DriveOutcome outcome = drive({"scene-1094", "nuscenes-singapore", 0.0, 0.0});
+  const MotionsAgainstWheels of_fused = against_wheels(outcome.sink.fused, outcome);
+  CHECK(of_fused.x.nees > 0.3);
+  CHECK(of_fused.x.nees < 0.8);  // 1.2 if rounding of Doppler is left out.
+}

@@ -108,7 +108,7 @@ Points scatter(Random& random, std::size_t count, double min_range_m, double max
   return points;
 }
 
-SharedErrorOptions no_shared_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+SharedErrorOptions no_shared_errors() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 RegistrationOptions paper_options() {
   RegistrationOptions options;

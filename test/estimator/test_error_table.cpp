@@ -58,7 +58,7 @@ TEST_CASE("every state but pose, motion and clones has one row of the table of e
     found.insert(error.state);
   }
   std::multiset<int> expected{
-      kSlip,        kSlipPerAcceleration, kBodyVelocity, kCommonOffset, kCommonAzimuthScale,
+      kSlip,        kSlipPerAcceleration, kBodyVelocity, kRounding, kCommonAzimuthScale,
       kCommonScale, kCommonYawPerMetre};
   for (int i = kFirstRadar; i < OdometryState(options, kFrontLeftRear).gaussian.size(); ++i) {
     expected.insert(i);

@@ -87,7 +87,7 @@ class ModelDrive {
   void move(double dt_s) {
     const MotionStep step = moved(truth_.gaussian.mean().head<kMotionStates>(), dt_s, options_);
     const MotionStep::Vector next = step.state + draw<kMotionStates>(step.noise);
-    draw_forgetting(kCommonOffset, [&](OdometryState& state) { advance(state, dt_s); });
+    draw_forgetting(kRounding, [&](OdometryState& state) { advance(state, dt_s); });
     for (int i = 0; i < kMotionStates; ++i) {
       truth_.gaussian.set_mean(i, next(i));
     }

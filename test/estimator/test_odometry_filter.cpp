@@ -118,6 +118,24 @@ TEST_CASE("standing still is detected, and so is driving off") {
   CHECK(drive.drive(0.5).status == OdometryStatus::ok);
 }
 
+/// Standard deviation of the speed after a second at it.
+double speed_std_mps(OdometryDrive& drive, double speed_mps) {
+  while (std::abs(drive.speed_mps() - speed_mps) > 1e-9) {
+    const double change_mps = std::clamp(speed_mps - drive.speed_mps(), -0.05, 0.05);
+    drive.set_motion(drive.speed_mps() + change_mps, 0.0);
+    drive.next();
+  }
+  return std::sqrt(drive.drive(1.0).twist_covariance(0, 0));
+}
+
+TEST_CASE("a creeping vehicle's speed is as uncertain as the rounding of Doppler makes it") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 41);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  CHECK(speed_std_mps(drive, 3.0) < 0.06);
+  CHECK(speed_std_mps(drive, 0.4) == Approx(kRoundingStdMps).epsilon(0.2));
+  CHECK(speed_std_mps(drive, 0.0) < 0.03);
+}
+
 TEST_CASE("a faulty radar is left out and reported, and used again when it agrees for seconds") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 5);
   REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cremed/estimator/cost/cost_options.hpp"
+#include "cremed/estimator/cost/doppler_rounding.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
@@ -21,6 +22,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const double v = x.mean(kSpeed) + dt_s * x.mean(kAcceleration);
   const double w = x.mean(kYawRate) + dt_s * x.mean(kYawAcceleration);
   const double driving = std::min(1.0, std::abs(v) / kDrivingMps);
+  const double rounding = rounding_share(v);
   const double body = driving * std::exp(dt_s / options.body_velocity.time_s);
   const double lever_x = state.mount(radar).x_m + at(kLeverX);
   const double lever_y = state.mount(radar).y_m + at(kLeverY);
@@ -32,8 +34,8 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const Eigen::Vector2d by_offset = driving * velocity.per_offset;
   const Eigen::Vector2d expected =
       Eigen::Vector2d(forward * scale, s * v + w * lever_x - d * forward) +
-      driving * Eigen::Vector2d(at(kDopplerX), at(kDopplerY)) +
-      (at(kOffset) + x.mean(kCommonOffset)) * by_offset;
+      driving * Eigen::Vector2d(at(kDopplerX), at(kDopplerY)) + at(kOffset) * by_offset +
+      Eigen::Vector2d(rounding * x.mean(kRounding), 0.0);
   const Eigen::Vector2d by_speed(scale, s - d - k * v * w);
   const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y - k * v * v);
   LinearMeasurement result;
@@ -45,7 +47,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   result.depend_on(kSlip, 0.0, v);
   result.depend_on(kSlipPerAcceleration, 0.0, -v * v * w);
   result.depend_on(kBodyVelocity, body * Eigen::Vector2d(scale, -d));
-  result.depend_on(kCommonOffset, by_offset);
+  result.depend_on(kRounding, rounding, 0.0);
   result.depend_on(first + kMountYaw, 0.0, -forward);
   result.depend_on(kCommonScale, forward, 0.0);
   result.depend_on(first + kDopplerScale, forward, 0.0);

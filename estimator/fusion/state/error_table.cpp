@@ -37,7 +37,7 @@ std::vector<StateError> common_errors(const OdometryOptions& o) {
       {"s slip, rad", kSlip, {slip.std, slip.time_s}, never},
       {"k slip per m/s^2, rad", kSlipPerAcceleration, {slip_per_acceleration_std}, never, S::kAll},
       {"m body, m/s", kBodyVelocity, {o.body_velocity.std, o.body_velocity.time_s}, scene},
-      {"o_c offset, m/s", kCommonOffset, o.common_offset, scene},
+      {"e_c rounding, m/s", kRounding, o.rounding, scene},
       {"b_c Doppler scale", kCommonScale, {o.common_scale_std}, never, S::kAllButX},
       {"g_c azimuth scale", kCommonAzimuthScale, {o.common_azimuth_scale_std}, never, S::kAll},
       {"r_c yaw, rad/m", kCommonYawPerMetre, {o.common_yaw_per_metre_std}, never, S::kAll},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cremed/can_decoders/vehicle_reading.hpp"
+#include "cremed/estimator/cost/doppler_rounding.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 
 namespace cremed {
@@ -123,8 +124,8 @@ struct OdometryOptions {
   /// sideways all targets share the error of 0.25 / sqrt(12) while the speed along its axis is
   /// constant.
   ErrorProcess offset{.std = 0.03, .time_s = 2.0, .per_yaw_rate = 0.03, .if_across = 0.07};
-  /// m/s: all Doppler of all radars.
-  ErrorProcess common_offset{.std = 0.01, .time_s = 1.0, .per_yaw_rate = 0.1};
+  /// m/s: of the speed by all radars, while creeping. At 0.25 m/s^2 the next step is a second away.
+  ErrorProcess rounding{.std = kRoundingStdMps, .time_s = 1.0};
   /// Scale of azimuths in positions: of one radar, and common to all. Not estimated: in a turn it
   /// cannot be separated from the turn, and on a straight not from drifting targets.
   double position_azimuth_scale_std = 0.005;

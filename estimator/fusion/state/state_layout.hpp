@@ -23,7 +23,7 @@ inline constexpr int kSlipPerAcceleration = 9;  ///< rad/(m/s^2)
 inline constexpr int kMotionStates = 10;
 
 // Common to all radars.
-inline constexpr int kCommonOffset = 10;        ///< m/s
+inline constexpr int kRounding = 10;            ///< m/s
 inline constexpr int kCommonAzimuthScale = 11;  ///< 1
 inline constexpr int kCommonScale = 12;         ///< 1
 inline constexpr int kCommonYawPerMetre = 13;   ///< rad/m

@@ -14,7 +14,7 @@ std::optional<RegistrationOptions> profile(std::string_view name, bool doppler,
     return options;
   }
   // The simulated problems have no shared errors, and Doppler in the current scan only.
-  options.shared_errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  options.shared_errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   options.doppler.both_scans = false;
   if (name == "psr") {
     options.degrees_of_freedom = 3;

@@ -21,6 +21,7 @@
 #include "daemon/pipeline.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
+#include "daemon/process/message_text.hpp"
 #include "daemon/process/progress_bar.hpp"
 #include "daemon/process/replaced_file.hpp"
 #include "daemon/process/signals.hpp"
@@ -153,7 +154,8 @@ bool report_sinks(const Sinks& sinks) {
     spdlog::error("{} results could not be written or published", failures);
   }
   if (sinks.tum != nullptr && sinks.tum->gaps() != 0) {
-    spdlog::warn("the trajectory has {} gaps, at which it stands still", sinks.tum->gaps());
+    spdlog::warn("the trajectory has {}, at which it stands still",
+                 counted(sinks.tum->gaps(), "gap"));
   }
   return failures == 0;
 }
@@ -166,8 +168,9 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   stop_at_hangup();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
-  if (command_line.state_file) {
-    require_replaceable(*command_line.state_file);
+  const std::string state_file = command_line.state_file.value_or("");
+  if (!state_file.empty()) {
+    require_replaceable(state_file);
   }
   const Sinks sinks = open_sinks(command_line, configuration);
   OdometryTally tally;
@@ -176,8 +179,8 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
     all_sinks.push_back(sink.get());
   }
   std::optional<LearnedFile> learned;
-  if (command_line.state_file) {
-    learned.emplace(*command_line.state_file, configuration);
+  if (!state_file.empty()) {
+    learned.emplace(state_file, configuration);
   }
   const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(

@@ -394,6 +394,24 @@ TEST_CASE("cremed-eval drive knows nothing of the time in which truth or wheels 
   CHECK(json["wheels_gaps"][0]["end_us"] == 2'500'000);
 }
 
+TEST_CASE("cremed-eval drive says that the rows of truth are far apart") {
+  const TemporaryFolder folder;
+  const std::string drive = write_drive(folder, {"front"});
+  const auto told = [&](std::int64_t step_us) {
+    std::ofstream truth(folder.file("truth.csv"));
+    truth << "utime,x_m,y_m,yaw_rad\n";
+    for (int i = 0; i <= 8; ++i) {
+      truth << 1'000'000 + step_us * i << ',' << 50 + i << ",60,0\n";
+    }
+    truth.close();
+    const ToolRun result = run_eval(folder, drive);
+    CHECK(result.status == 0);
+    return result.error;
+  };
+  CHECK_THAT(told(300'000), Catch::Contains("truth.csv: a row every 0.3 s only: "));
+  CHECK_THAT(told(250'000), !Catch::Contains("truth.csv"));
+}
+
 TEST_CASE("Odometry and truth in the wrong order are recognised") {
   const TemporaryFolder folder;
   write_drive(folder, {"front"});

@@ -149,30 +149,40 @@ std::string learned(const Json& value, const Json& sigma) {
              : "-";
 }
 
+/// It is 0 before the first comparison.
+std::string nis(const Json& value) {
+  return is_number(value) && value.get<double>() > 0.0 ? fixed(value, 2) : "-";
+}
+
 /// A replay does not measure it.
 std::string milliseconds(const Json& latency_us) {
   const auto us = latency_us.get<double>();
   return us > 0.0 ? fixed(us / 1000.0, 1) : "-";
 }
 
+/// As wide as most terminals, 80 columns.
 constexpr std::string_view kColumns =
-    "radar            scans/s  lost %  targets    NIS  mount yaw deg  p99 ms  last motion, doubts";
+    "radar           scans/s lost % targets    NIS mount yaw deg p99 ms  last motion";
 
-ScreenLine radar_line(const Json& radar) {
+void add_radar(const Json& radar, std::vector<ScreenLine>& lines) {
   const Json& status = radar["status"];
   const bool has_status = !status.is_null();
-  std::string text = fmt::format(
-      "{:<16}{:>8}{:>8}{:>9}{:>7}{:>15}{:>8}", ascii(radar["name"].get<std::string>()),
-      fixed(radar["scan_rate_hz"], 1),
-      has_status ? percent(status["scans_incomplete"], status["scans"]) : "-",
-      radar["targets"].get<int>(), fixed(has_status ? status["odometry_nis_doppler"] : Json(), 2),
-      has_status ? learned(status["mount_yaw_deg"], status["mount_yaw_sigma_deg"]) : "-",
-      has_status ? milliseconds(status["latency_p99_us"]) : "-");
   const std::string silent = silence(radar["silent_s"]);
   const std::string doubted = has_status ? doubts(status) : "";
-  text += "  " + (silent.empty() ? words(radar["motion"]) : silent);
-  text += doubted.empty() ? "" : "; " + doubted;
-  return {text, !silent.empty() ? Mood::bad : doubted.empty() ? Mood::plain : Mood::careful};
+  const Mood mood = !silent.empty() ? Mood::bad : doubted.empty() ? Mood::plain : Mood::careful;
+  lines.push_back(
+      {fmt::format(
+           "{:<16}{:>7}{:>7}{:>8}{:>7}{:>14}{:>7}  {}", ascii(radar["name"].get<std::string>()),
+           fixed(radar["scan_rate_hz"], 1),
+           has_status ? percent(status["scans_incomplete"], status["scans"]) : "-",
+           radar["targets"].get<int>(), nis(has_status ? status["odometry_nis_doppler"] : Json()),
+           has_status ? learned(status["mount_yaw_deg"], status["mount_yaw_sigma_deg"]) : "-",
+           has_status ? milliseconds(status["latency_p99_us"]) : "-",
+           silent.empty() ? words(radar["motion"]) : silent),
+       mood});
+  if (!doubted.empty()) {
+    lines.push_back({"  " + doubted, mood});
+  }
 }
 
 }  // namespace
@@ -184,7 +194,7 @@ std::vector<ScreenLine> screen_of(const Json& state, const std::string& source) 
   lines.push_back({});
   lines.push_back({std::string(kColumns)});
   for (const Json& radar : state["radars"]) {
-    lines.push_back(radar_line(radar));
+    add_radar(radar, lines);
   }
   return lines;
 }

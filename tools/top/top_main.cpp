@@ -89,9 +89,9 @@ int run(CLI::App& app, int argc, char** argv) {
   std::string url;
   bool is_once = false;
   cremed::add_lcm_url(app, url);
-  app.add_flag(
-      "--once", is_once,
-      "Listen for 1.5 s, print what was heard, and exit: 0, or 1 if that was nothing, or not good");
+  app.add_flag("--once", is_once,
+               "Listen for 1.5 s, print what was heard, whatever the status of the odometry, and "
+               "exit: 0, or 1 if that was nothing or could not all be read");
   app.parse(argc, argv);
   cremed::require_audible(url);
   // LCM may test the network for seconds, in which signals do what they do elsewhere.

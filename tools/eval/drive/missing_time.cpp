@@ -13,6 +13,18 @@ namespace {
 constexpr std::int64_t kLongSpanUs = 500'000;
 constexpr std::size_t kMostSpans = 3;
 
+/// Above it interpolation errs as much as the odometry does, or more.
+constexpr std::int64_t kLongStepUs = 250'000;
+
+void say_sparse(const std::string& path, const std::vector<std::int64_t>& utime_us) {
+  const std::int64_t step_us = longest_step_us(utime_us) / 2;
+  if (step_us > kLongStepUs) {
+    std::fprintf(stderr,
+                 "%s: a row every %s s only: interpolation between them adds to the errors\n",
+                 path.c_str(), tenths(static_cast<double>(step_us) * 1e-6).c_str());
+  }
+}
+
 }  // namespace
 
 std::string told_spans(const std::vector<TimeSpan>& without, std::int64_t begin_us) {
@@ -34,6 +46,7 @@ std::string told_spans(const std::vector<TimeSpan>& without, std::int64_t begin_
 
 void say_gaps(const std::string& path, const std::vector<TimeSpan>& gaps,
               const std::vector<std::int64_t>& utime_us) {
+  say_sparse(path, utime_us);
   if (gaps.empty()) {
     return;
   }

@@ -15,7 +15,7 @@ namespace cremed {
 std::string told_spans(const std::vector<TimeSpan>& without, std::int64_t begin_us);
 
 /// "truth.csv: 1.9 s are missing, nothing from 20.1 s to 22.0 s" on standard error, in the file's
-/// time.
+/// time. So it says that rows are usually too far apart.
 void say_gaps(const std::string& path, const std::vector<TimeSpan>& gaps,
               const std::vector<std::int64_t>& utime_us);
 

@@ -51,9 +51,10 @@ void write(std::ostream& out, const RegistrationOptions& options) {
   const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;
   out << "\ndoppler " << enabled << ' ' << both_scans << ' ' << stamp_std << ' ' << moving_weight
       << ' ' << moving_std;
-  const auto& [offset, mount_yaw, velocity, scale_std, acceleration, yaw_acceleration] = errors;
+  const auto& [offset, mount_yaw, velocity, scale_std, acceleration, yaw_acceleration, rounding] =
+      errors;
   out << "\nshared " << offset << ' ' << mount_yaw << ' ' << velocity << ' ' << scale_std << ' '
-      << acceleration << ' ' << yaw_acceleration;
+      << acceleration << ' ' << yaw_acceleration << ' ' << rounding;
 }
 
 void write(std::ostream& out, const EgoMotionOptions& options) {

@@ -61,15 +61,19 @@ void add_noisy(Credibility& credibility, const std::vector<EgoMotion>& motions,
   }
 }
 
-DriveOutcome drive(const RealDrive& scene) {
-  const std::string folder = std::string("data/nuscenes/") + scene.name;
-  const Configuration configuration = configuration_of_car(scene.configuration);
+DriveOutcome drive(const std::string& scene, const Configuration& configuration) {
+  const std::string folder = "data/nuscenes/" + scene;
   REQUIRE(configuration.radars[0].name == "front");
   const auto frames = read_frames(read_shared(folder + "/can.log.xz"), configuration);
   std::istringstream truth(read_shared(folder + "/truth.csv"));
   std::istringstream wheels(read_shared(folder + "/wheels.csv"));
-  DriveOutcome odometry{run_pipeline(configuration.radars, frames), TrueTrajectory(truth),
-                        WheelReference(wheels)};
+  return {run_pipeline(configuration.radars, frames), TrueTrajectory(truth),
+          WheelReference(wheels)};
+}
+
+DriveOutcome checked_drive(const RealDrive& scene) {
+  const Configuration configuration = configuration_of_car(scene.configuration);
+  DriveOutcome odometry = drive(scene.name, configuration);
   for (std::size_t radar = 0; radar < configuration.radars.size(); ++radar) {
     CAPTURE(configuration.radars[radar].name);
     const RadarStatus& status = odometry.sink.statuses[radar].back();
@@ -100,7 +104,7 @@ TEST_CASE(
   Credibility fused(3);
   for (const RealDrive& scene : scenes) {
     CAPTURE(scene.name);
-    const DriveOutcome outcome = drive(scene);
+    const DriveOutcome outcome = checked_drive(scene);
     const std::vector<EgoMotion>& motions = outcome.sink.motions[0];
     const Credibility of_scene = credibility_of(motions, outcome.truth);
     CHECK(of_scene.count() >= 240);
@@ -133,7 +137,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Real drives: a start that creeps for a second is as uncertain as it is") {
-  const DriveOutcome outcome = drive({"scene-1094", "nuscenes-singapore", 0.0, 0.0});
+  const DriveOutcome outcome = drive("scene-1094", configuration_of_car("nuscenes-singapore"));
   const MotionsAgainstWheels of_fused = against_wheels(outcome.sink.fused, outcome);
   CHECK(of_fused.x.nees > 0.3);
   CHECK(of_fused.x.nees < 0.8);  // 1.2 if rounding of Doppler is left out.

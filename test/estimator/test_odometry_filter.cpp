@@ -82,6 +82,32 @@ TEST_CASE("motions between outputs compose to the pose since the start") {
   }
 }
 
+TEST_CASE(
+    "the pose since the start is as uncertain as chained anchors, and by its difference from "
+    "them") {
+  OdometryDrive drive({kFront, kRearLeft}, 2);
+  drive.set_motion(9.0, 0.2);
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d of_anchor = Eigen::Matrix3d::Zero();
+  Odometry last = drive.next();
+  double most_m = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Odometry odometry = drive.next();
+    if (odometry.utime_anchor_us != last.utime_anchor_us) {
+      of_anchor = composed_covariance(anchor, of_anchor, last.pose, last.covariance);
+      anchor = composed_pose(anchor, last.pose);
+    }
+    last = odometry;
+    const Eigen::Matrix3d chained =
+        composed_covariance(anchor, of_anchor, odometry.pose, odometry.covariance);
+    const Eigen::Vector3d drift = odometry.odom_pose - composed_pose(anchor, odometry.pose);
+    CHECK((odometry.odom_covariance - chained - drift * drift.transpose()).norm() <
+          1e-9 + 1e-6 * chained.norm());
+    most_m = std::max(most_m, drift.head<2>().norm());
+  }
+  CHECK(most_m > 0.05);
+}
+
 TEST_CASE("the output at a new anchor's time still refers to the old one") {
   OdometryDrive drive({kFront}, 3);
   Odometry before = drive.next();

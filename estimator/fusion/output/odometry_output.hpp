@@ -22,8 +22,12 @@ namespace cremed {
 /// predict_next() between scans.
 ///
 /// The anchor is a recent pose that has no error because it is the origin. When it is renewed, all
-/// poses of the state are transformed into its frame. Covariances then stay small, and later
-/// measurements do not change the pose since the start.
+/// poses of the state are transformed into its frame. Covariances then stay small.
+///
+/// The pose since the start is composed of the motions between outputs, as they were when they were
+/// published, so that it never jumps. Anchors also have what was learned later of the way since the
+/// anchor before. The covariance of the pose since the start is that by anchors, and the square of
+/// its difference from the pose by anchors.
 class OdometryOutput {
  public:
   /// The state must outlive this object.
@@ -77,6 +81,8 @@ class OdometryOutput {
   /// Of the last output: time, pose since the start, and radars used since.
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
+  /// Of the pose since the start against that by anchors, in odom.
+  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();
   std::uint32_t radars_ = 0;
   /// Of the last prediction: time, pose since the start, and radars used since.
   std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();

@@ -83,6 +83,12 @@ void refuse_writing_twice(const KnownFile& output, const KnownFile& other) {
   }
 }
 
+void refuse_reading_twice(const KnownFile& input, const KnownFile& other) {
+  if (is_same(input, other)) {
+    throw UsageError(concat({input.file.path, " is given twice; name it once"}));
+  }
+}
+
 }  // namespace
 
 fs::path end_of_links(fs::path path) {
@@ -100,11 +106,13 @@ void refuse_aliases(const std::vector<NamedFile>& inputs, const std::vector<Name
   const KnownFile standard_error = stream(STDERR_FILENO, "standard error");
   const std::vector<KnownFile> read = known(inputs);
   const std::vector<KnownFile> written = known(outputs);
-  for (const KnownFile& input : read) {
-    refuse_overwriting(standard_output, input);
-    refuse_overwriting(standard_error, input);
+  for (auto input = read.begin(); input != read.end(); ++input) {
+    std::for_each(input + 1, read.end(),
+                  [&](const KnownFile& other) { refuse_reading_twice(*input, other); });
+    refuse_overwriting(standard_output, *input);
+    refuse_overwriting(standard_error, *input);
     for (const KnownFile& output : written) {
-      refuse_overwriting(output, input);
+      refuse_overwriting(output, *input);
     }
   }
   for (auto output = written.begin(); output != written.end(); ++output) {

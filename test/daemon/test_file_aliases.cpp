@@ -30,6 +30,15 @@ TEST_CASE("An output is refused that is an input, by whatever path") {
   fs::remove(hard_link);
 }
 
+TEST_CASE("A log that is given twice is refused: its frames would count twice") {
+  const TemporaryFile log("frames");
+  const TemporaryFile same_content("frames");
+  CHECK_THROWS_WITH(
+      refuse_aliases({{"the log", log.path()}, {"the log", "/tmp/../" + log.path()}}, {}),
+      Catch::Contains(log.path() + " is given twice"));
+  CHECK_NOTHROW(refuse_aliases({{"the log", log.path()}, {"the log", same_content.path()}}, {}));
+}
+
 TEST_CASE("Two outputs are refused that will be one file, which is not there yet") {
   const TemporaryFile file;
   const std::string absent = file.path() + ".new";

@@ -17,8 +17,8 @@ struct NamedFile {
 };
 
 /// Opening an output truncates it. Throws UsageError if an output is also an input, another output
-/// or the file of a redirected standard stream, or an input another input, by any path, existing or
-/// not. Opens nothing; devices such as /dev/null are exempt.
+/// or the file of a redirected standard stream, or an input another input of the same name, by any
+/// path, existing or not. Opens nothing; devices such as /dev/null are exempt.
 void refuse_aliases(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
 /// What a link leads to, existing or not; other paths stay.

@@ -37,6 +37,7 @@ TEST_CASE("A log that is given twice is refused: its frames would count twice") 
       refuse_aliases({{"the log", log.path()}, {"the log", "/tmp/../" + log.path()}}, {}),
       Catch::Contains(log.path() + " is given twice"));
   CHECK_NOTHROW(refuse_aliases({{"the log", log.path()}, {"the log", same_content.path()}}, {}));
+  CHECK_NOTHROW(refuse_aliases({{"TRUTH", log.path()}, {"--wheels", log.path()}}, {}));
 }
 
 TEST_CASE("Two outputs are refused that will be one file, which is not there yet") {

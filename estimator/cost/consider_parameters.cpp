@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/cost/consider_parameters.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "cremed/estimator/cost/doppler_rounding.hpp"
-#include "cremed/estimator/cost/shared_doppler.hpp"
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
@@ -27,11 +26,10 @@ void add_consider_covariance(const SharedErrorOptions& errors, const Eigen::Vect
     covariance.topLeftCorner<2, 2>() += by_scale_m * by_scale_m.transpose();
   }
   const double noise_m = std::sqrt(covariance(0, 0));
-  const double by_velocity_m =
-      driving_share(motion, noise_m, dt_s) * errors.velocity_std_mps * dt_s;
-  const double speed_mps = (motion.head<2>().norm() - noise_m) / dt_s;
+  const double speed_mps = speed_beyond_noise_mps(motion, noise_m, dt_s);
+  const double by_velocity_m = driving_share(speed_mps) * errors.velocity_std_mps * dt_s;
   const double by_rounding_m =
-      by_doppler ? rounding_share(std::max(0.0, speed_mps)) * errors.rounding_std_mps * dt_s : 0.0;
+      by_doppler ? rounding_share(speed_mps) * errors.rounding_std_mps * dt_s : 0.0;
   const double by_jerk_m =
       by_doppler ? kJerkPerAcceleration * errors.acceleration_std_mps2 * std::pow(dt_s, 3) / 12.0
                  : 0.0;

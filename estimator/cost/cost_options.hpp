@@ -30,10 +30,6 @@ struct DopplerOptions {
   double moving_std_mps = 100.0;  ///< Its standard deviation.
 };
 
-/// Below this speed the systematic errors of a driving vehicle (of Doppler, mount and body) are
-/// scaled in proportion to the speed, because they vanish when its body comes to rest.
-inline constexpr double kDrivingMps = 1.0;
-
 /// Standard deviations of systematic errors, which all targets of a scan share. They do not average
 /// out over the targets. With Likelihood::exclusive only. While the vehicle stands all but the
 /// accelerations are zero.

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
@@ -31,11 +32,6 @@ void turn_back(Eigen::Vector3d& motion, Eigen::Matrix3d& by_motion) {
 }
 
 }  // namespace
-
-double driving_share(const Eigen::Vector3d& motion, double noise_m, double dt_s) {
-  const double distance_m = motion.head<2>().norm() - noise_m;
-  return std::clamp(distance_m / (dt_s * kDrivingMps), 0.0, 1.0);
-}
 
 SharedDoppler::SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,
                              const SharedErrorOptions& errors, const Pose2& vehicle_from_radar)
@@ -69,7 +65,8 @@ NormalEquations SharedDoppler::linearise(const TargetSet& previous, const Target
   const Eigen::Matrix3d information = sums.information.topLeftCorner<3, 3>();
   const Eigen::Matrix<double, 3, kShared> cross = sums.information.topRightCorner<3, kShared>();
   const double noise_m = 1.0 / std::sqrt(information(0, 0));
-  const SharedErrors prior = prior_information(driving_share(at.motion, noise_m, dt_s));
+  const SharedErrors prior =
+      prior_information(driving_share(speed_beyond_noise_mps(at.motion, noise_m, dt_s)));
   const SharedErrors pull = prior.cwiseProduct(at.shared);
   SharedMatrix shared = sums.information.bottomRightCorner<kShared, kShared>();
   shared.diagonal() += prior;

@@ -11,10 +11,6 @@
 
 namespace cremed {
 
-/// Factor on the systematic errors of a driving vehicle: 0 at rest, 1 at kDrivingMps and above. A
-/// distance up to `noise_m` counts as 0.
-double driving_share(const Eigen::Vector3d& motion, double noise_m, double dt_s);
-
 /// The Doppler of both scans. The systematic errors of all targets are nuisance parameters with
 /// zero-mean Gaussian priors (SharedErrorOptions):
 ///
@@ -35,7 +31,7 @@ double driving_share(const Eigen::Vector3d& motion, double noise_m, double dt_s)
 /// NormalEquations::shared is s - (H_ss + P^-1)^-1 g_s, the best s for this m.
 ///
 /// b and d vanish at rest: their standard deviations in SharedErrorOptions are multiplied by
-/// driving_share(m), with the noise of m by Doppler alone.
+/// driving_share of the speed beyond the noise of m by Doppler alone.
 class SharedDoppler {
  public:
   SharedDoppler(int degrees_of_freedom, const DopplerOptions& doppler,

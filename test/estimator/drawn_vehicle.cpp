@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "cremed/estimator/cost/shared_doppler.hpp"
+#include "cremed/estimator/cost/driving_share.hpp"
 
 namespace cremed::simulation {
 
@@ -77,7 +77,7 @@ void DrawnVehicle::draw(DrawnMotion& drawn) {
   const SharedErrorOptions& errors = options_.registration.shared_errors;
   const double dt_s =
       seconds_since_start(motion.utime_us) - seconds_since_start(motion.utime_start_us);
-  const double driving = driving_share(drawn.truth, 0.0, dt_s);
+  const double driving = driving_share(speed_beyond_noise_mps(drawn.truth, 0.0, dt_s));
   const double lateral_m = drawn.truth.x() * errors.mount_yaw_std_rad;
   Eigen::Matrix3d covariance = radars_[drawn.radar].std.cwiseAbs2().asDiagonal();
   covariance(0, 2) = covariance(2, 0) = 0.3 * std::sqrt(covariance(0, 0) * covariance(2, 2));

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/cost/shared_doppler.hpp"
 #include "test/estimator/numeric.hpp"
 #include "test/estimator/simulation.hpp"
@@ -221,11 +222,15 @@ TEST_CASE("A skid: the frame turns between the scans, and the vehicle accelerate
 
 TEST_CASE("The driving share is the speed beyond noise") {
   const Eigen::Vector3d forward(0.01, 0.0, 0.0);
-  CHECK(driving_share(Eigen::Vector3d::Zero(), 0.0, 0.1) == 0.0);
-  CHECK(driving_share(forward, 0.02, 0.1) == 0.0);
-  CHECK(driving_share(forward, 0.0, 0.1) == Approx(0.1));
-  CHECK(driving_share(-forward, 0.005, 0.1) == Approx(0.05));
-  CHECK(driving_share(100.0 * forward, 0.005, 0.1) == 1.0);
+  const auto share = [](const Eigen::Vector3d& motion, double noise_m) {
+    return driving_share(speed_beyond_noise_mps(motion, noise_m, 0.1));
+  };
+  CHECK(share(Eigen::Vector3d::Zero(), 0.0) == 0.0);
+  CHECK(share(forward, 0.02) == 0.0);
+  CHECK(share(forward, 0.0) == Approx(0.1));
+  CHECK(share(-forward, 0.005) == Approx(0.05));
+  CHECK(share(100.0 * forward, 0.005) == 1.0);
+  CHECK(driving_share(-0.5) == 0.5);
 }
 
 TEST_CASE("A small yaw error of the mount biases yaw within its covariance") {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cremed/estimator/cost/cost_options.hpp"
 #include "cremed/estimator/cost/doppler_rounding.hpp"
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
@@ -21,7 +21,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const double dt_s = -std::max(age_s, 0.0);
   const double v = x.mean(kSpeed) + dt_s * x.mean(kAcceleration);
   const double w = x.mean(kYawRate) + dt_s * x.mean(kYawAcceleration);
-  const double driving = std::min(1.0, std::abs(v) / kDrivingMps);
+  const double driving = driving_share(v);
   const double rounding = rounding_share(v);
   const double body = driving * std::exp(dt_s / options.body_velocity.time_s);
   const double lever_x = state.mount(radar).x_m + at(kLeverX);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cremed/estimator/cost/cost_options.hpp"
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 

@@ -53,8 +53,8 @@ void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
   anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
   anchor_.covariance.diagonal() +=
       Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
-  anchor_.covariance += drift_ * drift_.transpose();
-  drift_.setZero();
+  anchor_.covariance += drift_covariance_;
+  drift_covariance_.setZero();
   if (gap_s > 0.0) {
     odom_pose_ = predicted_odom_pose(time_us);
   }
@@ -114,7 +114,7 @@ Odometry OdometryOutput::at_scan() {
     add_motion(result);
   }
   result.odom_pose = odom_pose_;
-  result.odom_covariance += drift_ * drift_.transpose();
+  result.odom_covariance += drift_covariance_;
   return result;
 }
 
@@ -142,7 +142,8 @@ void OdometryOutput::add_motion(Odometry& odometry) {
   odometry.motion_covariance = symmetric(jacobian * covariance * jacobian.transpose());
   odometry.radars = radars_;
   odom_pose_ = composed_pose(odom_pose_, odometry.motion);
-  drift_ = odom_pose_ - composed_pose(anchor_.pose, odometry.pose);
+  const Eigen::Vector3d drift = odom_pose_ - composed_pose(anchor_.pose, odometry.pose);
+  drift_covariance_ = drift * drift.transpose();
   output_us_ = state_.time_us();
   radars_since_prediction_ |= radars_;
   radars_ = 0;
@@ -196,7 +197,7 @@ Odometry OdometryOutput::predicted(std::int64_t utime_us) const {
   result.is_new = true;
   result.utime_before_us = predicted_us_;
   result.odom_pose = composed_pose(anchor.pose, result.pose);
-  result.odom_covariance += drift_ * drift_.transpose();
+  result.odom_covariance += drift_covariance_;
   result.radars = radars_since_prediction_;
   return result;
 }

@@ -81,8 +81,8 @@ class OdometryOutput {
   /// Of the last output: time, pose since the start, and radars used since.
   std::int64_t output_us_ = 0;
   Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
-  /// Of the pose since the start against that by anchors, in odom.
-  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();
+  /// Square of the difference between the pose since the start and that by anchors, in odom.
+  Eigen::Matrix3d drift_covariance_ = Eigen::Matrix3d::Zero();
   std::uint32_t radars_ = 0;
   /// Of the last prediction: time, pose since the start, and radars used since.
   std::int64_t predicted_us_ = std::numeric_limits<std::int64_t>::min();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cremed/estimator/cost/cost_options.hpp"
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
@@ -205,8 +205,7 @@ void OdometryState::advance(const StateError& error, double dt_s) {
     return;
   }
   const double speed_mps = gaussian.mean(kSpeed);
-  const double driving =
-      process.only_driving ? std::min(1.0, std::abs(speed_mps) / kDrivingMps) : 1.0;
+  const double driving = process.only_driving ? driving_share(speed_mps) : 1.0;
   const double left = std::exp(-(driving * dt_s) / process.time_s);
   const double std = error.std_at(speed_mps, gaussian.mean(kYawRate));
   gaussian.decay(error.state, left, squared(std) * (1.0 - left * left));

@@ -17,7 +17,7 @@ constexpr std::size_t kMostSpans = 3;
 constexpr std::int64_t kLongStepUs = 250'000;
 
 void say_sparse(const std::string& path, const std::vector<std::int64_t>& utime_us) {
-  const std::int64_t step_us = longest_step_us(utime_us) / 2;
+  const std::int64_t step_us = usual_step_us(utime_us);
   if (step_us > kLongStepUs) {
     std::fprintf(stderr,
                  "%s: a row every %s s only: interpolation between them adds to the errors\n",

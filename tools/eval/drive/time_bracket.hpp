@@ -22,20 +22,25 @@ struct TimeSpan {
   std::int64_t end_us = 0;
 };
 
-/// Times of a table that are farther apart are a gap, which nothing is known of: 0.25 s, or twice
-/// the usual distance (the median) if that is longer.
-inline std::int64_t longest_step_us(const std::vector<std::int64_t>& utime_us) {
-  constexpr std::int64_t kLeastUs = 250'000;
+/// Median distance of a table's times; 0 of a single one.
+inline std::int64_t usual_step_us(const std::vector<std::int64_t>& utime_us) {
   std::vector<std::int64_t> steps_us;
   for (std::size_t i = 1; i < utime_us.size(); ++i) {
     steps_us.push_back(utime_us[i] - utime_us[i - 1]);
   }
   if (steps_us.empty()) {
-    return kLeastUs;
+    return 0;
   }
   const auto middle = steps_us.begin() + static_cast<std::ptrdiff_t>(steps_us.size() / 2);
   std::nth_element(steps_us.begin(), middle, steps_us.end());
-  return std::max(kLeastUs, 2 * *middle);
+  return *middle;
+}
+
+/// Times of a table that are farther apart are a gap, which nothing is known of: 0.25 s, or twice
+/// the usual distance if that is longer.
+inline std::int64_t longest_step_us(const std::vector<std::int64_t>& utime_us) {
+  constexpr std::int64_t kLeastUs = 250'000;
+  return std::max(kLeastUs, 2 * usual_step_us(utime_us));
 }
 
 /// Nothing outside of the table's time; its times must increase.

@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <random>
+
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/radar/speed_check.hpp"
 #include "test/estimator/circle_drive.hpp"
+#include "test/estimator/simulation.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
@@ -71,6 +75,29 @@ TEST_CASE("Speed check: traffic that drives along is no evidence against the Dop
   };
   view.go_on({.things = 4500, .kept = 0.4}, 10.0, add);
   CHECK(check.is_checked());
+}
+
+TEST_CASE("Speed check: walls that reflect at other points in each scan raise no doubt") {
+  simulation::Random random(static_cast<std::uint64_t>(GENERATE(range(1, 41))));
+  std::normal_distribution<double> error_m(0.0, 0.15);
+  SpeedCheck check;
+  for (int scan = 0; scan < 600; ++scan) {
+    TargetSet walls;
+    for (int k = 0; k < 30; ++k) {
+      const double x_m = simulation::uniform(random, 5.0, 60.0);
+      const double y_m = k % 2 == 0 ? 4.0 : -4.0;
+      Detection detection;
+      detection.range_m = std::hypot(x_m, y_m) + error_m(random);
+      detection.azimuth_rad = std::atan2(y_m, x_m);
+      detection.range_std_m = 0.15;
+      detection.azimuth_std_rad = 0.005;
+      detection.doppler_mps = -17.0 * std::cos(detection.azimuth_rad);
+      detection.doppler_std_mps = 0.1;
+      walls.add(detection, Pose2{});
+    }
+    check.add(walls, 100'000 * scan);
+    REQUIRE_FALSE(check.is_contradicted());
+  }
 }
 
 TEST_CASE("Speed check: stuck Doppler is detected within 1.5 s of driving, its end at once") {

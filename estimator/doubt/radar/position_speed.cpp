@@ -69,26 +69,31 @@ void PositionSpeed::count(Places previous, const TargetSet& current, double dt_s
 
 SpeedSupport PositionSpeed::sum_up() const {
   SpeedSupport support;
-  double chance = 0.0;
   for (std::size_t k = 0; k < kYawRates; ++k) {
     double given = 0.0;
     for (const Pair& pair : pairs_) {
       given += votes_around(pair.votes[k], pair.given_step);
     }
     support.given_votes = std::max(support.given_votes, given);
+    double sum = 0.0;
+    bool is_best = false;
     for (std::size_t step = 0; step < kSteps; ++step) {
       double votes = 0.0;
       for (const Pair& pair : pairs_) {
         votes += votes_around(pair.votes[k], step);
       }
-      chance += votes / static_cast<double>(kSteps * kYawRates);
+      sum += votes;
       if (votes > support.best_votes) {
         support.best_votes = votes;
         support.best_mps = kMinSpeedMps + static_cast<double>(step) * kStepMps;
+        is_best = true;
       }
     }
+    if (is_best) {
+      const double chance = sum / static_cast<double>(kSteps);
+      support.max_chance_votes = chance + kChanceSigmas * std::sqrt(chance + 1.0);
+    }
   }
-  support.max_chance_votes = chance + kChanceSigmas * std::sqrt(chance + 1.0);
   return support;
 }
 

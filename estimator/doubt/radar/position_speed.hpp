@@ -13,10 +13,12 @@ namespace cremed {
 
 /// Votes for speeds by the positions of targets.
 struct SpeedSupport {
-  double best_mps = 0.0;          ///< The speed with most votes, to kStepMps.
-  double best_votes = 0.0;        ///< Its votes.
-  double given_votes = 0.0;       ///< Votes of the given speed.
-  double max_chance_votes = 0.0;  ///< Bound that chance votes rarely exceed.
+  double best_mps = 0.0;     ///< The speed with most votes, to kStepMps.
+  double best_votes = 0.0;   ///< Its votes.
+  double given_votes = 0.0;  ///< Votes of the given speed.
+  /// Bound that chance votes rarely exceed, by the mean of all speeds at the best one's yaw rate:
+  /// walls lie straight ahead of their own points at one yaw rate only.
+  double max_chance_votes = 0.0;
 };
 
 /// Coarse forward speed by the positions of targets alone, without Doppler, association or start

@@ -86,37 +86,12 @@ class Search {
       each_pair_less(try_set);
     }
     if (best_.radars == 0) {
-      try_without_worst(present);
-    }
-    if (best_.radars == 0) {
       each(try_set);
     }
     if (best_.radars != 0 && do_witnesses_contradict()) {
       const auto try_smaller = [this](RadarSet set) { this->try_smaller(set); };
       each_pair_less(try_smaller);
       each(try_smaller);
-    }
-  }
-
-  /// Of many radars: leaves out the one that contradicts the others most, then the next, while more
-  /// than half are left.
-  void try_without_worst(RadarSet present) {
-    RadarSet set = present;
-    while (best_.radars == 0 && 2 * (std::popcount(set) - 1) > std::popcount(present)) {
-      const auto of_set = evidence_.chi_squares(set, std::nullopt);
-      RadarSet worst = 0;
-      double most = 0.0;
-      for_each(set, [&](std::size_t radar) {
-        const auto without = evidence_.chi_squares(set & ~set_of(radar), std::nullopt);
-        const double gain = decrease(evidence_, of_set, without, Epochs::all);
-        worst = gain > most ? set_of(radar) : worst;
-        most = std::max(most, gain);
-      });
-      if (worst == 0) {
-        return;
-      }
-      set &= ~worst;
-      try_set(set);
     }
   }
 

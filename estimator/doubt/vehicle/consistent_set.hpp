@@ -30,8 +30,7 @@ bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fau
 /// The first of these sets that is consistent:
 /// - all radars;
 /// - all that are not at fault;
-/// - all but one or two, of many radars also all but the worst ones; or a single radar. Of several
-///   that are consistent the one that fits best.
+/// - all but one or two; or a single radar. Of several that are consistent the one that fits best.
 ///
 /// Two sets may replace it: a smaller one, if the witnesses contradict it; and all but two radars,
 /// if all measurements fit with these two at each other's mounts.

@@ -154,8 +154,9 @@ bool report_sinks(const Sinks& sinks) {
     spdlog::error("{} results could not be written or published", failures);
   }
   if (sinks.tum != nullptr && sinks.tum->gaps() != 0) {
-    spdlog::warn("the trajectory has {}, at which it stands still",
-                 counted(sinks.tum->gaps(), "gap"));
+    spdlog::warn("the trajectory has {}, {}", counted(sinks.tum->gaps(), "gap"),
+                 sinks.tum->is_of_radar() ? "at which it stands still"
+                                          : "over which it is predicted, for max_gap_s at most");
   }
   return failures == 0;
 }

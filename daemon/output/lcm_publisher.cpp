@@ -248,6 +248,7 @@ LcmPublisher::LcmPublisher(std::string url, const Configuration& configuration)
     Messages& messages = messages_[i];
     messages.motion.source = messages.scan.source = messages.status.source = name;
     messages.motion.seq = messages.scan.seq = messages.status.seq = 0;
+    messages.status.last_motion_status = ego_motion_t::STATUS_NO_REFERENCE;  // 0 would mean ok.
     messages.motion_channel = channel_of(kMotionChannel, name);
     messages.scan_channel = channel_of("CREMED_SCAN", name);
     messages.status_channel = channel_of(kStatusChannel, name);

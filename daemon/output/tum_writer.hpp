@@ -18,8 +18,8 @@ namespace cremed {
 TextLine tum_line(std::int64_t utime_us, const Pose2& pose);
 
 /// Trajectory of the odometry, or of one radar's chained ego-motions, in TUM format from the
-/// origin. At a gap the trajectory continues from its last pose as if the vehicle had not moved;
-/// gaps() counts them.
+/// origin. At a gap chained motions continue from their last pose as if the vehicle had not moved,
+/// the odometry from where it predicts the vehicle; gaps() counts them.
 class TumWriter final : public OdometrySink {
  public:
   /// Follows the radar of that index, or the odometry if there is none. Throws std::runtime_error
@@ -32,6 +32,7 @@ class TumWriter final : public OdometrySink {
   [[nodiscard]] std::uint64_t failures() const override { return file_.failures(); }
   [[nodiscard]] std::string problem() const override { return file_.problem(); }
   [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
+  [[nodiscard]] bool is_of_radar() const { return radar_.has_value(); }
 
  private:
   void begin(std::int64_t utime_us);

@@ -5,6 +5,8 @@
     import cremed
     for heard in cremed.Listener():      # or cremed.read_log("FILE of lcm-logger")
         print(heard.channel, heard.message.utime)
+
+A motion and a status come twice, on the channel of all and on that of their source: use one of these.
 """
 from .ego_motion_t import ego_motion_t
 from .fields import fields_of, names_of

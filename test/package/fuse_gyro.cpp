@@ -97,6 +97,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   Subscriber subscriber{Gyro(argv[1]), {}, {}};
+  if (subscriber.gyro.angles_rad.empty()) {
+    std::fprintf(stderr, "fuse_gyro: %s: no rows of utime,yaw_rate_radps\n", argv[1]);
+    return 1;
+  }
   lcm.subscribe("CREMED_ODOMETRY", &Subscriber::on_odometry, &subscriber);
   while (lcm.handle() == 0) {
   }

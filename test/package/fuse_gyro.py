@@ -45,6 +45,8 @@ class Gyro:
                 seconds = (utime - self.utimes[-1]) * 1e-6 if self.utimes else 0.0
                 self.utimes.append(utime)
                 self.angles_rad.append(before + float(row["yaw_rate_radps"]) * seconds)
+        if not self.utimes:
+            raise ValueError(f"{path}: no rows of utime,yaw_rate_radps")
 
     def turn_rad(self, begin, end):
         at = [min(bisect.bisect(self.utimes, utime), len(self.utimes) - 1) for utime in (begin, end)]

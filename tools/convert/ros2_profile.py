@@ -38,7 +38,8 @@ DEFINITIONS = Definitions({
                                         "diagnostic_msgs/KeyValue[] values\n",
     "diagnostic_msgs/DiagnosticArray": "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n",
 })
-OK, WARN, ERROR = range(3)
+OK, WARN, ERROR, STALE = range(4)
+SILENT_S = 1.0  # After that what was said last is no longer the state.
 ODOM, BASE = "odom", "base_link"
 # Variance of z, roll and pitch, which are not estimated; as cremed's own nav_msgs.Odometry.
 UNKNOWN_VARIANCE = 1e6
@@ -113,6 +114,10 @@ def cloud(scan, frame):
             "point_step": POINT.size, "row_step": len(data), "data": data, "is_dense": all(map(math.isfinite, (*scan.range_m, *scan.azimuth_rad)))}
 
 
+def seconds_between(begin_us, end_us):
+    return (end_us - begin_us) * 1e-6
+
+
 def set_bits(names, bits):
     return [name for bit, name in sorted(names.items()) if bits & bit]
 
@@ -122,7 +127,12 @@ def radar_status(message):
     wrong = set_bits(DOUBT_NAMES, message.doubts) + set_bits(FAULT_NAMES, message.radar_faults)
     if message.odometry_leaves_out:
         wrong.append(f"left out, cause {CAUSE_NAMES.get(message.odometry_fault, 'unknown')}")
-    level = WARN if wrong or MOTION_NAMES.get(message.last_motion_status) not in ("ok", "standing still") else OK
+    is_good = MOTION_NAMES.get(message.last_motion_status) in ("ok", "standing still")
+    level = WARN if wrong or not is_good else OK
+    silent_s = seconds_between(message.utime_last_estimate, message.utime)
+    if is_good and silent_s > SILENT_S:  # After a scan without estimate the status is another.
+        level = STALE
+        wrong.append(f"no scan for {silent_s:.0f} s")
     text = "; ".join(wrong) or MOTION_NAMES.get(message.last_motion_status, "unknown")
     values = [{"key": name, "value": str(value)} for name, value in cremed.fields_of(message).items() if name != "source"]
     return {"level": level, "name": f"cremed: {message.source}", "message": text, "hardware_id": message.source,
@@ -134,7 +144,7 @@ class Ros2Profile:
     name, encoding, schema_encoding = "ros2", "cdr", "ros2msg"
 
     def __init__(self):
-        self.status = None  # Of the odometry.
+        self.status = self.status_us = None  # Of the odometry, and its time.
         self.too_late = self.damaged = 0  # Messages that are left out.
         self.frames = {}    # By radar.
         self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
@@ -170,10 +180,11 @@ class Ros2Profile:
 
     def of_odometry(self, message):
         found = []
+        self.status_us = message.utime
         if message.status != self.status:
             self.status = message.status
             found.append(("/diagnostics", "diagnostic_msgs/DiagnosticArray",
-                          {"header": header(message.utime, ""), "status": [self.odometry_status()]}))
+                          {"header": header(message.utime, ""), "status": [self.odometry_status(message.utime)]}))
         if message.status in USABLE:
             pose = message.x_in_odom_frame_m, message.y_in_odom_frame_m, message.yaw_in_odom_frame_rad
             found.append(("/odom", "nav_msgs/Odometry", odometry(message)))
@@ -200,10 +211,13 @@ class Ros2Profile:
     def of_status(self, message):
         statuses = [radar_status(message)]
         if self.status is not None:
-            statuses.append(self.odometry_status())
+            statuses.append(self.odometry_status(message.utime))
         return [("/diagnostics", "diagnostic_msgs/DiagnosticArray",
                  {"header": header(message.utime, ""), "status": statuses})]
 
-    def odometry_status(self):
-        return {"level": LEVELS.get(self.status, ERROR), "name": "cremed: odometry",
-                "message": STATUS_NAMES.get(self.status, "unknown"), "hardware_id": "cremed"}
+    def odometry_status(self, utime):
+        level, text = LEVELS.get(self.status, ERROR), STATUS_NAMES.get(self.status, "unknown")
+        silent_s = seconds_between(self.status_us, utime)
+        if silent_s > SILENT_S:
+            level, text = STALE, f"no message for {silent_s:.0f} s, the last was {text}"
+        return {"level": level, "name": "cremed: odometry", "message": text, "hardware_id": "cremed"}

@@ -372,6 +372,20 @@ TEST_CASE("a step of all radars that no vehicle can make is not followed") {
   CHECK_FALSE(is_good(drive.next()));
 }
 
+TEST_CASE("the velocity across is uncertain by slip times speed, also where the speed is zero") {
+  OdometryDrive drive({kFront}, 9);
+  drive.drive(1.0);
+  drive.set_motion(0.0, 0.0);
+  drive.drive(2.0);
+  for (int scan = 0; scan < 20; ++scan) {
+    const Odometry odometry = drive.next();
+    const Eigen::Matrix3d& covariance = odometry.twist_covariance;
+    const double by_slip = std::sqrt(covariance(1, 1) / covariance(0, 0));
+    CHECK(by_slip == Approx(OdometryOptions().slip_std_rad).epsilon(0.5));
+    CHECK(covariance.llt().info() == Eigen::Success);
+  }
+}
+
 TEST_CASE("a short gap in time is bridged, a long one restarts the filter") {
   OdometryDrive drive({kFront, kRearLeft}, 9);
   drive.drive(3.0);
@@ -402,6 +416,16 @@ TEST_CASE("the pose since the start moves on for max_gap_s of a gap, and its cov
   CHECK((after.odom_pose - before.odom_pose).norm() == Approx(bridged_m).margin(1.5));
   const Eigen::Vector3d error = after.odom_pose - drive.pose();
   CHECK(std::abs(error.x()) > 10.0);
+  CHECK(error.cwiseAbs2().cwiseQuotient(after.odom_covariance.diagonal()).maxCoeff() < 9.0);
+}
+
+TEST_CASE("the pose since the start spans a silence between lost_s and max_gap_s") {
+  OdometryDrive drive({kFront}, 9);
+  drive.drive(3.0);
+  drive.pass(1'500'000);
+  drive.next();
+  const Odometry after = drive.next();
+  const Eigen::Vector3d error = after.odom_pose - drive.pose();
   CHECK(error.cwiseAbs2().cwiseQuotient(after.odom_covariance.diagonal()).maxCoeff() < 9.0);
 }
 

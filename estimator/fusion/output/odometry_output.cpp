@@ -32,6 +32,8 @@ void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
   const Eigen::Matrix4d covariance = vehicle.covariance(kTwist, kTwist);
   odometry.twist = {v, slip * v, w};
   odometry.twist_covariance = symmetric(by_state * covariance * by_state.transpose());
+  // Of second order: the product of slip and speed, both of which are unknown near standstill.
+  odometry.twist_covariance(1, 1) += covariance(0, 0) * covariance(2, 2);
 }
 
 }  // namespace
@@ -55,6 +57,7 @@ void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
       Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
   anchor_.covariance += drift_covariance_;
   drift_covariance_.setZero();
+  odom_pose_ = odom_pose_of(state_.gaussian.mean().segment<kPose>(kX));
   if (gap_s > 0.0) {
     odom_pose_ = predicted_odom_pose(time_us);
   }
@@ -64,6 +67,12 @@ void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
   is_anchor_over_ = false;
   predicted_us_ = std::max(predicted_us_, time_us);
   state_.restart(time_us);
+}
+
+/// A pose of the state's frame as a pose since the start: of the last output, and the way since.
+Eigen::Vector3d OdometryOutput::odom_pose_of(const Eigen::Vector3d& pose) const {
+  return composed_pose(odom_pose_,
+                       relative_pose(state_.gaussian.mean().segment<kPose>(kOutput), pose));
 }
 
 /// Pose since the start at a time, or max_gap_s after the state if that is earlier; not before what
@@ -183,9 +192,7 @@ Odometry OdometryOutput::predicted(std::int64_t utime_us) const {
   VehicleEstimate vehicle = state_.vehicle();
   std::int64_t from_us = state_.time_us();
   Anchor anchor = anchor_;
-  anchor.pose = composed_pose(
-      odom_pose_,
-      relative_pose(state_.gaussian.mean().segment<kPose>(kOutput), Eigen::Vector3d::Zero()));
+  anchor.pose = odom_pose_of(Eigen::Vector3d::Zero());
   if (next_anchor_us_) {
     vehicle = vehicle.predicted(seconds_between(from_us, *next_anchor_us_), options);
     from_us = *next_anchor_us_;

@@ -33,8 +33,8 @@ class OdometryOutput {
   /// The state must outlive this object.
   explicit OdometryOutput(OdometryState& state);
 
-  /// Restarts the state, with an anchor there. The pose since the start goes on from its last
-  /// published value, moved for max_gap_s at most as the vehicle did before; its covariance grows
+  /// Restarts the state, with an anchor there. The pose since the start goes on from that
+  /// of the state, moved for max_gap_s at most as the vehicle did before; its covariance grows
   /// by the unknown motion in `gap_s`.
   void restart(std::int64_t time_us, double gap_s);
   /// To be called when the clock of the stamps was set, before a restart at the new time: what was
@@ -71,6 +71,7 @@ class OdometryOutput {
   void renew_anchor();
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;
+  [[nodiscard]] Eigen::Vector3d odom_pose_of(const Eigen::Vector3d& pose) const;
   [[nodiscard]] Eigen::Vector3d predicted_odom_pose(std::int64_t time_us) const;
 
   OdometryState& state_;

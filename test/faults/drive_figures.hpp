@@ -50,6 +50,8 @@ struct DriveFigures {
   double window_m = 0.0;
   double window_deg = 0.0;
   std::size_t windows = 0;
+  /// Largest error of the pose since the start, in sigma, of usable rows.
+  double odom_sigmas = 0.0;
   std::vector<RadarFigures> radars;
   /// From the fault's end to the first second that is all usable and within 5 sigma; none: never.
   std::optional<double> recovery_s;
@@ -94,6 +96,7 @@ class DriveJudge {
     count_rows(figures);
     count_time(figures);
     count_windows(figures);
+    count_odom(figures);
     for (std::size_t i = 0; i < record_.sink.motions.size(); ++i) {
       figures.radars.push_back(radar(i));
     }
@@ -226,6 +229,24 @@ class DriveJudge {
       ++figures.windows;
       figures.window_m = std::max(figures.window_m, error.head<2>().norm());
       figures.window_deg = std::max(figures.window_deg, kDegPerRad * std::abs(error.z()));
+    }
+  }
+
+  /// Truth begins at the first usable row, whose pose since the start is nearly certain.
+  void count_odom(DriveFigures& figures) const {
+    const auto first = std::find_if(rows_.begin(), rows_.end(),
+                                    [](const Row& row) { return is_usable(*row.odometry); });
+    for (auto row = first; row != rows_.end(); ++row) {
+      const Odometry& odometry = *row->odometry;
+      const auto truth = drive_.truth.motion(first->us, row->us);
+      if (!is_usable(odometry) || !truth || row->us < fault_.time.from_us) continue;
+      const Eigen::Vector3d error =
+          estimation_error(odometry.odom_pose, composed_pose(first->odometry->odom_pose, *truth));
+      const Eigen::Vector3d variance =
+          odometry.odom_covariance.diagonal() +
+          drive_.truth_noise.covariance(std::abs(row->us - first->us)).diagonal();
+      figures.odom_sigmas = std::max(
+          figures.odom_sigmas, (error.cwiseAbs2().cwiseQuotient(variance)).cwiseSqrt().maxCoeff());
     }
   }
 

@@ -15,7 +15,8 @@ inline constexpr const char* kColumns =
     R"(Columns, counted from the beginning of the fault: what does not hold (B rows beyond, U a guilty radar
 unnamed, I an innocent one named, R no recovery, C a wrong cause named); shares of the time in % with the odometry ok (or
 standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
-5 sigma in %, the largest error in sigma; largest error of the pose after 10 s in m and degrees;
+5 sigma in %, the largest error in sigma, also of the pose since the start; largest error of the
+pose after 10 s in m and degrees;
 radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
 from the fault's end to a second that is right.
 )";
@@ -23,7 +24,7 @@ from the fault's end to a second that is right.
 inline std::string figures_header() {
   char text[160];
   std::snprintf(text, sizeof text,
-                "%-59s|  ok amb los pre ini non | rows beyond   sigma |     m    deg | named",
+                "%-59s|  ok amb los pre ini non | rows beyond   sigma  odom |     m    deg | named",
                 "     drive       case");
   return text;
 }
@@ -58,8 +59,8 @@ inline std::string figures_line(const FaultDrive& drive, const FaultCase& fault,
          percent(OdometryStatus::ambiguous), percent(OdometryStatus::lost),
          percent(OdometryStatus::predicted), percent(OdometryStatus::initialising),
          100.0 * figures.status.back());
-  append(line, "|%5zu %5.1f %7.1f ", figures.usable, 100.0 * figures.beyond_share(),
-         figures.worst_sigmas);
+  append(line, "|%5zu %5.1f %7.1f %5.1f ", figures.usable, 100.0 * figures.beyond_share(),
+         figures.worst_sigmas, figures.odom_sigmas);
   if (figures.windows > 0) {
     append(line, "|%6.1f %6.2f |", figures.window_m, figures.window_deg);
   } else {

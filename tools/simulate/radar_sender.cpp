@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cremed/estimator/cost/driving_share.hpp"
+
 namespace cremed {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "tools/simulate/random.hpp"
 
 namespace cremed {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/slow_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +10,6 @@ namespace {
 
 constexpr double kLowestHz = 0.3;
 constexpr double kHighestHz = 2.0;
-constexpr double kFullErrorMps = 1.0;
 
 }  // namespace
 
@@ -29,10 +27,6 @@ double SlowError::at(double time_s) const {
     sum += sine.amplitude * std::sin(sine.radps * time_s + sine.phase_rad);
   }
   return sum;
-}
-
-double driving_share(double speed_mps) {
-  return std::min(std::abs(speed_mps) / kFullErrorMps, 1.0);
 }
 
 }  // namespace cremed

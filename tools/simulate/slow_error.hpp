@@ -25,7 +25,4 @@ class SlowError {
   std::array<Sine, 12> sines_;
 };
 
-/// Share of a driving vehicle's errors at a speed: 0 at standstill, 1 from 1 m/s.
-double driving_share(double speed_mps);
-
 }  // namespace cremed

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 
 namespace cremed {

@@ -33,9 +33,9 @@ class OdometryOutput {
   /// The state must outlive this object.
   explicit OdometryOutput(OdometryState& state);
 
-  /// Restarts the state, with an anchor there. The pose since the start goes on from that
-  /// of the state, moved for max_gap_s at most as the vehicle did before; its covariance grows
-  /// by the unknown motion in `gap_s`.
+  /// Restarts the state, with an anchor there. The pose since the start goes on from that of
+  /// the state, moved for max_gap_s at most as the vehicle did before; its covariance grows by the
+  /// unknown motion in `gap_s`.
   void restart(std::int64_t time_us, double gap_s);
   /// To be called when the clock of the stamps was set, before a restart at the new time: what was
   /// published at later times of the old clock does not count. Assumes a gap of max_gap_s.

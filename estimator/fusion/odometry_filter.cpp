@@ -82,6 +82,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   // 6. The output. Its condition is set before the anchor is renewed, which ends a segment that may
   // have the error of a wrong radar.
+  output_.add_error(traffic_.parked.take_way());
   Odometry odometry = output_.at_scan();
   Odometry result = with_condition(odometry);
   odometry.status = result.status;
@@ -128,7 +129,7 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
   const double gap_s = seconds_between(state_.time_us(), stamp_us);
   const bool is_reversed = faults_.take_reversal();
   const bool has_stepped_back = faults_.take_step_back();
-  const bool is_lost = (condition_.is_lost() && is_trusted && !traffic_.parked.is_in_doubt() &&
+  const bool is_lost = (condition_.is_lost() && is_trusted && !traffic_.parked.is_parked() &&
                         gap_s > -state_.options().max_lateness_s) ||
                        is_reversed || has_stepped_back;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {

@@ -34,8 +34,8 @@ TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targe
   return verdict == Verdict::undecided ? Seen::undecided : Seen::road;
 }
 
-/// The way that the vehicle seemed to go before two worlds showed, or before it seemed to rest
-/// again, remains as uncertainty. If all believed radars fall silent during the doubt, it ends: as
+/// If two worlds show, the vehicle is taken to rest, with the speed that it seemed to have as
+/// uncertainty. If all believed radars fall silent during the doubt, it ends: as
 /// long as it lasts no radar is judged, so that none could be believed again.
 ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const TargetSet& targets,
                                                   const DopplerVelocity& velocity,
@@ -52,29 +52,17 @@ ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const Targe
     return parked.verdict();
   }
   const Verdict of_scan = parked.judge(radar, targets, velocity, stamp_us);
-  const Verdict now = parked.verdict();
-  if (now == Verdict::two_worlds && before != Verdict::two_worlds) {
+  if (parked.verdict() == Verdict::two_worlds && before != Verdict::two_worlds) {
     rest();
-  } else if (now == Verdict::rests && before == Verdict::undecided) {
-    add_way();
   }
   return of_scan;
 }
 
-/// The vehicle is taken to rest, with the speed that it seemed to have as uncertainty.
 void TrafficDoubt::rest() {
   const GaussianState& state = state_.gaussian;
   const Eigen::Vector2d variance(squared(state.mean(kSpeed)) + squared(state.std(kSpeed)),
                                  squared(state.mean(kYawRate)) + squared(state.std(kYawRate)));
   state_.start_motion(Eigen::Vector2d::Zero(), variance.asDiagonal());
-  add_way();
-}
-
-void TrafficDoubt::add_way() {
-  const Eigen::Vector3d way = parked.way();
-  for (const int i : {kX, kY, kYaw}) {
-    state_.gaussian.add_variance(i, squared(way[i]));
-  }
 }
 
 /// By the scan's Doppler and the speeds that the vehicle can reach from the state.

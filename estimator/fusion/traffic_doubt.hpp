@@ -51,7 +51,6 @@ class TrafficDoubt {
   [[nodiscard]] bool is_heard(std::size_t radar) const;
   [[nodiscard]] bool is_believed(std::size_t radar) const;
   void rest();
-  void add_way();
 
   OdometryState& state_;
   const RadarConsensus& consensus_;

@@ -111,6 +111,7 @@ class DriveJudge {
   struct Row {
     const Odometry* odometry;
     std::int64_t us;
+    bool is_after_step;            ///< Of the computer's clock.
     std::optional<double> sigmas;  ///< Of the largest error of the pose since the anchor.
 
     [[nodiscard]] bool is_good() const {
@@ -121,18 +122,16 @@ class DriveJudge {
   static constexpr double kUsPerS = 1e6;
   /// A row stands for at most that long.
   static constexpr std::int64_t kRowUs = 200'000;
+  /// Above the wait for scans of the other radars, 75 ms, and the time of a scan.
+  static constexpr std::int64_t kHeldUs = 200'000;
   static constexpr std::int64_t kWindowUs = 10'000'000;
   static constexpr std::int64_t kWindowStepUs = 500'000;
 
   Row row(std::size_t index) {
     const Odometry& odometry = record_.sink.odometries[index];
-    const FaultRecord::Given& given = record_.given[index];
-    // A scan from before the step may be published after it.
-    const bool is_after = given.clock_step_us > 0
-                              ? odometry.utime_us >= fault_.time.from_us + given.clock_step_us
-                              : odometry.utime_us <= given.frame_us;
-    const std::int64_t step_us = is_after ? given.clock_step_us : 0;
-    Row result{&odometry, odometry.utime_us - step_us, std::nullopt};
+    const bool is_after = is_after_step(odometry, record_.given[index]);
+    const std::int64_t step_us = is_after ? record_.given[index].clock_step_us : 0;
+    Row result{&odometry, odometry.utime_us - step_us, is_after, std::nullopt};
     const auto anchor = true_us_.find(odometry.utime_anchor_us);
     const std::int64_t anchor_us =
         anchor != true_us_.end() ? anchor->second : odometry.utime_anchor_us - step_us;
@@ -141,6 +140,19 @@ class DriveJudge {
       result.sigmas = sigmas(odometry, *truth, anchor_us, result.us);
     }
     return result;
+  }
+
+  /// Whether its stamps are of the clock after the step. Scans from before it may be published
+  /// after it, for kHeldUs.
+  [[nodiscard]] bool is_after_step(const Odometry& odometry,
+                                   const FaultRecord::Given& given) const {
+    const std::int64_t new_us = fault_.time.from_us + given.clock_step_us;
+    if (given.clock_step_us > 0) {
+      return odometry.utime_us >= new_us;
+    }
+    const bool is_back = !rows_.empty() && (rows_.back().is_after_step ||
+                                            odometry.utime_us < rows_.back().odometry->utime_us);
+    return is_back || given.frame_us > new_us + kHeldUs;
   }
 
   [[nodiscard]] double sigmas(const Odometry& odometry, const Eigen::Vector3d& truth,

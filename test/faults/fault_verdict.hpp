@@ -18,6 +18,7 @@ struct FaultVerdict {
   static constexpr double kMaxRecoveryS = 2.0;
 
   bool is_right = true;         ///< Few usable rows are beyond 5 sigma.
+  bool is_odom_right = true;    ///< No pose since the start is.
   bool is_guilty_named = true;  ///< Each guilty radar, unless its error is learned or all err.
   bool is_no_innocent_named = true;
   bool is_recovered = true;    ///< Soon after the fault's end.
@@ -25,15 +26,16 @@ struct FaultVerdict {
 
   /// A letter for each demand that does not hold.
   [[nodiscard]] std::string failures() const {
-    return std::string(is_right ? "" : "B") + (is_guilty_named ? "" : "U") +
-           (is_no_innocent_named ? "" : "I") + (is_recovered ? "" : "R") +
-           (is_cause_right ? "" : "C");
+    return std::string(is_right ? "" : "B") + (is_odom_right ? "" : "O") +
+           (is_guilty_named ? "" : "U") + (is_no_innocent_named ? "" : "I") +
+           (is_recovered ? "" : "R") + (is_cause_right ? "" : "C");
   }
 };
 
 inline FaultVerdict verdict_of(const FaultCase& fault, const DriveFigures& figures) {
   FaultVerdict verdict;
   verdict.is_right = figures.beyond_share() <= FaultVerdict::kMaxBeyondShare;
+  verdict.is_odom_right = figures.odom_sigmas <= DriveJudge::kMaxSigma;
   bool are_all_guilty = true;
   for (std::size_t i = 0; i < figures.radars.size(); ++i) {
     const auto& named_after_s = figures.radars[i].named_after_s;

@@ -12,11 +12,11 @@
 namespace cremed::test {
 
 inline constexpr const char* kColumns =
-    R"(Columns, counted from the beginning of the fault: what does not hold (B rows beyond, U a guilty radar
-unnamed, I an innocent one named, R no recovery, C a wrong cause named); shares of the time in % with the odometry ok (or
-standing still), ambiguous, lost, predicted, initialising, and without; usable rows, those beyond
-5 sigma in %, the largest error in sigma, also of the pose since the start; largest error of the
-pose after 10 s in m and degrees;
+    R"(Columns, counted from the beginning of the fault: what does not hold (B rows beyond, O the pose
+since the start beyond, U a guilty radar unnamed, I an innocent one named, R no recovery, C a wrong
+cause named); shares of the time in % with the odometry ok (or standing still), ambiguous, lost,
+predicted, initialising, and without; usable rows, those beyond 5 sigma in %, the largest error in
+sigma, also of the pose since the start; largest error of the pose after 10 s in m and degrees;
 radars named: "*" guilty, time excluded / in doubt in %, first after s, bits of the doubts; seconds
 from the fault's end to a second that is right.
 )";

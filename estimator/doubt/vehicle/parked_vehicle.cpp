@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
@@ -142,9 +143,13 @@ void ParkedVehicle::add_output(const Odometry& odometry) {
     anchor_us_ = odometry.utime_anchor_us;
     parked_pose_.setZero();
   }
-  parked_pose_ = is_parked_ ? parked_pose_ : odometry.pose;
-  odom_pose_ = odometry.odom_pose;
-  rest_odom_pose_ = is_in_doubt() ? rest_odom_pose_ : odom_pose_;
+  if (!is_parked_) {
+    parked_pose_ = odometry.pose;
+    parked_odom_pose_ = odometry.odom_pose;
+  }
+  if (is_standing && !is_in_doubt()) {
+    rest_odom_pose_ = odometry.odom_pose;
+  }
 }
 
 void ParkedVehicle::widen(Odometry& odometry) const {
@@ -154,10 +159,25 @@ void ParkedVehicle::widen(Odometry& odometry) const {
   const Eigen::Vector3d from =
       odometry.utime_anchor_us == anchor_us_ ? parked_pose_ : Eigen::Vector3d::Zero();
   odometry.covariance.diagonal() += (odometry.pose - from).cwiseAbs2();
-  odometry.odom_covariance.diagonal() += (odometry.odom_pose - rest_odom_pose_).cwiseAbs2();
+  const Eigen::Vector3d way = odometry.odom_pose - parked_odom_pose_;
+  odometry.odom_covariance += way * way.transpose();
   odometry.motion_covariance.diagonal() += odometry.motion.cwiseAbs2();
   odometry.twist_covariance.diagonal() += odometry.twist.cwiseAbs2();
 }
+
+void ParkedVehicle::clear() {
+  if (is_parked_) {
+    leave();
+  }
+  may_rest_ = false;
+}
+
+void ParkedVehicle::leave() {
+  is_parked_ = false;
+  way_ += rest_odom_pose_ - parked_odom_pose_;
+}
+
+Eigen::Vector3d ParkedVehicle::take_way() { return std::exchange(way_, Eigen::Vector3d::Zero()); }
 
 ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& targets,
                                             const DopplerVelocity& velocity,
@@ -169,7 +189,9 @@ ParkedVehicle::Verdict ParkedVehicle::judge(std::size_t radar, const TargetSet& 
   look.add(targets, velocity, stamp_us);
   leave_out_odd(stamp_us);
   verdict_ = judge_all();
-  is_parked_ = verdict_ != Verdict::started;
+  if (verdict_ == Verdict::started) {
+    leave();
+  }
   if (!look.counts) {
     return Verdict::two_worlds;
   }

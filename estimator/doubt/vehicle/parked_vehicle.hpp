@@ -39,14 +39,15 @@ class ParkedVehicle {
   /// Uses the mounts of `state`, which must outlive this object.
   explicit ParkedVehicle(const OdometryState& state) : state_(state), looks_(state.radars()) {}
 
-  void clear() { is_parked_ = may_rest_ = false; }
+  void clear();
   /// The newest output, before widen().
   void add_output(const Odometry& odometry);
-  /// A parked vehicle may move as estimated or not at all: adds the way since it rested, and the
-  /// velocity, to the standard deviations.
+  /// A parked vehicle may move as estimated or not at all: adds the way since it was parked, and
+  /// the velocity, to the standard deviations.
   void widen(Odometry& odometry) const;
-  /// The way (x, y, yaw) that the vehicle seems to have gone since nothing departed.
-  [[nodiscard]] Eigen::Vector3d way() const { return relative_pose(rest_odom_pose_, odom_pose_); }
+  /// Once it is no longer parked: the way (x, y, yaw) since the start that it seemed to go while it
+  /// was. Else, and from then on, zero.
+  Eigen::Vector3d take_way();
   /// The vehicle stood for kParkedUs, at the start too, and has not started since.
   [[nodiscard]] bool is_parked() const { return is_parked_; }
   /// The last verdict.
@@ -93,6 +94,7 @@ class ParkedVehicle {
     [[nodiscard]] Share share() const;
   };
 
+  void leave();
   void leave_out_odd(std::int64_t stamp_us);
   [[nodiscard]] Eigen::Vector2d fastest_mps() const;
   [[nodiscard]] Verdict judge_all() const;
@@ -104,11 +106,13 @@ class ParkedVehicle {
   bool is_parked_ = false;
   bool may_rest_ = false;     // It stands still, or the start is at rest.
   std::int64_t rest_us_ = 0;  // Since when.
-  // Poses of the last output, and of the last one at rest: since the anchor and since the start.
+  // Pose since the anchor when it was parked.
   std::int64_t anchor_us_ = 0;
   Eigen::Vector3d parked_pose_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d odom_pose_ = Eigen::Vector3d::Zero();
+  // Poses since the start when it was parked, and when it last stood; take_way().
+  Eigen::Vector3d parked_odom_pose_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rest_odom_pose_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d way_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace cremed

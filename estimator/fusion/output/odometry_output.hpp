@@ -48,6 +48,10 @@ class OdometryOutput {
   [[nodiscard]] double anchor_age_s() const {
     return seconds_between(anchor_.utime_us, state_.time_us());
   }
+  /// The pose since the start may be wrong by this before the anchor.
+  void add_error(const Eigen::Vector3d& odom_error) {
+    anchor_.covariance += odom_error * odom_error.transpose();
+  }
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 
   /// The output at the time of the state, that of the last scan.

@@ -262,8 +262,21 @@ MotionSums MotionEvidence::prior(double yaw_rate_std_radps) const {
   MotionSums prior;
   prior.add(Eigen::Vector3d::UnitX(), 0.0, squared(options.start_speed_std_mps));
   prior.add(Eigen::Vector3d::UnitY(), 0.0, squared(yaw_rate_std_radps));
-  prior.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
   return prior;
+}
+
+/// Prior of the slip, -k v w with an error that grows in the turn, as in the filter. Speed and turn
+/// are those of the solution with the slip of straight driving.
+void MotionEvidence::add_slip(MotionSums& sum) const {
+  const OdometryOptions& options = state_.options();
+  MotionSums straight = sum;
+  straight.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
+  const Eigen::Vector3d motion = straight.solution();
+  const double across_mps2 = std::min(std::abs(motion.x() * motion.y()), kMaxAccelerationMps2);
+  const Eigen::Vector3d by_turn(0.0, options.slip_per_lateral_acceleration * motion.x(), 1.0);
+  sum.add(by_turn, 0.0,
+          squared(options.slip_std_rad) +
+              squared(options.slip_per_lateral_acceleration_std * across_mps2));
 }
 
 /// Prior of the yaw rate at the mean speed of the judged radars.
@@ -303,6 +316,7 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
       sum.add(epoch[i].all);
     }
   });
+  add_slip(sum);
   return sum;
 }
 

@@ -175,6 +175,7 @@ class MotionEvidence {
   [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
   [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity) const;
   [[nodiscard]] MotionSums prior(double yaw_rate_std_radps) const;
+  void add_slip(MotionSums& sum) const;
   [[nodiscard]] double turn_std_radps(const Epoch& epoch) const;
   [[nodiscard]] MotionSums by_doppler_at(std::size_t radar, std::size_t mount,
                                          const std::optional<Velocity>& velocity) const;

@@ -138,19 +138,24 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
     }
     // A late scan does not take back what was published.
     const std::int64_t from_us = std::max(stamp_us, state_.time_us());
-    restart(from_us, seconds_between(condition_.used_us(), from_us));
+    const bool is_contradicted = condition_.is_doubtful(state_.time_us()) ||
+                                 faults_.at_fault() != 0 ||
+                                 consensus_.contradicting(state_.time_us()) > 0;
+    restart(from_us, is_reversed || has_stepped_back || is_contradicted
+                         ? OdometryOutput::Gap::nothing
+                         : OdometryOutput::Gap::speed);
   } else if (!has_started_) {
-    restart(stamp_us, 0.0);
+    restart(stamp_us, OdometryOutput::Gap::speed);
   }
 }
 
-void OdometryFilter::restart(std::int64_t stamp_us, double gap_s) {
+void OdometryFilter::restart(std::int64_t stamp_us, OdometryOutput::Gap gap) {
   for (const auto& track : tracks_) {
     track->clear();
   }
   positions_.clear();
   consensus_.clear();
-  output_.restart(stamp_us, gap_s);
+  output_.restart(stamp_us, has_started_ ? condition_.unused_s(stamp_us) : 0.0, gap);
   condition_.start();
   majority_.clear();
   traffic_.parked.clear();
@@ -258,7 +263,8 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
       (condition_.used_scans() == 0 || condition_.is_lost())) {
     // The speed, and so the distance, was unknown since the start or the loss: restart here.
-    output_.restart(state_.time_us(), 0.0);
+    const double gap_s = condition_.used_scans() == 0 ? 0.0 : condition_.unused_s(state_.time_us());
+    output_.restart(state_.time_us(), gap_s, OdometryOutput::Gap::speed);
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, targets, *scan, stamp_us);

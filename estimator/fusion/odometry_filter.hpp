@@ -107,7 +107,7 @@ class OdometryFilter {
 
  private:
   void start_if_needed(std::int64_t stamp_us, bool is_trusted);
-  void restart(std::int64_t stamp_us, double gap_s);
+  void restart(std::int64_t stamp_us, OdometryOutput::Gap gap);
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);

@@ -119,13 +119,14 @@ TEST_CASE("The judge: a healthy drive is right, one with another truth is not") 
   CHECK(wrong.usable == right.usable);
   CHECK(wrong.beyond_share() > 0.9);
   CHECK(wrong.window_m > 20.0);
-  CHECK(verdict_of(none, wrong).failures() == "B");
+  CHECK(verdict_of(none, wrong).failures() == "BO");
 }
 
 TEST_CASE("The judge follows a clock that is set") {
   const FaultDrive drive = drive_of_ars408(14.0);
   const FaultRecord healthy = record(drive, {"none", "", {drive.start_us(), kNever}});
-  for (const std::int64_t step_us : {1'000'000, -1'000'000}) {
+  constexpr std::int64_t kHeldUs = 75'000;  // Scans from before the step come so much after it.
+  for (const std::int64_t step_us : {1'000'000, -100'000, -1'000'000}) {
     FaultCase fault{"set", "", seconds(drive, 5.0, 100.0)};
     fault.clock_step_us = step_us;
     FaultRecord stepped = healthy;
@@ -134,11 +135,17 @@ TEST_CASE("The judge follows a clock that is set") {
       const bool is_after = row.utime_us >= fault.time.from_us;
       row.utime_us += is_after ? step_us : 0;
       row.utime_anchor_us += row.utime_anchor_us >= fault.time.from_us ? step_us : 0;
-      stepped.given[i] = {is_after ? step_us : 0, row.utime_us};
+      const bool is_given_after =
+          healthy.sink.odometries[i].utime_us + kHeldUs >= fault.time.from_us;
+      stepped.given[i] = {
+          is_given_after ? step_us : 0,
+          healthy.sink.odometries[i].utime_us + kHeldUs + (is_given_after ? step_us : 0)};
     }
-    CHECK(DriveJudge(drive, fault, stepped).figures().beyond == 0);
+    const DriveFigures figures = DriveJudge(drive, fault, stepped).figures();
+    CHECK(figures.beyond == 0);
+    CHECK(figures.odom_sigmas < 5.0);
     stepped.given.assign(stepped.given.size(), {});
-    CHECK(DriveJudge(drive, fault, stepped).figures().beyond_share() > 0.3);
+    CHECK(DriveJudge(drive, fault, stepped).figures().worst_sigmas > 5.0);
   }
 }
 
@@ -151,6 +158,7 @@ TEST_CASE("The judge: who is named, when, and how long") {
   for (std::int64_t us = drive.start_us(); us < drive.frames.back().stamp_us; us += 20'000) {
     Odometry row;
     row.utime_us = row.utime_anchor_us = us;
+    row.odom_covariance = 1e6 * Eigen::Matrix3d::Identity();  // The poses are not judged here.
     row.status = us < fault.time.until_us ? OdometryStatus::lost : OdometryStatus::ok;
     row.left_out = us >= named.from_us && us < named.until_us ? 1U : 0U;
     result.sink.odometries.push_back(row);

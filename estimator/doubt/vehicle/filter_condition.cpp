@@ -78,18 +78,24 @@ bool FilterCondition::may_drive_in_traffic() const {
 }
 
 bool FilterCondition::is_lost() const {
-  return seconds_between(used_us_, state_.time_us()) > state_.options().lost_s;
+  return unused_s(state_.time_us()) > state_.options().lost_s;
+}
+
+double FilterCondition::unused_s(std::int64_t at_us) const {
+  return seconds_between(used_us_, at_us);
+}
+
+bool FilterCondition::is_doubtful(std::int64_t at_us) const {
+  return seconds_between(doubt_us_, at_us) <= kScanVerdictValidS;
 }
 
 OdometryStatus FilterCondition::status(const Odometry& odometry) const {
   const OdometryOptions& options = state_.options();
-  const double unused_s = seconds_between(used_us_, odometry.utime_us);
-  const bool is_predicted = unused_s > options.predicted_s;
-  const bool is_doubtful = seconds_between(doubt_us_, odometry.utime_us) <= kScanVerdictValidS;
-  if (is_doubtful && (!is_settled_ || is_predicted)) {
+  const bool is_predicted = unused_s(odometry.utime_us) > options.predicted_s;
+  if (is_doubtful(odometry.utime_us) && (!is_settled_ || is_predicted)) {
     return OdometryStatus::ambiguous;
   }
-  if (unused_s > options.lost_s) {
+  if (unused_s(odometry.utime_us) > options.lost_s) {
     return OdometryStatus::lost;
   }
   if (!is_settled_) {

@@ -33,6 +33,10 @@ class FilterCondition {
 
   [[nodiscard]] int used_scans() const { return used_scans_; }
   [[nodiscard]] std::int64_t used_us() const { return used_us_; }
+  /// Since the last scan that was used.
+  [[nodiscard]] double unused_s(std::int64_t at_us) const;
+  /// A scan shortly before was not used because of a doubt.
+  [[nodiscard]] bool is_doubtful(std::int64_t at_us) const;
   /// The start is over: the state no longer depends on the prior.
   [[nodiscard]] bool is_settled() const { return is_settled_; }
   /// The speed is so uncertain that the gate on Doppler would accept wrong speeds.

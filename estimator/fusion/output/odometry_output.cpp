@@ -14,6 +14,9 @@ namespace {
 
 using namespace state_layout;
 
+/// In a gap the pose goes on for so long. The turn is then as uncertain as with nothing known.
+constexpr double kMaxBlindS = 5.0;
+
 /// Exactly symmetric, as users may expect.
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
   return 0.5 * (matrix + matrix.transpose());
@@ -48,11 +51,17 @@ OdometryOutput::Anchor OdometryOutput::Anchor::moved(std::int64_t at_us,
                                         vehicle.covariance.topLeftCorner<kPose, kPose>()))};
 }
 
-void OdometryOutput::restart(std::int64_t time_us, double gap_s) {
+void OdometryOutput::restart(std::int64_t time_us, double gap_s, Gap gap) {
   const OdometryOptions& options = state_.options();
-  const double way_m = options.start_speed_std_mps * gap_s;
-  const double turn_rad = options.start_yaw_rate_std_radps * gap_s;
-  anchor_ = anchor_.moved(state_.time_us(), state_.vehicle());
+  const double blind_s =
+      std::clamp(seconds_between(state_.time_us(), time_us), 0.0, std::min(gap_s, kMaxBlindS));
+  anchor_ = anchor_.moved(time_us, state_.vehicle().predicted(blind_s, options));
+  double way_m = options.start_speed_std_mps * gap_s;
+  double turn_rad = options.start_yaw_rate_std_radps * gap_s;
+  if (gap == Gap::speed && gap_s <= kMaxBlindS) {
+    way_m = std::min(way_m, 0.5 * options.acceleration.std * squared(gap_s));
+    turn_rad = std::min(turn_rad, 0.5 * options.yaw_acceleration.std * squared(gap_s));
+  }
   anchor_.covariance.diagonal() +=
       Eigen::Vector3d(squared(way_m), squared(way_m), squared(turn_rad));
   anchor_.covariance += drift_covariance_;
@@ -75,13 +84,13 @@ Eigen::Vector3d OdometryOutput::odom_pose_of(const Eigen::Vector3d& pose) const 
                        relative_pose(state_.gaussian.mean().segment<kPose>(kOutput), pose));
 }
 
-/// Pose since the start at a time, or max_gap_s after the state if that is earlier; not before what
-/// was published.
+/// Pose since the start at a time, or kMaxBlindS after the state if that is earlier; not before
+/// what was published.
 Eigen::Vector3d OdometryOutput::predicted_odom_pose(std::int64_t time_us) const {
   const OdometryOptions& options = state_.options();
   const bool has_prediction = predicted_us_ > state_.time_us();
   const std::int64_t from_us = has_prediction ? predicted_us_ : state_.time_us();
-  const double left_s = options.max_gap_s - seconds_between(state_.time_us(), from_us);
+  const double left_s = kMaxBlindS - seconds_between(state_.time_us(), from_us);
   const double blind_s = std::min(seconds_between(from_us, time_us), left_s);
   const VehicleEstimate ahead = state_.vehicle().at_origin().predicted(blind_s, options);
   return composed_pose(has_prediction ? predicted_odom_pose_ : odom_pose_,
@@ -89,7 +98,7 @@ Eigen::Vector3d OdometryOutput::predicted_odom_pose(std::int64_t time_us) const 
 }
 
 void OdometryOutput::leave_clock() {
-  restart(state_.time_us(), state_.options().max_gap_s);
+  restart(state_.time_us(), state_.options().max_gap_s, Gap::nothing);
   predicted_us_ = std::numeric_limits<std::int64_t>::min();
 }
 

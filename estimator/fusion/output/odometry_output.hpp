@@ -33,10 +33,15 @@ class OdometryOutput {
   /// The state must outlive this object.
   explicit OdometryOutput(OdometryState& state);
 
+  /// What is known of the motion in a gap before a restart.
+  enum class Gap : std::uint8_t {
+    speed,    ///< The speed and yaw rate before it; they change as a vehicle's do.
+    nothing,  ///< They may have been wrong.
+  };
   /// Restarts the state, with an anchor there. The pose since the start goes on from that of
-  /// the state, moved for max_gap_s at most as the vehicle did before; its covariance grows by the
+  /// the state, moved for 5 s at most as the vehicle did before; its covariance grows by the
   /// unknown motion in `gap_s`.
-  void restart(std::int64_t time_us, double gap_s);
+  void restart(std::int64_t time_us, double gap_s, Gap gap);
   /// To be called when the clock of the stamps was set, before a restart at the new time: what was
   /// published at later times of the old clock does not count. Assumes a gap of max_gap_s.
   void leave_clock();

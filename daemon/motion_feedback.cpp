@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
@@ -56,7 +57,7 @@ void MotionFeedback::on_motion(std::size_t radar, const EgoMotion& motion,
   if (!sensor.wants_feedback || !motion.has_estimate() || !may_speak(sensor)) {
     return;
   }
-  const double duration_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+  const double duration_s = seconds_between(motion.utime_start_us, motion.utime_us);
   const double yaw_rate_radps = motion.motion.z() / duration_s;
   send(sensor.interface, encode_ars408_speed(sensor.sensor_id, motion.motion.x() / duration_s));
   send(sensor.interface,

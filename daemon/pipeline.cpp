@@ -144,12 +144,18 @@ void Pipeline::close_overdue(std::int64_t now_us, std::optional<std::uint8_t> in
     return (!interface || clocks_.follows(radar.interface, *interface)) &&
            radar.assembler.is_overdue(now_us);
   };
+  // By a bus that is ahead it would be predicted beyond all scans.
+  const auto advance_odometry = [&](std::int64_t time_us) {
+    if (!interface || !clocks_.is_ahead(*interface)) {
+      odometry_.advance_to(time_us);
+    }
+  };
   while (RadarChannel* radar = first_to_close(is_overdue)) {
-    odometry_.advance_to(*radar->assembler.deadline_us() + 1);
+    advance_odometry(*radar->assembler.deadline_us() + 1);
     radar->assembler.expire(now_us);
     use_scans(*radar, now_us);
   }
-  odometry_.advance_to(now_us);
+  advance_odometry(now_us);
 }
 
 /// The open scan with the earliest time-out among those that meet the condition.

@@ -12,6 +12,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "cremed/estimator/scan/stamps.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/learned_file.hpp"
 #include "daemon/output/csv_writer.hpp"
@@ -193,7 +194,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   take_all(*replay, pipeline, configuration.output.csv == "-");
   const int stopped_by = *stop;
   pipeline.finish();
-  const double wall_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
+  const double wall_s = seconds_between(begin_us, monotonic_us());
 
   const double log_s = replay->traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "cremed/estimator/fusion/state/pose_chain.hpp"
+
 namespace cremed {
 
 void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) {
@@ -11,20 +13,14 @@ void TumWriter::on_motion(std::size_t radar, const EgoMotion& motion, std::int32
     return;
   }
   begin(motion.utime_start_us);
-  Pose2& pose = start_from_vehicle_;
-  const double c = std::cos(pose.yaw_rad);
-  const double s = std::sin(pose.yaw_rad);
-  pose.x_m += c * motion.motion.x() - s * motion.motion.y();
-  pose.y_m += s * motion.motion.x() + c * motion.motion.y();
-  pose.yaw_rad += motion.motion.z();
+  pose_ = composed_pose(pose_, motion.motion);
   write_pose(motion.utime_us);
 }
 
 void TumWriter::on_odometry(const Odometry& odometry) {
   if (!radar_) {
     begin(odometry.utime_before_us);
-    const Eigen::Vector3d& pose = odometry.odom_pose;
-    start_from_vehicle_ = {pose.x(), pose.y(), pose.z()};
+    pose_ = odometry.odom_pose;
     write_pose(odometry.utime_us);
   }
 }
@@ -41,7 +37,7 @@ void TumWriter::begin(std::int64_t utime_us) {
 
 void TumWriter::write_pose(std::int64_t utime_us) {
   utime_us_ = utime_us;
-  file_.write(tum_line(utime_us, start_from_vehicle_).view());
+  file_.write(tum_line(utime_us, {pose_.x(), pose_.y(), pose_.z()}).view());
 }
 
 TextLine tum_line(std::int64_t utime_us, const Pose2& pose) {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "cremed/estimator/scan/pose2.hpp"
 #include "daemon/output/odometry_sink.hpp"
 #include "daemon/output/text_line.hpp"
@@ -40,7 +42,7 @@ class TumWriter final : public OdometrySink {
 
   OutputFile file_;
   std::optional<std::size_t> radar_;
-  Pose2 start_from_vehicle_;
+  Eigen::Vector3d pose_ = Eigen::Vector3d::Zero();  // (x, y, yaw) since the start, m and rad.
   std::int64_t utime_us_ = 0;
   bool has_begun_ = false;
   std::uint64_t gaps_ = 0;

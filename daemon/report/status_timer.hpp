@@ -14,8 +14,8 @@ namespace cremed {
 /// than two seconds in either direction (a clock that was set, a paused log) counts nothing.
 class StatusTimer {
  public:
-  /// One per interface, and one for events without a frame.
-  static constexpr std::size_t kNoInterface = kMaxRadars;
+  /// One per interface (one a radar, and the vehicle's), and this for events without a frame.
+  static constexpr std::size_t kNoInterface = kMaxRadars + 1;
 
   /// Notes the time of one clock. True the first time, then once a second.
   bool is_due(std::size_t clock, std::int64_t now_us) {
@@ -46,7 +46,7 @@ class StatusTimer {
     std::int64_t elapsed_us = 0;
   };
 
-  std::array<Clock, kMaxRadars + 1> clocks_{};
+  std::array<Clock, kNoInterface + 1> clocks_{};
   bool has_begun_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cremed/estimator/scan/stamps.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/source/stamp_order.hpp"
 
@@ -164,8 +165,7 @@ void Replay::count() {
 
 /// The pace restarts where the log's clock was set, to skip the jump.
 void Replay::begin_pace(std::int64_t stamp_us) {
-  const double step_s =
-      (static_cast<double>(stamp_us) - static_cast<double>(last_stamp_us_)) * 1e-6;
+  const double step_s = seconds_between(last_stamp_us_, stamp_us);
   if (!has_begun_ || step_s < 0.0 || step_s > kClockJumpS) {
     pace_stamp_us_ = stamp_us;
     pace_us_ = monotonic_us();

@@ -27,11 +27,7 @@ void Mixture::push(double x_m, double y_m, const Symmetric2& covariance_m2, doub
 
 void Mixture::assign(const TargetSet& targets, const OutlierRay& ray) {
   components_.size = 0;
-  double ray_weight = 0.0;
-  for (const RayComponent& component : ray) {
-    ray_weight += component.weight;
-  }
-  const double target_weight = (1.0 - ray_weight) / static_cast<double>(targets.size());
+  const double target_weight = (1.0 - ray.weight()) / static_cast<double>(targets.size());
   for (const Target& target : targets) {
     push(target.x_m, target.y_m, target.covariance_m2, target_weight);
   }

@@ -333,7 +333,7 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
   std::vector<std::optional<LearnedErrors>> result(tracks_.size());
   const std::vector<LearnedErrors> learned = state_.learned();
   for (std::size_t i = 0; i < learned.size(); ++i) {
-    if (!report(i).is_left_out) {
+    if (!contains(left_out(), i)) {
       result[i] = learned[i];
     }
   }

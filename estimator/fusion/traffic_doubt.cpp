@@ -14,12 +14,13 @@ using namespace state_layout;
 
 TrafficDoubt::TrafficDoubt(OdometryState& state, const RadarConsensus& consensus,
                            const FaultHypotheses& faults, const FilterCondition& condition)
-    : parked(state), state_(state), consensus_(consensus), faults_(faults), condition_(condition) {
-  for (const Pose2& mount : state.mounts()) {
-    two_worlds_.emplace_back(mount);
-    scan_us_.push_back(std::nullopt);
-  }
-}
+    : parked(state),
+      state_(state),
+      consensus_(consensus),
+      faults_(faults),
+      condition_(condition),
+      two_worlds_(state.mounts().begin(), state.mounts().end()),
+      scan_us_(state.radars()) {}
 
 TrafficDoubt::Seen TrafficDoubt::judge(std::size_t radar, const TargetSet& targets,
                                        const DopplerVelocity& velocity, std::int64_t stamp_us,

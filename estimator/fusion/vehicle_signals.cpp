@@ -22,14 +22,8 @@ constexpr double kFrozenYawRateRadps = 0.02;
 /// A learned error of more sigmas of its prior is not the sensor's: the factor or unit is wrong.
 constexpr double kMaxErrorSigmas = 4.0;
 
-int rate_of(VehicleSignal signal) { return signal == VehicleSignal::speed ? kSpeed : kYawRate; }
-
 double frozen_change(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? kFrozenSpeedMps : kFrozenYawRateRadps;
-}
-
-int scale_of(VehicleSignal signal) {
-  return signal == VehicleSignal::speed ? kSpeedScale : kYawRateGain;
 }
 
 }  // namespace

@@ -249,3 +249,20 @@ TEST_CASE("After the clock was set predictions go on in the new time") {
     CHECK(way.norm() < 2.0);
   }
 }
+
+TEST_CASE("The clock of a bus that is ahead does not tell the time of predictions") {
+  Drive simulated = simulate("straight", 9);
+  const std::int64_t start_us = simulated.frames.front().stamp_us;
+  for (CanFrame& frame : simulated.frames) {
+    frame.stamp_us += frame.interface == 1 ? 1'500'000 : 0;
+  }
+  const RecordingSink sink = run(simulated, kRateHz);
+  std::ptrdiff_t told = 0;
+  for (const Odometry& odometry : sink.odometries) {
+    if (odometry.utime_us - start_us > 5'000'000) {
+      CHECK(is_good(odometry));
+      ++told;
+    }
+  }
+  CHECK(told > 340);
+}

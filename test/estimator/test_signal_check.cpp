@@ -99,5 +99,16 @@ TEST_CASE("on a straight road nothing is known of scale and delay") {
   CHECK(check.fault() == SignalFault::none);
 }
 
+TEST_CASE("scans that waited and came within milliseconds are compared like others") {
+  SignalCheck check(VehicleSignal::speed, VehicleOptions());
+  for (std::int64_t i = 0; i < 20; ++i) {
+    check.add(10'000 * i, 5.0);
+  }
+  check.compare(50'000, 125'000, 5.0, 0.01);
+  const double before = check.errors().variance(1);
+  check.compare(125'000, 128'000, 5.0, 0.01);
+  CHECK(check.errors().variance(1) < before);
+}
+
 }  // namespace
 }  // namespace cremed

@@ -347,11 +347,9 @@ void FaultHypotheses::convict_by_cause(RadarSet compared) {
   });
   const bool is_found = best.gain > 2.0 * next && is_grave(best.cause);
   note_lateness(guilty, is_found ? best : FaultCauseSearch::Finding());
-  if (is_found) {
-    if (std::popcount(evidence_.present() & ~at_fault()) > 2 ||
-        lateness_.epochs >= kEpochsOfLateness) {
-      convictions_.convict(guilty, evidence_.time_us());
-    }
+  if (is_found && (std::popcount(evidence_.present() & ~at_fault()) > 2 ||
+                   lateness_.epochs >= kEpochsOfLateness)) {
+    convictions_.convict(guilty, evidence_.time_us());
   }
   const RadarSet aside = evidence_.witnesses();
   for_each(aside, [&](std::size_t i) {

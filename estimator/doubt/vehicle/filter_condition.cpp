@@ -23,6 +23,7 @@ constexpr double kHiddenRoadS = 5.0;
 constexpr double kAtRestMps = 0.3;
 /// Half a second of two radars. Among cars that drive alike some scans in between show only these.
 constexpr int kMaxDoubts = 10;
+
 bool stands(const Odometry& odometry, double standstill_mps) {
   const auto std = [&](int i) { return std::sqrt(odometry.twist_covariance(i, i)); };
   return std::abs(odometry.twist.x()) <= standstill_mps && std(0) <= standstill_mps &&

@@ -177,7 +177,7 @@ std::optional<std::int64_t> MotionEvidence::common_time() const {
 }
 
 void MotionEvidence::observe(std::int64_t time_us) {
-  if (count_ > 0 && std::abs(seconds_between(time_us_, time_us)) > 2.0 * kEpochs * kEpochS) {
+  if (count_ > 0 && seconds_between(time_us_, time_us) > 2.0 * kEpochs * kEpochS) {
     count_ = 0;
   }
   time_us_ = time_us;

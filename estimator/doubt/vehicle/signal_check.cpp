@@ -114,7 +114,7 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const Eigen::Vector3d left = by.cwiseProduct(errors().value);
   const double passed_s = compared_us_ == 0 ? duration_s : seconds_between(compared_us_, end_us);
   // Spread over the comparisons, as in VehicleMeasurement.
-  const double interval_s = std::clamp(passed_s, kShortestIntervalS, duration_s);
+  const double interval_s = std::max(std::min(passed_s, duration_s), kShortestIntervalS);
   const double std = std::sqrt(
       variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
   const double error = std::abs(mean - rate - left.sum()) / std;

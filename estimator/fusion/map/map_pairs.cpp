@@ -18,11 +18,11 @@ constexpr double kNoPartner = 25.0;
 }  // namespace
 
 MapPairs::MapPairs() {
-  constexpr std::size_t kCapacity = kMaxPairs + kLanes;
+  static_assert(kMaxPairs % kLanes == 0);  // pad() does not exceed it.
   for (auto* column : {&x_m_, &y_m_, &azimuth_rad_, &xx_, &xy_, &yy_, &density_, &weight_}) {
-    column->resize(kCapacity);
+    column->resize(kMaxPairs);
   }
-  node_.resize(kCapacity);
+  node_.resize(kMaxPairs);
 }
 
 void MapPairs::add(const TargetMap::Placed& placed, const Symmetric2& information, double density) {

@@ -33,8 +33,7 @@ void remove_x(LinearMeasurement& measurement) {
 }  // namespace
 
 TargetMap::NodePoses MapMeasurement::now_from_node() const {
-  OdometryState::PoseJacobian jacobian;
-  const Eigen::Vector3d now = state.pose_before(age_s, jacobian);
+  const Eigen::Vector3d now = state.pose_before(age_s);
   TargetMap::NodePoses poses;
   for (std::size_t i = 0; i < kNodes; ++i) {
     poses[i] = relative_pose(now, state.node_pose(i));

@@ -16,8 +16,8 @@ using namespace state_layout;
 LinearMeasurement VehicleMeasurement::linearise(double value) const {
   const GaussianState& x = state.gaussian;
   const bool is_speed = signal == VehicleSignal::speed;
-  const int rate = is_speed ? kSpeed : kYawRate;
-  const int scale = state.vehicle_error(is_speed ? kSpeedScale : kYawRateGain);
+  const int rate = rate_of(signal);
+  const int scale = state.vehicle_error(scale_of(signal));
   const int bias = state.vehicle_error(kYawRateBias);
   const double late_s = std::max(age_s, 0.0);
   const double motion = x.mean(rate) - late_s * x.mean(rate + 1);
@@ -42,7 +42,7 @@ double VehicleMeasurement::variance(double value) const {
   const OrnsteinUhlenbeck& process =
       is_speed ? options.acceleration : yaw_acceleration_at(state.gaussian.mean(kSpeed), options);
   const double step = is_speed ? kVehicleSpeedStepMps : kVehicleYawRateStepDegps * kRadPerDeg;
-  const double change = state.gaussian.mean((is_speed ? kSpeed : kYawRate) + 1);
+  const double change = state.gaussian.mean(rate_of(signal) + 1);
   const double late_s = std::max(age_s, 0.0);
   const bool is_crawling = is_speed && std::abs(value) < kDrivingMps;
   return squared(error.std) * std::max(1.0, 2.0 * error.time_s / interval_s) +

@@ -8,6 +8,15 @@
 
 namespace cremed {
 
+/// Index of the rate that a signal tells; its derivative is the next.
+inline int rate_of(VehicleSignal signal) {
+  return signal == VehicleSignal::speed ? state_layout::kSpeed : state_layout::kYawRate;
+}
+/// Index of the signal's scale, for OdometryState::vehicle_error.
+inline int scale_of(VehicleSignal signal) {
+  return signal == VehicleSignal::speed ? state_layout::kSpeedScale : state_layout::kYawRateGain;
+}
+
 /// A value of a signal of the vehicle's bus, measured `age_s` before the state (<= 0: at its time);
 /// (12) of the README:
 ///

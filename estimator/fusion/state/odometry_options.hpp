@@ -185,7 +185,8 @@ struct OdometryOptions {
   /// back x scatters by 0.004 to 0.009 from scan to scan and by 0.002 to 0.005 over 2 s, since
   /// scans share the map (nuScenes, RadarScenes 105).
   double position_x_per_metre = 0.045;
-  double max_position_nis = 18.0;  ///< Gate, 2 DoF: false-alarm rate 0.01 %.
+  /// Gate, 2 DoF: false-alarm rate 0.01 %. x hardly counts: its noise is several times its errors.
+  double max_position_nis = 18.0;
 
   // Status.
   double standstill_mps = 0.1;

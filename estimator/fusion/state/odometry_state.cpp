@@ -98,7 +98,7 @@ void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
   gaussian.update(innovation, is_at_rest ? considered_.at_rest : driving);
 }
 
-void OdometryState::start(std::int64_t time_us) {
+void OdometryState::start() {
   for (int i = 0; i < gaussian.size(); ++i) {
     gaussian.set(i, 0.0, 0.0);
   }
@@ -106,7 +106,7 @@ void OdometryState::start(std::int64_t time_us) {
   gaussian.set_mean(kSlipPerAcceleration, options_.slip_per_lateral_acceleration);
   start_shared(kMountYaw, mount_yaw_);
   start_shared(kDopplerScale, doppler_scale_);
-  restart(time_us);
+  restart(0);
 }
 
 void OdometryState::restart(std::int64_t time_us) {

@@ -31,7 +31,7 @@ class OdometryState {
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
 
   /// Resets the state to its prior, with the anchor at its pose.
-  void start(std::int64_t time_us = 0);
+  void start();
   /// As start(), but keeps what has been learned of slip and radars.
   void restart(std::int64_t time_us);
   /// Resets speed and yaw rate to `value` (v, w) with `covariance`, and the accelerations to their

@@ -44,7 +44,7 @@ struct OdometryRadar {
 /// scan against all of them.
 ///
 /// `measurement/`: a scan gives one measurement of velocity by Doppler (DopplerMeasurement) and one
-/// of lateral motion and yaw since the nodes by positions (MapMeasurement).
+/// of the motion since the nodes by positions (MapMeasurement).
 ///
 /// `doubt/`: a radar that contradicts the others or itself is left out for some time
 /// (FaultHypotheses). A measurement that fails its chi-square gate is not used; if a majority of

@@ -265,6 +265,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     // The speed, and so the distance, was unknown since the start or the loss: restart here.
     const double gap_s = condition_.used_scans() == 0 ? 0.0 : condition_.unused_s(state_.time_us());
     output_.restart(state_.time_us(), gap_s, OdometryOutput::Gap::speed);
+    positions_.clear();
     state_.gaussian.assume(kSpeed, scan->velocity.velocity_mps.x());
   }
   return take_doppler(radar, targets, *scan, stamp_us);

@@ -417,6 +417,19 @@ TEST_CASE("the pose since the start goes on over a gap as the vehicle did before
   CHECK(std::sqrt(variance.x()) < 2.0 * squared(gap_s));
 }
 
+TEST_CASE("after a silence targets are not compared with those from before it") {
+  OdometryDrive drive({kFront}, 9);
+  drive.drive(4.0);
+  const auto compared = [&] { return drive.filter().report(0).targets.at_rest; };
+  const auto before = compared();
+  drive.next();
+  REQUIRE(compared() > before);
+  drive.pass(1'500'000);
+  const auto until_silence = compared();
+  drive.next();
+  CHECK(compared() == until_silence);
+}
+
 TEST_CASE("the pose since the start does not span a long gap, or a clock that is set") {
   OdometryDrive drive({kFront}, 9);
   const Odometry before = drive.drive(3.0);

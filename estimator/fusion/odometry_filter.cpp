@@ -324,7 +324,7 @@ void OdometryFilter::follow_majority(std::int64_t stamp_us) {
 
 /// Largest change of the speed that a vehicle can make since the last scan that was used.
 double OdometryFilter::possible_speed_change_mps(std::int64_t stamp_us) const {
-  const double since_s = seconds_between(std::min(condition_.used_us(), stamp_us), stamp_us);
+  const double since_s = std::max(0.0, condition_.unused_s(stamp_us));
   return kGateSigmas * state_.gaussian.std(kSpeed) + kMaxAccelerationMps2 * since_s;
 }
 

@@ -42,6 +42,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       faults_(state_),
       condition_(state_, consensus_, faults_),
       traffic_(state_, consensus_, faults_, condition_),
+      side_slip_(state_),
       majority_(state_, consensus_, condition_),
       positions_(state_, consensus_, faults_, condition_),
       output_(state_),
@@ -247,6 +248,9 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
+  if (consensus_[radar].is_trusted && !state_.is_witness(radar) && !traffic_.parked.is_parked()) {
+    state_.add_excess(scan->excess_mps2);
+  }
   using Seen = TrafficDoubt::Seen;
   const Seen seen =
       traffic_.judge(radar, targets, scan->velocity, stamp_us, possible_speed_change_mps(stamp_us));
@@ -254,7 +258,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
-  if (seen == Seen::road) {
+  if (seen == Seen::road && state_.skid_variance() == 0.0) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
   }
   if (faults_.is_unknown()) {
@@ -280,7 +284,13 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   if (state_.is_witness(radar)) {
     measurement.noise *= state_.options().doppler_noise_factor_across;
   }
-  const Innovation innovation = state_.gaussian.innovate(measurement);
+  Innovation innovation = state_.gaussian.innovate(measurement);
+  if (trust.is_trusted && !state_.is_witness(radar)) {
+    if (const auto slip_rad = side_slip_.add(radar, stamp_us, measurement, innovation)) {
+      state_.add_skid(*slip_rad);
+      innovation = state_.gaussian.innovate(measurement);
+    }
+  }
   const bool is_expected = innovation.nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * innovation.nis);
   if (trust.judge(stamp_us, scan.velocity, is_expected) && state_.is_witness(radar)) {

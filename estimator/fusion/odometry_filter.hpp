@@ -16,6 +16,7 @@
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
 #include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
+#include "cremed/estimator/fusion/measurement/side_slip.hpp"
 #include "cremed/estimator/fusion/output/odometry_output.hpp"
 #include "cremed/estimator/fusion/position_fusion.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
@@ -128,6 +129,7 @@ class OdometryFilter {
   FaultHypotheses faults_;
   FilterCondition condition_;
   TrafficDoubt traffic_;
+  SideSlip side_slip_;
   MajorityFollower majority_;
   PositionFusion positions_;
   OdometryOutput output_;

@@ -22,6 +22,8 @@ constexpr double kMinShareOfX = 0.2;
 /// Least share of a scan's targets in the map with which they confirm the state. On healthy drives
 /// half to nine tenths are in the map.
 constexpr double kMinConfirmedShare = 0.4;
+/// Beyond this slow cars are in the map, which then moves along.
+constexpr double kMaxMixtureMps = 0.1;
 
 }  // namespace
 
@@ -87,7 +89,8 @@ void PositionFusion::match(std::size_t radar, double age_s) {
     return;
   }
   RadarTrust& trust = consensus_[radar];
-  const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX;
+  const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX &&
+                     state_.mixture_std() < kMaxMixtureMps;
   if (has_x && match->matched >= kMinConfirmedShare * possible) {
     compare_speed(radar, *match);
   }

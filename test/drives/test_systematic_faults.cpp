@@ -46,6 +46,11 @@ TEST_CASE("Regimes of the nuScenes car, simulated: nobody is named while nothing
                              "reversing", "braking", "garage", "campus"}) {
     matrix.run_healthy(regime, simulated_fault_drive(regime, 50.0, car.radars));
   }
+  std::vector<RadarConfiguration> three_dof = car.radars;
+  for (RadarConfiguration& radar : three_dof) {
+    radar.ego_motion.registration.degrees_of_freedom = 3;
+  }
+  matrix.run_healthy("skid", simulated_fault_drive("skid", 50.0, three_dof));
   // Drives on which a radar's own check finds it wrong by chance.
   for (const char* regime : {"bends", "braking"}) {
     matrix.run_healthy(regime, simulated_fault_drive(regime, 10.0, car.radars, 5));

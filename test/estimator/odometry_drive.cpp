@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "test/estimator/numeric.hpp"
 
@@ -50,8 +52,9 @@ void OdometryDrive::pass(std::int64_t time_us) {
   for (std::int64_t left_us = time_us; left_us > 0; left_us -= kStepUs) {
     const double dt_s = static_cast<double>(std::min(left_us, kStepUs)) * 1e-6;
     const double yaw_rad = yaw_rate_radps_ * dt_s;
-    pose_ = composed_pose(pose_, {speed_mps_ * dt_s * std::cos(0.5 * yaw_rad),
-                                  speed_mps_ * dt_s * std::sin(0.5 * yaw_rad), yaw_rad});
+    const Eigen::Vector2d way_m =
+        Eigen::Rotation2Dd(0.5 * yaw_rad) * Eigen::Vector2d(speed_mps_ * dt_s, side_mps_ * dt_s);
+    pose_ = composed_pose(pose_, {way_m.x(), way_m.y(), yaw_rad});
   }
   stamp_us_ += time_us;
 }
@@ -60,12 +63,14 @@ TargetSet OdometryDrive::see(std::size_t which) {
   constexpr double kRangeM = 50.0;
   constexpr double kFarM = kRangeM + 10.0;  // From the vehicle: no radar sees that far.
   const Radar& radar = radars_[which];
-  const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps, 0.0, yaw_rate_radps_);
   Detections detections;
   for (const Eigen::Vector2d& point : points_) {
     if ((point - pose_.head<2>()).squaredNorm() > kFarM * kFarM) {
       continue;
     }
+    const double traffic_mps = (&point - points_.data()) % 4 != 0 ? radar.traffic_mps : 0.0;
+    const Eigen::Vector3d velocity(speed_mps_ - radar.world_mps - traffic_mps, side_mps_,
+                                   yaw_rate_radps_);
     const Detection detection =
         observe(seen_from(pose_, point), velocity, radar.mount, {0.1, 0.008, 0.1});
     if (std::abs(detection.azimuth_rad) < numeric::radians(60.0) && detection.range_m < kRangeM &&

@@ -28,6 +28,7 @@ class OdometryDrive {
     /// Velocity along x of all targets of this radar. At the vehicle's own speed it measures no
     /// motion.
     double world_mps = 0.0;
+    double traffic_mps = 0.0;  ///< Velocity along x of three of four targets, with the world.
     bool is_silent = false;
     double doppler_scale = 1.0;
   };
@@ -36,10 +37,11 @@ class OdometryDrive {
                 const OdometryOptions& options = {},
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
 
-  /// Sets speed and yaw rate.
-  void set_motion(double speed_mps, double yaw_rate_radps) {
+  /// Sets speed and yaw rate, and the speed of the rear axle to the left.
+  void set_motion(double speed_mps, double yaw_rate_radps, double side_mps = 0.0) {
     speed_mps_ = speed_mps;
     yaw_rate_radps_ = yaw_rate_radps;
+    side_mps_ = side_mps;
   }
   Radar& radar(std::size_t i) { return radars_[i]; }
   [[nodiscard]] OdometryFilter& filter() { return *filter_; }
@@ -59,6 +61,7 @@ class OdometryDrive {
   [[nodiscard]] const Eigen::Vector3d& pose() const { return pose_; }
   [[nodiscard]] double speed_mps() const { return speed_mps_; }
   [[nodiscard]] double yaw_rate_radps() const { return yaw_rate_radps_; }
+  [[nodiscard]] double side_mps() const { return side_mps_; }
 
  private:
   Random random_;
@@ -69,6 +72,7 @@ class OdometryDrive {
   Eigen::Vector3d pose_ = Eigen::Vector3d::Zero();
   double speed_mps_ = 8.0;
   double yaw_rate_radps_ = 0.0;
+  double side_mps_ = 0.0;
   std::int64_t stamp_us_ = 1'000'000'000;
 };
 

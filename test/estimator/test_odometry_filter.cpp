@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -161,6 +162,48 @@ TEST_CASE("a creeping vehicle's speed is as uncertain as the rounding of Doppler
   CHECK(speed_std_mps(drive, 3.0) < 0.06);
   CHECK(speed_std_mps(drive, 0.4) == Approx(kRoundingStdMps).epsilon(0.2));
   CHECK(speed_std_mps(drive, 0.0) < 0.03);
+}
+
+TEST_CASE(
+    "in a creeping jam the speed is as uncertain as its cars make it, and no radar at fault") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 43);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  CHECK(speed_std_mps(drive, 0.5) < 0.1);
+  for (int i = 0; i < 200; ++i) {
+    const double traffic_mps = std::min(0.5, 0.01 * i);  // 0.4 m/s^2.
+    drive.radar(0).traffic_mps = drive.radar(1).traffic_mps = traffic_mps;
+    drive.radar(2).traffic_mps = 0.6 * traffic_mps;
+    const Odometry odometry = drive.next();
+    CHECK(odometry.left_out == 0);
+    CHECK(std::abs(odometry.twist.x() - drive.speed_mps()) <
+          3.0 * std::sqrt(odometry.twist_covariance(0, 0)));
+  }
+}
+
+TEST_CASE("a skid is followed, with all radars, and one radar that is turned is none") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 45);
+  REQUIRE(drive.drive(3.0).status == OdometryStatus::ok);
+  const double usual_std_mps = std::sqrt(drive.next().twist_covariance(1, 1));
+  SECTION("skid") {
+    int beyond = 0;
+    for (int i = 0; i < 200; ++i) {
+      // Up to 1.5 m/s within 1 s, and back.
+      drive.set_motion(8.0, 0.0, 0.75 - 0.75 * std::cos(0.025 * i * std::numbers::pi));
+      const Odometry odometry = drive.next();
+      CHECK(odometry.left_out == 0);
+      const double error_mps = std::abs(odometry.twist.y() - drive.side_mps());
+      CHECK(error_mps < 0.3);
+      beyond += error_mps > 5.0 * std::sqrt(odometry.twist_covariance(1, 1)) ? 1 : 0;
+    }
+    CHECK(beyond <= 4);  // 2 %, while it begins.
+    CHECK(drive.drive(2.0).status == OdometryStatus::ok);
+  }
+  SECTION("turned") {
+    drive.radar(1).mount.yaw_rad += numeric::radians(8.0);
+    for (int i = 0; i < 100; ++i) {
+      CHECK(std::sqrt(drive.next().twist_covariance(1, 1)) < 1.5 * usual_std_mps);
+    }
+  }
 }
 
 TEST_CASE("a faulty radar is left out and reported, and used again when it agrees for seconds") {

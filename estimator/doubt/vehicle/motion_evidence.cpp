@@ -72,7 +72,8 @@ void MotionEvidence::clear() {
 void MotionEvidence::add_speed_by_positions(std::size_t radar, std::int64_t stamp_us,
                                             double speed_mps, double since_s, double variance_m2) {
   const double of_method = squared(kPositionSpeedShare * speed_mps) +
-                           squared(kPositionM / since_s) + squared(kPositionMps);
+                           squared(kPositionM / since_s) + squared(kPositionMps) +
+                           squared(state_.mixture_std());
   tracks_[radar].speed =
       Speed{stamp_us, speed_mps, of_method + variance_m2 / squared(since_s), of_method};
 }
@@ -92,7 +93,10 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                   const DopplerVelocity& velocity) {
   Track& track = tracks_[radar];
   track.velocities[0] = track.velocities[1];
-  track.velocities[1] = {stamp_us, velocity.velocity_mps, velocity.covariance};
+  // Each radar sees other cars.
+  track.velocities[1] = {
+      stamp_us, velocity.velocity_mps,
+      velocity.covariance + squared(state_.mixture_std()) * Eigen::Matrix2d::Identity()};
   track.count = std::min(track.count + 1, 2);
   if (const auto jump_us = track.jumps.add(stamp_us, velocity)) {
     track.jump_us = jump_us;
@@ -275,7 +279,7 @@ void MotionEvidence::add_slip(MotionSums& sum) const {
   const double across_mps2 = std::min(std::abs(motion.x() * motion.y()), kMaxAccelerationMps2);
   const Eigen::Vector3d by_turn(0.0, options.slip_per_lateral_acceleration * motion.x(), 1.0);
   sum.add(by_turn, 0.0,
-          squared(options.slip_std_rad) +
+          squared(options.slip_std_rad) + state_.skid_variance() +
               squared(options.slip_per_lateral_acceleration_std * across_mps2));
 }
 

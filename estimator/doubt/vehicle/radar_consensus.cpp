@@ -48,7 +48,7 @@ std::optional<MotionSums> RadarConsensus::contradicting_majority(std::int64_t ti
   const OdometryOptions& options = state_.options();
   MotionSums joint;
   joint.add(Eigen::Vector3d::UnitY(), 0.0, squared(options.start_yaw_rate_std_radps));
-  joint.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
+  joint.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad) + state_.skid_variance());
   int radars = 0;
   bool are_all_witnesses = true;  // Witnesses may see passing vehicles on both sides.
   for (std::size_t i = 0; i < trusts_.size(); ++i) {

@@ -35,7 +35,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   const Eigen::Vector2d expected =
       Eigen::Vector2d(forward * scale, s * v + w * lever_x - d * forward) +
       driving * Eigen::Vector2d(at(kDopplerX), at(kDopplerY)) + at(kOffset) * by_offset +
-      Eigen::Vector2d(rounding * x.mean(kRounding), 0.0);
+      Eigen::Vector2d(rounding * x.mean(kRounding) + x.mean(kMixture), 0.0);
   const Eigen::Vector2d by_speed(scale, s - d - k * v * w);
   const Eigen::Vector2d by_yaw_rate(-lever_y * scale, lever_x + d * lever_y - k * v * v);
   LinearMeasurement result;
@@ -48,6 +48,7 @@ LinearMeasurement DopplerMeasurement::linearise(const DopplerVelocity& velocity)
   result.depend_on(kSlipPerAcceleration, 0.0, -v * v * w);
   result.depend_on(kBodyVelocity, body * Eigen::Vector2d(scale, -d));
   result.depend_on(kRounding, rounding, 0.0);
+  result.depend_on(kMixture, 1.0, 0.0);
   result.depend_on(first + kMountYaw, 0.0, -forward);
   result.depend_on(kCommonScale, forward, 0.0);
   result.depend_on(first + kDopplerScale, forward, 0.0);

@@ -34,10 +34,10 @@ void RadarTrack::clear() {
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {
-  const double dt_s = has_stamp_ ? seconds_between(stamp_us_, stamp_us) : 0.0;
+  since_last_s_ = has_stamp_ ? seconds_between(stamp_us_, stamp_us) : 0.0;
   has_stamp_ = true;
   stamp_us_ = stamp_us;
-  return dt_s;
+  return since_last_s_;
 }
 
 std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
@@ -56,7 +56,8 @@ std::optional<ScanVelocity> RadarTrack::velocity(const TargetSet& targets,
   const double std = std::clamp(best->residual_std_mps, kMinAdaptedStdMps, kMaxAdaptedStdMps);
   doppler_std_mps_ =
       std::sqrt((1.0 - share) * doppler_std_mps_ * doppler_std_mps_ + share * std * std);
-  return ScanVelocity{*best, static_share > 0.5};
+  return ScanVelocity{*best, static_share > 0.5,
+                      excess_.add(targets, best->velocity_mps, since_last_s_)};
 }
 
 }  // namespace cremed

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/fusion/measurement/doppler_excess.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -19,6 +20,8 @@ struct ScanVelocity {
   /// More than half of the targets are static at this velocity. Otherwise the targets that agree
   /// may be moving.
   bool is_clear = false;
+  /// Of residuals, beyond the noise (m^2/s^2): DopplerExcess.
+  double excess_mps2 = 0.0;
 };
 
 /// The scans of one radar: their order, and their velocity by Doppler.
@@ -44,7 +47,9 @@ class RadarTrack {
   DopplerVelocityEstimator doppler_;
   bool has_stamp_ = false;
   std::int64_t stamp_us_ = 0;
+  double since_last_s_ = 0.0;
   double doppler_std_mps_ = 0.0;
+  DopplerExcess excess_;
 };
 
 }  // namespace cremed

@@ -38,6 +38,7 @@ std::vector<StateError> common_errors(const OdometryOptions& o) {
       {"k slip per m/s^2, rad", kSlipPerAcceleration, {slip_per_acceleration_std}, never, S::kAll},
       {"m body, m/s", kBodyVelocity, {o.body_velocity.std, o.body_velocity.time_s}, scene},
       {"e_c rounding, m/s", kRounding, o.rounding, scene},
+      {"e_m mixture, m/s", kMixture, o.mixture, scene},
       {"b_c Doppler scale", kCommonScale, {o.common_scale_std}, never, S::kAllButX},
       {"g_c azimuth scale", kCommonAzimuthScale, {o.common_azimuth_scale_std}, never, S::kAll},
       {"r_c yaw, rad/m", kCommonYawPerMetre, {o.common_yaw_per_metre_std}, never, S::kAll},

@@ -126,6 +126,8 @@ struct OdometryOptions {
   ErrorProcess offset{.std = 0.03, .time_s = 2.0, .per_yaw_rate = 0.03, .if_across = 0.07};
   /// m/s: of the speed by all radars, while creeping. At 0.25 m/s^2 the next step is a second away.
   ErrorProcess rounding{.std = kRoundingStdMps, .time_s = 1.0};
+  /// m/s: of the speed by all radars, where slow cars pass as static: OdometryState::mixture_std().
+  ErrorProcess mixture{.std = 0.0, .time_s = 3.0};
   /// Scale of azimuths in positions: of one radar, and common to all. Not estimated: in a turn it
   /// cannot be separated from the turn, and on a straight not from drifting targets.
   double position_azimuth_scale_std = 0.005;

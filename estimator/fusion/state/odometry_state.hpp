@@ -47,6 +47,15 @@ class OdometryState {
   [[nodiscard]] VehicleEstimate vehicle() const;
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
+  /// Takes a scan's DopplerExcess, by which slow cars among the static targets show.
+  void add_excess(double excess_mps2);
+  /// Standard deviation (m/s) of the shift of all radars' speed by such cars.
+  [[nodiscard]] double mixture_std() const;
+  /// The vehicle skids with a slip of this size (rad) that was not expected (SideSlip): for seconds
+  /// its slip is that uncertain.
+  void add_skid(double slip_rad);
+  /// Of the slip, beyond that of usual driving (rad^2).
+  [[nodiscard]] double skid_variance() const;
 
   /// Resets the errors of a signal of the vehicle's bus to their prior.
   void start_signal(VehicleSignal signal);
@@ -97,6 +106,7 @@ class OdometryState {
   void for_each_error(Visit visit) const;
   void start(const StateError& error);
   void advance(const StateError& error, double dt_s);
+  void advance_skid(double dt_s);
   [[nodiscard]] const std::vector<StateError>& signal_errors(VehicleSignal signal) const {
     return signal_errors_[static_cast<std::size_t>(signal)];
   }
@@ -104,6 +114,10 @@ class OdometryState {
 
   OdometryOptions options_;
   std::int64_t time_us_ = 0;
+  double excess_mps2_ = 0.0;       // The largest of the last scans.
+  double mixture_variance_ = 0.0;  // Of the process of kMixture.
+  bool is_skidding_ = false;
+  double skid_variance_ = 0.0;  // Of the change of the slip, beyond its process.
   std::vector<Pose2> mounts_;
   bool has_forward_radar_;
   SharedPrior mount_yaw_;

@@ -24,10 +24,11 @@ inline constexpr int kMotionStates = 10;
 
 // Common to all radars.
 inline constexpr int kRounding = 10;            ///< m/s
-inline constexpr int kCommonAzimuthScale = 11;  ///< 1
-inline constexpr int kCommonScale = 12;         ///< 1
-inline constexpr int kCommonYawPerMetre = 13;   ///< rad/m
-inline constexpr int kOutput = 14;              ///< Clone of the pose at the last output.
+inline constexpr int kMixture = 11;             ///< m/s
+inline constexpr int kCommonAzimuthScale = 12;  ///< 1
+inline constexpr int kCommonScale = 13;         ///< 1
+inline constexpr int kCommonYawPerMetre = 14;   ///< rad/m
+inline constexpr int kOutput = 15;              ///< Clone of the pose at the last output.
 inline constexpr int kPose = 3;                 ///< States of a clone.
 /// Clones of past poses to which the scans of the radars' maps are attached.
 inline constexpr int kFirstNode = kOutput + kPose;

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cremed/estimator/fusion/measurement/doppler_excess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cremed/estimator/motion/doppler_velocity.hpp"
+#include "cremed/estimator/scan/squared.hpp"
+
+namespace cremed {
+namespace {
+
+/// Residuals beyond are of traffic that the fit rejects: Tukey's limit with an ARS408's noise.
+constexpr double kNearMps = 0.6;
+/// Time constants: of the mean, some scans; of the noise, which falls to the mean as soon as
+/// traffic is gone, and rises slower than a jam lasts.
+constexpr double kMeanS = 0.5;
+constexpr double kFallS = 2.0;
+constexpr double kRiseS = 60.0;
+/// The mean of 30 targets over 0.5 s is right to a tenth; the noise is the lower edge of that.
+constexpr double kMargin = 1.5;
+/// Scans whose mean is the first noise: a second.
+constexpr int kFirstScans = 15;
+
+double mean_square(const TargetSet& targets, const Eigen::Vector2d& velocity_mps) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Target& target : targets) {
+    const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps.x() +
+                                target.sin_bearing * velocity_mps.y();
+    if (std::abs(residual_mps) < kNearMps) {
+      sum += squared(residual_mps);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+}  // namespace
+
+double DopplerExcess::add(const TargetSet& targets, const Eigen::Vector2d& velocity_mps,
+                          double dt_s) {
+  const double of_scan = mean_square(targets, velocity_mps);
+  scans_ = std::min(scans_ + 1, kFirstScans);
+  const double first = scans_ < kFirstScans ? 1.0 / scans_ : 0.0;
+  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kMeanS)) * (of_scan - mean_mps2_);
+  const double time_s = mean_mps2_ < noise_mps2_ ? kFallS : kRiseS;
+  noise_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / time_s)) * (mean_mps2_ - noise_mps2_);
+  const double noise_mps2 = std::max(squared(kArs408DopplerStdMps), kMargin * noise_mps2_);
+  return std::max(0.0, mean_mps2_ - noise_mps2);
+}
+
+}  // namespace cremed

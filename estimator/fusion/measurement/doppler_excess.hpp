@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the cremed authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cremed/estimator/scan/target_set.hpp"
+
+namespace cremed {
+
+/// Variance of the residuals of Doppler of one radar, beyond its noise: slow traffic among the
+/// static targets, before the two can be told apart target by target.
+class DopplerExcess {
+ public:
+  /// Takes a scan, its velocity, and the time since the last scan. Returns the excess (m^2/s^2).
+  double add(const TargetSet& targets, const Eigen::Vector2d& velocity_mps, double dt_s);
+
+ private:
+  int scans_ = 0;            // Of the first.
+  double mean_mps2_ = 0.0;   // Of the squares, over the last scans.
+  double noise_mps2_ = 0.0;  // The least of it, nearly.
+};
+
+}  // namespace cremed

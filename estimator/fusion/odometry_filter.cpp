@@ -285,7 +285,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     measurement.noise *= state_.options().doppler_noise_factor_across;
   }
   Innovation innovation = state_.gaussian.innovate(measurement);
-  if (trust.is_trusted && !state_.is_witness(radar)) {
+  if (trust.is_trusted && !state_.is_witness(radar) && condition_.is_settled()) {
     if (const auto slip_rad = side_slip_.add(radar, stamp_us, measurement, innovation)) {
       state_.add_skid(*slip_rad);
       innovation = state_.gaussian.innovate(measurement);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <vector>
 
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "cremed/estimator/scan/stamps.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/report/report.hpp"
@@ -100,6 +102,23 @@ std::string doctor_command(const Replayed& replayed, std::size_t interface) {
                  in_shell((own != logs.end() ? *own : logs.front())->reader().path()), "`"});
 }
 
+/// A radar that ended before the log: the numbers of scans do not show it. Where the clocks of the
+/// buses differ, the last frame does not tell when that was.
+void report_end(const Replayed& replayed, const std::string& name, std::size_t interface,
+                const RadarStatus& status) {
+  constexpr double kPatienceS = 3.0;
+  const std::int64_t end_us = replayed.replay.last_stamp_us();
+  const double missing_s = seconds_between(status.utime_last_estimate_us, end_us);
+  const double log_s = replayed.replay.traffic_s();
+  const bool are_clocks_alike =
+      std::ranges::none_of(replayed.pipeline.radars(),
+                           [](const auto& each) { return each->is_ahead || each->is_behind; });
+  if (are_clocks_alike && estimates(status) != 0 && missing_s > kPatienceS && missing_s < log_s) {
+    spdlog::warn("{}: no estimate in the last {:.1f} of {:.1f} s; {} tells why", name, missing_s,
+                 log_s, doctor_command(replayed, interface));
+  }
+}
+
 /// False if it had no scan.
 bool report_radar(const Replayed& replayed, std::size_t number) {
   const RadarConfiguration& radar = replayed.configuration.radars[number];
@@ -119,6 +138,9 @@ bool report_radar(const Replayed& replayed, std::size_t number) {
     spdlog::error("{}: no {} of this radar in the input; {} tells why", radar.name,
                   status.decoder.frames == 0 ? "frame" : "scan",
                   doctor_command(replayed, channel.interface));
+  }
+  if (!replayed.is_stopped) {
+    report_end(replayed, radar.name, channel.interface, status);
   }
   return status.assembler.scans != 0;
 }

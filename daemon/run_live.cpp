@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "daemon/configuration/configuration_summary.hpp"
+#include "daemon/configuration/learned_file.hpp"
 #include "daemon/live_session.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/file_aliases.hpp"
@@ -101,8 +102,11 @@ std::unique_ptr<Configuration> reload(const CommandLine& command_line, const std
 void refuse_outputs(const CommandLine& command_line, const std::string& path,
                     const Configuration& configuration) {
   refuse_lcm_file(command_line.lcm_url.value_or(configuration.output.lcm_url));
-  refuse_aliases({{"the configuration", path}},
-                 {{"odometry.state_file", state_file(command_line, configuration)}});
+  const std::string state = state_file(command_line, configuration);
+  refuse_aliases({{"the configuration", path}}, {{"odometry.state_file", state}});
+  if (!state.empty()) {
+    LearnedFile(state, configuration).refuse_foreign();
+  }
 }
 
 int run_live(const CommandLine& command_line, const std::string& path,

@@ -17,8 +17,8 @@ namespace cremed {
 int run_live(const CommandLine& command_line, const std::string& path,
              const Configuration& configuration);
 
-/// Throws UsageError if live operation would overwrite the configuration, or write messages to a
-/// file.
+/// Throws UsageError if live operation would overwrite the configuration or another's file, or
+/// write messages to a file.
 void refuse_outputs(const CommandLine& command_line, const std::string& path,
                     const Configuration& configuration);
 

@@ -170,19 +170,17 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   stop_at_hangup();
   const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
-  const std::string state_file = command_line.state_file.value_or("");
-  if (!state_file.empty()) {
-    require_replaceable(state_file);
+  std::optional<LearnedFile> learned;
+  if (!command_line.state_file.value_or("").empty()) {
+    learned.emplace(*command_line.state_file, configuration);
+    learned->refuse_foreign();
+    require_replaceable(learned->path());
   }
   const Sinks sinks = open_sinks(command_line, configuration);
   OdometryTally tally;
   std::vector<OdometrySink*> all_sinks{&tally};
   for (const auto& sink : sinks.owned) {
     all_sinks.push_back(sink.get());
-  }
-  std::optional<LearnedFile> learned;
-  if (!state_file.empty()) {
-    learned.emplace(state_file, configuration);
   }
   const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(

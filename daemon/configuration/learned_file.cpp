@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <system_error>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "daemon/configuration/toml_document.hpp"
 #include "daemon/configuration/toml_reader.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/usage_error.hpp"
 
 namespace cremed {
 namespace {
@@ -31,6 +33,15 @@ constexpr double kTolerance = 1e-9;
 constexpr const char* kHeader =
     "# Written by cremed: errors of the radars learned while driving, the prior of the next "
     "drive.\n# Delete it after work on the radars' mounts.\n";
+/// "# Written by cremed", by which a damaged file is known.
+constexpr std::size_t kFirstWords = 19;
+
+/// Whether the text can be what is left of a file with that header: its begin, or blocks of zeros.
+bool may_be_own(std::string_view text) {
+  const std::string_view known = std::string_view(kHeader).substr(0, kFirstWords);
+  const std::string_view begin = text.substr(0, kFirstWords);
+  return known.starts_with(begin) || begin.starts_with('\0');
+}
 
 struct Entry {
   std::string name;
@@ -92,6 +103,7 @@ LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
   if (!context.diagnostics.empty()) {
     content.radars.assign(radars_.size(), std::nullopt);
     content.problem = context.diagnostics.text();
+    content.is_foreign = !may_be_own(toml);
   }
   return content;
 }
@@ -132,13 +144,22 @@ LearnedFile::Content LearnedFile::read() const {
   try {
     return parse(read_toml(path_));
   } catch (const std::system_error& error) {
-    Content content{std::vector<std::optional<LearnedErrors>>(radars_.size()), {}, {}};
+    Content content;
+    content.radars.resize(radars_.size());
     if (error.code() != std::errc::no_such_file_or_directory) {
       content.problem = concat(
           {path_, ": cannot be read: ", std::generic_category().message(error.code().value()),
            "; must be a readable file"});
     }
     return content;
+  }
+}
+
+void LearnedFile::refuse_foreign() const {
+  if (read().is_foreign) {
+    throw UsageError(concat({"state file: ", path_,
+                             " is no file of learned errors and would be overwritten; name "
+                             "another, or delete it"}));
   }
 }
 

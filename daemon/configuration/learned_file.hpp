@@ -37,10 +37,14 @@ class LearnedFile {
     std::vector<std::optional<LearnedErrors>> radars;  ///< By radar of the configuration.
     std::string problem;                               ///< Why the file is not used; empty: it is.
     std::vector<std::string> passed_over;              ///< Radars whose mount changed.
+    bool is_foreign = false;                           ///< Not used, and not of cremed.
   };
   [[nodiscard]] Content parse(std::string_view toml) const;
   /// Reads the file; empty if it does not exist.
   [[nodiscard]] Content read() const;
+  /// Throws UsageError if the file is another's: it would be overwritten. One of cremed that was
+  /// damaged, as by a loss of power, is not.
+  void refuse_foreign() const;
   /// As read(), and logs the result.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> read_and_log() const;
 

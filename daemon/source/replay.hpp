@@ -31,6 +31,8 @@ class Replay final : public FrameSource {
   [[nodiscard]] const std::vector<std::unique_ptr<CandumpLog>>& logs() const { return logs_; }
   /// Time span of the frames handed out, without jumps of the log's clock.
   [[nodiscard]] double traffic_s() const { return traffic_s_; }
+  /// Of the last frame handed out.
+  [[nodiscard]] std::int64_t last_stamp_us() const { return last_stamp_us_; }
   /// Of the bytes of all logs, 0 to 1; nothing if one is a pipe.
   [[nodiscard]] std::optional<double> share_read() const;
 

@@ -258,7 +258,9 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
-  if (seen == Seen::road && state_.skid_variance() == 0.0) {
+  if (state_.skid_variance() > 0.0) {
+    faults_.pause();
+  } else if (seen == Seen::road) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
   }
   if (faults_.is_unknown()) {

@@ -103,12 +103,18 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   convictions_.accuse(radar, time_us);
 }
 
+void FaultHypotheses::pause() {
+  evidence_.forget_epochs();
+  was_paused_ = true;
+}
+
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
   const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
   // Their speed jumped, and that of other radars did not: it was not the vehicle.
   convict(evidence_.take_jumped() & ~at_fault(), stamp_us);
-  if (is_due && evidence_.epochs() >= kMinEpochs) {
+  if (is_due && evidence_.epochs() >= (was_paused_ ? MotionEvidence::kEpochs : kMinEpochs)) {
+    was_paused_ = false;
     judge();
   }
 }

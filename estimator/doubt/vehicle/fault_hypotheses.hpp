@@ -57,6 +57,8 @@ class FaultHypotheses {
   void add_motion(std::size_t radar, const EgoMotion& motion) {
     evidence_.add_motion(radar, motion);
   }
+  /// The vehicle skids: radars cannot be compared, nor by what they measured shortly before.
+  void pause();
   /// The velocity of a scan by Doppler; judges the radars if that completes an epoch.
   void add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
 
@@ -138,6 +140,7 @@ class FaultHypotheses {
   bool is_start_open_ = false;  // Wrong sign of one, or two exchanged?
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
+  bool was_paused_ = false;  // All epochs are needed, as many as are compared while driving on.
 };
 
 }  // namespace cremed

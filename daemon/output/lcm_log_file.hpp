@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <lcm/lcm.h>
 
@@ -20,8 +22,13 @@ class LcmLogFile {
   explicit LcmLogFile(std::string path);
 
   [[nodiscard]] bool is_open() const { return log_ != nullptr; }
-  /// False if the message was not written completely. Then nothing more is written.
+  /// False if the message is lost. Messages are written many at once: one each took 7 % of a
+  /// replay's time.
   bool write(const char* channel, std::span<std::uint8_t> data);
+  /// False if not all are written. Then nothing more is written.
+  bool flush();
+  /// Messages that write() took and that could not be written then.
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }
   /// The message that could not be written, and why; empty if none.
   [[nodiscard]] std::string problem() const;
 
@@ -30,8 +37,12 @@ class LcmLogFile {
     void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
   };
   std::string path_;
+  std::vector<char> buffer_;  // Until log_ is closed.
   std::unique_ptr<lcm_eventlog_t, Close> log_;
-  std::int64_t size_bytes_ = 0;  // Size of the complete messages.
+  std::int64_t size_bytes_ = 0;  // Of the messages in the file.
+  std::size_t unwritten_bytes_ = 0;
+  std::int64_t written_ = 0;  // Messages.
+  std::uint64_t lost_ = 0;
   int error_ = 0;
 };
 

@@ -279,19 +279,26 @@ std::string LcmPublisher::connect() {
     file_.reset();
     return concat({"LCM at ", url_, ": ", problem});
   }
-  const std::uint64_t failures = failures_;
+  const std::uint64_t before = failures();
   for (Messages& messages : messages_) {
     publish({kStatusChannel, messages.status_channel.c_str()},
             messages.status);  // As last known: counters must not decrease.
     ++messages.status.seq;
   }
-  if (failures_ != failures) {
+  flush();
+  if (failures() != before) {
     const std::string reason = problem();
     lcm_.reset();
     file_.reset();
     return concat({"LCM at ", url_, ": cannot publish", reason.empty() ? "" : ": ", reason});
   }
   return {};
+}
+
+void LcmPublisher::flush() {
+  if (file_) {
+    file_->flush();
+  }
 }
 
 bool LcmPublisher::send(const char* channel, int size) {

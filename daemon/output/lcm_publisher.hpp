@@ -44,7 +44,11 @@ class LcmPublisher final : public OdometrySink {
   void on_odometry(const Odometry& odometry) override;
   void on_fused(const EgoMotion& motion, std::int32_t solve_us) override;
   void on_status(std::size_t radar, const RadarStatus& status) override;
-  [[nodiscard]] std::uint64_t failures() const override { return failures_; }
+  /// Writes what a file still lacks.
+  void flush();
+  [[nodiscard]] std::uint64_t failures() const override {
+    return failures_ + (file_ ? file_->lost() : 0U);
+  }
   [[nodiscard]] std::string problem() const override {
     return file_ ? file_->problem() : std::string();
   }

@@ -14,8 +14,10 @@ from .status_t import status_t
 GROUP, PORT = "239.255.76.67", 7667  # LCM's default.
 LONGEST_DATAGRAM = 65536
 MAGIC_SHORT, MAGIC_EVENT = 0x4C433032, b"\xED\xA1\xDA\x01"
+EVENT = struct.Struct(">4sqqII")  # Magic, number, time, lengths of channel and payload.
 # Of a log: more than LCM's own for a channel, and than any message of a robot has.
 LONGEST_CHANNEL, LONGEST_PAYLOAD = 999, 1 << 28
+READ_BYTES = 1 << 18  # Of a log at once.
 # linux/socket.h (asm-generic); the socket module does not define it.
 SO_TIMESTAMPNS = 35
 # A message begins with the fingerprint of its type, so the channel is not needed.
@@ -112,26 +114,27 @@ class DamagedLog(ValueError):
 def read_events(path):
     """Iterates over all of such a log as (channel, received_us, payload), not decoded. Raises DamagedLog
     after what comes before the damage."""
-    with open(path, "rb") as log:
-        yield from events_in(log)
+    with open(path, "rb", READ_BYTES) as log:
+        for *event, _ in events_in(log):
+            yield event
 
 
 def events_in(log):
-    """The same of an open file, which stands behind the payload."""
+    """The same of a log opened at its begin, and where the payload ends."""
     at, path = 0, log.name
-    while header := log.read(28):
-        if not MAGIC_EVENT.startswith(header[:4]):
+    while header := log.read(EVENT.size):
+        magic, _, received_us, channel_length, length = EVENT.unpack(header.ljust(EVENT.size, b"\0"))
+        if magic != MAGIC_EVENT and not MAGIC_EVENT.startswith(header):
             raise DamagedLog(f"{path}: damaged at byte {at}: no message begins there" if at else
                              f"{path}: is no LCM log; of a candump log `cremed --config FILE --replay LOG "
                              "--publish-scans --lcm-url 'file://OUT?mode=w'` makes one")
-        _, received_us, channel_length, length = struct.unpack(">qqII", header[4:].ljust(24, b"\0"))
         if channel_length > LONGEST_CHANNEL or length > LONGEST_PAYLOAD:
             raise DamagedLog(f"{path}: damaged at byte {at}: the message there has impossible lengths")
         event = log.read(channel_length + length)
-        if len(header) + len(event) < 28 + channel_length + length:
-            raise DamagedLog(f"{path}: ends inside a message, which begins at byte {at}")
-        at += len(header) + len(event)
-        yield event[:channel_length].decode(errors="replace"), received_us, event[channel_length:]
+        begin, at = at, at + EVENT.size + channel_length + length
+        if len(event) < channel_length + length or len(header) < EVENT.size:
+            raise DamagedLog(f"{path}: ends inside a message, which begins at byte {begin}")
+        yield event[:channel_length].decode(errors="replace"), received_us, event[channel_length:], at
 
 
 def read_log(path):

@@ -43,11 +43,11 @@ class HeardDrive:
     def _read(self):
         takers = {"CREMED_ODOMETRY": self._take_odometry, "CREMED_EGO_MOTION": self._take_motion,
                   "CREMED_STATUS": self._take_status}
-        with open(self.path, "rb") as log:
+        with open(self.path, "rb", 1 << 18) as log:
             try:
-                for number, (channel, _, payload) in enumerate(cremed.events_in(log)):
+                for number, (channel, _, payload, end) in enumerate(cremed.events_in(log)):
                     if number % 4096 == 0:
-                        self.told(log.tell() / self.size)
+                        self.told(end / self.size)
                     if channel in takers:
                         heard = cremed.decoded(channel, 0, payload)
                         if heard is None:
@@ -56,7 +56,7 @@ class HeardDrive:
                         if heard is not None and heard.message.utime != 0:
                             self._take(takers[channel], heard.message)
                     elif channel.startswith("CREMED_SCAN_"):
-                        self._note_scan(channel, payload, log.tell())
+                        self._note_scan(channel, payload, end)
             except cremed.DamagedLog as damage:
                 self.damage = damage
 

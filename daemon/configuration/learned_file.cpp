@@ -40,7 +40,7 @@ constexpr std::size_t kFirstWords = 19;
 bool may_be_own(std::string_view text) {
   const std::string_view known = std::string_view(kHeader).substr(0, kFirstWords);
   const std::string_view begin = text.substr(0, kFirstWords);
-  return known.starts_with(begin) || begin.starts_with('\0');
+  return known.starts_with(begin) || begin.find_first_not_of('\0') == std::string_view::npos;
 }
 
 struct Entry {

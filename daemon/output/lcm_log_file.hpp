@@ -20,6 +20,9 @@ class LcmLogFile {
   /// Creates or truncates the file, which must not be a pipe; is_open() tells whether that
   /// succeeded.
   explicit LcmLogFile(std::string path);
+  LcmLogFile(const LcmLogFile&) = delete;
+  LcmLogFile& operator=(const LcmLogFile&) = delete;
+  ~LcmLogFile() { flush(); }
 
   [[nodiscard]] bool is_open() const { return log_ != nullptr; }
   /// False if the message is lost. Messages are written many at once: one each took 7 % of a

@@ -376,7 +376,7 @@ void LcmPublisher::on_scan(std::size_t radar, const RadarScan& scan) {
 void LcmPublisher::on_status(std::size_t radar, const RadarStatus& status) {
   status_t& m = messages_[radar].status;
   fill(status, m);
-  set(S::COUNTER_MESSAGES_NOT_PUBLISHED, failures_, m);
+  set(S::COUNTER_MESSAGES_NOT_PUBLISHED, failures(), m);
   messages_[radar].motion.doubts = m.doubts;
   publish({kStatusChannel, messages_[radar].status_channel.c_str()}, m);
   ++m.seq;

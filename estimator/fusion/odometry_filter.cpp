@@ -160,6 +160,7 @@ void OdometryFilter::restart(std::int64_t stamp_us, OdometryOutput::Gap gap) {
   condition_.start();
   majority_.clear();
   traffic_.parked.clear();
+  side_slip_.clear();
   has_started_ = true;
   was_ok_ = false;
 }

@@ -115,12 +115,12 @@ def read_events(path):
     """Iterates over all of such a log as (channel, received_us, payload), not decoded. Raises DamagedLog
     after what comes before the damage."""
     with open(path, "rb", READ_BYTES) as log:
-        for *event, _ in events_in(log):
-            yield event
+        for event in events_in(log):
+            yield event[:3]
 
 
 def events_in(log):
-    """The same of a log opened at its begin, and where the payload ends."""
+    """The same of a log opened at its begin, as (channel, received_us, payload, byte behind it)."""
     at, path = 0, log.name
     while header := log.read(EVENT.size):
         magic, _, received_us, channel_length, length = EVENT.unpack(header.ljust(EVENT.size, b"\0"))

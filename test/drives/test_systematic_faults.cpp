@@ -46,6 +46,7 @@ TEST_CASE("Regimes of the nuScenes car, simulated: nobody is named while nothing
                              "reversing", "braking", "garage", "campus"}) {
     matrix.run_healthy(regime, simulated_fault_drive(regime, 50.0, car.radars));
   }
+  // A radar alone allows for side slip with three degrees of freedom only.
   std::vector<RadarConfiguration> three_dof = car.radars;
   for (RadarConfiguration& radar : three_dof) {
     radar.ego_motion.registration.degrees_of_freedom = 3;

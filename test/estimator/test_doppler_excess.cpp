@@ -30,6 +30,7 @@ class SeenTraffic {
     }
     return largest;
   }
+  void forget() { excess_.forget(); }
   [[nodiscard]] double last() const { return last_; }
 
  private:
@@ -72,6 +73,18 @@ TEST_CASE("slow cars that pass as static are an excess while they are there") {
   CHECK(seen.last() < 0.05);
   seen.largest_excess(0.0, 0.0, 3.0);
   CHECK(seen.last() == 0.0);
+}
+
+TEST_CASE("after a gap there is no excess, and a scan of few targets tells nothing") {
+  SeenTraffic seen(0.1, 7);
+  seen.largest_excess(0.0, 0.0, 5.0);
+  seen.largest_excess(0.75, 0.5, 5.0);
+  REQUIRE(seen.last() > 0.01);
+  seen.forget();
+  seen.largest_excess(0.0, 0.0, 0.5 * kExcessPeriodS);
+  CHECK(seen.last() == 0.0);
+  DopplerExcess excess;
+  CHECK(excess.add(TargetSet(), kCreepingMps, kExcessPeriodS) == 0.0);
 }
 
 TEST_CASE("a jam at the start is its noise until it is gone") {

@@ -65,6 +65,11 @@ TEST_CASE("every state but pose, motion and clones has one row of the table of e
   CHECK(found == expected);
 }
 
+TEST_CASE("sixteen radars and the vehicle's signals are not too many states") {
+  const std::vector<Pose2> mounts(16, kFrontLeftRear[0]);
+  CHECK_NOTHROW(OdometryState(with_signals(), mounts));
+}
+
 TEST_CASE("every error starts with its prior, and keeps it as long as the vehicle rests") {
   const OdometryOptions options = with_signals();
   OdometryState state(options, kFrontLeftRear);

@@ -175,9 +175,14 @@ TEST_CASE(
     drive.radar(2).traffic_mps = 0.6 * traffic_mps;
     const Odometry odometry = drive.next();
     CHECK(odometry.left_out == 0);
-    CHECK(std::abs(odometry.twist.x() - drive.speed_mps()) <
-          3.0 * std::sqrt(odometry.twist_covariance(0, 0)));
+    const double std_mps = std::sqrt(odometry.twist_covariance(0, 0));
+    CHECK(std::abs(odometry.twist.x() - drive.speed_mps()) < 3.0 * std_mps);
+    CHECK(std_mps < 0.6);
   }
+  for (std::size_t i = 0; i < 3; ++i) {
+    drive.radar(i).traffic_mps = 0.0;
+  }
+  CHECK(std::sqrt(drive.drive(10.0).twist_covariance(0, 0)) < 0.1);
 }
 
 TEST_CASE("a skid is followed, with all radars, and one radar that is turned is none") {
@@ -197,6 +202,17 @@ TEST_CASE("a skid is followed, with all radars, and one radar that is turned is 
     }
     CHECK(beyond <= 4);  // 2 %, while it begins.
     CHECK(drive.drive(2.0).status == OdometryStatus::ok);
+  }
+  SECTION("silence within it") {
+    for (int i = 0; i < 20; ++i) {
+      drive.set_motion(8.0, 0.0, 0.05 * i);
+      drive.next();
+    }
+    drive.pass(2'500'000);
+    drive.set_motion(8.0, 0.0);
+    const Odometry odometry = drive.drive(1.0);
+    CHECK(odometry.status == OdometryStatus::ok);
+    CHECK(std::abs(odometry.twist.y()) < 5.0 * std::sqrt(odometry.twist_covariance(1, 1)));
   }
   SECTION("turned") {
     drive.radar(1).mount.yaw_rad += numeric::radians(8.0);

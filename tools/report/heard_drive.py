@@ -43,7 +43,7 @@ class HeardDrive:
     def _read(self):
         takers = {"CREMED_ODOMETRY": self._take_odometry, "CREMED_EGO_MOTION": self._take_motion,
                   "CREMED_STATUS": self._take_status}
-        with open(self.path, "rb", 1 << 18) as log:
+        with open(self.path, "rb", cremed.listener.READ_BYTES) as log:
             try:
                 for number, (channel, _, payload, end) in enumerate(cremed.events_in(log)):
                     if number % 4096 == 0:

@@ -78,6 +78,7 @@ void FaultHypotheses::clear() {
   }
   std::fill(speed_doubted_us_.begin(), speed_doubted_us_.end(), std::nullopt);
   unknown_epochs_ = 0;
+  was_paused_ = false;
 }
 
 bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us) {
@@ -105,6 +106,8 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 
 void FaultHypotheses::pause() {
   evidence_.forget_epochs();
+  unknown_epochs_ = 0;
+  supported_epochs_ = 0;
   was_paused_ = true;
 }
 
@@ -127,7 +130,7 @@ void FaultHypotheses::convict(RadarSet set, std::int64_t time_us) {
 }
 
 std::optional<Eigen::Vector3d> FaultHypotheses::take_correction() {
-  if (!convictions_.take_new() || evidence_.epochs() == 0) {
+  if (evidence_.epochs() == 0 || !convictions_.take_new()) {
     return std::nullopt;
   }
   const RadarSet believed = evidence_.present() & ~at_fault();

@@ -279,7 +279,7 @@ void MotionEvidence::add_slip(MotionSums& sum) const {
   const double across_mps2 = std::min(std::abs(motion.x() * motion.y()), kMaxAccelerationMps2);
   const Eigen::Vector3d by_turn(0.0, options.slip_per_lateral_acceleration * motion.x(), 1.0);
   sum.add(by_turn, 0.0,
-          squared(options.slip_std_rad) + state_.skid_variance() +
+          squared(options.slip_std_rad) +
               squared(options.slip_per_lateral_acceleration_std * across_mps2));
 }
 

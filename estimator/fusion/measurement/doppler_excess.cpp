@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/squared.hpp"
@@ -14,16 +15,19 @@ namespace {
 /// Residuals beyond are of traffic that the fit rejects: Tukey's limit with an ARS408's noise.
 constexpr double kNearMps = 0.6;
 /// Time constants: of the mean, some scans; of the noise, which falls to the mean as soon as
-/// traffic is gone, and rises slower than a jam lasts.
+/// traffic is gone, and rises slowly: after a minute of an unbroken jam the cars count as noise.
 constexpr double kMeanS = 0.5;
 constexpr double kFallS = 2.0;
 constexpr double kRiseS = 60.0;
+/// Two numbers of the velocity are fitted to them.
+constexpr int kMinTargets = 10;
+constexpr int kFitted = 2;
 /// The mean of 30 targets over 0.5 s is right to a tenth; the noise is the lower edge of that.
 constexpr double kMargin = 1.5;
 /// Scans whose mean is the first noise: a second.
 constexpr int kFirstScans = 15;
 
-double mean_square(const TargetSet& targets, const Eigen::Vector2d& velocity_mps) {
+std::optional<double> mean_square(const TargetSet& targets, const Eigen::Vector2d& velocity_mps) {
   double sum = 0.0;
   int count = 0;
   for (const Target& target : targets) {
@@ -34,17 +38,20 @@ double mean_square(const TargetSet& targets, const Eigen::Vector2d& velocity_mps
       ++count;
     }
   }
-  return count > 0 ? sum / count : 0.0;
+  return count >= kMinTargets ? std::optional(sum / (count - kFitted)) : std::nullopt;
 }
 
 }  // namespace
 
 double DopplerExcess::add(const TargetSet& targets, const Eigen::Vector2d& velocity_mps,
                           double dt_s) {
-  const double of_scan = mean_square(targets, velocity_mps);
+  const auto of_scan = mean_square(targets, velocity_mps);
+  if (!of_scan) {
+    return 0.0;
+  }
   scans_ = std::min(scans_ + 1, kFirstScans);
   const double first = scans_ < kFirstScans ? 1.0 / scans_ : 0.0;
-  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kMeanS)) * (of_scan - mean_mps2_);
+  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kMeanS)) * (*of_scan - mean_mps2_);
   const double time_s = mean_mps2_ < noise_mps2_ ? kFallS : kRiseS;
   noise_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / time_s)) * (mean_mps2_ - noise_mps2_);
   const double noise_mps2 = std::max(squared(kArs408DopplerStdMps), kMargin * noise_mps2_);

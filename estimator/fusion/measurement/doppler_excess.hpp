@@ -12,7 +12,10 @@ namespace cremed {
 /// static targets, before the two can be told apart target by target.
 class DopplerExcess {
  public:
-  /// Takes a scan, its velocity, and the time since the last scan. Returns the excess (m^2/s^2).
+  /// After a gap: the traffic may be gone, the radar's noise stays.
+  void forget() { mean_mps2_ = noise_mps2_; }
+  /// Takes a scan, its velocity, and the time since the last scan. Returns the excess (m^2/s^2);
+  /// 0 of a scan with too few targets.
   double add(const TargetSet& targets, const Eigen::Vector2d& velocity_mps, double dt_s);
 
  private:

@@ -74,7 +74,9 @@ void DopplerMeasurement::add_lateness(LinearMeasurement& measurement) const {
   const double left = std::exp(-2.0 * late_s / options.body_velocity.time_s);
   measurement.noise(0, 0) += rate_variance(options.acceleration, late_s) +
                              squared(options.body_velocity.std) * (1.0 - left);
-  const OrnsteinUhlenbeck yaw = yaw_acceleration_at(state.gaussian.mean(kSpeed), options);
+  const double v = state.gaussian.mean(kSpeed);
+  const OrnsteinUhlenbeck yaw = yaw_acceleration_at(v, options, state.skid_variance());
+  measurement.noise(1, 1) += squared(v) * skid_noise(state.skid_variance(), late_s);
   measurement.noise.topLeftCorner<2, 2>() += rate_variance(yaw, late_s) * lever * lever.transpose();
 }
 

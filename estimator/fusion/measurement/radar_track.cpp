@@ -31,6 +31,7 @@ RadarTrack::RadarTrack(const OdometryOptions& options) : options_(options) { cle
 void RadarTrack::clear() {
   has_stamp_ = false;
   doppler_std_mps_ = options_.doppler_std_mps;
+  excess_.forget();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {

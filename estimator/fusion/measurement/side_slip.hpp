@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -12,14 +13,15 @@
 
 namespace cremed {
 
-/// Whether the vehicle skids: a radar ahead of the rear axle and one behind it see the same slip
-/// that the state does not expect. An unexpected turn moves them to opposite sides, and an error of
-/// one radar is seen by that radar only.
+/// Whether the vehicle skids: a radar behind the rear axle and another one see the same slip that
+/// the state does not expect. An unexpected turn moves one ahead of the axle to the opposite side,
+/// and one behind it hardly, being near the axle; an error of one radar is seen by that radar only.
 class SideSlip {
  public:
   /// `state` must outlive this object.
   explicit SideSlip(const OdometryState& state) : state_(state), seen_(state.radars()) {}
 
+  void clear() { std::fill(seen_.begin(), seen_.end(), Seen()); }
   /// Takes a scan's measurement by Doppler, and its innovation. Returns the size (rad) of the slip
   /// that the state does not expect, if the vehicle skids.
   std::optional<double> add(std::size_t radar, std::int64_t stamp_us,

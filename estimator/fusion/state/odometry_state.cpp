@@ -25,12 +25,14 @@ constexpr double kExcessTimeS = 0.3;
 /// An ARS408 flags faster cars as moving, and at a higher speed errors of azimuth widen residuals.
 constexpr double kMaxMixedMps = 3.0;
 
-/// A skid swings from one side to the other within a second.
-constexpr double kSkidS = 1.0;
 /// Over the slip of usual driving.
 constexpr double kLeastSkid = 3.0;
-/// A slip that stays is no skid: it ends about so many kSkidS after the last change that was seen.
+/// A slip that stays is no skid: it ends so many kSkidS after the last change that was seen, if
+/// that was the least; twice as many after one of 14 degrees.
 constexpr double kMaxSkids = 5.0;
+
+constexpr int kMostRadars = 16;
+static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);
 
 int size_of(std::size_t radars, const OdometryOptions& options) {
   return size(static_cast<int>(radars)) + (options.vehicle.is_used() ? kVehicleStates : 0);
@@ -127,7 +129,11 @@ void OdometryState::start() {
 
 void OdometryState::restart(std::int64_t time_us) {
   time_us_ = time_us;
+  excess_mps2_ = 0.0;
   mixture_variance_ = 0.0;
+  if (is_skidding_ || squared(gaussian.mean(kSlip)) > least_skid()) {
+    gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  }
   skid_variance_ = 0.0;
   is_skidding_ = false;
   for (int i = 0; i < kPose; ++i) {
@@ -191,7 +197,8 @@ void OdometryState::advance_to(std::int64_t time_us) {
   for (double left_s = seconds_between(time_us_, time_us); left_s > 0.0;
        left_s -= kMaxMotionStepS) {
     const double step_s = std::min(left_s, kMaxMotionStepS);
-    const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), step_s, options_);
+    const MotionStep step =
+        moved(gaussian.mean().head<kMotionStates>(), step_s, options_, skid_variance());
     const double before = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
     const double after = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
@@ -210,7 +217,7 @@ void OdometryState::advance_to(std::int64_t time_us) {
 
 VehicleEstimate OdometryState::vehicle() const {
   return {gaussian.mean().head<kMotionStates>(),
-          gaussian.covariance().topLeftCorner<kMotionStates, kMotionStates>()};
+          gaussian.covariance().topLeftCorner<kMotionStates, kMotionStates>(), skid_variance()};
 }
 
 void OdometryState::advance_errors(std::size_t radar, double dt_s) {
@@ -261,22 +268,15 @@ void OdometryState::add_skid(double slip_rad) {
   }
 }
 
+/// After the state was moved with skid_variance().
 void OdometryState::advance_skid(double dt_s) {
-  if (!is_skidding_) {
-    return;
-  }
-  const double left = std::exp(-dt_s / kSkidS);
-  gaussian.add_variance(kSlip, skid_variance() * (1.0 - left * left));
-  skid_variance_ *= left;
-  // The driver does not keep the lateral jerk small.
-  const OrnsteinUhlenbeck& any = options_.yaw_acceleration;
-  const double usual_std = yaw_acceleration_at(gaussian.mean(kSpeed), options_).std;
-  gaussian.add_variance(kYawAcceleration, (squared(any.std) - squared(usual_std)) *
-                                              (1.0 - std::exp(-2.0 * dt_s / any.time_s)));
-  const double least = squared(kLeastSkid * options_.slip_std_rad);
-  is_skidding_ = skid_variance_ + squared(gaussian.mean(kSlip)) > least &&
-                 skid_variance_ > std::exp(-2.0 * kMaxSkids) * least;
+  skid_variance_ *= std::exp(-dt_s / kSkidS);
+  is_skidding_ = is_skidding_ && skid_variance_ + squared(gaussian.mean(kSlip)) > least_skid() &&
+                 skid_variance_ > std::exp(-kMaxSkids) * least_skid();
+  skid_variance_ = is_skidding_ ? skid_variance_ : 0.0;
 }
+
+double OdometryState::least_skid() const { return squared(kLeastSkid * options_.slip_std_rad); }
 
 double OdometryState::skid_variance() const {
   return is_skidding_ ? skid_variance_ + squared(gaussian.mean(kSlip)) : 0.0;

@@ -107,6 +107,7 @@ class OdometryState {
   void start(const StateError& error);
   void advance(const StateError& error, double dt_s);
   void advance_skid(double dt_s);
+  [[nodiscard]] double least_skid() const;
   [[nodiscard]] const std::vector<StateError>& signal_errors(VehicleSignal signal) const {
     return signal_errors_[static_cast<std::size_t>(signal)];
   }

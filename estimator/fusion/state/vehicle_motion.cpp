@@ -95,10 +95,12 @@ void move_process(int which, const OrnsteinUhlenbeck& process, double dt_s, Moti
 
 }  // namespace
 
-MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options) {
+MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options,
+                 double skid_variance) {
   MotionStep step{state, MotionStep::Matrix::Identity(), MotionStep::Matrix::Zero()};
   const Decay a = decay(options.acceleration, dt_s);
-  const OrnsteinUhlenbeck yaw_acceleration = yaw_acceleration_at(state(kSpeed), options);
+  const OrnsteinUhlenbeck yaw_acceleration =
+      yaw_acceleration_at(state(kSpeed), options, skid_variance);
   const Decay c = decay(yaw_acceleration, dt_s);
   move_pose(state, dt_s, a, c, step);
   move_rate(kSpeed, a, step);
@@ -106,13 +108,22 @@ MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOpt
   add_rate_noise(options.acceleration, dt_s, kSpeed, step.noise);
   add_rate_noise(yaw_acceleration, dt_s, kYawRate, step.noise);
   move_process(kSlip, bounded_walk(options.slip_std_rad, options.slip_walk), dt_s, step);
+  step.noise(kSlip, kSlip) += skid_noise(skid_variance, dt_s);
   move_process(kBodyVelocity, options.body_velocity, dt_s, step);
   add_pose_noise(step);
   return step;
 }
 
-OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options) {
+double skid_noise(double skid_variance, double dt_s) {
+  return skid_variance * (1.0 - std::exp(-2.0 * std::abs(dt_s) / kSkidS));
+}
+
+OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options,
+                                      double skid_variance) {
   OrnsteinUhlenbeck process = options.yaw_acceleration;
+  if (skid_variance > 0.0) {
+    return process;
+  }
   process.std /= std::sqrt(1.0 + squared(speed_mps * process.std / options.lateral_jerk_std_mps3));
   return process;
 }
@@ -131,7 +142,8 @@ double variance_by_product(const Eigen::Ref<const Eigen::Matrix3d>& pose_covaria
 VehicleEstimate VehicleEstimate::predicted(double dt_s, const OdometryOptions& options) const {
   VehicleEstimate result = *this;
   for (double left_s = dt_s; left_s > 0.0; left_s -= kMaxMotionStepS) {
-    const MotionStep step = moved(result.mean, std::min(left_s, kMaxMotionStepS), options);
+    const MotionStep step =
+        moved(result.mean, std::min(left_s, kMaxMotionStepS), options, skid_variance);
     const MotionStep::Matrix moved_covariance = step.jacobian * result.covariance;
     const double before = variance_by_product(result.covariance.topLeftCorner<kPose, kPose>());
     result.covariance = moved_covariance * step.jacobian.transpose() + step.noise;

@@ -29,10 +29,17 @@ struct MotionStep {
 };
 
 /// If `dt_s` is negative, the state at an earlier time with constant accelerations.
-MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options);
+/// `skid_variance`: OdometryState::skid_variance().
+MotionStep moved(const MotionStep::Vector& state, double dt_s, const OdometryOptions& options,
+                 double skid_variance = 0.0);
 
-/// The process of the yaw acceleration at a speed v: std / sqrt(1 + (v std / lateral jerk)^2).
-OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options);
+/// Variance (rad^2) of the change of the slip in `dt_s` in a skid.
+double skid_noise(double skid_variance, double dt_s);
+
+/// The process of the yaw acceleration at a speed v: std / sqrt(1 + (v std / lateral jerk)^2). In a
+/// skid the driver does not keep the lateral jerk small.
+OrnsteinUhlenbeck yaw_acceleration_at(double speed_mps, const OdometryOptions& options,
+                                      double skid_variance = 0.0);
 
 /// Variance of a rate after `dt_s`, by the noise of its derivative since.
 double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s);
@@ -41,6 +48,9 @@ double rate_variance(const OrnsteinUhlenbeck& derivative, double dt_s);
 /// the first order lacks. After a time at unknown speed, with mean 0, it is all there is of y.
 double variance_by_product(const Eigen::Ref<const Eigen::Matrix3d>& pose_covariance);
 
+/// Of a skid, from one side to the other.
+inline constexpr double kSkidS = 1.0;
+
 /// Longest step: accelerations are nearly constant in it.
 inline constexpr double kMaxMotionStepS = 0.1;
 
@@ -48,6 +58,7 @@ inline constexpr double kMaxMotionStepS = 0.1;
 struct VehicleEstimate {
   MotionStep::Vector mean;
   MotionStep::Matrix covariance;
+  double skid_variance = 0.0;  ///< OdometryState::skid_variance().
 
   /// The estimate after `dt_s`.
   [[nodiscard]] VehicleEstimate predicted(double dt_s, const OdometryOptions& options) const;

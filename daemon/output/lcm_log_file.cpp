@@ -21,7 +21,7 @@ namespace {
 /// since ftell() is a system call for each message.
 constexpr std::size_t kHeaderBytes = 28;
 /// More than the longest message: that of a scan has 8 kB.
-constexpr std::size_t kBufferBytes = std::size_t{1} << 16U;
+constexpr std::size_t kLogBufferBytes = std::size_t{1} << 16U;
 
 /// Opening one waits for its reader.
 bool is_pipe(const std::string& path) {
@@ -33,7 +33,7 @@ bool is_pipe(const std::string& path) {
 
 LcmLogFile::LcmLogFile(std::string path)
     : path_(std::move(path)),
-      buffer_(kBufferBytes),
+      buffer_(kLogBufferBytes),
       log_(is_pipe(path_) ? nullptr : lcm_eventlog_create(path_.c_str(), "w")) {
   if (is_open()) {
     std::setvbuf(log_->f, buffer_.data(), _IOFBF, buffer_.size());
@@ -52,7 +52,7 @@ bool LcmLogFile::write(const char* channel, std::span<std::uint8_t> data) {
   event.data = data.data();
   event.datalen = static_cast<std::int32_t>(data.size());
   const std::size_t bytes = kHeaderBytes + name.size() + data.size();
-  if (unwritten_bytes_ + bytes > kBufferBytes && !flush()) {
+  if (unwritten_bytes_ + bytes > kLogBufferBytes && !flush()) {
     return false;
   }
   unwritten_bytes_ += bytes;

@@ -16,14 +16,14 @@ namespace {
 constexpr double kNearMps = 0.6;
 /// Time constants: of the mean, some scans; of the noise, which falls to the mean as soon as
 /// traffic is gone, and rises slowly: after a minute of an unbroken jam the cars count as noise.
-constexpr double kMeanS = 0.5;
-constexpr double kFallS = 2.0;
-constexpr double kRiseS = 60.0;
+constexpr double kExcessMeanS = 0.5;
+constexpr double kNoiseFallS = 2.0;
+constexpr double kNoiseRiseS = 60.0;
 /// Two numbers of the velocity are fitted to them.
-constexpr int kMinTargets = 10;
-constexpr int kFitted = 2;
+constexpr int kMinNearTargets = 10;
+constexpr int kFittedNumbers = 2;
 /// The mean of 30 targets over 0.5 s is right to a tenth; the noise is the lower edge of that.
-constexpr double kMargin = 1.5;
+constexpr double kNoiseMargin = 1.5;
 /// Scans whose mean is the first noise: a second.
 constexpr int kFirstScans = 15;
 
@@ -38,7 +38,7 @@ std::optional<double> mean_square(const TargetSet& targets, const Eigen::Vector2
       ++count;
     }
   }
-  return count >= kMinTargets ? std::optional(sum / (count - kFitted)) : std::nullopt;
+  return count >= kMinNearTargets ? std::optional(sum / (count - kFittedNumbers)) : std::nullopt;
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ double DopplerExcess::add(const TargetSet& targets, const Eigen::Vector2d& veloc
   }
   scans_ = std::min(scans_ + 1, kFirstScans);
   const double first = scans_ < kFirstScans ? 1.0 / scans_ : 0.0;
-  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kMeanS)) * (*of_scan - mean_mps2_);
-  const double time_s = mean_mps2_ < noise_mps2_ ? kFallS : kRiseS;
+  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kExcessMeanS)) * (*of_scan - mean_mps2_);
+  const double time_s = mean_mps2_ < noise_mps2_ ? kNoiseFallS : kNoiseRiseS;
   noise_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / time_s)) * (mean_mps2_ - noise_mps2_);
-  const double noise_mps2 = std::max(squared(kArs408DopplerStdMps), kMargin * noise_mps2_);
+  const double noise_mps2 = std::max(squared(kArs408DopplerStdMps), kNoiseMargin * noise_mps2_);
   return std::max(0.0, mean_mps2_ - noise_mps2);
 }
 

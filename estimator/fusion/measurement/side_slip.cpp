@@ -13,7 +13,7 @@ namespace {
 
 /// Of an innovation. Chance exceeds it in one scan of 400 to each side, so of two radars on the
 /// same side once in minutes to hours; the slip is then as uncertain as the noise, for a second.
-constexpr double kMinSigmas = 2.8;
+constexpr double kMinSlipSigmas = 2.8;
 /// Of scans that are compared: one and a half periods of a slow radar.
 constexpr double kMaxApartS = 0.15;
 /// A slower vehicle hardly skids, and its slip is the noise of Doppler over a small speed.
@@ -26,7 +26,7 @@ std::optional<double> SideSlip::add(std::size_t radar, std::int64_t stamp_us,
                                     const Innovation& innovation) {
   const double speed_mps = state_.gaussian.mean(state_layout::kSpeed);
   const bool is_expected =
-      innovation.nis_of_numbers.y() < squared(kMinSigmas) || std::abs(speed_mps) < kMinSpeedMps;
+      innovation.nis_of_numbers.y() < squared(kMinSlipSigmas) || std::abs(speed_mps) < kMinSpeedMps;
   const double slip_rad = is_expected ? 0.0 : measurement.residual.y() / speed_mps;
   seen_[radar] = {stamp_us, slip_rad};
   double confirmed_rad = 0.0;

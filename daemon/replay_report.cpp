@@ -106,14 +106,15 @@ std::string doctor_command(const Replayed& replayed, std::size_t interface) {
 /// buses differ, the last frame does not tell when that was.
 void report_end(const Replayed& replayed, const std::string& name, std::size_t interface,
                 const RadarStatus& status) {
-  constexpr double kPatienceS = 3.0;
+  constexpr double kLeastMissingS = 3.0;
   const std::int64_t end_us = replayed.replay.last_stamp_us();
   const double missing_s = seconds_between(status.utime_last_estimate_us, end_us);
   const double log_s = replayed.replay.traffic_s();
   const bool are_clocks_alike =
       std::ranges::none_of(replayed.pipeline.radars(),
                            [](const auto& each) { return each->is_ahead || each->is_behind; });
-  if (are_clocks_alike && estimates(status) != 0 && missing_s > kPatienceS && missing_s < log_s) {
+  if (are_clocks_alike && estimates(status) != 0 && missing_s > kLeastMissingS &&
+      missing_s < log_s) {
     spdlog::warn("{}: no estimate in the last {:.1f} of {:.1f} s; {} tells why", name, missing_s,
                  log_s, doctor_command(replayed, interface));
   }

@@ -25,7 +25,7 @@ constexpr double kExcessTimeS = 0.3;
 /// An ARS408 flags faster cars as moving, and at a higher speed errors of azimuth widen residuals.
 constexpr double kMaxMixedMps = 3.0;
 
-/// Over the slip of usual driving.
+/// Least slip of a skid, in standard deviations of the slip of usual driving.
 constexpr double kLeastSkid = 3.0;
 /// A slip that stays is no skid: it ends so many kSkidS after the last change that was seen, if
 /// that was the least; twice as many after one of 14 degrees.

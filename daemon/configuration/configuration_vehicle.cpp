@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <string_view>
 
@@ -9,6 +8,7 @@
 #include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
@@ -23,11 +23,8 @@ std::optional<std::uint32_t> id_of(std::string_view text) {
     return std::nullopt;
   }
   constexpr int kHexadecimal = 16;
-  std::uint32_t id = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + kPrefix.size(), end, id, kHexadecimal);
-  const bool is_whole = read.ec == std::errc() && read.ptr == end;
-  return is_whole && id <= kMaxId ? std::optional(id) : std::nullopt;
+  const auto id = whole_number<std::uint32_t>(text.substr(kPrefix.size()), kHexadecimal);
+  return id && *id <= kMaxId ? id : std::nullopt;
 }
 
 constexpr TextRule kBusName = {

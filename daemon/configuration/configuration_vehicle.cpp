@@ -7,6 +7,7 @@
 #include "daemon/configuration/configuration_radar.hpp"
 #include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/interfaces.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/whole_number.hpp"
 
@@ -38,11 +39,6 @@ void read_id(TomlReader& reader, std::string_view key, std::optional<std::uint32
   std::string text = id ? hexadecimal(*id) : std::string(kOff);
   reader.text(key, text, kIdentifier);
   id = id_of(text);
-}
-
-bool has_feedback(const RadarConfiguration& radar) {
-  const auto* ars408 = radar.decoder.as<Ars408Options>();
-  return ars408 != nullptr && ars408->motion_feedback;
 }
 
 void check_id(TomlReader& reader, std::string_view key, std::optional<std::uint32_t> id,
@@ -94,7 +90,7 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
   check_id(reader, "speed", speed, configuration);
   check_id(reader, "yaw_rate", yaw_rate, configuration);
   const auto& radars = configuration.radars;
-  const auto told = std::ranges::find_if(radars, has_feedback);
+  const auto told = std::ranges::find_if(radars, has_motion_feedback);
   if (told != radars.end()) {
     reader.report(
         "interface",

@@ -70,7 +70,7 @@ Result result_of(const DriveOfCar& scene, bool with_vehicle) {
   const auto frames = merged(frames_of_wheels(read_shared(folder + "/wheels.csv")), radars);
   RecordingSink sink(configuration.radars.size());
   const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, source, {&sink}, {});
   for (const CanFrame& frame : frames) {
     pipeline.on_frame(frame);
   }

@@ -38,7 +38,7 @@ long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySin
   configuration.vehicle.interface = "can0";
   configuration.odometry.filter.vehicle.speed.is_used = true;
   configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
-  Pipeline pipeline(configuration, source, sinks, {&no_clock});
+  Pipeline pipeline(configuration, source, sinks, {});
   std::string_view rest = simulated.log;
   const AllocationGuard guard;
   while (!rest.empty()) {
@@ -120,7 +120,7 @@ TEST_CASE("From a socket to CSV, nothing allocates") {
   const Drive simulated = simulate();
   CsvWriter csv("/dev/null", {"front", "rear"});
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&csv}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&csv}, {});
   const DatagramPair pair;
   CanSocket socket;
   REQUIRE(socket.adopt(pair.receiver(), {}).status == CanOpenStatus::open);

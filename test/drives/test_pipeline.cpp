@@ -212,7 +212,7 @@ TEST_CASE("Odometry takes scans in the order of their stamps, whichever is whole
   const Drive simulated = drive(scenario("bends"), default_radars(), options(7, 5.0));
   CompletionSink sink;
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {});
   for (const CanFrame& frame : simulated.frames) {
     pipeline.on_frame(frame);
   }
@@ -241,7 +241,7 @@ TEST_CASE("Odometry that is switched off is neither there nor fused") {
   configuration.odometry.enabled = false;
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, source, {&sink}, {});
   for (const CanFrame& frame : simulated.frames) {
     pipeline.on_frame(frame);
   }
@@ -278,7 +278,7 @@ TEST_CASE("No odometry spans a step of the clock") {
   const Drive simulated = drive(scenario("bends"), default_radars(), options(8, 8.0));
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {});
   const std::size_t middle = simulated.frames.size() / 2;
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == middle) {
@@ -325,7 +325,7 @@ TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
   const Drive simulated = drive(scenario("straight"), default_radars(), options(5, 2.0));
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {});
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == simulated.frames.size() / 2) {
       pipeline.on_dropped(0);

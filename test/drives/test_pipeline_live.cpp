@@ -52,7 +52,7 @@ TEST_CASE("No estimate spans a clock step, however small, and the next pair give
   const std::int64_t step_at_us = simulated.frames[middle].stamp_us;
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {});
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == middle) {
       pipeline.on_clock_step();
@@ -140,7 +140,7 @@ TEST_CASE("Every event of a source but its end goes on") {
   EndlessSource source({SourceEvent::frame, SourceEvent::dropped, SourceEvent::clock_step,
                         SourceEvent::idle, SourceEvent::end});
   RecordingSink sink(2);
-  Pipeline pipeline(configuration_of(default_radars()), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(default_radars()), source, {&sink}, {});
   int turns = 0;
   while (pipeline.take_next(source)) {
     ++turns;
@@ -154,7 +154,7 @@ TEST_CASE("A scan never closes earlier than the frames it is said to wait for al
   const Drive simulated = drive(scenario("lossy"), default_radars(), options);
   RecordingSink sink(2);
   const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {});
   std::size_t most = 0;
   std::size_t whole = 0;
   for (const CanFrame& frame : simulated.frames) {

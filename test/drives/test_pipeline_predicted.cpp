@@ -39,7 +39,7 @@ RecordingSink run(
   configuration.odometry.filter.rate_hz = rate_hz;
   RecordingSink sink(drive.radars.size());
   const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, source, {&sink}, {});
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     before_frame(pipeline, i);
     pipeline.on_frame(drive.frames[i]);

@@ -55,7 +55,7 @@ struct VehicleOutcome {
 VehicleOutcome run(const Configuration& configuration, const std::vector<CanFrame>& frames) {
   RecordingSink sink(configuration.radars.size());
   const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, source, {&sink}, {});
   for (const CanFrame& frame : frames) {
     pipeline.on_frame(frame);
   }

@@ -42,8 +42,6 @@ class NoSource final : public FrameSource {
   SourceEvent next(CanFrame&) override { return SourceEvent::end; }
 };
 
-inline std::int64_t no_clock() { return 0; }
-
 inline Configuration configuration_of(const std::vector<RadarConfiguration>& radars) {
   Configuration configuration;
   configuration.radars = radars;
@@ -54,7 +52,7 @@ inline RecordingSink run_pipeline(const std::vector<RadarConfiguration>& radars,
                                   const std::vector<CanFrame>& frames) {
   RecordingSink sink(radars.size());
   const NoSource source;
-  Pipeline pipeline(configuration_of(radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(radars), source, {&sink}, {});
   for (const CanFrame& frame : frames) {
     pipeline.on_frame(frame);
   }

@@ -11,6 +11,7 @@
 #include "daemon/source/link_watch.hpp"
 
 namespace cremed {
+
 bool kernel_has_can() {
   const Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   return socket.is_open() || (errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT);

@@ -15,6 +15,7 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "test/tools/fake_ars408.hpp"
 #include "test/tools/simulated_drive.hpp"
+#include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/observer.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 

@@ -155,25 +155,20 @@ void LiveReporter::report_bus(const BusConnection& interface, const BusStatus& n
 
 void LiveReporter::report_losses(const std::string& name, const BusStatus& now,
                                  const BusStatus& before) {
-  const int lost = now.frames_lost != before.frames_lost ? 1 : 0;
-  log_.update(concat({name, " losses"}), lost, [] {
-    return "frames are lost: too many for this computer, or for the receive buffer; the scans they "
-           "belong to are incomplete";
-  });
-  const int stale = now.frames_stale != before.frames_stale ? 1 : 0;
-  log_.update(concat({name, " delay"}), stale, [] {
-    return "frames waited for longer than live.max_latency_s and are dropped: cremed did not run "
-           "in time";
-  });
+  log_.update(concat({name, " losses"}), now.frames_lost != before.frames_lost,
+              "frames are lost: too many for this computer, or for the receive buffer; the scans "
+              "they belong to are incomplete");
+  log_.update(concat({name, " delay"}), now.frames_stale != before.frames_stale,
+              "frames waited for longer than live.max_latency_s and are dropped: cremed did not "
+              "run in time");
   const int wanted = configuration_.live.socket.receive_buffer_bytes;
   const bool is_clipped = now.receive_buffer_bytes != 0 && now.receive_buffer_bytes < wanted;
   log_.update(concat({name, " receive buffer"}), is_clipped ? 1 : 0, [&] {
     return fmt::format("{} bytes instead of {}: `sysctl -w net.core.rmem_max={}`",
                        now.receive_buffer_bytes, wanted, wanted);
   });
-  log_.update(concat({name, " hardware stamps"}), now.hardware_stamps_work ? 0 : 1, [] {
-    return "missing, running backwards or not of the system's clock: the kernel's are used";
-  });
+  log_.update(concat({name, " hardware stamps"}), !now.hardware_stamps_work,
+              "missing, running backwards or not of the system's clock: the kernel's are used");
 }
 
 std::string LiveReporter::report_radar(std::size_t radar) {
@@ -226,7 +221,7 @@ std::string LiveReporter::report_odometry() {
   }
   seconds_without_odometry_ = is_good ? 0 : seconds_without_odometry_ + 1;
   // Logged once; the status line shows later changes of the cause.
-  log_.update("odometry", seconds_without_odometry_ < kPatienceS ? 0 : 1, [&] { return state; });
+  log_.update("odometry", seconds_without_odometry_ >= kPatienceS, state.c_str());
   return "odometry: " + state;
 }
 
@@ -256,19 +251,16 @@ void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status)
 
 std::string LiveReporter::report_feedback(std::size_t radar) {
   const bool has_rival = feedback_.has_rival(radar);
-  log_.update(concat({configuration_.radars[radar].name, " motion_feedback"}), has_rival ? 1 : 0,
-              [] {
-                return "another node sends the sensor 0x300 or 0x301 too: nothing is sent until "
-                       "that is silent for 10 s; set motion_feedback = false, or stop the other";
-              });
+  log_.update(concat({configuration_.radars[radar].name, " motion_feedback"}), has_rival,
+              "another node sends the sensor 0x300 or 0x301 too: nothing is sent until that is "
+              "silent for 10 s; set motion_feedback = false, or stop the other");
   return has_rival ? ", motion_feedback paused: another node sends it" : "";
 }
 
 void LiveReporter::report_stale() {
   const std::uint64_t stale = gate_.failures() - std::exchange(stale_, gate_.failures());
-  log_.update("results delay", stale == 0 ? 0 : 1, [] {
-    return "results older than live.max_latency_s are not sent: cremed did not run in time";
-  });
+  log_.update("results delay", stale != 0,
+              "results older than live.max_latency_s are not sent: cremed did not run in time");
 }
 
 void LiveReporter::report_publisher() {

@@ -77,7 +77,7 @@ void LiveSession::connect(std::int64_t monotonic_us) {
     return;
   }
   std::string problem = publisher_->connect();
-  log_.update("publishing", problem.empty() ? 0 : 1, [&] { return problem; });
+  log_.update("publishing", !problem.empty(), problem.c_str());
   connect_pause_us_ =
       std::clamp(2 * connect_pause_us_, kFirstConnectPauseUs, kLongestConnectPauseUs);
   next_connect_us_ = monotonic_us + connect_pause_us_;

@@ -6,9 +6,9 @@
 
 namespace cremed {
 
-/// Clock for durations.
+/// Clock for durations; one that stands still, if it is not set, measures none.
 struct PipelineClock {
-  std::int64_t (*now_us)();
+  std::int64_t (*now_us)() = [] { return std::int64_t{0}; };
   /// true: `now_us` is the clock of the stamps, and latency counts from the stamp of a scan's last
   /// frame; false: from the call of on_frame().
   bool is_stamp_clock = false;

@@ -187,10 +187,9 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   for (const auto& sink : sinks.owned) {
     all_sinks.push_back(sink.get());
   }
-  const PipelineClock no_clock{[] { return std::int64_t{0}; }};
   Pipeline pipeline(
       configuration, *replay, std::move(all_sinks),
-      command_line.timing ? PipelineClock{&monotonic_us} : no_clock,
+      command_line.timing ? PipelineClock{&monotonic_us} : PipelineClock{},
       learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
   const std::int64_t begin_us = monotonic_us();

@@ -63,12 +63,13 @@ const RadarFamily* read_type(TomlReader& reader, const std::vector<const RadarFa
   return type ? families[*type] : nullptr;
 }
 
-/// "ars404" or "ars408": the types with the keys of `family`.
-std::string types_like(const RadarFamily& family, const std::vector<const RadarFamily*>& families) {
+/// "ars404" or "ars408": the types that are listed.
+template <typename Listed>
+std::string types_text(const std::vector<const RadarFamily*>& families, const Listed& is_listed) {
   std::vector<std::string_view> types;
-  for (const RadarFamily* other : families) {
-    if (is_alike(family, *other)) {
-      types.push_back(other->type);
+  for (const RadarFamily* family : families) {
+    if (is_listed(*family)) {
+      types.push_back(family->type);
     }
   }
   return list_text(types);
@@ -85,8 +86,10 @@ void read_decoder(TomlReader& reader, RadarFamilies families, RadarConfiguration
     }
   }
   for (const RadarFamily* family : sorted) {
-    reader.refuse(keys_of(*family), concat({"is a key of type ", types_like(*family, sorted),
-                                            "; must be left out here"}));
+    const std::string types =
+        types_text(sorted, [&](const RadarFamily& other) { return is_alike(*family, other); });
+    reader.refuse(keys_of(*family),
+                  concat({"is a key of type ", types, "; must be left out here"}));
   }
 }
 
@@ -105,21 +108,14 @@ void read_limits(TomlReader reader, DetectionLimits& limits) {
   reader.finish();
 }
 
-std::string types_told_yaw_rate() {
-  std::vector<std::string_view> types;
-  for (const RadarFamily* family : by_type(radar_families())) {
-    if (family->rotation_lead_s != nullptr) {
-      types.push_back(family->type);
-    }
-  }
-  return list_text(types);
-}
-
 /// Only for a sensor that receives the yaw rate.
 void read_rotation_lead(TomlReader& reader, RadarConfiguration& radar) {
   if (!radar.decoder.rotation_lead_s()) {
+    const std::string types = types_text(by_type(radar_families()), [](const RadarFamily& family) {
+      return family.rotation_lead_s != nullptr;
+    });
     reader.refuse(std::array{kRotationLead},
-                  concat({"is a key of type ", types_told_yaw_rate(),
+                  concat({"is a key of type ", types,
                           ", which receives the yaw rate; must be left out here"}));
     return;
   }

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -43,11 +44,6 @@ std::string row_of(const RadarConfiguration& radar) {
                      text_of(radar.decoder.sent_ids()));
 }
 
-std::string names_of(const std::vector<RadarConfiguration>& radars,
-                     bool (*is_asked)(const RadarConfiguration&)) {
-  return joined_if(radars, is_asked, &RadarConfiguration::name);
-}
-
 /// "front 1.01, left 1"
 std::string azimuth_scales(const std::vector<RadarConfiguration>& radars) {
   return joined(radars, [](const RadarConfiguration& radar) {
@@ -63,8 +59,8 @@ std::string odometry_text(const Configuration& configuration) {
   const std::string when = odometry.filter.rate_hz > 0.0
                                ? fmt::format("{} times a second", odometry.filter.rate_hz)
                                : "at every scan";
-  return "from " + names_of(configuration.radars, [](const auto&) { return true; }) + "; told " +
-         when + (is_fused(configuration) ? "; its motion between scans is \"fused\"" : "");
+  return "from " + joined(configuration.radars, &RadarConfiguration::name) + "; told " + when +
+         (is_fused(configuration) ? "; its motion between scans is \"fused\"" : "");
 }
 
 std::string vehicle_text(const VehicleConfiguration& vehicle) {
@@ -91,10 +87,8 @@ std::string output_text(const OutputConfiguration& output) {
 }
 
 std::string sent_text(const Configuration& configuration) {
-  const std::string names = names_of(configuration.radars, [](const auto& radar) {
-    const auto* ars408 = radar.decoder.template as<Ars408Options>();
-    return ars408 != nullptr && ars408->motion_feedback;
-  });
+  const std::string names =
+      joined_if(configuration.radars, has_motion_feedback, &RadarConfiguration::name);
   return names.empty() ? "nothing" : "speed and yaw rate to " + names + " (motion_feedback)";
 }
 
@@ -131,8 +125,8 @@ std::vector<std::string> configuration_doubts(const Configuration& configuration
           radar.name, yaw, kDegPerRad * yaw, std::remainder(yaw, 2.0 * std::numbers::pi),
           yaw / kDegPerRad, yaw));
     }
-    const auto* ars408 = radar.decoder.as<Ars408Options>();
-    if (ars408 != nullptr && ars408->motion_feedback && ars408->keep_dyn_props != kEveryDynProp) {
+    if (has_motion_feedback(radar) &&
+        radar.decoder.as<Ars408Options>()->keep_dyn_props != kEveryDynProp) {
       doubts.push_back(concat({radar.name,
                                ": motion_feedback = true, but keep_dyn_props selects targets by a "
                                "flag that follows from it: an error would confirm itself; set "

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <string_view>
 
 #include "daemon/configuration/configuration_radar.hpp"
 #include "daemon/configuration/configuration_sections.hpp"
 #include "daemon/configuration/interfaces.hpp"
+#include "daemon/configuration/radar_identifiers.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
@@ -23,11 +24,8 @@ std::optional<std::uint32_t> id_of(std::string_view text) {
     return std::nullopt;
   }
   constexpr int kHexadecimal = 16;
-  std::uint32_t id = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + kPrefix.size(), end, id, kHexadecimal);
-  const bool is_whole = read.ec == std::errc() && read.ptr == end;
-  return is_whole && id <= kMaxId ? std::optional(id) : std::nullopt;
+  const auto id = whole_number<std::uint32_t>(text.substr(kPrefix.size()), kHexadecimal);
+  return id && *id <= kMaxId ? id : std::nullopt;
 }
 
 constexpr TextRule kBusName = {
@@ -41,11 +39,6 @@ void read_id(TomlReader& reader, std::string_view key, std::optional<std::uint32
   std::string text = id ? hexadecimal(*id) : std::string(kOff);
   reader.text(key, text, kIdentifier);
   id = id_of(text);
-}
-
-bool has_feedback(const RadarConfiguration& radar) {
-  const auto* ars408 = radar.decoder.as<Ars408Options>();
-  return ars408 != nullptr && ars408->motion_feedback;
 }
 
 void check_id(TomlReader& reader, std::string_view key, std::optional<std::uint32_t> id,
@@ -97,7 +90,7 @@ void check_vehicle(TomlReader& reader, const Configuration& configuration) {
   check_id(reader, "speed", speed, configuration);
   check_id(reader, "yaw_rate", yaw_rate, configuration);
   const auto& radars = configuration.radars;
-  const auto told = std::ranges::find_if(radars, has_feedback);
+  const auto told = std::ranges::find_if(radars, has_motion_feedback);
   if (told != radars.end()) {
     reader.report(
         "interface",

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/configuration/lcm_url.hpp"
 
-#include <charconv>
 #include <string>
 
 #include <arpa/inet.h>
+
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
 
 bool is_integer(std::string_view text, int min, int max) {
-  int value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  return result.ec == std::errc() && result.ptr == text.data() + text.size() && value >= min &&
-         value <= max;
+  const auto value = whole_number<int>(text);
+  return value && *value >= min && *value <= max;
 }
 
 /// Returns the text before the separator and leaves the text after it.

@@ -9,13 +9,16 @@ namespace {
 
 /// Identifiers that the radar sends; with motion_feedback also those that it obeys, since other
 /// nodes may send them too.
-IdSet heard_ids(const RadarSettings& radar) {
-  const auto* ars408 = radar.as<Ars408Options>();
-  const bool is_told = ars408 != nullptr && ars408->motion_feedback;
-  return is_told ? radar.sent_ids() | radar.obeyed_ids() : radar.sent_ids();
+IdSet heard_ids(const RadarConfiguration& radar) {
+  return has_motion_feedback(radar) ? used_ids(radar) : radar.decoder.sent_ids();
 }
 
 }  // namespace
+
+bool has_motion_feedback(const RadarConfiguration& radar) {
+  const auto* ars408 = radar.decoder.as<Ars408Options>();
+  return ars408 != nullptr && ars408->motion_feedback;
+}
 
 IdSet used_ids(const RadarConfiguration& radar) {
   return radar.decoder.sent_ids() | radar.decoder.obeyed_ids();
@@ -25,7 +28,7 @@ std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& co
   IdSet ids;
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     const bool is_there = interface_index(configuration, i) == interface;
-    ids |= is_there ? heard_ids(configuration.radars[i].decoder) : IdSet{};
+    ids |= is_there ? heard_ids(configuration.radars[i]) : IdSet{};
   }
   const VehicleConfiguration& vehicle = configuration.vehicle;
   if (!vehicle.interface.empty() && vehicle_interface_index(configuration) == interface) {

@@ -10,6 +10,9 @@
 
 namespace cremed {
 
+/// Whether the radar is told speed and yaw rate by cremed.
+bool has_motion_feedback(const RadarConfiguration& radar);
+
 /// What the radar sends or obeys.
 IdSet used_ids(const RadarConfiguration& radar);
 

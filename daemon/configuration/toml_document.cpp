@@ -12,12 +12,12 @@
 
 #include "daemon/configuration/toml.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/plain_text.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr std::size_t kMaxDotsInLine = 128;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// toml++ 3.3 limits the nesting of values but not of dotted keys, and destroys tables recursively:
 /// about ten thousand dots in one key overflow the stack. A key cannot span lines, so the dots of a
@@ -132,7 +132,7 @@ std::shared_ptr<const toml::table> parse_toml(std::string_view text, Diagnostics
     diagnostics.add(1, "file", "is too large; must be a TOML file of at most 256 KiB");
     return nullptr;
   }
-  std::string ascii(text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0));
+  std::string ascii(without_byte_order_mark(text));
   if (!prepare(ascii, diagnostics)) {
     return nullptr;
   }

@@ -55,6 +55,11 @@ std::string plain_text(std::string_view text) {
   return plain;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
 std::size_t unfinished_bytes(std::string_view text) {
   const std::size_t most = std::min<std::size_t>(text.size(), 3);
   for (std::size_t bytes = 1; bytes <= most; ++bytes) {

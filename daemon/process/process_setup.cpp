@@ -16,6 +16,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "daemon/process/descriptor.hpp"
 #include "daemon/process/plain_text.hpp"
 
 namespace cremed {
@@ -26,17 +27,6 @@ struct PlainOutput {
   int descriptor;
   std::string unfinished;  ///< An incomplete UTF-8 sequence.
 };
-
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno != EINTR) {
-      return false;
-    }
-    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 /// For fopencookie(3): 0 is an error.
 ssize_t write_plain(void* cookie, const char* data, std::size_t size) {

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/process/descriptor.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/process/output_file.hpp"
@@ -33,37 +34,28 @@ class TemporaryFile {
     check(::access(target.c_str(), W_OK) == 0 || errno == ENOENT);
     const std::filesystem::path folder = std::filesystem::path(target).parent_path();
     if (::access(kDescriptors, X_OK) == 0) {
-      file_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC,
-                     S_IRUSR | S_IWUSR);
+      file_ = Descriptor(::open(folder.empty() ? "." : folder.c_str(),
+                                O_TMPFILE | O_WRONLY | O_CLOEXEC, S_IRUSR | S_IWUSR));
     }
-    if (file_ < 0) {
+    if (!file_.is_open()) {
       path_ = target + ".XXXXXX";
-      file_ = ::mkostemp(path_.data(), O_CLOEXEC);
+      file_ = Descriptor(::mkostemp(path_.data(), O_CLOEXEC));
     }
-    check(file_ >= 0);
+    check(file_.is_open());
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (file_ >= 0) {
-      ::close(file_);
-    }
     if (!path_.empty()) {
       ::unlink(path_.c_str());
     }
   }
 
-  void write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = ::write(file_, text.data(), text.size());
-      check(written >= 0 || errno == EINTR);
-      text.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0);
-    }
-  }
+  void write(std::string_view text) { check(write_all(file_.number(), text)); }
 
   void replace() {
     keep_permissions();
-    check(::fsync(file_) == 0);
+    check(::fsync(file_.number()) == 0);
     if (path_.empty()) {
       give_name();
     }
@@ -73,7 +65,7 @@ class TemporaryFile {
 
  private:
   void give_name() {
-    const std::string content = kDescriptors + std::to_string(file_);
+    const std::string content = kDescriptors + std::to_string(file_.number());
     const std::string name = concat({target_, ".", std::to_string(::gettid())});
     ::unlink(name.c_str());  // Of a process with this number that ended here, as at a power cut.
     check(::linkat(AT_FDCWD, content.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0);
@@ -83,11 +75,11 @@ class TemporaryFile {
   void keep_permissions() const {
     struct stat status {};
     if (::stat(target_.c_str(), &status) != 0) {
-      check(errno == ENOENT && ::fchmod(file_, kUsualPermissions) == 0);
+      check(errno == ENOENT && ::fchmod(file_.number(), kUsualPermissions) == 0);
       return;
     }
-    check(::fchmod(file_, status.st_mode & 07777U) == 0);
-    if (::fchown(file_, status.st_uid, status.st_gid) != 0) {
+    check(::fchmod(file_.number(), status.st_mode & 07777U) == 0);
+    if (::fchown(file_.number(), status.st_uid, status.st_gid) != 0) {
       errno = 0;  // Only root may change the owner; otherwise the file belongs to the caller.
     }
   }
@@ -101,7 +93,7 @@ class TemporaryFile {
 
   std::string target_;
   std::string path_;
-  int file_ = -1;
+  Descriptor file_;
 };
 
 /// Devices, pipes and standard output, wherever that goes, cannot be replaced; they are written to.

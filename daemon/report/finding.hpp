@@ -21,6 +21,6 @@ struct Finding {
 };
 
 /// "what; remedy"
-std::string to_text(const Finding& finding);
+inline std::string to_text(const Finding& finding) { return finding.what + "; " + finding.remedy; }
 
 }  // namespace cremed

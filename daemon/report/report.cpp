@@ -74,11 +74,6 @@ const Ars408Options* ars408_options(const RadarConfiguration& radar) {
   return radar.decoder.as<Ars408Options>();
 }
 
-/// The command that configures the sensor as expected.
-std::string configure_command(const RadarConfiguration& radar) {
-  return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
-}
-
 void add_silence(const RadarConfiguration& radar, const RadarStatus& status, Findings& findings) {
   if (status.decoder.frames == 0) {
     findings.push_back(
@@ -400,6 +395,10 @@ void add_left_out(const RadarConfiguration& radar, const RadarStatus& status,
 }
 
 }  // namespace
+
+std::string configure_command(const RadarConfiguration& radar) {
+  return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
+}
 
 Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
                          std::span<const RadarConfiguration> all) {

@@ -30,6 +30,9 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
 Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
                          std::span<const RadarConfiguration> all);
 
+/// What configures an ARS408 as expected, in backquotes.
+std::string configure_command(const RadarConfiguration& radar);
+
 /// Faults and settings that the sensor reports.
 std::vector<Finding> health_findings(const RadarConfiguration& radar, const RadarStatus& status);
 

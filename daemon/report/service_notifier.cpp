@@ -3,7 +3,6 @@
 #include "daemon/report/service_notifier.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <utility>
 
@@ -14,18 +13,13 @@
 
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/environment.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
 
 /// systemd ignores longer messages; 16 radars need 2000.
 constexpr std::size_t kMaxMessage = 4096;
-
-std::int64_t number(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
 
 /// A path, or with a leading '@' a name in the abstract namespace.
 Descriptor connected_socket(std::string_view name) {
@@ -50,8 +44,8 @@ Descriptor connected_socket(std::string_view name) {
 
 ServiceNotifier::ServiceNotifier() : descriptor_(connected_socket(environment("NOTIFY_SOCKET"))) {
   const std::string_view watched = environment("WATCHDOG_PID");
-  if (watched.empty() || number(watched) == ::getpid()) {
-    watchdog_period_us_ = number(environment("WATCHDOG_USEC")) / 2;
+  if (watched.empty() || whole_number<std::int64_t>(watched) == ::getpid()) {
+    watchdog_period_us_ = whole_number<std::int64_t>(environment("WATCHDOG_USEC")).value_or(0) / 2;
   }
 }
 

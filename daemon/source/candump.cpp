@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <string_view>
 
 #include "daemon/configuration/bus_options.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
@@ -83,13 +83,6 @@ class Cursor {
 
   std::string_view rest_;
 };
-
-/// The whole text as a number; false if it is not one.
-bool parse_number(std::string_view text, std::uint64_t& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end;
-}
 
 /// Of at most 18 digits.
 std::uint64_t decimal(std::string_view digits) {
@@ -261,8 +254,8 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   }
   const bool has_bracket = cursor.take_blanks() && cursor.take('[');
   const std::string_view length = cursor.take_digits();
-  std::uint64_t bytes = 0;
-  if (!has_bracket || !cursor.take(']') || !parse_number(length, bytes)) {
+  const auto bytes = whole_number<std::uint64_t>(length);
+  if (!has_bracket || !cursor.take(']') || !bytes) {
     return kFrameShape;
   }
   if (const Error error = parse_identifier(word, line.frame); !error.empty()) {
@@ -271,8 +264,8 @@ Error parse_console(Cursor& cursor, std::string_view word, CandumpLine& line) {
   line.frame.fd = length.size() == 2;
   Cursor text = cursor;
   const bool is_remote = !line.frame.fd && text.take_blanks() && text.take_word() == "remote";
-  const Error error =
-      is_remote ? parse_remote(length, line.frame) : parse_console_bytes(cursor, bytes, line.frame);
+  const Error error = is_remote ? parse_remote(length, line.frame)
+                                : parse_console_bytes(cursor, *bytes, line.frame);
   cursor.take_rest();
   return error;
 }
@@ -327,12 +320,13 @@ CandumpLine parse_frame(std::string_view text) {
 CandumpLine parse_drop_count(std::string_view text) {
   Cursor cursor(text.substr(kDropPrefix.size()));
   CandumpLine line;
-  const bool counted = parse_number(cursor.take_digits(), line.dropped_frames);
+  const auto count = whole_number<std::uint64_t>(cursor.take_digits());
   cursor.take_while(is_no_quote);
   const bool opened = cursor.take('\'');
   line.interface_name = cursor.take_while(is_no_quote);
-  if (counted && opened && cursor.take('\'') && !line.interface_name.empty()) {
+  if (count && opened && cursor.take('\'') && !line.interface_name.empty()) {
     line.status = CandumpStatus::dropped;
+    line.dropped_frames = *count;
     return line;
   }
   return {};

@@ -12,18 +12,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "daemon/process/plain_text.hpp"
 #include "daemon/process/signals.hpp"
 
 namespace cremed {
 namespace {
 
 constexpr std::size_t kBeginBytes = 256;
-
-/// A byte order mark is how editors say UTF-8.
-std::string_view without_mark(std::string_view text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
-}
 
 }  // namespace
 
@@ -45,7 +40,7 @@ std::string LineReader::begin() const {
   const off_t now = ::lseek(descriptor_.number(), 0, SEEK_CUR);
   const ssize_t count = now < 0 ? 0 : ::pread(descriptor_.number(), text.data(), text.size(), now);
   text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
-  return std::string(without_mark(text));
+  return std::string(without_byte_order_mark(text));
 }
 
 LineReader::Status LineReader::next(std::string_view& line) {
@@ -59,7 +54,7 @@ LineReader::Status LineReader::next(std::string_view& line) {
       begin_ += static_cast<std::size_t>(feed - first) + (is_unfinished_ ? 0U : 1U);
       ++line_number_;
       line = {first, static_cast<std::size_t>(feed - first)};
-      line = line_number_ == 1 ? without_mark(line) : line;
+      line = line_number_ == 1 ? without_byte_order_mark(line) : line;
       const bool was_skipping = skipping_;
       skipping_ = false;
       return was_skipping ? Status::too_long : Status::line;

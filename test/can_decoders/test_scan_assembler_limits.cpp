@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "test/can_decoders/scan_bench.hpp"

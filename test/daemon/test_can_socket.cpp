@@ -5,7 +5,6 @@
 // counts. CAN's own features (filters, interfaces) are tested in test/vm.
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <vector>
 
 #include <catch2/catch.hpp>

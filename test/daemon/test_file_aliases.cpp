@@ -5,7 +5,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/command_line.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/usage_error.hpp"
 #include "test/daemon/temporary_file.hpp"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
-#include <string>
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <iterator>
@@ -70,12 +69,8 @@ Result result_of(const DriveOfCar& scene, bool with_vehicle) {
   const auto radars = read_frames(read_shared(folder + "/can.log.xz"), configuration);
   const auto frames = merged(frames_of_wheels(read_shared(folder + "/wheels.csv")), radars);
   RecordingSink sink(configuration.radars.size());
-  const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
-  for (const CanFrame& frame : frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  Pipeline pipeline(configuration, kNoSource, {&sink}, {});
+  play(frames, pipeline);
   std::istringstream truth(read_shared(folder + "/truth.csv"));
   const Result result{drift_errors(sink.odometries, TrueTrajectory(truth), 10.0),
                       pipeline.vehicle(VehicleSignal::speed),

@@ -32,13 +32,12 @@ Drive simulate() {
 /// radars' stages into the sinks. Returns the number of allocations.
 long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySink*>& sinks,
                            int rate_hz = 0) {
-  const NoSource source;
   Configuration configuration = configuration_of(simulated.radars);
   configuration.odometry.filter.rate_hz = rate_hz;
   configuration.vehicle.interface = "can0";
   configuration.odometry.filter.vehicle.speed.is_used = true;
   configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
-  Pipeline pipeline(configuration, source, sinks, {&no_clock});
+  Pipeline pipeline(configuration, kNoSource, sinks, {});
   std::string_view rest = simulated.log;
   const AllocationGuard guard;
   while (!rest.empty()) {
@@ -119,8 +118,7 @@ TEST_CASE("From a line of text to an LCM message on the wire, nothing allocates"
 TEST_CASE("From a socket to CSV, nothing allocates") {
   const Drive simulated = simulate();
   CsvWriter csv("/dev/null", {"front", "rear"});
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&csv}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&csv}, {});
   const DatagramPair pair;
   CanSocket socket;
   REQUIRE(socket.adopt(pair.receiver(), {}).status == CanOpenStatus::open);

@@ -211,12 +211,8 @@ class CompletionSink final : public OdometrySink {
 TEST_CASE("Odometry takes scans in the order of their stamps, whichever is whole first") {
   const Drive simulated = drive(scenario("bends"), default_radars(), options(7, 5.0));
   CompletionSink sink;
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
-  for (const CanFrame& frame : simulated.frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {});
+  play(simulated.frames, pipeline);
   CHECK_FALSE(std::is_sorted(sink.whole_us.begin(), sink.whole_us.end()));
   std::sort(sink.whole_us.begin(), sink.whole_us.end());
   // The odometry starts at the first scan.
@@ -240,12 +236,8 @@ TEST_CASE("Odometry that is switched off is neither there nor fused") {
   Configuration configuration = configuration_of(simulated.radars);
   configuration.odometry.enabled = false;
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
-  for (const CanFrame& frame : simulated.frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  Pipeline pipeline(configuration, kNoSource, {&sink}, {});
+  play(simulated.frames, pipeline);
   CHECK(sink.motions[0].size() > 20);
   CHECK(sink.odometries.empty());
   CHECK(sink.fused.empty());
@@ -277,8 +269,7 @@ TEST_CASE("Odometry goes on while a radar is silent, and takes it back within a 
 TEST_CASE("No odometry spans a step of the clock") {
   const Drive simulated = drive(scenario("bends"), default_radars(), options(8, 8.0));
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {});
   const std::size_t middle = simulated.frames.size() / 2;
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == middle) {
@@ -324,8 +315,7 @@ TEST_CASE("Lost frames cost their targets and nothing else") {
 TEST_CASE("A lost frame reported by the source spoils the scan that was open") {
   const Drive simulated = drive(scenario("straight"), default_radars(), options(5, 2.0));
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {});
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == simulated.frames.size() / 2) {
       pipeline.on_dropped(0);

@@ -51,8 +51,7 @@ TEST_CASE("No estimate spans a clock step, however small, and the next pair give
   const std::size_t middle = simulated.frames.size() / 2;
   const std::int64_t step_at_us = simulated.frames[middle].stamp_us;
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {});
   for (std::size_t i = 0; i < simulated.frames.size(); ++i) {
     if (i == middle) {
       pipeline.on_clock_step();
@@ -82,9 +81,8 @@ TEST_CASE("No estimate spans a clock step, however small, and the next pair give
 TEST_CASE("On a silent bus scans still time out, and the status still comes once a second") {
   const Drive simulated = straight(1.0);
   RecordingSink sink(2);
-  const NoSource source;
   stamp_clock_us = simulated.frames.front().stamp_us;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&stamp_clock, true});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {&stamp_clock, true});
   const auto header = std::find_if(simulated.frames.begin(), simulated.frames.end(),
                                    [](const CanFrame& frame) { return frame.id == 0x600; });
   pipeline.on_frame(*header);
@@ -105,8 +103,7 @@ TEST_CASE("On a silent bus scans still time out, and the status still comes once
 TEST_CASE("Latency counts from the stamp of a scan's last frame, and is told once a second") {
   const Drive simulated = straight(3.0);
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&stamp_clock, true});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {&stamp_clock, true});
   for (const CanFrame& frame : simulated.frames) {
     stamp_clock_us = frame.stamp_us + 700;  // Time of reading.
     pipeline.on_frame(frame);
@@ -124,8 +121,7 @@ TEST_CASE("Latency counts from the stamp of a scan's last frame, and is told onc
 TEST_CASE("Without stamps of the clock, latency counts from when the last frame was handed in") {
   const Drive simulated = straight(1.0);
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&busy_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {&busy_clock});
   for (const CanFrame& frame : simulated.frames) {
     pipeline.on_frame(frame);
   }
@@ -140,7 +136,7 @@ TEST_CASE("Every event of a source but its end goes on") {
   EndlessSource source({SourceEvent::frame, SourceEvent::dropped, SourceEvent::clock_step,
                         SourceEvent::idle, SourceEvent::end});
   RecordingSink sink(2);
-  Pipeline pipeline(configuration_of(default_radars()), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(default_radars()), source, {&sink}, {});
   int turns = 0;
   while (pipeline.take_next(source)) {
     ++turns;
@@ -153,8 +149,7 @@ TEST_CASE("A scan never closes earlier than the frames it is said to wait for al
   options.duration_s = 3.0;
   const Drive simulated = drive(scenario("lossy"), default_radars(), options);
   RecordingSink sink(2);
-  const NoSource source;
-  Pipeline pipeline(configuration_of(simulated.radars), source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration_of(simulated.radars), kNoSource, {&sink}, {});
   std::size_t most = 0;
   std::size_t whole = 0;
   for (const CanFrame& frame : simulated.frames) {

@@ -38,8 +38,7 @@ RecordingSink run(
   Configuration configuration = configuration_of(drive.radars);
   configuration.odometry.filter.rate_hz = rate_hz;
   RecordingSink sink(drive.radars.size());
-  const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
+  Pipeline pipeline(configuration, kNoSource, {&sink}, {});
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     before_frame(pipeline, i);
     pipeline.on_frame(drive.frames[i]);

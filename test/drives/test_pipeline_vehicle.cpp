@@ -54,12 +54,8 @@ struct VehicleOutcome {
 
 VehicleOutcome run(const Configuration& configuration, const std::vector<CanFrame>& frames) {
   RecordingSink sink(configuration.radars.size());
-  const NoSource source;
-  Pipeline pipeline(configuration, source, {&sink}, {&no_clock});
-  for (const CanFrame& frame : frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  Pipeline pipeline(configuration, kNoSource, {&sink}, {});
+  play(frames, pipeline);
   return {sink, pipeline.vehicle(VehicleSignal::speed), pipeline.vehicle(VehicleSignal::yaw_rate)};
 }
 

@@ -263,8 +263,7 @@ TEST_CASE("Self-check: a clock at another pace than time shows within 2 s of dri
     const auto after_us = static_cast<double>(frame.stamp_us - start_us);
     frame.stamp_us = start_us + static_cast<std::int64_t>(pace * after_us);
   }
-  const NoSource source;
-  Pipeline pipeline(configuration_of(other.radars), source, {}, {&no_clock});
+  Pipeline pipeline(configuration_of(other.radars), kNoSource, {}, {});
   std::vector<double> after_s(other.radars.size(), std::numeric_limits<double>::infinity());
   for (const CanFrame& frame : other.frames) {
     pipeline.on_frame(frame);

@@ -56,25 +56,22 @@ Frames with_changed_clusters(Frames frames, FaultTime time, IsFaulty is_faulty, 
 inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
   const double c = std::cos(yaw_rad);
   const double s = std::sin(yaw_rad);
-  return with_changed_clusters(
-      std::move(frames), time, [radar](std::size_t each) { return each == radar; },
-      [c, s](Ars408General& cluster) {
-        const Ars408General seen = cluster;
-        cluster.x_m = c * seen.x_m + s * seen.y_m;
-        cluster.y_m = c * seen.y_m - s * seen.x_m;
-        cluster.vx_mps = c * seen.vx_mps + s * seen.vy_mps;
-        cluster.vy_mps = c * seen.vy_mps - s * seen.vx_mps;
-      });
+  return with_changed_clusters(std::move(frames), time, only(radar),
+                               [c, s](Ars408General& cluster) {
+                                 const Ars408General seen = cluster;
+                                 cluster.x_m = c * seen.x_m + s * seen.y_m;
+                                 cluster.y_m = c * seen.y_m - s * seen.x_m;
+                                 cluster.vx_mps = c * seen.vx_mps + s * seen.vy_mps;
+                                 cluster.vy_mps = c * seen.vy_mps - s * seen.vx_mps;
+                               });
 }
 
 /// Mounted upside down: left and right are exchanged.
 inline Frames with_upside_down(Frames frames, FaultTime time, std::size_t radar) {
-  return with_changed_clusters(
-      std::move(frames), time, [radar](std::size_t each) { return each == radar; },
-      [](Ars408General& cluster) {
-        cluster.y_m = -cluster.y_m;
-        cluster.vy_mps = -cluster.vy_mps;
-      });
+  return with_changed_clusters(std::move(frames), time, only(radar), [](Ars408General& cluster) {
+    cluster.y_m = -cluster.y_m;
+    cluster.vy_mps = -cluster.vy_mps;
+  });
 }
 
 /// Velocities of those radars are multiplied by `factor`.

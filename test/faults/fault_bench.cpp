@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What systematic faults do to recorded and simulated drives, a line for each: see kUsage.
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <mutex>
-#include <stdexcept>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "test/data_tests/real_fault_drives.hpp"
 #include "test/faults/drive_figures.hpp"
@@ -26,33 +23,12 @@
 #include "test/faults/reversed_drive.hpp"
 #include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
+#include "tools/program.hpp"
 
 namespace {
 
 using namespace cremed;
 using namespace cremed::test;
-
-constexpr const char* kUsage =
-    R"(fault_bench [--seconds S] [--case TEXT] DRIVE...
-
-Drives: a scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of
-cremed-simulate (bends), what departs beside a parked vehicle: train, convoy, jam-starts, or a start
-of the vehicle itself: own-start.
-CREMED_SHARED names the folder with the recorded data.
-  --seconds S  only so much of 105 and of simulated drives (default 40)
-  --from S     105 from then on,
-  --nuscenes-from S  and the scenes of nuScenes
-  --rows       each row of the odometry
-  --case TEXT  only cases whose name and radar contain it
-  --random N   so many faults of random kind, size, radar and time (--seed) instead
-  --reversed   recorded drives backwards (ReversedDrive)
-  --healthy    no fault
-  --car NAME   of simulated drives: config/NAME.toml (default nuscenes-singapore)
-  --radars A,B recorded drives with these radars only (not with the faults of a list, which name all)
-  --seeds N    so many of the latter two (default 20)
-  --seed N     only this one; of simulated drives
-
-)";
 
 struct Options {
   double seconds = 40.0;
@@ -64,48 +40,39 @@ struct Options {
   std::size_t random_faults = 0;
   std::string radars;
   std::string car = "nuscenes-singapore";
-  std::uint64_t seed = 1;
   std::uint64_t seeds = 20;
+  std::optional<std::uint64_t> only_seed;
   std::string filter;
   std::vector<std::string> drives;
+
+  [[nodiscard]] std::uint64_t seed() const { return only_seed.value_or(1); }
 };
 
-Options options_of(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view argument = argv[i];
-    if (argument == "--seconds" && i + 1 < argc) {
-      options.seconds = std::atof(argv[++i]);
-    } else if (argument == "--seeds" && i + 1 < argc) {
-      options.seeds = std::strtoull(argv[++i], nullptr, 10);
-    } else if (argument == "--seed" && i + 1 < argc) {
-      options.seed = options.seeds = std::strtoull(argv[++i], nullptr, 10);
-    } else if (argument == "--from" && i + 1 < argc) {
-      options.from_s = std::atof(argv[++i]);
-    } else if (argument == "--random" && i + 1 < argc) {
-      options.random_faults = std::strtoull(argv[++i], nullptr, 10);
-    } else if (argument == "--nuscenes-from" && i + 1 < argc) {
-      options.nuscenes_from_s = std::atof(argv[++i]);
-    } else if (argument == "--reversed") {
-      options.is_reversed = true;
-    } else if (argument == "--healthy") {
-      options.is_healthy = true;
-    } else if (argument == "--radars" && i + 1 < argc) {
-      options.radars = argv[++i];
-    } else if (argument == "--car" && i + 1 < argc) {
-      options.car = argv[++i];
-    } else if (argument == "--rows") {
-      options.are_rows_printed = true;
-    } else if (argument == "--case" && i + 1 < argc) {
-      options.filter = argv[++i];
-    } else if (argument.starts_with("-")) {
-      throw std::runtime_error(kUsage);
-    } else {
-      options.drives.emplace_back(argument);
-    }
-  }
-  if (options.drives.empty()) throw std::runtime_error(kUsage);
-  return options;
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("DRIVE", options.drives,
+                 "A scene of nuScenes (0061), 105 or 105-unflagged (RadarScenes), a scenario of "
+                 "cremed-simulate (bends), what departs beside a parked vehicle (train, convoy, "
+                 "jam-starts), or a start of the vehicle itself: own-start")
+      ->required();
+  app.add_option("--seconds", options.seconds, "Only so much of 105 and of simulated drives")
+      ->capture_default_str();
+  app.add_option("--from", options.from_s, "105 from then on");
+  app.add_option("--nuscenes-from", options.nuscenes_from_s, "Scenes of nuScenes from then on");
+  app.add_flag("--rows", options.are_rows_printed, "Print each row of the odometry");
+  app.add_option("--case", options.filter, "Only cases whose name and radar contain it");
+  app.add_option("--random", options.random_faults,
+                 "So many faults of random kind, size, radar and time (--seed) instead");
+  app.add_flag("--reversed", options.is_reversed, "Recorded drives backwards (ReversedDrive)");
+  app.add_flag("--healthy", options.is_healthy, "No fault");
+  app.add_option("--car", options.car, "Of simulated drives: config/NAME.toml")
+      ->capture_default_str();
+  app.add_option("--radars", options.radars,
+                 "Recorded drives with these radars only, A,B (not with the faults of a list, "
+                 "which name all)");
+  auto* seeds = app.add_option("--seeds", options.seeds, "So many parked vehicles or own starts")
+                    ->capture_default_str();
+  app.add_option("--seed", options.only_seed, "Only this one; of simulated drives")
+      ->excludes(seeds);
 }
 
 FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
@@ -118,7 +85,7 @@ FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
 FaultDrive drive_of(const std::string& name, const Options& options) {
   if (find_scenario(name) != nullptr) {
     return simulated_fault_drive(name, options.seconds, configuration_of_car(options.car).radars,
-                                 options.seed);
+                                 options.seed());
   }
   const FaultDrive drive = with_radars(recorded_drive_of(name, options), options.radars);
   return options.is_reversed ? ReversedDrive::of(drive) : drive;
@@ -152,10 +119,10 @@ void run_all(const std::vector<Job>& jobs) {
 }
 
 /// `drive_of(seed)`
-void run_seeds(const std::function<FaultDrive(std::uint64_t)>& drive_of, std::uint64_t first,
-               std::uint64_t last) {
+void run_seeds(const std::function<FaultDrive(std::uint64_t)>& drive_of, const Options& options) {
   std::vector<Job> jobs;
-  for (std::uint64_t seed = first; seed <= last; ++seed) {
+  const std::uint64_t last = options.only_seed.value_or(options.seeds);
+  for (std::uint64_t seed = options.seed(); seed <= last; ++seed) {
     jobs.emplace_back([&drive_of, seed] {
       const FaultDrive drive = drive_of(seed);
       const auto stands_us = static_cast<std::int64_t>(1e6 * ParkedDrive::kDepartureS);
@@ -173,8 +140,9 @@ void print_rows(const FaultDrive& drive, const FaultCase& fault) {
 }
 
 std::vector<FaultCase> faults_of(const FaultDrive& drive, const Options& options) {
-  return options.random_faults == 0 ? SystematicFaults(drive).all()
-                                    : RandomFaults(drive, options.seed).draw(options.random_faults);
+  return options.random_faults == 0
+             ? SystematicFaults(drive).all()
+             : RandomFaults(drive, options.seed()).draw(options.random_faults);
 }
 
 void run_faults(const FaultDrive& drive, const Options& options) {
@@ -191,38 +159,46 @@ void run_faults(const FaultDrive& drive, const Options& options) {
   run_all(jobs);
 }
 
+void run_healthy(const FaultDrive& drive, const Options& options) {
+  const FaultCase none{"none", options.radars, {drive.start_us(), kNever}};
+  if (options.are_rows_printed) {
+    print_rows(drive, none);
+  } else {
+    std::printf("%s\n", figures_line(drive, none, judged(drive, none)).c_str());
+  }
+}
+
+void run_drive(const std::string& name, const Options& options) {
+  const auto* const parked =
+      std::ranges::find(kNeighbours, name, [](const auto& each) { return each.first; });
+  if (parked != kNeighbours.end()) {
+    run_seeds([&](auto seed) { return ParkedDrive(parked->second, seed).drive(); }, options);
+  } else if (name == "own-start") {
+    run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options);
+  } else if (options.is_healthy) {
+    run_healthy(drive_of(name, options), options);
+  } else {
+    run_faults(drive_of(name, options), options);
+  }
+}
+
+int run(CLI::App& app, int argc, char** argv) {
+  Options options;
+  add_options(app, options);
+  app.parse(argc, argv);
+  ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 0);
+  std::printf("%s%s\n", kColumns, figures_header().c_str());
+  for (const std::string& name : options.drives) {
+    run_drive(name, options);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    if (std::getenv("CREMED_SHARED") == nullptr) {
-      ::setenv("CREMED_SHARED", CREMED_SOURCE_DIR "/../shared", 1);
-    }
-    const Options options = options_of(argc, argv);
-    std::printf("%s%s\n", kColumns, figures_header().c_str());
-    for (const std::string& name : options.drives) {
-      const auto parked = std::find_if(kNeighbours.begin(), kNeighbours.end(),
-                                       [&](const auto& each) { return each.first == name; });
-      if (parked != kNeighbours.end()) {
-        run_seeds([&](auto seed) { return ParkedDrive(parked->second, seed).drive(); },
-                  options.seed, options.seeds);
-      } else if (name == "own-start") {
-        run_seeds([](auto seed) { return StartDrive(seed).drive(); }, options.seed, options.seeds);
-      } else if (options.is_healthy) {
-        const FaultDrive drive = drive_of(name, options);
-        const FaultCase none{"none", options.radars, {drive.start_us(), kNever}};
-        if (options.are_rows_printed) {
-          print_rows(drive, none);
-        } else {
-          std::printf("%s\n", figures_line(drive, none, judged(drive, none)).c_str());
-        }
-      } else {
-        run_faults(drive_of(name, options), options);
-      }
-    }
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return run_program("fault_bench",
+                     "What systematic faults do to recorded and simulated drives, a line for each; "
+                     "CREMED_SHARED names the folder with the recorded data",
+                     run, argc, argv);
 }

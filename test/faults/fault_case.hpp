@@ -80,8 +80,7 @@ inline FaultRecord record(const FaultDrive& drive, const FaultCase& fault) {
   if (fault.configure) fault.configure(radars);
   const Frames frames = fault.put_in ? fault.put_in(drive, fault.time) : drive.frames;
   FaultRecord result{RecordingSink(radars.size()), {}};
-  const NoSource source;
-  Pipeline pipeline(configuration_of(radars), source, {&result.sink}, {&no_clock}, fault.learned);
+  Pipeline pipeline(configuration_of(radars), kNoSource, {&result.sink}, {}, fault.learned);
   FaultRecord::Given given;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool is_stepped = fault.clock_step_us != 0 && fault.time.has(drive.frames[i]);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -53,7 +52,7 @@ inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
   for (std::size_t i = 0; i < drive.radars.size(); ++i) {
     const std::string& radar = drive.radars[i].name;
     const auto silence = [i](const FaultDrive& d, FaultTime t) {
-      return with_silence(d.frames, t, [i](std::size_t each) { return each == i; });
+      return with_silence(d.frames, t, only(i));
     };
     cases.push_back({"absent", radar, always, silence});
     cases.push_back({"returning", radar, {at(0.3), at(0.6)}, silence});

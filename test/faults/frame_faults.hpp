@@ -39,6 +39,11 @@ inline Frames with_loss(Frames frames, FaultTime time, double share) {
   return frames;
 }
 
+/// Selects one radar.
+inline auto only(std::size_t radar) {
+  return [radar](std::size_t each) { return each == radar; };
+}
+
 /// Removes the frames of the radars selected by `is_silent`.
 template <typename IsSilent>
 Frames with_silence(Frames frames, FaultTime time, IsSilent is_silent) {

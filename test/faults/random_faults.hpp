@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cremed/estimator/scan/degrees.hpp"
@@ -103,9 +102,8 @@ class RandomFaults {
   static PutIn clusters(std::size_t radar, Change change) {
     return [radar, change](const FaultDrive& d, FaultTime t) {
       Random random(1, kStream);
-      return with_changed_clusters(
-          d.frames, t, [radar](std::size_t each) { return each == radar; },
-          [&](Ars408General& cluster) { change(cluster, random); });
+      return with_changed_clusters(d.frames, t, only(radar),
+                                   [&](Ars408General& cluster) { change(cluster, random); });
     };
   }
 
@@ -117,8 +115,7 @@ class RandomFaults {
 
   static PutIn scaled(std::size_t radar, double factor) {
     return [radar, factor](const FaultDrive& d, FaultTime t) {
-      return with_scaled_doppler(
-          d.frames, t, [radar](std::size_t each) { return each == radar; }, factor);
+      return with_scaled_doppler(d.frames, t, only(radar), factor);
     };
   }
 
@@ -205,7 +202,7 @@ class RandomFaults {
 
   Fault silence(std::size_t radar) {
     return {"silent", FaultKind::unknown, true, [radar](const FaultDrive& d, FaultTime t) {
-              return with_silence(d.frames, t, [radar](std::size_t each) { return each == radar; });
+              return with_silence(d.frames, t, only(radar));
             }};
   }
 

@@ -8,10 +8,8 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "test/faults/cluster_faults.hpp"

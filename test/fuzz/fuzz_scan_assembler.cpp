@@ -3,7 +3,6 @@
 //
 // Mostly valid frames of both families in any order, with arbitrary time, lost frames and ends of
 // input: scans meet their guarantees and every part is counted.
-#include <array>
 #include <bitset>
 
 #include "cremed/can_decoders/ars408.hpp"

@@ -4,7 +4,6 @@
 
 #include <cinttypes>
 #include <cstdio>
-#include <numbers>
 #include <string_view>
 
 #include "cremed/estimator/scan/degrees.hpp"

@@ -41,8 +41,14 @@ class NoSource final : public FrameSource {
  public:
   SourceEvent next(CanFrame&) override { return SourceEvent::end; }
 };
+inline const NoSource kNoSource{};
 
-inline std::int64_t no_clock() { return 0; }
+inline void play(const std::vector<CanFrame>& frames, Pipeline& pipeline) {
+  for (const CanFrame& frame : frames) {
+    pipeline.on_frame(frame);
+  }
+  pipeline.finish();
+}
 
 inline Configuration configuration_of(const std::vector<RadarConfiguration>& radars) {
   Configuration configuration;
@@ -53,12 +59,8 @@ inline Configuration configuration_of(const std::vector<RadarConfiguration>& rad
 inline RecordingSink run_pipeline(const std::vector<RadarConfiguration>& radars,
                                   const std::vector<CanFrame>& frames) {
   RecordingSink sink(radars.size());
-  const NoSource source;
-  Pipeline pipeline(configuration_of(radars), source, {&sink}, {&no_clock});
-  for (const CanFrame& frame : frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  Pipeline pipeline(configuration_of(radars), kNoSource, {&sink}, {});
+  play(frames, pipeline);
   return sink;
 }
 

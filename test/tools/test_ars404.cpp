@@ -10,7 +10,6 @@
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
 #include "daemon/configuration/configuration_summary.hpp"
-#include "daemon/configuration/interfaces.hpp"
 #include "daemon/configuration/radar_place.hpp"
 #include "test/daemon/configuration_texts.hpp"
 #include "test/tools/doctor_bench.hpp"

@@ -31,7 +31,6 @@ struct Message {
 };
 
 const std::array<Message, 8>& messages() {
-  using cremed::Ars408Bytes;
   static const std::array<Message, 8> kAll{{
       {"0x201", 0x201, "201#C0FFFE03F7FE001C",
        [](std::uint8_t sensor, const CanFrame& frame) {

@@ -35,17 +35,13 @@ void record_drive(const std::string& log, const std::string& csv, const std::str
   REQUIRE(publisher.connect().empty());
   CsvWriter writer(csv, {"front", "rear"});
   OdometryWriter odometry_writer(odometry);
-  const NoSource source;
   const PipelineClock clock{[] {
     static std::int64_t now_us = 0;
     return now_us += 17;
   }};
-  Pipeline pipeline(configuration_of(radars), source, {&publisher, &writer, &odometry_writer},
+  Pipeline pipeline(configuration_of(radars), kNoSource, {&publisher, &writer, &odometry_writer},
                     clock);
-  for (const CanFrame& frame : simulated.frames) {
-    pipeline.on_frame(frame);
-  }
-  pipeline.finish();
+  play(simulated.frames, pipeline);
   REQUIRE(publisher.failures() + writer.failures() == 0);
 }
 

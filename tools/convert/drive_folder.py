@@ -50,8 +50,8 @@ def write_truth(file, poses):
         file.write(f"{utime},{x_m:.6f},{y_m:.6f},{yaw_rad:.9f}\n")
 
 
-def write(drive, output):
-    """Files appear in the folder only when all are complete."""
+def write(drive, output, losses, progress):
+    """Files appear in the folder only when all are complete. Tells what was written."""
     folder = pathlib.Path(output) / drive.name
     folder.mkdir(parents=True, exist_ok=True)
     parts = {"can.log": lambda file: ars408_log.write_log(file, [radar.scans for radar in drive.radars]),
@@ -62,10 +62,6 @@ def write(drive, output):
             text = io.TextIOWrapper(files.enter_context(replaced_file(folder / name)), encoding="utf-8")
             write_part(text)
             text.detach()
-    return folder
-
-
-def tell(drive, folder, losses, progress):
     progress.wipe()
     print(f"{drive.name}: {len(drive.radars)} radars, {losses} -> {folder}")
 
@@ -77,8 +73,8 @@ class Progress:
     def __init__(self, label, total):
         self.label, self.total, self.done, self.shown = label, max(total, 1), 0, -1
 
-    def advance(self, steps=1):
-        self.done += steps
+    def advance(self):
+        self.done += 1
         percent = 100 * self.done // self.total
         if percent != self.shown and sys.stderr.isatty():
             bar = "#" * (self.WIDTH * self.done // self.total)

@@ -78,10 +78,6 @@ def tables_of(folder):
     return found, found.parent
 
 
-def by_token(path, wanted=lambda row: True):
-    return {row["token"]: row for row in rows(path) if wanted(row)}
-
-
 def yaw_of(rotation):
     w, x, y, z = rotation
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
@@ -204,15 +200,12 @@ class DataSet:
 
 
 def convert(folder, output, names):
-    """Converts the named scenes, without names all. Returns the folders."""
-    data, folders = DataSet(folder, names), []
+    """Converts the named scenes, without names all."""
+    data = DataSet(folder, names)
     scenes = data.there()
     with drive_folder.Progress("nuscenes", sum(len(data.sweeps[scene]) for scene in scenes)) as progress:
         for scene in scenes:
             losses = Losses()
-            drive = data.drive(scene, progress, losses)
-            folders.append(drive_folder.write(drive, output))
-            drive_folder.tell(drive, folders[-1], losses, progress)
+            drive_folder.write(data.drive(scene, progress, losses), output, losses, progress)
     if len(scenes) < len(data.scenes):
         print(f"{len(data.scenes) - len(scenes)} scenes were left out: files of their radars are missing")
-    return folders

@@ -144,15 +144,12 @@ def drive_of(folder, mounts, progress, losses):
 
 
 def convert(folder, output, names):
-    """Converts the named sequences, without names all. Returns the folders."""
+    """Converts the named sequences, without names all."""
     h5py()
     root, names = sequences_of(folder, names)
-    mounts, folders = read_json(root / "sensors.json"), []
+    mounts = read_json(root / "sensors.json")
     total = sum(len(read_json(root / name / "scenes.json")["scenes"]) for name in names)
     with drive_folder.Progress("radarscenes", total) as progress:
         for name in names:
             losses = Losses()
-            drive = drive_of(root / name, mounts, progress, losses)
-            folders.append(drive_folder.write(drive, output))
-            drive_folder.tell(drive, folders[-1], losses, progress)
-    return folders
+            drive_folder.write(drive_of(root / name, mounts, progress, losses), output, losses, progress)

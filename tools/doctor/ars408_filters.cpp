@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <ostream>
@@ -15,6 +14,7 @@
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
@@ -34,15 +34,8 @@ constexpr std::array<Row, 6> kRows{{{"count", "", 1.0},
                                     {"rcs", " dBm^2", 1.0}}};
 
 std::optional<double> parse_number(std::string_view text) {
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_good =
-      result.ec == std::errc() && result.ptr == text.data() + text.size() && std::isfinite(value);
-  return is_good ? std::optional(value) : std::nullopt;
-}
-
-CanFrame frame_of(std::uint8_t sensor_id, const Ars408FilterState& filter) {
-  return encode_ars408_filter(sensor_id, filter);
+  const auto value = whole_number<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// The content of a 0x202 or 0x204.
@@ -54,7 +47,7 @@ std::optional<Ars408FilterState> filter_in(const CanFrame& frame) {
 bool can_be_sent(const Ars408FilterState& filter) {
   const auto& limits = ars408_signals::kFilterLimits[static_cast<std::size_t>(filter.criterion)];
   const double step = 1.0 / limits.scale.steps_per_unit;
-  const auto sent = filter_in(frame_of(0, filter));
+  const auto sent = filter_in(encode_ars408_filter(0, filter));
   return sent && std::abs(sent->min - filter.min) <= step &&
          std::abs(sent->max - filter.max) <= step;
 }
@@ -83,7 +76,7 @@ std::vector<CanFrame> frames_to_send(std::uint8_t sensor_id,
   std::vector<CanFrame> frames;
   frames.reserve(std::max(wanted.size(), kRows.size()));
   for (const Ars408FilterState& filter : wanted) {
-    frames.push_back(frame_of(sensor_id, filter));
+    frames.push_back(encode_ars408_filter(sensor_id, filter));
   }
   for (std::size_t i = 0; wanted.empty() && i < kRows.size(); ++i) {
     frames.push_back(encode_ars408_filter_query(sensor_id, false, static_cast<Ars408Criterion>(i)));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/doctor/ars408_setup.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -85,12 +86,9 @@ Ars408Command command_for(const Ars408RadarState& wanted, const Ars408Setup& set
 
 bool is_as_wanted(const std::vector<Setting>& settings, const Ars408RadarState& wanted,
                   const Ars408RadarState& state) {
-  for (const Setting& setting : settings) {
-    if (setting.text(state) != setting.text(wanted)) {
-      return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(settings, [&](const Setting& setting) {
+    return setting.text(state) == setting.text(wanted);
+  });
 }
 
 void show_plan(const std::vector<Setting>& settings, const Ars408RadarState& now,

@@ -38,6 +38,10 @@ void BusObservation::add(const CanFrame& frame) {
   traffic.add(frame);
 }
 
+std::uint64_t frames_of(const Ars408Options& sensor, Ars408Message message, const BusTraffic& bus) {
+  return bus.ids[ars408_id(static_cast<std::uint32_t>(message), sensor.sensor_id)].frames;
+}
+
 std::string seen_ids(const BusObservation& bus) {
   constexpr std::size_t kMaxNamed = 8;
   std::string text;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_messages.hpp"
 #include "cremed/can_decoders/bus_traffic.hpp"
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/source/bus_status.hpp"
@@ -43,6 +45,9 @@ struct BusObservation {
  private:
   void note_stamp(std::int64_t stamp_us);
 };
+
+/// Frames of this message that a sensor with these options has sent.
+std::uint64_t frames_of(const Ars408Options& sensor, Ars408Message message, const BusTraffic& bus);
 
 /// The first identifiers on a bus, and other frames: "0x123, 0x124".
 std::string seen_ids(const BusObservation& bus);

@@ -6,18 +6,15 @@
 
 #include <linux/can.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
+#include "daemon/process/descriptor.hpp"
 #include "daemon/source/link_watch.hpp"
 
 namespace cremed {
+
 bool kernel_has_can() {
-  const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
-  if (descriptor >= 0) {
-    ::close(descriptor);
-    return true;
-  }
-  return errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT;
+  const Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
+  return socket.is_open() || (errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT);
 }
 
 InterfaceState state_of(const std::string& interface) {

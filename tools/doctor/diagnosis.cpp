@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -27,29 +28,24 @@ void append(const Findings& more, Findings& findings) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Radars of the configuration on this bus; `found_elsewhere`: those found on another bus.
-struct RadarsOnBus {
-  std::size_t count = 0;
-  std::size_t found_elsewhere = 0;
-};
-
-RadarsOnBus radars_on(const BusObservation& bus, const Configuration& configuration,
-                      const Observation& observation) {
-  RadarsOnBus radars;
-  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    if (configuration.radars[i].interface == bus.interface) {
-      ++radars.count;
-      radars.found_elsewhere += find_elsewhere(configuration, observation, i).empty() ? 0 : 1;
-    }
+/// Each as "name: what".
+void append_of(std::string_view name, Findings more, Findings& findings) {
+  for (Finding& finding : more) {
+    finding.what = concat({name, ": ", finding.what});
   }
-  return radars;
+  append(more, findings);
 }
 
+/// Of buses with radars of the configuration; a silent one only if not all of them are found on
+/// another bus.
 void add_buses(const Configuration& configuration, const Observation& observation,
                Findings& findings) {
   for (const BusObservation& bus : observation.buses) {
-    const RadarsOnBus radars = radars_on(bus, configuration, observation);
-    if (radars.count != 0 && (!is_silent(bus) || radars.found_elsewhere < radars.count)) {
+    const bool is_asked = std::ranges::any_of(configuration.radars, [&](const auto& radar) {
+      return radar.interface == bus.interface &&
+             (!is_silent(bus) || find_elsewhere(configuration, observation, radar).empty());
+    });
+    if (is_asked) {
       append(bus_findings(bus, observation), findings);
     }
   }
@@ -61,12 +57,10 @@ void add_radar(const Configuration& configuration, const Observation& observatio
   const RadarConfiguration& wanted = configuration.radars[radar];
   const auto bus =
       std::ranges::find(observation.buses, wanted.interface, &BusObservation::interface);
-  Findings own = is_silent(*bus) ? find_elsewhere(configuration, observation, radar)
-                                 : diagnose_radar(configuration, observation, radar);
-  for (Finding& finding : own) {
-    finding.what = concat({wanted.name, ": ", finding.what});
-  }
-  append(own, findings);
+  append_of(wanted.name,
+            is_silent(*bus) ? find_elsewhere(configuration, observation, wanted)
+                            : diagnose_radar(configuration, observation, radar),
+            findings);
 }
 
 /// One that was set back is told by the stamps of each bus.
@@ -87,11 +81,8 @@ void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observa
   for (std::size_t i = 0; i < observation.vehicle.size(); ++i) {
     const auto signal = static_cast<VehicleSignal>(i);
     if (vehicle.is_used(signal)) {
-      Findings own = vehicle_findings(vehicle, signal, observation.vehicle[i], true);
-      for (Finding& finding : own) {
-        finding.what = concat({vehicle_signal_name(signal), ": ", finding.what});
-      }
-      append(own, findings);
+      append_of(vehicle_signal_name(signal),
+                vehicle_findings(vehicle, signal, observation.vehicle[i], true), findings);
     }
   }
 }

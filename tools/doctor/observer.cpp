@@ -16,8 +16,6 @@ namespace {
 /// Lines of a log may be out of order by this much.
 constexpr std::int64_t kOutOfOrderUs = 1'000'000;
 
-std::int64_t no_clock() { return 0; }
-
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
@@ -25,8 +23,7 @@ double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 Observer::Observer(const Configuration& configuration)
     : configured_buses_(interface_names(configuration).size()),
       sink_(observation_),
-      pipeline_(configuration, source_, {&sink_, &observation_.odometry},
-                PipelineClock{&no_clock}) {
+      pipeline_(configuration, source_, {&sink_, &observation_.odometry}, PipelineClock{}) {
   observation_.radars.resize(configuration.radars.size());
   for (const std::string& name : interface_names(configuration)) {
     bus(name);

@@ -42,8 +42,6 @@ bool contains(const std::vector<RadarSettings>& radars, const RadarSettings& wan
       radars, [&](const RadarSettings& radar) { return radar.is_same_radar(wanted); });
 }
 
-std::string quoted_name(const RadarConfiguration& radar) { return in_quotes(radar.name); }
-
 /// A radar of the same family is the likelier one.
 std::optional<RadarSettings> most_likely(const std::vector<RadarSettings>& radars,
                                          const RadarSettings& expected) {
@@ -67,14 +65,14 @@ Finding other_radar(const RadarConfiguration& radar, const RadarSettings& seen) 
   if (is_alike(seen.family(), radar.decoder.family())) {
     const auto* const ars408 = seen.as<Ars408Options>();
     return {Severity::error, what,
-            concat({"set ", seen.key(), " for radar ", quoted_name(radar),
+            concat({"set ", seen.key(), " for radar ", in_quotes(radar.name),
                     ars408 == nullptr ? ""
                                       : concat({", or give the sensor its id: ",
                                                 sensor_id_command(radar, *ars408)})})};
   }
   return {Severity::error, what,
           concat({"set type = ", in_quotes(seen.family().type), " and ", seen.key(), " for radar ",
-                  quoted_name(radar)})};
+                  in_quotes(radar.name)})};
 }
 
 /// Radars on a bus that may be the missing one: not claimed by another radar of the configuration.
@@ -99,22 +97,19 @@ Findings identify(const Configuration& configuration, const Observation& observa
   return {{Severity::error,
            concat({"frames on ", radar.interface, ", but none of ", radar.decoder.describe(), ": ",
                    seen_ids(bus)}),
-           concat({"check that radar ", quoted_name(radar),
+           concat({"check that radar ", in_quotes(radar.name),
                    " has power and is on this bus, and its type, sensor_id or base_id"})}};
 }
 
 /// Cluster or object lists without quality messages.
 bool lacks_quality(const RadarConfiguration& radar, const BusObservation& bus) {
   const auto* const ars408 = radar.decoder.as<Ars408Options>();
-  const auto seen = [&](std::uint32_t id) {
-    return bus.traffic.ids[ars408_id(id, ars408->sensor_id)].frames != 0;
+  const auto seen = [&](Ars408Message message) {
+    return frames_of(*ars408, message, bus.traffic) != 0;
   };
-  return ars408 != nullptr && ((seen(0x701) && !seen(0x702)) || (seen(0x60B) && !seen(0x60C)));
-}
-
-std::string quality_off(const RadarConfiguration& radar) {
-  return concat({"the sensor sends targets without quality on ", radar.interface,
-                 ", so no scan is complete"});
+  using enum Ars408Message;
+  return ars408 != nullptr && ((seen(cluster_general) && !seen(cluster_quality)) ||
+                               (seen(object_general) && !seen(object_quality)));
 }
 
 /// The first and the last scan are cut by the observation.
@@ -166,12 +161,9 @@ std::uint64_t lists_of(const RadarSettings& radar, const BusTraffic& bus) {
     return bus.ids[gpr->base_id].frames;
   }
   const auto* const ars408 = radar.as<Ars408Options>();
-  const auto frames = [&](Ars408Message message) {
-    return bus.ids[ars408_id(static_cast<std::uint32_t>(message), ars408->sensor_id)].frames;
-  };
   return ars408 == nullptr ? 0
-                           : std::max(frames(Ars408Message::cluster_status),
-                                      frames(Ars408Message::object_status));
+                           : std::max(frames_of(*ars408, Ars408Message::cluster_status, bus),
+                                      frames_of(*ars408, Ars408Message::object_status, bus));
 }
 
 std::string twin_remedy(const RadarConfiguration& radar, bool is_echo) {
@@ -283,9 +275,9 @@ void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
                      Findings& findings) {
   if (status.assembler.scans == 0) {
     const bool is_ars408 = radar.decoder.as<Ars408Options>() != nullptr;
-    findings.push_back({Severity::error, "it reports its state but sends no targets",
-                        is_ars408 ? concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"})
-                                  : "see its data sheet for what makes it send them"});
+    findings.push_back(
+        {Severity::error, "it reports its state but sends no targets",
+         is_ars408 ? configure_command(radar) : "see its data sheet for what makes it send them"});
   } else if (estimates(status) == 0) {
     findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
                         is_live ? "listen longer, `--seconds 10`" : "record 10 s or more"});
@@ -306,8 +298,7 @@ bool fell_silent(const RadarObservation& observed, double seconds) {
 }
 
 Findings find_elsewhere(const Configuration& configuration, const Observation& observation,
-                        std::size_t radar) {
-  const RadarConfiguration& wanted = configuration.radars[radar];
+                        const RadarConfiguration& wanted) {
   for (const BusObservation& bus : observation.buses) {
     if (bus.interface != wanted.interface &&
         contains(unclaimed(bus, configuration), wanted.decoder)) {
@@ -315,7 +306,7 @@ Findings find_elsewhere(const Configuration& configuration, const Observation& o
                concat({wanted.decoder.describe(), " is on ", bus.interface, ", not on ",
                        wanted.interface}),
                concat({"set interface = ", in_quotes(bus.interface), " for radar ",
-                       quoted_name(wanted)})}};
+                       in_quotes(wanted.name)})}};
     }
   }
   return {};
@@ -327,7 +318,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
   const RadarObservation& observed = observation.radars[radar];
   const BusObservation& bus = bus_of(wanted, observation);
   if (!contains(seen_radars(bus.traffic), wanted.decoder)) {
-    Findings elsewhere = find_elsewhere(configuration, observation, radar);
+    Findings elsewhere = find_elsewhere(configuration, observation, wanted);
     if (!elsewhere.empty()) {
       return elsewhere;
     }
@@ -337,8 +328,10 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
   }
   const RadarHealth& health = observed.status.health;
   if (lacks_quality(wanted, bus) && (!health.is_known || health.sends_quality)) {
-    return {{Severity::error, quality_off(wanted),
-             concat({"`cremed-doctor --configure-ars408 ", wanted.name, "`"})}};
+    return {{Severity::error,
+             concat({"the sensor sends targets without quality on ", wanted.interface,
+                     ", so no scan is complete"}),
+             configure_command(wanted)}};
   }
   if (Findings twin = find_twin(wanted, observed, bus, observation.seconds); !twin.empty()) {
     return twin;

@@ -17,7 +17,8 @@ std::vector<Finding> diagnose_radar(const Configuration& configuration,
 
 /// Finding that the radar is on another bus; empty if it is not.
 std::vector<Finding> find_elsewhere(const Configuration& configuration,
-                                    const Observation& observation, std::size_t radar);
+                                    const Observation& observation,
+                                    const RadarConfiguration& wanted);
 
 /// Finding that it sent no scans for much of the time.
 bool fell_silent(const RadarObservation& observed, double seconds);

@@ -63,16 +63,14 @@ std::vector<const BusObservation*> by_name(const Observation& observation) {
 std::string output_line(const BusObservation& bus, const RadarSettings& radar) {
   const auto* const ars408 = radar.as<Ars408Options>();
   const auto has = [&](Ars408Message message) {
-    const std::uint32_t id = ars408_id(static_cast<std::uint32_t>(message), ars408->sensor_id);
-    return bus.traffic.ids[id].frames != 0;
+    return frames_of(*ars408, message, bus.traffic) != 0;
   };
   if (ars408 == nullptr || has(Ars408Message::cluster_status)) {
     return "";
   }
   return has(Ars408Message::object_status)
              ? "output = \"objects\"  # as it sends now; \"clusters\" are far better: "
-               "`cremed-doctor "
-               "--configure-ars408 NAME` sets them\n"
+               "`cremed-doctor --configure-ars408 NAME` sets them\n"
              : "# It sends no targets now: `cremed-doctor --configure-ars408 NAME`.\n";
 }
 

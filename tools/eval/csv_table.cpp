@@ -3,10 +3,12 @@
 #include "tools/eval/csv_table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "daemon/process/plain_text.hpp"
+#include "daemon/process/whole_number.hpp"
 
 namespace cremed {
 namespace {
@@ -24,12 +26,6 @@ std::vector<std::string> split(std::string_view line) {
   return cells;
 }
 
-/// A byte order mark is how editors say UTF-8.
-std::string_view without_mark(std::string_view line) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return line.substr(line.starts_with(kMark) ? kMark.size() : 0);
-}
-
 }  // namespace
 
 CsvTable::CsvTable(std::istream& input) {
@@ -37,7 +33,7 @@ CsvTable::CsvTable(std::istream& input) {
   if (!std::getline(input, line)) {
     throw std::runtime_error("line 1: no header");
   }
-  header_ = split(without_mark(line));
+  header_ = split(without_byte_order_mark(line));
   for (std::size_t number = 2; std::getline(input, line); ++number) {
     if (line.empty() || line.front() == '#') {
       continue;
@@ -67,13 +63,12 @@ bool CsvTable::has_column(std::string_view name) const {
 template <typename Number>
 Number CsvTable::parse(std::size_t row, std::size_t column) const {
   const std::string& cell = text(row, column);
-  Number value{};
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) {
+  const auto value = whole_number<Number>(cell);
+  if (!value) {
     throw std::runtime_error(line(row) + ", " + header_[column] + ": '" + cell +
                              "' is not a number");
   }
-  return value;
+  return *value;
 }
 
 double CsvTable::number(std::size_t row, std::size_t column) const {

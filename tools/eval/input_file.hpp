@@ -29,6 +29,12 @@ auto with_input(const std::string& path, Read read) {
   }
 }
 
+/// What a constructor makes of a file.
+template <typename Content>
+Content read_input(const std::string& path) {
+  return with_input(path, [](std::istream& input) { return Content(input); });
+}
+
 /// All of it; for with_input().
 inline std::string content(std::istream& input) {
   return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};

@@ -5,8 +5,6 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <istream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 

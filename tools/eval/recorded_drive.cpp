@@ -58,8 +58,6 @@ class RecordingSink final : public OdometrySink {
   SelectionCounters counters_;
 };
 
-std::int64_t no_clock() { return 0; }
-
 void check_logs(const Replay& replay) {
   for (const auto& log : replay.logs()) {
     if (const std::string problem = log->reader().problem(); !problem.empty()) {
@@ -80,7 +78,7 @@ void play_drive(const Configuration& configuration, const std::vector<std::strin
     sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
   }
   Replay replay(std::move(sources), 0.0, &stop);
-  Pipeline pipeline(configuration, replay, sinks, {&no_clock});
+  Pipeline pipeline(configuration, replay, sinks, {});
   while (pipeline.take_next(replay)) {
   }
   pipeline.finish();

@@ -15,7 +15,6 @@ const hasTargets = data.scans.some(({targets}) => targets.length);
 const hasInnovations = Object.values(data.radars).some((series) => Object.entries(series).some(
   ([name, values]) => name.includes("nis_") && values.some((value) => value !== null)));
 
-const byId = (id) => document.getElementById(id);
 const hueOfSource = (source) => hueOf[source] ?? (source === "fused" ? MUTED : INK);
 
 /** Index of the last that is not after `time`, 0 at least. */
@@ -54,25 +53,20 @@ function showFindings() {
 }
 
 function showTiles() {
-  const tile = (text, value) => {
-    const made = element(byId("tiles"), "div", "", {className: "tile"});
-    element(made, "b", value);
-    element(made, "span", text);
-  };
-  tile("duration", fixed(figures.duration_s, 1, " s"));
+  addTile("duration", fixed(figures.duration_s, 1, " s"));
   if (figures.odometry) {
-    tile("path length", fixed(figures.path_length_m, 0, " m"));
-    tile("maximum speed", fixed(figures.maximum_speed_mps, 1, " m/s"));
-    tile("of the time with usable odometry", fixed(figures.odometry.availability_percent, 1, " %"));
+    addTile("path length", fixed(figures.path_length_m, 0, " m"));
+    addTile("maximum speed", fixed(figures.maximum_speed_mps, 1, " m/s"));
+    addTile("of the time with usable odometry", fixed(figures.odometry.availability_percent, 1, " %"));
   } else {
-    tile("odometry", "none");
+    addTile("odometry", "none");
   }
   const doubted = radars.filter((radar) => figures.radars[radar]?.statuses_in_doubt);
-  if (!data.mounts_unknown && hasInnovations) tile("radars in doubt at some time", doubted.join(", ") || "none");
+  if (!data.mounts_unknown && hasInnovations) addTile("radars in doubt at some time", doubted.join(", ") || "none");
   const odometry = truth?.figures.find(({source}) => source === "odometry");
   const late = odometry?.segments.find(({after}) => after === "10 s");
-  if (late?.segments) tile("position error after 10 s, of the path", fixed(late.position_percent, 2, " %"));
-  if (odometry) tile("ANEES of the odometry", fixed(odometry.anees, 2));
+  if (late?.segments) addTile("position error after 10 s, of the path", fixed(late.position_percent, 2, " %"));
+  if (odometry) addTile("ANEES of the odometry", fixed(odometry.anees, 2));
 }
 
 // ---- What depends on the slider's time ------------------------------------------------------------
@@ -108,20 +102,17 @@ function scansNow() {
 }
 
 function drawScansNow(plane) {
-  const scans = scansNow(), counts = drawScans(plane, scans, hueOf);
-  fillLegend(byId("scans-legend"), [
-    ...ROLES.map((role) => ({...role, text: `${role.text} ${counts[role.text.split(" (")[0]] ?? 0}`})),
-    ...scans.map(({source, t}) => ({text: `${source} ${t.toFixed(2)} s`, color: hueOf[source]}))]);
+  const scans = scansNow();
+  drawScans(plane, scans, hueOf,
+            scans.map(({source, t}) => ({text: `${source} ${t.toFixed(2)} s`, color: hueOf[source]})));
 }
 
 const map = new Plane(byId("map"), drawMap);
-const around = new Plane(byId("scans"), drawScansNow,
-                         {forwardUp: true, names: ["x forward [m]", "y left [m]"]});
+const around = new Plane(byId("scans"), drawScansNow, {forwardUp: true});
 
 function showPlanes() {
   fillLegend(byId("map-legend"), [
-    {text: "odometry", color: INK, mark: "━"}, {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"},
-    ...(truth ? [{text: "truth, aligned at the start", color: TRUTH, mark: "━"}] : [])]);
+    ...MAP_LEGEND, ...(truth ? [{text: "truth, aligned at the start", color: TRUTH, mark: "━"}] : [])]);
   map.fit(boxOf(truth ? [path, truth.path] : [path]));
   const every = Math.ceil(data.scans.length / 200);
   const far = data.scans.filter((_, i) => i % every === 0).flatMap((scan) => [...targetsOf(scan)])

@@ -13,6 +13,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "daemon/process/descriptor.hpp"
+
 namespace cremed {
 namespace {
 
@@ -40,15 +42,7 @@ std::string_view colour(Mood mood) {
 
 /// Not through the standard streams, which take out what commands a terminal. A terminal that is
 /// gone sends SIGHUP.
-void write_all(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
-    if (written < 0 && errno != EINTR) {
-      return;
-    }
-    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-  }
-}
+void write(std::string_view text) { write_all(STDOUT_FILENO, text); }
 
 winsize size() {
   winsize told{};
@@ -70,11 +64,11 @@ Terminal::Terminal() {
   // They would leave the shell on this screen.
   raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
   ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  write_all(kEnter);
+  write(kEnter);
 }
 
 Terminal::~Terminal() {
-  write_all(kLeave);
+  write(kLeave);
   ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
 }
 
@@ -86,7 +80,7 @@ void Terminal::show(const std::vector<ScreenLine>& lines) {
     text.append(i == 0 ? "" : "\n").append(colour(lines[i].mood));
     text.append(lines[i].text, 0, room.ws_col).append(kNoColour).append(kClearLine);
   }
-  write_all(text.append(kClearRest));
+  write(text.append(kClearRest));
 }
 
 bool Terminal::is_quit_asked() {

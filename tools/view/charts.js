@@ -30,6 +30,8 @@ const USABLE = 0, FLAGGED_MOVING = 3;  // radar_scan_t.DETECTION_*
 const OUTLIER_MEANS =
   "Outlier: its Doppler differs by more than 3 sigma from that of a stationary target, given the odometry.";
 
+const byId = (id) => document.getElementById(id);
+
 /** From -180 to 180. */
 function degrees(radians) {
   return Math.atan2(Math.sin(radians), Math.cos(radians)) * 180 / Math.PI;
@@ -70,6 +72,15 @@ function fillLegend(parent, entries) {
   }
 }
 
+const MAP_LEGEND = [{text: "odometry", color: INK, mark: "━"},
+                    {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"}];
+
+function addTile(text, value) {
+  const made = element(byId("tiles"), "div", "", {className: "tile"});
+  element(made, "b", value);
+  element(made, "span", text);
+}
+
 function fixed(value, digits, unit = "") {
   return value === null || value === undefined ? "–" : value.toFixed(digits) + unit;
 }
@@ -94,7 +105,8 @@ function cleared(canvas) {
 /** A canvas in metres, equal on both axes. The wheel zooms, dragging moves, a double click shows all.
     With `forwardUp` the first coordinate goes up and the second to the left, as a driver sees it. */
 class Plane {
-  constructor(canvas, draw, {forwardUp = false, names = ["x [m]", "y [m]"]} = {}) {
+  constructor(canvas, draw, {forwardUp = false} = {}) {
+    const names = forwardUp ? ["x forward [m]", "y left [m]"] : ["x [m]", "y [m]"];
     Object.assign(this, {canvas, draw, forwardUp, names, box: [-1, -1, 1, 1], zoomed: null});
     canvas.addEventListener("wheel", (event) => this.onWheel(event), {passive: false});
     canvas.addEventListener("pointermove", (event) => this.onDrag(event));
@@ -291,8 +303,8 @@ function drawTarget(context, x, y, role, hue) {
   }
 }
 
-/** Scans around the vehicle; returns how many targets have each role. */
-function drawScans(plane, scans, hueOf) {
+/** Scans around the vehicle; below, how many targets have each role, and more entries. */
+function drawScans(plane, scans, hueOf, entries) {
   const counts = {};
   plane.vehicle({x: 0, y: 0, yaw: 0}, INK);
   for (const scan of scans) {
@@ -304,7 +316,8 @@ function drawScans(plane, scans, hueOf) {
     plane.context.fillStyle = hueOf[scan.source];
     plane.context.fillRect(x - 3, y - 3, 6, 6);
   }
-  return counts;
+  fillLegend(byId("scans-legend"), [
+    ...ROLES.map((role) => ({...role, text: `${role.text} ${counts[role.text.split(" (")[0]] ?? 0}`})), ...entries]);
 }
 
 /** Rows for dygraphs of series {t, value, sigma} that have times of their own; bands of 3 sigma. */
@@ -326,11 +339,11 @@ class TimeCharts {
   }
 
   /** `series`: [{name, color, t, value, sigma}]; `marks`: values with a line of their own. */
-  add(div, ylabel, series, {marks = [], xlabel = "", points = false, isTime = true, ...options} = {}) {
+  add(div, ylabel, series, {marks = [], xlabel = "", isTime = true, ...options} = {}) {
     const labels = ["time", ...series.map(({name}) => name)];
     const chart = new Dygraph(div, joined(series), {
       labels, ylabel, xlabel, customBars: true, connectSeparatedPoints: true, legend: "onmouseover",
-      colors: series.map(({color}) => color), strokeWidth: points ? 0 : 1.4, drawPoints: points,
+      colors: series.map(({color}) => color), strokeWidth: 1.4,
       pointSize: 1.6, fillAlpha: 0.18, axisLabelFontSize: 11, gridLineColor: GRID,
       axisLineColor: LEFT_OUT, highlightCircleSize: 3, rightGap: 12,
       axes: {y: {axisLabelWidth: 52, pixelsPerLabel: 24}}, labelsSeparateLines: false, ...options,

@@ -6,7 +6,6 @@
 const PERIOD_MS = 250, SILENT_S = 2;
 // Clocks of two computers differ by less; what is older was measured in an earlier drive.
 const REPLAY_S = 60;
-const byId = (id) => document.getElementById(id);
 
 let state = null, messages = -1;
 const charts = new TimeCharts();
@@ -21,30 +20,19 @@ const map = new Plane(byId("map"), (plane) => {
 const around = new Plane(byId("scans"), (plane) => {
   if (!state) return;
   const hueOf = hues(state.radars.map(({name}) => name));
-  const counts = drawScans(plane, state.scans, hueOf);
-  fillLegend(byId("scans-legend"), [
-    ...ROLES.map((role) => ({...role, text: `${role.text} ${counts[role.text.split(" (")[0]] ?? 0}`})),
-    ...Object.entries(hueOf).map(([text, color]) => ({text, color}))]);
-}, {forwardUp: true, names: ["x forward [m]", "y left [m]"]});
-
-function fillTiles(tiles) {
-  byId("tiles").replaceChildren();
-  for (const [text, value] of tiles) {
-    const made = element(byId("tiles"), "div", "", {className: "tile"});
-    element(made, "b", value);
-    element(made, "span", text);
-  }
-}
+  drawScans(plane, state.scans, hueOf, Object.entries(hueOf).map(([text, color]) => ({text, color})));
+}, {forwardUp: true});
 
 function showPose({pose, rates: {vx, yaw_rate: yawRate}}) {
   const last = (values) => values[values.length - 1];
   const sigma = (variance) => Math.sqrt(Math.max(variance, 0));
-  fillTiles([
-    ["speed", fixed(last(vx), 2, " m/s")], ["yaw rate", fixed(last(yawRate), 1, " °/s")],
-    ["x", fixed(pose.x, 1, " m")], ["y", fixed(pose.y, 1, " m")],
-    ["yaw", fixed(degrees(pose.yaw), 1, "°")],
-    ["sigma of x and y",
-     `${fixed(sigma(pose.covariance[0]), 2)}, ${fixed(sigma(pose.covariance[2]), 2, " m")}`]]);
+  byId("tiles").replaceChildren();
+  addTile("speed", fixed(last(vx), 2, " m/s"));
+  addTile("yaw rate", fixed(last(yawRate), 1, " °/s"));
+  addTile("x", fixed(pose.x, 1, " m"));
+  addTile("y", fixed(pose.y, 1, " m"));
+  addTile("yaw", fixed(degrees(pose.yaw), 1, "°"));
+  addTile("sigma of x and y", `${fixed(sigma(pose.covariance[0]), 2)}, ${fixed(sigma(pose.covariance[2]), 2, " m")}`);
 }
 
 function showRates(id, ylabel, color, name, xlabel) {
@@ -140,7 +128,6 @@ async function ask() {
   setTimeout(ask, PERIOD_MS);
 }
 
-fillLegend(byId("map-legend"), [{text: "odometry", color: INK, mark: "━"},
-                                {text: "95 % ellipse of the position", color: HUES[0], mark: "◯"}]);
+fillLegend(byId("map-legend"), MAP_LEGEND);
 around.fit([-80, -80, 80, 80]);
 ask();

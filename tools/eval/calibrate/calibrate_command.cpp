@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <istream>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -261,20 +260,16 @@ void write_back(const std::string& path, const Values& values) {
   std::fprintf(stderr, "%s: %s\n", path.c_str(), after == before ? "unchanged" : "changed");
 }
 
-std::unique_ptr<TrueTrajectory> read_truth(const std::string& path) {
-  if (path.empty()) {
-    return nullptr;
-  }
-  return with_input(path,
-                    [](std::istream& input) { return std::make_unique<TrueTrajectory>(input); });
-}
-
 }  // namespace
 
 void run_calibrate(const CalibrateArguments& arguments) {
   const Configuration configuration = load_configuration(arguments.config);
-  const auto truth = read_truth(arguments.truth);
-  const Calibration calibration = calibrate(configuration, arguments.logs, truth.get());
+  std::optional<TrueTrajectory> truth;
+  if (!arguments.truth.empty()) {
+    truth = read_input<TrueTrajectory>(arguments.truth);
+  }
+  const Calibration calibration =
+      calibrate(configuration, arguments.logs, truth ? &*truth : nullptr);
   require_near(configuration, calibration);
   const Values values = found_values(configuration, calibration);
   print_table(configuration, calibration);

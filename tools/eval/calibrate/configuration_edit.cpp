@@ -10,11 +10,11 @@
 #include "daemon/configuration/toml.hpp"
 #include "daemon/configuration/toml_document.hpp"
 #include "daemon/process/message_text.hpp"
+#include "daemon/process/plain_text.hpp"
 
 namespace cremed {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kBlank = " \t";
 
 struct Edit {
@@ -41,6 +41,8 @@ class ConfigurationEditor {
   [[nodiscard]] std::string result() const;
 
  private:
+  using TableView = toml::node_view<const toml::node>;
+  bool set_where(TableView overriding, TableView own, const CalibratedValue& value);
   void replace_number(const toml::node& node, const CalibratedValue& value);
   void add_to_table(const toml::table& table, const CalibratedValue& value);
   void add_to_inline(const toml::table& table, const std::string& assigned);
@@ -80,31 +82,30 @@ bool ConfigurationEditor::is_header(std::size_t index) const {
   return first != std::string_view::npos && content[first] == '[';
 }
 
+/// In the table that overrides, if it has the key, else in its own table; false if that is absent.
+bool ConfigurationEditor::set_where(TableView overriding, TableView own,
+                                    const CalibratedValue& value) {
+  const toml::node* node = overriding[value.key->key].node();
+  node = node != nullptr ? node : own[value.key->key].node();
+  const toml::table* const table = own.as_table();
+  if (node != nullptr) {
+    replace_number(*node, value);
+  } else if (table != nullptr) {
+    add_to_table(*table, value);
+  }
+  return node != nullptr || table != nullptr;
+}
+
 void ConfigurationEditor::set(std::size_t radar, const CalibratedValue& value) {
   const toml::table& table = *document_["radar"][radar].as_table();
   const std::string name = table["name"].value_or(std::string());
-  const toml::node* const overriding = document_["calibrated"][name][value.key->key].node();
-  const auto own = table[value.key->table];
-  if (overriding != nullptr) {
-    replace_number(*overriding, value);
-  } else if (const toml::node* node = own[value.key->key].node()) {
-    replace_number(*node, value);
-  } else if (const toml::table* sub = own.as_table()) {
-    add_to_table(*sub, value);
-  } else {
+  if (!set_where(document_["calibrated"][name], table[value.key->table], value)) {
     add_table(table, value);
   }
 }
 
 void ConfigurationEditor::set(const CalibratedValue& value) {
-  const auto own = document_[value.key->table];
-  if (const toml::node* overriding = document_["calibrated"][value.key->key].node()) {
-    replace_number(*overriding, value);
-  } else if (const toml::node* node = own[value.key->key].node()) {
-    replace_number(*node, value);
-  } else if (const toml::table* table = own.as_table()) {
-    add_to_table(*table, value);
-  } else {
+  if (!set_where(document_["calibrated"], document_[value.key->table], value)) {
     const std::size_t end = starts_.size() - 2;
     add_line_after(line(end).empty() ? end - 1 : end,
                    concat({"[", value.key->table, "]\n", assignment(value)}));
@@ -217,13 +218,13 @@ bool reads_as(std::string_view edited, std::string_view text,
 std::string edited_configuration(std::string_view text,
                                  const std::vector<std::vector<CalibratedValue>>& radars,
                                  const std::vector<CalibratedValue>& vehicle) {
-  const std::size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  const std::string_view body = without_byte_order_mark(text);
   Diagnostics diagnostics("configuration");
   const auto document = parse_toml(text, diagnostics);
   if (document == nullptr) {
     throw std::runtime_error(diagnostics.text());
   }
-  ConfigurationEditor editor(text.substr(mark), *document);
+  ConfigurationEditor editor(body, *document);
   for (std::size_t i = 0; i < radars.size(); ++i) {
     for (const CalibratedValue& value : radars[i]) {
       editor.set(i, value);
@@ -232,7 +233,7 @@ std::string edited_configuration(std::string_view text,
   for (const CalibratedValue& value : vehicle) {
     editor.set(value);
   }
-  std::string edited = std::string(text.substr(0, mark)) + editor.result();
+  std::string edited = std::string(text.substr(0, text.size() - body.size())) + editor.result();
   try {
     if (reads_as(edited, text, radars, vehicle)) {
       return edited;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cremed/estimator/scan/stamps.hpp"
 #include "tools/eval/credibility.hpp"

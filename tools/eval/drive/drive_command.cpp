@@ -109,8 +109,7 @@ constexpr std::array<std::int64_t, 6> kTruthIntervalsUs{75'000,    150'000,   30
 
 DriveReference read_reference(const DriveFiles& files) {
   DriveReference reference;
-  reference.truth =
-      with_input(files.truth, [](std::istream& input) { return TrueTrajectory(input); });
+  reference.truth = read_input<TrueTrajectory>(files.truth);
   reference.truth_noise = files.truth_noise;
   if (!files.wheels.empty()) {
     reference.wheels = with_input(

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/eval/drive/other_trajectory.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "daemon/process/whole_number.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/eval/input_file.hpp"
 
@@ -32,12 +32,11 @@ std::runtime_error bad_line(std::size_t line, const std::string& what) {
 }
 
 double number(const std::string& word, std::size_t line) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+  const auto value = whole_number<double>(word);
+  if (!value || !std::isfinite(*value)) {
     throw bad_line(line, "'" + word + "' is no number");
   }
-  return value;
+  return *value;
 }
 
 /// The numbers of each line that has some; "#" begins a comment.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/motion_chain.hpp"

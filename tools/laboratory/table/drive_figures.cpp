@@ -129,8 +129,7 @@ DriveFigures drive_figures(const TabledDrive& drive) {
   const TemporaryFolder unpacked;
   const std::filesystem::path folder = drive.folder;
   const std::string log = unpacked_file(folder / "can.log", unpacked);
-  const auto truth =
-      with_input(folder / "truth.csv", [](std::istream& input) { return TrueTrajectory(input); });
+  const auto truth = read_input<TrueTrajectory>(folder / "truth.csv");
   const Configuration configuration = load_configuration(drive.configuration);
   OutputSink sink;
   const auto radars = record_drive(configuration, {log}, {&sink});
@@ -140,8 +139,7 @@ DriveFigures drive_figures(const TabledDrive& drive) {
   add_front_alone(configuration, log, truth, figures);
   add_baselines(configuration, radars, odometry, truth, figures);
   if (exists(folder / "wheels.csv")) {
-    const auto wheels = with_input(folder / "wheels.csv",
-                                   [](std::istream& input) { return WheelReference(input); });
+    const auto wheels = read_input<WheelReference>(folder / "wheels.csv");
     const RecordedOdometry front = scans_of("front", configuration, radars);
     add_scans(front, truth, figures);
     add_scans(scans_of("rear", configuration, radars), truth, figures);

@@ -162,8 +162,7 @@ std::size_t paired_radar(const Configuration& configuration) {
 }
 
 DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
-  const auto truth =
-      with_input(drive.truth, [](std::istream& input) { return TrueTrajectory(input); });
+  const auto truth = read_input<TrueTrajectory>(drive.truth);
   DrivePairs result;
   add_paper(drive, profile, truth, result);
   PairingSink sink(paired_radar(drive.configuration));

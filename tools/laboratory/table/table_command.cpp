@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 
 #include "daemon/process/replaced_file.hpp"
 #include "tools/eval/input_file.hpp"

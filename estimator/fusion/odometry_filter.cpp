@@ -71,6 +71,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   // 2. A start, after a gap or a loss.
   start_if_needed(stamp_us, is_trusted);
   if (is_usable(radar, targets, stamp_us)) {
+    state_.hear(radar, stamp_us);
     // 3. Propagation to the scan (9), with what the vehicle's bus told until then (12).
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
@@ -113,6 +114,7 @@ void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is
 void OdometryFilter::forget() {
   faults_.clear();
   output_.leave_clock();
+  state_.leave_clock();
   vehicle_.forget();
   has_started_ = false;
 }
@@ -250,7 +252,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     return false;
   }
   if (consensus_[radar].is_trusted && !state_.is_witness(radar) && !traffic_.parked.is_parked()) {
-    state_.add_excess(scan->excess_mps2);
+    state_.add_excess(scan->excess_m2ps2);
   }
   using Seen = TrafficDoubt::Seen;
   const Seen seen =

@@ -48,8 +48,8 @@ constexpr std::size_t kTrials = 64;
 constexpr double kMinSine = 0.15;
 
 double residual(const Target& target, const Eigen::Vector3d& solution) {
-  return target.doppler_mps + target.cos_bearing * solution.x() +
-         target.sin_bearing * solution.y() - solution.z();
+  return target.doppler_mps - expected_doppler_mps(target, solution.x(), solution.y()) -
+         solution.z();
 }
 
 double weight(double residual, double scale) {

@@ -29,6 +29,10 @@ struct Target {
 
 /// Azimuth in the frame of the radar that saw the target.
 double azimuth_rad(const Target& target, const Pose2& vehicle_from_radar);
+/// Doppler of a target that stands still, if its radar moves so (m/s, vehicle frame).
+inline double expected_doppler_mps(const Target& target, double x_mps, double y_mps) {
+  return -target.cos_bearing * x_mps - target.sin_bearing * y_mps;
+}
 
 /// Numbers of detections used and left out, by reason.
 struct SelectionCounters {

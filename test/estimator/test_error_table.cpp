@@ -34,7 +34,7 @@ std::vector<StateError> rows(const OdometryOptions& options) {
     result.insert(result.end(), errors.begin(), errors.end());
   };
   for (std::size_t i = 0; i < kFrontLeftRear.size(); ++i) {
-    add(radar_errors(options, kFrontLeftRear[i], radar(static_cast<int>(i)), false));
+    add(radar_errors(options, kFrontLeftRear[i], radar(static_cast<int>(i))));
   }
   const int signals = size(static_cast<int>(kFrontLeftRear.size()));
   add(signal_errors(options.vehicle, VehicleSignal::speed, signals));
@@ -107,7 +107,7 @@ TEST_CASE("doubt widens what it should, a restart resets what passes") {
   const OdometryOptions options;
   OdometryState state(options, kFrontLeftRear);
   state.start();
-  const std::vector<StateError> errors = radar_errors(options, kFrontLeftRear[1], radar(1), false);
+  const std::vector<StateError> errors = radar_errors(options, kFrontLeftRear[1], radar(1));
   const auto learn = [&] {
     for (const StateError& error : errors) {
       state.gaussian.set(error.state, 0.01, 1e-12);

@@ -32,8 +32,8 @@ double town_speed_mps(double time_s) {
 }
 
 /// Largest relative error of the speed at 14 m/s in the last minute of a drive straight ahead, with
-/// true Doppler.
-double speed_error_after(double minutes, const std::vector<Pose2>& mounts) {
+/// true Doppler. After the first minute only the first `heard` radars send.
+double speed_error_after(double minutes, const std::vector<Pose2>& mounts, std::size_t heard) {
   OdometryState state(OdometryOptions(), mounts);
   state.start();
   std::mt19937_64 random(1);
@@ -42,7 +42,8 @@ double speed_error_after(double minutes, const std::vector<Pose2>& mounts) {
   for (std::int64_t i = 1; static_cast<double>(i) * kPeriodS < 60.0 * minutes; ++i) {
     const double time_s = static_cast<double>(i) * kPeriodS;
     state.advance_to(std::llround(time_s * 1e6));
-    for (std::size_t radar = 0; radar < mounts.size(); ++radar) {
+    for (std::size_t radar = 0; radar < (time_s < 60.0 ? mounts.size() : heard); ++radar) {
+      state.hear(radar, state.time_us());
       state.advance_errors(radar, kPeriodS);
       DopplerVelocity velocity;
       velocity.covariance << 4e-4, 0.0, 0.0, 25e-4;
@@ -63,12 +64,43 @@ TEST_CASE("an hour of accelerating and braking does not change the scale of spee
   const std::vector<Pose2> one{{3.4, 0.0, 0.0}};
   const std::vector<Pose2> two{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}};
   const std::vector<Pose2> three{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}, {-0.6, -0.6, -3.1}};
-  const auto& mounts = GENERATE_REF(one, two, three);
-  const double at_start = speed_error_after(2.0, mounts);
-  const double after_an_hour = speed_error_after(60.0, mounts);
+  const std::vector<Pose2> corners{{3.5, 0.7, 0.8}, {3.5, -0.7, -0.8}};
+  const auto& mounts = GENERATE_REF(one, two, three, corners);
+  const double at_start = speed_error_after(2.0, mounts, mounts.size());
+  const double after_an_hour = speed_error_after(60.0, mounts, mounts.size());
   CAPTURE(mounts.size(), at_start, after_an_hour);
   CHECK(at_start < 0.006);
   CHECK(after_an_hour < 0.006);  // The scale's prior has a sigma of 0.0028.
+}
+
+TEST_CASE("a radar whose partners fall silent does not change the scale of speed in an hour") {
+  const std::vector<Pose2> front_first{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}};
+  const std::vector<Pose2> corners_first{{3.5, 0.7, 0.8}, {3.5, -0.7, -0.8}, {3.4, 0.0, 0.0}};
+  const auto& mounts = GENERATE_REF(front_first, corners_first);
+  CHECK(speed_error_after(60.0, mounts, mounts.size() - 1) < 0.006);
+}
+
+TEST_CASE("lateral radars are witnesses while one ahead is heard, and after a silence of all") {
+  OdometryState state(OdometryOptions(), {{3.4, 0.0, 0.0}, {0.0, 0.9, 1.6}});
+  state.start();
+  const auto hear = [&](std::size_t radar, double time_s) {
+    const auto time_us = static_cast<std::int64_t>(1e6 * time_s);
+    state.hear(radar, time_us);
+    state.advance_to(time_us);
+    return state.is_witness(1);
+  };
+  CHECK(hear(1, 100.0));
+  CHECK(hear(1, 100.4));
+  CHECK_FALSE(hear(1, 100.6));
+  CHECK(hear(0, 100.7));
+  CHECK(hear(1, 101.1));
+  CHECK_FALSE(hear(1, 101.3));
+  CHECK(hear(1, 103.0));
+  CHECK(hear(1, 103.4));
+  CHECK_FALSE(hear(1, 103.6));
+  state.leave_clock();
+  state.restart(50'000'000);
+  CHECK(hear(1, 50.0));
 }
 
 /// A drive in bends with one radar, whose Doppler is true and whose positions have noise.

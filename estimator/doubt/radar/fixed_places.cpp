@@ -17,8 +17,8 @@ void take_fixed_places(const TargetSet& targets, const Eigen::Vector2d& velocity
                        double spacing_m, TargetSet& result) {
   result.clear();
   for (const Target& target : targets) {
-    const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps.x() +
-                                target.sin_bearing * velocity_mps.y();
+    const double residual_mps =
+        target.doppler_mps - expected_doppler_mps(target, velocity_mps.x(), velocity_mps.y());
     const auto is_near = [&](const Target& other) {
       return std::abs(other.x_m - target.x_m) < spacing_m &&
              std::abs(other.y_m - target.y_m) < spacing_m;

@@ -76,8 +76,8 @@ void ParkedVehicle::Look::add(const TargetSet& seen, const DopplerVelocity& velo
     if (std::abs(target.y_m) < kHalfLaneM) {
       continue;
     }
-    const double expected_mps = -target.cos_bearing * velocity.velocity_mps.x() -
-                                target.sin_bearing * velocity.velocity_mps.y();
+    const double expected_mps =
+        expected_doppler_mps(target, velocity.velocity_mps.x(), velocity.velocity_mps.y());
     const auto [low, high] = std::minmax({0.0, expected_mps});
     if (target.doppler_mps >= low - margin_mps && target.doppler_mps <= high + margin_mps) {
       targets += 1.0;

@@ -31,8 +31,8 @@ std::optional<double> mean_square(const TargetSet& targets, const Eigen::Vector2
   double sum = 0.0;
   int count = 0;
   for (const Target& target : targets) {
-    const double residual_mps = target.doppler_mps + target.cos_bearing * velocity_mps.x() +
-                                target.sin_bearing * velocity_mps.y();
+    const double residual_mps =
+        target.doppler_mps - expected_doppler_mps(target, velocity_mps.x(), velocity_mps.y());
     if (std::abs(residual_mps) < kNearMps) {
       sum += squared(residual_mps);
       ++count;
@@ -51,11 +51,11 @@ double DopplerExcess::add(const TargetSet& targets, const Eigen::Vector2d& veloc
   }
   scans_ = std::min(scans_ + 1, kFirstScans);
   const double first = scans_ < kFirstScans ? 1.0 / scans_ : 0.0;
-  mean_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / kExcessMeanS)) * (*of_scan - mean_mps2_);
-  const double time_s = mean_mps2_ < noise_mps2_ ? kNoiseFallS : kNoiseRiseS;
-  noise_mps2_ += std::max(first, 1.0 - std::exp(-dt_s / time_s)) * (mean_mps2_ - noise_mps2_);
-  const double noise_mps2 = std::max(squared(kArs408DopplerStdMps), kNoiseMargin * noise_mps2_);
-  return std::max(0.0, mean_mps2_ - noise_mps2);
+  mean_m2ps2_ += std::max(first, 1.0 - std::exp(-dt_s / kExcessMeanS)) * (*of_scan - mean_m2ps2_);
+  const double time_s = mean_m2ps2_ < noise_m2ps2_ ? kNoiseFallS : kNoiseRiseS;
+  noise_m2ps2_ += std::max(first, 1.0 - std::exp(-dt_s / time_s)) * (mean_m2ps2_ - noise_m2ps2_);
+  const double noise_m2ps2 = std::max(squared(kArs408DopplerStdMps), kNoiseMargin * noise_m2ps2_);
+  return std::max(0.0, mean_m2ps2_ - noise_m2ps2);
 }
 
 }  // namespace cremed

@@ -21,7 +21,7 @@ struct ScanVelocity {
   /// may be moving.
   bool is_clear = false;
   /// Of residuals, beyond the noise (m^2/s^2): DopplerExcess.
-  double excess_mps2 = 0.0;
+  double excess_m2ps2 = 0.0;
 };
 
 /// The scans of one radar: their order, and their velocity by Doppler.

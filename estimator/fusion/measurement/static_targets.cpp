@@ -22,7 +22,7 @@ void select_static(const OdometryState& state, std::size_t radar, double age_s,
       slip * v + w * mount.x_m - x.mean(state.error(radar, kMountYaw)) * forward_mps;
   result.clear();
   for (const Target& target : targets) {
-    const double expected_mps = -target.cos_bearing * forward_mps - target.sin_bearing * across_mps;
+    const double expected_mps = expected_doppler_mps(target, forward_mps, across_mps);
     if (std::abs(target.doppler_mps - expected_mps) <= state.options().static_doppler_mps) {
       result.add(target);
     }

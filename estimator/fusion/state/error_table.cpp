@@ -27,7 +27,9 @@ double StateError::std_at(double speed_mps, double yaw_rate_radps) const {
 // common Doppler scale drifted by 1 % in 15 minutes of a simulated town at a sigma of 0.2 %, and by
 // y and yaw of positions too the speed became 0.3 % too small. At rest nothing observes mount yaws
 // and Doppler scales, and all scans have the same map, whose noise they would learn: 0.4 degrees in
-// three minutes. With a single radar they are not separable from slip and speed.
+// three minutes. Doppler scales are also considered by all but x while only one radar is heard, or
+// only lateral ones (OdometryState): they are not separable from the speed. Two radars at 45
+// degrees learned 4.5 % in 20 minutes of starts and stops.
 
 std::vector<StateError> common_errors(const OdometryOptions& o) {
   const OrnsteinUhlenbeck slip = bounded_walk(o.slip_std_rad, o.slip_walk);
@@ -45,8 +47,7 @@ std::vector<StateError> common_errors(const OdometryOptions& o) {
   };
 }
 
-std::vector<StateError> radar_errors(const OdometryOptions& o, const Pose2& mount, int first,
-                                     bool is_single) {
+std::vector<StateError> radar_errors(const OdometryOptions& o, const Pose2& mount, int first) {
   const LearnedErrors prior = unlearned_errors(o, mount);
   const ErrorProcess scale{prior.doppler_scale.std, o.doppler_scale_time_s};
   ErrorProcess yaw{prior.mount_yaw_rad.std};
@@ -58,7 +59,7 @@ std::vector<StateError> radar_errors(const OdometryOptions& o, const Pose2& moun
       {"o offset, m/s", kOffset, o.offset, scene},
       {"r yaw, rad/m", kYawPerMetre, o.yaw_per_metre, scene},
       {"q lateral, m/m", kLateralPerMetre, o.lateral_per_metre, scene},
-      {"b Doppler scale", kDopplerScale, scale, doubt, is_single ? S::kAllButX : S::kAtRest},
+      {"b Doppler scale", kDopplerScale, scale, doubt, S::kAtRest},
       {"d mount yaw, rad", kMountYaw, yaw, doubt, S::kAtRest},
       {"g azimuth scale", kAzimuthScale, {o.position_azimuth_scale_std}, never, S::kAll},
       {"e_x mount, m", kLeverX, {o.lever_std_m}, doubt, S::kAll},

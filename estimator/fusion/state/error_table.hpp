@@ -47,9 +47,8 @@ struct StateError {
 
 /// The rows of the vehicle's errors, which MotionStep moves, and of those common to all radars.
 std::vector<StateError> common_errors(const OdometryOptions& options);
-/// The rows of one radar, whose states begin at `first`. `is_single`: it is the only one.
-std::vector<StateError> radar_errors(const OdometryOptions& options, const Pose2& mount, int first,
-                                     bool is_single);
+/// The rows of one radar, whose states begin at `first`.
+std::vector<StateError> radar_errors(const OdometryOptions& options, const Pose2& mount, int first);
 /// The rows of a signal of the vehicle's bus; the states of both signals begin at `first`.
 std::vector<StateError> signal_errors(const VehicleOptions& options, VehicleSignal signal,
                                       int first);

@@ -31,6 +31,9 @@ constexpr double kLeastSkid = 3.0;
 /// that was the least; twice as many after one of 14 degrees.
 constexpr double kMaxSkids = 5.0;
 
+/// Five cycles of the slowest radar, a Bosch GPR. After that nothing of a radar ahead holds the
+/// speed.
+constexpr double kGoneS = 0.5;
 constexpr int kMostRadars = 16;
 static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);
 
@@ -70,15 +73,14 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
     : gaussian(size_of(mounts.size(), options)),
       options_(options),
       mounts_(std::move(mounts)),
-      has_forward_radar_(!std::all_of(mounts_.begin(), mounts_.end(), looks_across)),
+      heard_us_(mounts_.size()),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
                               options.doppler_scale_restart_std)),
       common_errors_(cremed::common_errors(options)) {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    radar_errors_.push_back(
-        cremed::radar_errors(options, mounts_[i], first_of(i), mounts_.size() == 1));
+    radar_errors_.push_back(cremed::radar_errors(options, mounts_[i], first_of(i)));
   }
   if (options.vehicle.is_used()) {
     for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
@@ -95,9 +97,15 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
           {error.state, (error.considered_by & StateError::kX) != 0 ? 0 : 1});
     }
     if ((error.considered_by & StateError::kAtRest) != 0) {
-      considered_.at_rest.push_back({error.state});
+      considered_at_rest_.push_back({error.state});
     }
   });
+  considered_without_scales_ = considered_;
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    const int scale = this->error(i, kDopplerScale);
+    considered_without_scales_.by_velocities.push_back({scale});
+    considered_without_scales_.by_positions.push_back({scale, 1});
+  }
 }
 
 template <typename Visit>
@@ -110,10 +118,43 @@ void OdometryState::for_each_error(Visit visit) const {
   }
 }
 
+void OdometryState::hear(std::size_t radar, std::int64_t stamp_us) {
+  const auto newest_us = *std::max_element(heard_us_.begin(), heard_us_.end());
+  if (!newest_us || seconds_between(*newest_us, stamp_us) > kGoneS) {
+    // At the start, or after a silence of all, none is gone before its time.
+    std::fill(heard_us_.begin(), heard_us_.end(), stamp_us);
+  }
+  heard_us_[radar] = std::max(heard_us_[radar], std::optional(stamp_us));
+}
+
+bool OdometryState::is_heard(std::size_t radar) const {
+  return !heard_us_[radar] || seconds_between(*heard_us_[radar], time_us_) <= kGoneS;
+}
+
+/// Radars that are heard and look along the vehicle's axis.
+int OdometryState::heard_ahead() const {
+  int heard = 0;
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    heard += is_heard(i) && !looks_across(mounts_[i]) ? 1 : 0;
+  }
+  return heard;
+}
+
+/// The Doppler of several radars tells their scales apart from the speed, if one of them looks
+/// along the vehicle's axis.
+bool OdometryState::is_scale_observed() const {
+  int heard = 0;
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    heard += is_heard(i) ? 1 : 0;
+  }
+  return heard > 1 && heard_ahead() > 0;
+}
+
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
-  const auto& driving = is_of_positions ? considered_.by_positions : considered_.by_velocities;
-  gaussian.update(innovation, is_at_rest ? considered_.at_rest : driving);
+  const Considered& considered = is_scale_observed() ? considered_ : considered_without_scales_;
+  const auto& driving = is_of_positions ? considered.by_positions : considered.by_velocities;
+  gaussian.update(innovation, is_at_rest ? considered_at_rest_ : driving);
 }
 
 void OdometryState::start() {
@@ -129,7 +170,7 @@ void OdometryState::start() {
 
 void OdometryState::restart(std::int64_t time_us) {
   time_us_ = time_us;
-  excess_mps2_ = 0.0;
+  excess_m2ps2_ = 0.0;
   mixture_variance_ = 0.0;
   if (is_skidding_ || squared(gaussian.mean(kSlip)) > least_skid()) {
     gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
@@ -202,7 +243,7 @@ void OdometryState::advance_to(std::int64_t time_us) {
     const double before = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
     gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
     const double after = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
-    excess_mps2_ *= std::exp(-step_s / kExcessTimeS);
+    excess_m2ps2_ *= std::exp(-step_s / kExcessTimeS);
     advance_skid(step_s);
     gaussian.add_variance(kX, std::max(0.0, after - before));
     gaussian.add_variance(kY, std::max(0.0, after - before));
@@ -243,29 +284,30 @@ void OdometryState::advance(const StateError& error, double dt_s) {
   gaussian.decay(error.state, left, squared(std) * (1.0 - left * left));
 }
 
-void OdometryState::add_excess(double excess_mps2) {
-  excess_mps2_ = std::max(excess_mps2_, excess_mps2);
+void OdometryState::add_excess(double excess_m2ps2) {
+  excess_m2ps2_ = std::max(excess_m2ps2_, excess_m2ps2);
   // Cars start within a second: the process grows at once, and falls in its own time.
-  const double more = squared(mixture_std()) - mixture_variance_;
+  grow(kMixture, mixture_variance_, squared(mixture_std()));
+}
+
+/// Returns false if it is as large already.
+bool OdometryState::grow(int state, double& variance, double to) {
+  const double more = to - variance;
   if (more > 0.0) {
-    gaussian.add_variance(kMixture, more);
-    mixture_variance_ += more;
+    gaussian.add_variance(state, more);
+    variance = to;
   }
+  return more > 0.0;
 }
 
 double OdometryState::mixture_std() const {
   const double slow =
       std::clamp(2.0 - 2.0 * std::abs(gaussian.mean(kSpeed)) / kMaxMixedMps, 0.0, 1.0);
-  return slow * kShiftPerExcess * std::sqrt(excess_mps2_);
+  return slow * kShiftPerExcess * std::sqrt(excess_m2ps2_);
 }
 
 void OdometryState::add_skid(double slip_rad) {
-  const double more = squared(slip_rad) - skid_variance_;
-  if (more > 0.0) {
-    gaussian.add_variance(kSlip, more);
-    skid_variance_ += more;
-    is_skidding_ = true;
-  }
+  is_skidding_ = grow(kSlip, skid_variance_, squared(slip_rad)) || is_skidding_;
 }
 
 /// After the state was moved with skid_variance().

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -48,7 +49,7 @@ class OdometryState {
   /// Propagates a radar's errors, which refer to the time of its last scan.
   void advance_errors(std::size_t radar, double dt_s);
   /// Takes a scan's DopplerExcess, by which slow cars among the static targets show.
-  void add_excess(double excess_mps2);
+  void add_excess(double excess_m2ps2);
   /// Standard deviation (m/s) of the shift of all radars' speed by such cars.
   [[nodiscard]] double mixture_std() const;
   /// The vehicle skids with a slip of this size (rad) that was not expected (SideSlip): for seconds
@@ -85,13 +86,19 @@ class OdometryState {
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
   [[nodiscard]] std::span<const Pose2> mounts() const { return mounts_; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
-  /// Whether a radar looks sideways, where others do not (a witness). Reflections on the objects
-  /// that it passes move along with the vehicle: its positions shorten the way by 16 to 38 %, and
-  /// are not used. Nor does its Doppler alone count as use of a scan (FilterCondition): without the
-  /// others 1.8 % of the rows were beyond 5 sigma (passing vehicles, nuScenes).
+  /// Whether a radar looks sideways while one is heard that does not: it is a witness. Reflections
+  /// on the objects that it passes move along with the vehicle: its positions shorten the way by 16
+  /// to 38 %, and are not used. Nor does its Doppler alone count as use of a scan
+  /// (FilterCondition): without the others 1.8 % of the rows were beyond 5 sigma (passing vehicles,
+  /// nuScenes).
   [[nodiscard]] bool is_witness(std::size_t radar) const {
-    return has_forward_radar_ && looks_across(mounts_[radar]);
+    return looks_across(mounts_[radar]) && heard_ahead() > 0;
   }
+  /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
+  /// others are heard are gone.
+  void hear(std::size_t radar, std::int64_t stamp_us);
+  /// To be called when the clock of the stamps was set.
+  void leave_clock() { std::fill(heard_us_.begin(), heard_us_.end(), std::nullopt); }
   /// Velocity of a radar in the axes of the vehicle, without slip.
   [[nodiscard]] Eigen::Vector2d radar_velocity(std::size_t radar) const;
   /// Index in `gaussian` of one of a radar's errors.
@@ -104,8 +111,12 @@ class OdometryState {
  private:
   template <typename Visit>
   void for_each_error(Visit visit) const;
+  [[nodiscard]] bool is_heard(std::size_t radar) const;
+  [[nodiscard]] int heard_ahead() const;
+  [[nodiscard]] bool is_scale_observed() const;
   void start(const StateError& error);
   void advance(const StateError& error, double dt_s);
+  bool grow(int state, double& variance, double to);
   void advance_skid(double dt_s);
   [[nodiscard]] double least_skid() const;
   [[nodiscard]] const std::vector<StateError>& signal_errors(VehicleSignal signal) const {
@@ -115,12 +126,12 @@ class OdometryState {
 
   OdometryOptions options_;
   std::int64_t time_us_ = 0;
-  double excess_mps2_ = 0.0;       // The largest of the last scans.
+  double excess_m2ps2_ = 0.0;      // The largest of the last scans.
   double mixture_variance_ = 0.0;  // Of the process of kMixture.
   bool is_skidding_ = false;
   double skid_variance_ = 0.0;  // Of the change of the slip, beyond its process.
   std::vector<Pose2> mounts_;
-  bool has_forward_radar_;
+  std::vector<std::optional<std::int64_t>> heard_us_;  // By radar: its last scan.
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;
   // The table of errors.
@@ -128,11 +139,13 @@ class OdometryState {
   std::vector<std::vector<StateError>> radar_errors_;
   std::vector<std::vector<StateError>> signal_errors_;  // None if no signal is used.
   /// Consider parameters of updates by Doppler or signals, by positions, and of all at rest.
-  struct {
+  struct Considered {
     std::vector<GaussianState::Considered> by_velocities;
     std::vector<GaussianState::Considered> by_positions;
-    std::vector<GaussianState::Considered> at_rest;
-  } considered_;
+  };
+  Considered considered_;
+  Considered considered_without_scales_;  // While is_scale_observed() is false.
+  std::vector<GaussianState::Considered> considered_at_rest_;
 };
 
 }  // namespace cremed

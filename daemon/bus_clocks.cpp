@@ -97,8 +97,7 @@ ScanTiming ScanClock::judge(const RadarScan& scan) {
 }
 
 std::optional<ForwardStep> ScanClock::step() const {
-  const bool is_known = step_.by_s > kStepS && step_.counted_s < kMaxPauseS;
-  return is_known ? std::optional(step_) : std::nullopt;
+  return step_.counted_s < kMaxPauseS ? std::optional(step_) : std::nullopt;
 }
 
 double ScanClock::lateness_s(double passed_s, std::uint32_t counts) const {

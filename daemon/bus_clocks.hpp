@@ -97,7 +97,7 @@ enum class ScanTiming : std::uint8_t {
 /// A clock that was set forward, by the scans before and after it.
 struct ForwardStep {
   double counted_s = 0.0;  ///< Between the scans, by the radar's counter.
-  double by_s = 0.0;       ///< Between their stamps, beyond that.
+  double by_s = 0.0;       ///< Between their stamps, beyond that; < 0: it was set back.
 };
 
 /// The stamps of one radar's scans compared with its cycle counter.
@@ -107,8 +107,8 @@ class ScanClock {
 
   ScanTiming judge(const RadarScan& scan);
   void forget();
-  /// After ScanTiming::set_forward: the step, if the counter goes on. After a long pause it proves
-  /// nothing: logs may have been joined.
+  /// After ScanTiming::set_forward: the step. None after a long pause, when the counter proves
+  /// nothing: the sensor may have started anew, or logs have been joined.
   [[nodiscard]] std::optional<ForwardStep> step() const;
 
  private:

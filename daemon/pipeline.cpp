@@ -81,8 +81,10 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   odometry_.make_room(radar.index);
   const ScanTiming timing = radar.scan_clock.judge(scan);
   if (timing == ScanTiming::set_forward) {
-    count(radar.scan_clock.step());
-    forget_motions();
+    if (const auto step = radar.scan_clock.step()) {
+      count(*step);
+      forget_motions();
+    }
   }
   const std::int64_t solve_begin_us = clock_.now_us();
   EgoMotion motion =
@@ -215,12 +217,13 @@ void Pipeline::on_clock_step() {
   forget_motions();
 }
 
-void Pipeline::count(const std::optional<ForwardStep>& step) {
-  if (step) {
-    ++forward_steps_.count;
-    forward_steps_.longest_s = std::max(forward_steps_.longest_s, step->by_s);
-    forward_steps_.last = *step;
+void Pipeline::count(const ForwardStep& step) {
+  if (step.by_s < 0.0) {
+    return;
   }
+  ++forward_steps_.count;
+  forward_steps_.longest_s = std::max(forward_steps_.longest_s, step.by_s);
+  forward_steps_.last = step;
 }
 
 /// No motion spans a step of the clock.

@@ -98,7 +98,7 @@ class Pipeline {
   void use(RadarChannel& radar, const RadarScan& scan, std::int64_t begin_us);
   void check(RadarChannel& radar, EgoMotion& motion);
   void hold(RadarChannel& radar, const EgoMotion& motion);
-  void count(const std::optional<ForwardStep>& step);
+  void count(const ForwardStep& step);
   void forget_motions();
   void publish_status();
 

@@ -67,10 +67,15 @@ struct Subscriber {
   Gyro gyro;
   YawFilter estimate;
   cremed::odometry_t last{};
+  bool was_set_back = false;  // The clock: nothing spans that.
 
   void on_odometry(const lcm::ReceiveBuffer*, const std::string&,
                    const cremed::odometry_t* message) {
     if (message->status > cremed::odometry_t::STATUS_STANDING_STILL) {
+      return;
+    }
+    was_set_back = last.utime != 0 && message->utime < last.utime;
+    if (was_set_back) {
       return;
     }
     // `last` is the last message of its anchor.
@@ -103,6 +108,10 @@ int main(int argc, char** argv) {
   }
   lcm.subscribe("CREMED_ODOMETRY", &Subscriber::on_odometry, &subscriber);
   while (lcm.handle() == 0) {
+    if (subscriber.was_set_back) {
+      std::fputs("fuse_gyro: the clock was set back: nothing spans that; begin anew\n", stderr);
+      return 1;
+    }
   }
   return 0;
 }

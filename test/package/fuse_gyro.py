@@ -61,6 +61,8 @@ def main():
         message = heard.message
         if not isinstance(message, cremed.odometry_t) or message.status > message.STATUS_STANDING_STILL:
             continue
+        if last and message.utime < last.utime:
+            raise ValueError("the clock was set back: nothing spans that; begin anew")
         if last and message.utime_anchor != last.utime_anchor:  # `last` is the last message of its anchor.
             begin, end = last.utime_anchor, last.utime
             estimate.add((end - begin) * 1e-6, gyro.turn_rad(begin, end), last.yaw_in_anchor_frame_rad,

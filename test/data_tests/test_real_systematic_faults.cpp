@@ -7,6 +7,7 @@
 #include "test/data_tests/real_fault_drives.hpp"
 #include "test/faults/reversed_drive.hpp"
 #include "test/faults/systematic_matrix.hpp"
+#include "test/faults/unusual_faults.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
@@ -80,5 +81,16 @@ TEST_CASE("Real drives: each systematic fault", "[systematic]") {
   }
   // Not its beginning: there truth slides sideways by 0.3 to 0.7 m/s for three seconds.
   matrix.run_faults(radarscenes_fault_drive(true, 40.0, 8.0));
+  matrix.check();
+}
+
+TEST_CASE("Real drives: faults that come slowly, loose radars, all ahead gone", "[systematic]") {
+  SystematicMatrix matrix(&NotYet::recorded);
+  for (const auto* scene : {"0103", "0796"}) {
+    const FaultDrive drive = nuscenes_fault_drive(scene);
+    for (const auto* kind : {"drifts", "loose", "only sides"}) {
+      matrix.run(drive, UnusualFaults(drive).all(), kind);
+    }
+  }
   matrix.check();
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "test/faults/parked_drive.hpp"
 #include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_matrix.hpp"
+#include "test/faults/unusual_faults.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
@@ -123,6 +125,45 @@ TEST_CASE("Two of three radars that are late alike do not outvote the third") {
   for (const std::size_t i : kBehind) {
     CHECK(figures.radars[i].left_out > 0.7);
   }
+}
+
+TEST_CASE("Lateral radars drive on when those ahead are gone, and hand over to them again") {
+  const std::string scenario = GENERATE("bends", "stop-and-go");
+  const Configuration car = load_configuration(CREMED_SOURCE_DIR "/config/nuscenes-boston.toml");
+  const FaultDrive drive = simulated_fault_drive(scenario, 16.0, car.radars);
+  const std::vector<FaultCase> faults = UnusualFaults(drive).all();
+  const auto fault = std::find_if(faults.begin(), faults.end(), [](const FaultCase& each) {
+    return each.kind == "only sides for 8 s";
+  });
+  REQUIRE(fault != faults.end());
+  const DriveFigures figures = judged(drive, *fault);
+  const double usable = figures.status_share(OdometryStatus::ok) +
+                        figures.status_share(OdometryStatus::standing_still);
+  CAPTURE(scenario, usable, figures.beyond_share());
+  CHECK(usable > 0.95);
+  CHECK(verdict_of(*fault, figures).failures().empty());  // Soon right again, after the 8 s too.
+}
+
+TEST_CASE("A counter that is one cycle off after a silence is no step of the clock") {
+  const FaultDrive drive = simulated_fault_drive("bends", 14.0, car_with_two_behind().radars);
+  const std::size_t radar = 0;
+  const FaultTime silence{drive.start_us() + 5'000'000, drive.start_us() + 9'000'000};
+  FaultCase fault{"one cycle off", "", {silence.until_us, kNever}};
+  fault.put_in = [&](const FaultDrive& d, FaultTime time) {
+    Frames frames = with_silence(d.frames, silence, only(radar));
+    for (CanFrame& frame : frames) {
+      if (frame.interface == radar && time.has(frame) &&
+          is_message(frame, Ars408Message::cluster_status)) {
+        const unsigned counter = 256U * frame.data[2] + frame.data[3] - 1U;
+        frame.data[2] = static_cast<std::uint8_t>(counter >> 8U);
+        frame.data[3] = static_cast<std::uint8_t>(counter);
+      }
+    }
+    return frames;
+  };
+  const DriveFigures figures = judged(drive, fault);
+  CHECK(figures.status_share(OdometryStatus::ok) > 0.999);
+  CHECK(figures.beyond_share() < 0.01);
 }
 
 TEST_CASE("A radar mounted upside down drives as well as upright, with its key") {

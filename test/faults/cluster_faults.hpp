@@ -9,14 +9,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <random>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/estimator/scan/stamps.hpp"
 #include "test/faults/frame_faults.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 
@@ -34,8 +37,8 @@ inline CanFrame at_place_of(const CanFrame& place, CanFrame frame) {
   return frame;
 }
 
-/// `change` is applied to the clusters of the radars that `is_faulty` selects; values are rounded
-/// again.
+/// `change(cluster)`, or `change(cluster, seconds since the fault's begin)`, is applied to the
+/// clusters of the radars that `is_faulty` selects; values are rounded again.
 template <typename IsFaulty, typename Change>
 Frames with_changed_clusters(Frames frames, FaultTime time, IsFaulty is_faulty, Change change) {
   for (CanFrame& frame : frames) {
@@ -45,25 +48,39 @@ Frames with_changed_clusters(Frames frames, FaultTime time, IsFaulty is_faulty, 
     }
     auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
     if (!cluster) continue;
-    change(*cluster);
+    if constexpr (std::is_invocable_v<Change, Ars408General&, double>) {
+      change(*cluster, seconds_between(time.from_us, frame.stamp_us));
+    } else {
+      change(*cluster);
+    }
     frame.data = encode_ars408_cluster(0, *cluster).data;
   }
   return frames;
 }
 
+/// Turns position and velocity of a cluster counter-clockwise.
+inline void turn(Ars408General& cluster, double angle_rad) {
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  const Ars408General seen = cluster;
+  cluster.x_m = c * seen.x_m - s * seen.y_m;
+  cluster.y_m = s * seen.x_m + c * seen.y_m;
+  cluster.vx_mps = c * seen.vx_mps - s * seen.vy_mps;
+  cluster.vy_mps = s * seen.vx_mps + c * seen.vy_mps;
+}
+
+/// Adds to the velocity in the direction of view.
+inline void add_doppler(Ars408General& cluster, double mps) {
+  const double range_m = std::hypot(cluster.x_m, cluster.y_m);
+  cluster.vx_mps += mps * cluster.x_m / range_m;
+  cluster.vy_mps += mps * cluster.y_m / range_m;
+}
+
 /// An ARS408 was knocked: its direction of view turns by `yaw_rad`, so its targets turn the other
 /// way.
 inline Frames with_knocked_mount(Frames frames, FaultTime time, std::size_t radar, double yaw_rad) {
-  const double c = std::cos(yaw_rad);
-  const double s = std::sin(yaw_rad);
   return with_changed_clusters(std::move(frames), time, only(radar),
-                               [c, s](Ars408General& cluster) {
-                                 const Ars408General seen = cluster;
-                                 cluster.x_m = c * seen.x_m + s * seen.y_m;
-                                 cluster.y_m = c * seen.y_m - s * seen.x_m;
-                                 cluster.vx_mps = c * seen.vx_mps + s * seen.vy_mps;
-                                 cluster.vy_mps = c * seen.vy_mps - s * seen.vx_mps;
-                               });
+                               [yaw_rad](Ars408General& cluster) { turn(cluster, -yaw_rad); });
 }
 
 /// Mounted upside down: left and right are exchanged.
@@ -84,17 +101,15 @@ Frames with_scaled_doppler(Frames frames, FaultTime time, IsFaulty is_faulty, do
                                });
 }
 
-/// Only a share of the targets is seen, drawn anew in each scan. No fault: another sensor, or
-/// surroundings with less in them.
-inline Frames with_fewer_targets(const Frames& frames, double share) {
+/// Only the clusters with `is_seen(cluster, radar)` are seen.
+template <typename IsSeen>
+Frames with_targets(const Frames& frames, FaultTime time, IsSeen is_seen) {
   struct List {
     std::optional<std::size_t> header;  // In the result.
     std::uint8_t near = 0;              // Number of its targets before.
     std::array<std::optional<std::uint8_t>, 256> new_id;
   };
   std::array<List, 256> lists;
-  std::mt19937_64 random(1);
-  std::bernoulli_distribution is_seen(share);
   Frames result;
   for (CanFrame frame : frames) {
     List& list = lists[frame.interface];
@@ -103,7 +118,10 @@ inline Frames with_fewer_targets(const Frames& frames, double share) {
       list = {result.size(), std::exchange(frame.data[0], 0), {}};
       frame.data[1] = 0;
     } else if (is_message(frame, Ars408Message::cluster_general)) {
-      if (!list.header || !is_seen(random)) continue;
+      const auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+      if (!list.header || (cluster && time.has(frame) && !is_seen(*cluster, frame.interface))) {
+        continue;
+      }
       auto& header = result[*list.header].data;
       list.new_id[id] = static_cast<std::uint8_t>(header[0] + header[1]);
       ++header[id < list.near ? 0 : 1];
@@ -115,6 +133,17 @@ inline Frames with_fewer_targets(const Frames& frames, double share) {
     result.push_back(frame);
   }
   return result;
+}
+
+/// Only a share of the targets is seen, drawn anew in each scan. No fault: another sensor, or
+/// surroundings with less in them.
+inline Frames with_fewer_targets(const Frames& frames, double share) {
+  std::mt19937_64 random(1);
+  std::bernoulli_distribution is_seen(share);
+  const FaultTime always{std::numeric_limits<std::int64_t>::min(),
+                         std::numeric_limits<std::int64_t>::max()};
+  return with_targets(frames, always,
+                      [&](const Ars408General&, std::size_t) { return is_seen(random); });
 }
 
 /// Radars hang: each repeats the clusters of its last list while its counter runs on.

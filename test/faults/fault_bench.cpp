@@ -23,6 +23,7 @@
 #include "test/faults/reversed_drive.hpp"
 #include "test/faults/start_drive.hpp"
 #include "test/faults/systematic_faults.hpp"
+#include "test/faults/unusual_faults.hpp"
 #include "tools/program.hpp"
 
 namespace {
@@ -37,6 +38,7 @@ struct Options {
   bool are_rows_printed = false;
   bool is_healthy = false;
   bool is_reversed = false;
+  bool are_unusual = false;
   std::size_t random_faults = 0;
   std::string radars;
   std::string car = "nuscenes-singapore";
@@ -62,6 +64,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--case", options.filter, "Only cases whose name and radar contain it");
   app.add_option("--random", options.random_faults,
                  "So many faults of random kind, size, radar and time (--seed) instead");
+  app.add_flag("--unusual", options.are_unusual,
+               "Those that come slowly, or that no value of the configuration describes, instead");
   app.add_flag("--reversed", options.is_reversed, "Recorded drives backwards (ReversedDrive)");
   app.add_flag("--healthy", options.is_healthy, "No fault");
   app.add_option("--car", options.car, "Of simulated drives: config/NAME.toml")
@@ -140,6 +144,9 @@ void print_rows(const FaultDrive& drive, const FaultCase& fault) {
 }
 
 std::vector<FaultCase> faults_of(const FaultDrive& drive, const Options& options) {
+  if (options.are_unusual) {
+    return UnusualFaults(drive).all();
+  }
   return options.random_faults == 0
              ? SystematicFaults(drive).all()
              : RandomFaults(drive, options.seed()).draw(options.random_faults);

@@ -46,6 +46,8 @@ struct FaultCase {
   std::uint32_t guilty = 0;
   /// What is wrong with them, if it is one of these.
   FaultKind cause = FaultKind::unknown;
+  /// What is wrong with them changes: any cause may be named.
+  bool changes = false;
   /// Those of `guilty` with another cause, and it.
   std::uint32_t others_guilty = 0;
   FaultKind cause_of_others = FaultKind::unknown;

@@ -34,7 +34,7 @@ struct FaultDrive {
   [[nodiscard]] double duration_s() const {
     return static_cast<double>(frames.back().stamp_us - start_us()) * 1e-6;
   }
-  /// A lateral radar: the odometry needs others too.
+  /// A lateral radar, 60 degrees or more off the vehicle's axis.
   [[nodiscard]] bool is_side(std::size_t radar) const {
     return std::abs(std::cos(radars[radar].ego_motion.vehicle_from_radar.yaw_rad)) < 0.5;
   }

@@ -46,7 +46,8 @@ inline FaultVerdict verdict_of(const FaultCase& fault, const DriveFigures& figur
       const auto& causes = figures.radars[i].causes;
       const int named = std::accumulate(causes.begin(), causes.end(), 0);
       verdict.is_cause_right =
-          verdict.is_cause_right && named == causes.at(static_cast<std::size_t>(fault.cause_of(i)));
+          verdict.is_cause_right &&
+          (fault.changes || named == causes.at(static_cast<std::size_t>(fault.cause_of(i))));
     } else {
       verdict.is_no_innocent_named = verdict.is_no_innocent_named && !named_after_s;
     }

@@ -107,12 +107,6 @@ class RandomFaults {
     };
   }
 
-  static void add_doppler(Ars408General& cluster, double mps) {
-    const double range_m = std::hypot(cluster.x_m, cluster.y_m);
-    cluster.vx_mps += mps * cluster.x_m / range_m;
-    cluster.vy_mps += mps * cluster.y_m / range_m;
-  }
-
   static PutIn scaled(std::size_t radar, double factor) {
     return [radar, factor](const FaultDrive& d, FaultTime t) {
       return with_scaled_doppler(d.frames, t, only(radar), factor);

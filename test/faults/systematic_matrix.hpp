@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -27,10 +28,17 @@ class SystematicMatrix {
 
   /// Those with `text` in their kind.
   void run_faults(const FaultDrive& drive, std::string_view text = "") {
-    for (const FaultCase& fault : SystematicFaults(drive).all()) {
+    run(drive, SystematicFaults(drive).all(), text);
+  }
+
+  void run(const FaultDrive& drive, const std::vector<FaultCase>& faults, std::string_view text) {
+    int found = 0;
+    for (const FaultCase& fault : faults) {
       if (fault.kind == "none" || fault.kind.find(text) == std::string::npos) continue;
       add(fault.kind, drive, fault, judged(drive, fault));
+      ++found;
     }
+    REQUIRE(found > 0);
   }
 
   /// A drive without fault: nobody is named.

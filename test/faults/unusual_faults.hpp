@@ -18,8 +18,8 @@
 
 namespace cremed::test {
 
-/// Faults of one radar that come slowly, or that no value of the configuration describes: what no
-/// threshold was set on. All radars are ARS408.
+/// Faults of one radar that come slowly, or that no value of the configuration describes. One
+/// threshold was set by them: kMaxShareOfOthersLate. All radars are ARS408.
 class UnusualFaults {
  public:
   explicit UnusualFaults(const FaultDrive& drive) : drive_(drive) {}

@@ -131,13 +131,14 @@ bool OdometryState::is_heard(std::size_t radar) const {
   return !heard_us_[radar] || seconds_between(*heard_us_[radar], time_us_) <= kGoneS;
 }
 
-/// Radars that are heard and look along the vehicle's axis.
-int OdometryState::heard_ahead() const {
-  int heard = 0;
+/// Whether a radar is heard that looks along the vehicle's axis.
+bool OdometryState::is_any_ahead_heard() const {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    heard += is_heard(i) && !looks_across(mounts_[i]) ? 1 : 0;
+    if (is_heard(i) && !looks_across(mounts_[i])) {
+      return true;
+    }
   }
-  return heard;
+  return false;
 }
 
 /// The Doppler of several radars tells their scales apart from the speed, if one of them looks
@@ -147,7 +148,7 @@ bool OdometryState::is_scale_observed() const {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     heard += is_heard(i) ? 1 : 0;
   }
-  return heard > 1 && heard_ahead() > 0;
+  return heard > 1 && is_any_ahead_heard();
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {

@@ -92,7 +92,7 @@ class OdometryState {
   /// (FilterCondition): without the others 1.8 % of the rows were beyond 5 sigma (passing vehicles,
   /// nuScenes).
   [[nodiscard]] bool is_witness(std::size_t radar) const {
-    return looks_across(mounts_[radar]) && heard_ahead() > 0;
+    return looks_across(mounts_[radar]) && is_any_ahead_heard();
   }
   /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
   /// others are heard are gone.
@@ -112,7 +112,7 @@ class OdometryState {
   template <typename Visit>
   void for_each_error(Visit visit) const;
   [[nodiscard]] bool is_heard(std::size_t radar) const;
-  [[nodiscard]] int heard_ahead() const;
+  [[nodiscard]] bool is_any_ahead_heard() const;
   [[nodiscard]] bool is_scale_observed() const;
   void start(const StateError& error);
   void advance(const StateError& error, double dt_s);

@@ -57,8 +57,9 @@ TEST_CASE("every state but pose, motion and clones has one row of the table of e
   for (const StateError& error : rows(options)) {
     found.insert(error.state);
   }
-  std::multiset<int> expected{kSlip,    kSlipPerAcceleration, kBodyVelocity, kRounding,
-                              kMixture, kCommonAzimuthScale,  kCommonScale,  kCommonYawPerMetre};
+  std::multiset<int> expected{
+      kSlip,        kSlipPerAcceleration, kBodyVelocity,   kRounding, kMixture, kCommonAzimuthScale,
+      kCommonScale, kCommonYawPerMetre,   kCommonXPerMetre};
   for (int i = kFirstRadar; i < OdometryState(options, kFrontLeftRear).gaussian.size(); ++i) {
     expected.insert(i);
   }

@@ -193,6 +193,7 @@ TEST_CASE("a scan that was taken at the predicted pose needs no correction") {
   }
   state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
   state.gaussian.set_mean(kCommonYawPerMetre, 0.0);
+  state.gaussian.set_mean(kCommonXPerMetre, 0.0);
   MapScene scene(state);
   CHECK(scene.linearise(scene.match()).residual.norm() < 1e-6);
 }
@@ -271,6 +272,7 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
   }
   state.gaussian.set_mean(kCommonAzimuthScale, 0.0);
   state.gaussian.set_mean(kCommonYawPerMetre, 0.0);
+  state.gaussian.set_mean(kCommonXPerMetre, 0.0);
   MapScene scene(state);
   const LinearMeasurement linear = scene.linearise(scene.match());
   const auto check_error = [&](int which, double error) {

@@ -11,6 +11,7 @@
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/fusion/measurement/map_measurement.hpp"
+#include "cremed/estimator/fusion/odometry_filter.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/scan/squared.hpp"
@@ -189,6 +190,76 @@ TEST_CASE("the noise of y and yaw by positions does not change the scale of spee
     squares += squared(one.doppler_scale() - other.doppler_scale());
   }
   CHECK(std::sqrt(squares / kScans) < 0.0002);  // If it does: 0.0005.
+}
+
+/// A straight road between two hedges, with three points a metre that a radar sees up to 0.3 m
+/// off, the fewer of them the farther away.
+class HedgeDrive {
+ public:
+  explicit HedgeDrive(std::uint64_t seed) : random_(seed), filter_(OdometryOptions(), radars()) {
+    for (double x_m = -100.0; x_m < 2000.0; x_m += simulation::uniform(random_, 0.0, 0.67)) {
+      const double side = points_.size() % 2 == 0 ? 1.0 : -1.0;
+      points_.emplace_back(x_m, side * simulation::uniform(random_, 4.5, 6.0));
+    }
+  }
+
+  Odometry next() {
+    const std::size_t radar = scans_++ % kMounts.size();
+    way_m_ += kSpeedMps * 0.5 * kPeriodS;
+    return filter_.update(radar, see(kMounts[radar]),
+                          std::llround(1e6 * 0.5 * kPeriodS * static_cast<double>(scans_)));
+  }
+
+  static constexpr double kSpeedMps = 25.0;
+
+ private:
+  static constexpr std::array kMounts{simulation::kFront, simulation::kRearLeft};
+
+  static std::vector<OdometryRadar> radars() {
+    return {{kMounts[0], std::nullopt}, {kMounts[1], std::nullopt}};
+  }
+
+  TargetSet see(const Pose2& mount) {
+    std::normal_distribution<double> normal;
+    simulation::Detections detections;
+    for (const Eigen::Vector2d& point : points_) {
+      const Eigen::Vector2d at(point.x() - way_m_ + 0.3 * normal(random_),
+                               point.y() + 0.3 * normal(random_));
+      Detection detection = simulation::observe(at, {kSpeedMps, 0.0, 0.0}, mount, {0.3, 0.0, 0.1});
+      detection.azimuth_std_rad = 0.6 / detection.range_m;
+      detection.doppler_mps += detection.doppler_std_mps * normal(random_);
+      // Half of them at 34 m, fewer off its axis.
+      const double decibels = -40.0 * std::log10(detection.range_m / 34.0) -
+                              12.0 * squared(detection.azimuth_rad) + 4.0 * normal(random_);
+      if (std::abs(detection.azimuth_rad) < 1.1 && detection.range_m < 70.0 && decibels > 0.0) {
+        detections.push_back(detection);
+      }
+    }
+    return simulation::targets(detections, mount);
+  }
+
+  simulation::Random random_;
+  simulation::Points points_;
+  OdometryFilter filter_;
+  std::size_t scans_ = 0;
+  double way_m_ = 0.0;
+};
+
+TEST_CASE("targets by chance of a dense hedge do not make the speed wrong beyond its sigma") {
+  HedgeDrive drive(GENERATE(1U, 2U, 3U));
+  double error_mps = 0.0;
+  double sigma_mps = 0.0;
+  constexpr int kScans = 1600;
+  constexpr int kLast = 200;
+  for (int i = 0; i < kScans; ++i) {
+    const Odometry odometry = drive.next();
+    if (i >= kScans - kLast) {
+      error_mps += (odometry.twist.x() - HedgeDrive::kSpeedMps) / kLast;
+      sigma_mps += std::sqrt(odometry.twist_covariance(0, 0)) / kLast;
+    }
+  }
+  CAPTURE(error_mps, sigma_mps);
+  CHECK(std::abs(error_mps) < 2.0 * sigma_mps);
 }
 
 }  // namespace

@@ -18,12 +18,13 @@ namespace cremed {
 /// scan, (11) of the README:
 ///
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
-///         + sum_k G_k (d Jl_k - (q, r + r_c) x_k) + h (g + g_c)
+///         + sum_k G_k (d Jl_k - (p p_c, q, r + r_c) x_k) + h (g + g_c)
 ///
-/// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, q lateral and
-/// r yaw error over distance, g scale error of azimuths (r_c, g_c common to all radars) with its
-/// effect h (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are
-/// neglected in G_k. Doppler measures x far better in a single scan; over seconds x shows the scale
+/// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, p_c x
+/// error over distance where p = (1 - x_share) / x_share is 1, q lateral and r yaw error over
+/// distance, g scale error of azimuths (p_c, r_c, g_c common to all radars) with its effect h
+/// (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are neglected in
+/// G_k. Doppler measures x far better in a single scan; over seconds x shows the scale
 /// of Doppler.
 struct MapMeasurement {
   const OdometryState& state;

@@ -43,6 +43,7 @@ std::vector<StateError> common_errors(const OdometryOptions& o) {
       {"e_m mixture, m/s", kMixture, o.mixture, scene},
       {"b_c Doppler scale", kCommonScale, {o.common_scale_std}, never, S::kAllButX},
       {"g_c azimuth scale", kCommonAzimuthScale, {o.common_azimuth_scale_std}, never, S::kAll},
+      {"p_c x, m/m", kCommonXPerMetre, {o.common_x_per_metre_std}, never, S::kAll},
       {"r_c yaw, rad/m", kCommonYawPerMetre, {o.common_yaw_per_metre_std}, never, S::kAll},
   };
 }

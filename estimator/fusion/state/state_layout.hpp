@@ -28,7 +28,8 @@ inline constexpr int kMixture = 11;             ///< m/s
 inline constexpr int kCommonAzimuthScale = 12;  ///< 1
 inline constexpr int kCommonScale = 13;         ///< 1
 inline constexpr int kCommonYawPerMetre = 14;   ///< rad/m
-inline constexpr int kOutput = 15;              ///< Clone of the pose at the last output.
+inline constexpr int kCommonXPerMetre = 15;     ///< 1
+inline constexpr int kOutput = 16;              ///< Clone of the pose at the last output.
 inline constexpr int kPose = 3;                 ///< States of a clone.
 /// Clones of past poses to which the scans of the radars' maps are attached.
 inline constexpr int kFirstNode = kOutput + kPose;

@@ -296,6 +296,11 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
       innovation = state_.gaussian.innovate(measurement);
     }
   }
+  if (innovation.nis > state_.options().max_doppler_nis &&
+      may_be_jolt(radar, stamp_us, measurement.residual.x())) {
+    state_.add_jolt(condition_.unused_s(stamp_us));
+    innovation = state_.gaussian.innovate(measurement);
+  }
   const bool is_expected = innovation.nis <= state_.options().max_doppler_nis;
   trust.doppler.add(stamp_us, 0.5 * innovation.nis);
   if (trust.judge(stamp_us, scan.velocity, is_expected) && state_.is_witness(radar)) {
@@ -323,6 +328,17 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     }
   }
   return is_used;
+}
+
+/// Whether a vehicle that began to brake hard explains a scan which contradicts the state, and no
+/// other radar can tell (MajorityFollower). Each scan may go on from the one before, but after a
+/// pause a step is no jolt.
+bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us,
+                                 double change_mps) const {
+  return consensus_[radar].is_trusted && !state_.is_witness(radar) && condition_.is_settled() &&
+         consensus_.is_lone(radar, stamp_us) &&
+         condition_.unused_s(stamp_us) <= state_.options().predicted_s &&
+         std::abs(change_mps) <= possible_speed_change_mps(stamp_us);
 }
 
 void OdometryFilter::follow_majority(std::int64_t stamp_us) {

@@ -43,6 +43,10 @@ class OdometryDrive {
     yaw_rate_radps_ = yaw_rate_radps;
     side_mps_ = side_mps;
   }
+  /// Leaves this share of the static points.
+  void thin_out(double share) {
+    points_.resize(static_cast<std::size_t>(share * static_cast<double>(points_.size())));
+  }
   Radar& radar(std::size_t i) { return radars_[i]; }
   [[nodiscard]] OdometryFilter& filter() { return *filter_; }
 

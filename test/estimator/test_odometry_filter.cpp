@@ -245,6 +245,26 @@ TEST_CASE("a faulty radar is left out and reported, and used again when it agree
   CHECK(radars == 7U);
 }
 
+TEST_CASE("of four corner radars at 45 degrees the faulty one is left out") {
+  constexpr double kCorner = 0.25 * std::numbers::pi;
+  const std::vector<Pose2> corners{{3.5, 0.8, kCorner},
+                                   {3.5, -0.8, -kCorner},
+                                   {-0.8, 0.8, 3.0 * kCorner},
+                                   {-0.8, -0.8, -3.0 * kCorner}};
+  OdometryDrive drive(corners, 5);
+  REQUIRE(drive.drive(2.0).status == OdometryStatus::ok);
+  CHECK(drive.drive(3.0).left_out == 0U);
+  SECTION("its Doppler too large") { drive.radar(0).doppler_scale = 1.15; }
+  SECTION("its mount turned") { drive.radar(0).mount.yaw_rad += 0.15; }
+  drive.drive(2.0);
+  for (int i = 0; i < 60; ++i) {
+    const Odometry odometry = drive.next();
+    CHECK(odometry.left_out == 1U);
+    CHECK(is_good(odometry));
+    CHECK(twist_error(odometry, drive) < 5.0);
+  }
+}
+
 TEST_CASE("a majority of radars overrules the one that the filter followed") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 6);
   // The faulty radar is alone at first.
@@ -378,6 +398,23 @@ TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   CHECK(drive.next().status == OdometryStatus::predicted);
   drive.radar(0).world_mps = 0.0;
   CHECK(is_good(drive.drive(1.0)));
+}
+
+TEST_CASE("hard braking is followed by the only radar that looks ahead") {
+  const std::vector<Pose2> alone{kFront};
+  const std::vector<Pose2> with_sides{kFront, {2.4, 0.9, 1.57}, {2.4, -0.9, -1.57}};
+  const auto& mounts = GENERATE_REF(alone, with_sides);
+  OdometryDrive drive(mounts, 8);
+  drive.set_motion(22.0, 0.0);
+  REQUIRE(drive.drive(3.0).status == OdometryStatus::ok);
+  const std::int64_t from_us = drive.stamp_us();
+  while (drive.speed_mps() > 0.0) {
+    const Odometry odometry = drive.next();
+    CHECK(is_good(odometry));
+    CHECK(twist_error(odometry, drive) < 5.0);
+    drive.set_motion(
+        std::max(0.0, 22.0 - 9.0 * 1e-6 * static_cast<double>(drive.stamp_us() - from_us)), 0.0);
+  }
 }
 
 TEST_CASE("a U-turn at full lock is no fault of a lone radar") {
@@ -622,8 +659,10 @@ TEST_CASE(
   CHECK(std::abs(drive.filter().state().mean(state_layout::kSpeed) - 20.0) < 0.2);
 }
 
-TEST_CASE("the yaw error of a mount is learned") {
+TEST_CASE("the yaw error of a mount is learned, also from 5 to 15 targets a scan") {
+  const double density = GENERATE(1.0, 0.1);
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 11);
+  drive.thin_out(density);
   drive.radar(0).mount.yaw_rad += 0.015;
   for (int i = 0; i < 12; ++i) {
     drive.set_motion(9.0, i % 2 == 0 ? 0.2 : -0.2);

@@ -72,6 +72,15 @@ std::optional<MotionSums> RadarConsensus::contradicting_majority(std::int64_t ti
   return joint;
 }
 
+bool RadarConsensus::is_lone(std::size_t radar, std::int64_t time_us) const {
+  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+    if (i != radar && trusts_[i].votes(time_us) && !state_.is_witness(i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool RadarConsensus::is_step(std::int64_t time_us) const {
   std::int64_t last_agreed_us = std::numeric_limits<std::int64_t>::min();
   std::int64_t first_us = std::numeric_limits<std::int64_t>::max();

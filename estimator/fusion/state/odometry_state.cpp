@@ -8,6 +8,7 @@
 
 #include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
+#include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -34,6 +35,8 @@ constexpr double kMaxSkids = 5.0;
 /// Five cycles of the slowest radar, a Bosch GPR. After that nothing of a radar ahead holds the
 /// speed.
 constexpr double kGoneS = 0.5;
+/// 44 degrees: two radars at 45 learned a scale of 4.5 % in 20 minutes of starts and stops.
+constexpr double kMaxSineOfScale = 0.7;
 constexpr int kMostRadars = 16;
 static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);
 
@@ -145,10 +148,12 @@ bool OdometryState::is_any_ahead_heard() const {
 /// along the vehicle's axis.
 bool OdometryState::is_scale_observed() const {
   int heard = 0;
+  bool is_any_along = false;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     heard += is_heard(i) ? 1 : 0;
+    is_any_along = is_any_along || (is_heard(i) && sine_off_travel(mounts_[i]) < kMaxSineOfScale);
   }
-  return heard > 1 && is_any_ahead_heard();
+  return heard > 1 && is_any_along;
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
@@ -305,6 +310,14 @@ double OdometryState::mixture_std() const {
   const double slow =
       std::clamp(2.0 - 2.0 * std::abs(gaussian.mean(kSpeed)) / kMaxMixedMps, 0.0, 1.0);
   return slow * kShiftPerExcess * std::sqrt(excess_m2ps2_);
+}
+
+void OdometryState::add_jolt(double since_s) {
+  const double variance = squared(kMaxAccelerationMps2) / 3.0;  // Of all accelerations up to it.
+  gaussian.add_variance(kAcceleration, variance);
+  gaussian.add_variance(kSpeed, variance * squared(since_s));
+  gaussian.add_covariance(kAcceleration, kSpeed, variance * since_s);
+  gaussian.add_covariance(kSpeed, kAcceleration, variance * since_s);
 }
 
 void OdometryState::add_skid(double slip_rad) {

@@ -52,6 +52,8 @@ class OdometryState {
   void add_excess(double excess_m2ps2);
   /// Standard deviation (m/s) of the shift of all radars' speed by such cars.
   [[nodiscard]] double mixture_std() const;
+  /// The vehicle may have begun to brake or accelerate as hard as its tyres hold, `since_s` ago.
+  void add_jolt(double since_s);
   /// The vehicle skids with a slip of this size (rad) that was not expected (SideSlip): for seconds
   /// its slip is that uncertain.
   void add_skid(double slip_rad);

@@ -12,9 +12,6 @@ namespace {
 /// In front of the axis of rotation.
 constexpr Pose2 kMount{0.3, 0.0, 0.0};
 
-/// The default, 20, is for cars; the campus has about 20 targets in view.
-constexpr int kMinTargets = 8;
-
 Configuration robot() {
   Configuration configuration;
   RadarConfiguration& radar = configuration.radars.emplace_back();
@@ -22,7 +19,6 @@ Configuration robot() {
   radar.interface = "can0";
   radar.decoder = BoschGprOptions{};
   radar.ego_motion.vehicle_from_radar = kMount;
-  configuration.odometry.filter.min_targets = kMinTargets;
   return configuration;
 }
 

@@ -296,9 +296,8 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
       innovation = state_.gaussian.innovate(measurement);
     }
   }
-  if (innovation.nis > state_.options().max_doppler_nis &&
-      may_be_jolt(radar, stamp_us, measurement.residual.x())) {
-    state_.add_jolt(condition_.unused_s(stamp_us));
+  if (may_be_jolt(radar, stamp_us, measurement.residual.x(), innovation)) {
+    state_.add_jolt(condition_.unused_s(state_.time_us()));
     innovation = state_.gaussian.innovate(measurement);
   }
   const bool is_expected = innovation.nis <= state_.options().max_doppler_nis;
@@ -330,12 +329,17 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   return is_used;
 }
 
-/// Whether a vehicle that began to brake hard explains a scan which contradicts the state, and no
-/// other radar can tell (MajorityFollower). Each scan may go on from the one before, but after a
-/// pause a step is no jolt.
-bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us,
-                                 double change_mps) const {
-  return consensus_[radar].is_trusted && !state_.is_witness(radar) && condition_.is_settled() &&
+/// Whether a vehicle that began to brake or accelerate hard since the last scan explains one whose
+/// speed contradicts the state, of the only radar ahead that can tell (otherwise:
+/// MajorityFollower). Only the first contradiction: a step that no vehicle can make does not become
+/// one by waiting.
+bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps,
+                                 const Innovation& innovation) const {
+  const RadarTrust& trust = consensus_[radar];
+  const bool contradicts = innovation.nis > state_.options().max_doppler_nis &&
+                           innovation.nis_of_numbers.x() > innovation.nis_of_numbers.y();
+  return contradicts && trust.is_trusted && trust.has_agreed() &&
+         !looks_across(state_.mount(radar)) && condition_.is_settled() &&
          consensus_.is_lone(radar, stamp_us) &&
          condition_.unused_s(stamp_us) <= state_.options().predicted_s &&
          std::abs(change_mps) <= possible_speed_change_mps(stamp_us);

@@ -119,7 +119,8 @@ class OdometryFilter {
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                     std::int64_t stamp_us);
-  [[nodiscard]] bool may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps) const;
+  [[nodiscard]] bool may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps,
+                                 const Innovation& innovation) const;
   void follow_majority(std::int64_t stamp_us);
   [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;

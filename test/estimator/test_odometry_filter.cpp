@@ -400,6 +400,16 @@ TEST_CASE("a single radar whose velocity jumps is not followed at once") {
   CHECK(is_good(drive.drive(1.0)));
 }
 
+TEST_CASE("a step that no vehicle can make is not followed by a lone radar as hard braking") {
+  OdometryDrive drive({kFront}, 8);
+  drive.set_motion(22.0, 0.0);
+  REQUIRE(drive.drive(3.0).status == OdometryStatus::ok);
+  drive.radar(0).world_mps = GENERATE(2.0, 3.0, -3.0);
+  for (int i = 0; i < 6; ++i) {
+    CHECK(drive.next().twist.x() == Approx(22.0).margin(0.5));
+  }
+}
+
 TEST_CASE("hard braking is followed by the only radar that looks ahead") {
   const std::vector<Pose2> alone{kFront};
   const std::vector<Pose2> with_sides{kFront, {2.4, 0.9, 1.57}, {2.4, -0.9, -1.57}};

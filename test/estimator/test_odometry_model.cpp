@@ -304,6 +304,13 @@ TEST_CASE("the Jacobian of the map measurement predicts the effect of each error
       scene.insert(i, relative_pose(nodes[i], moved));
     }
     const int yaw_error = GENERATE(+kCommonYawPerMetre, radar(0) + kYawPerMetre);
+    const MapMatch match = scene.match();
+    double behind_m = 0.0;
+    for (std::size_t i = 0; i < kMapNodes; ++i) {
+      behind_m -= match.by_node[i](0, 0) * nodes[i].x();
+    }
+    CHECK(scene.derivative(linear, kCommonXPerMetre).x() ==
+          Approx((1.0 / match.x_share - 1.0) * behind_m).epsilon(kLinear));
     check_error(lateral > 0.0 ? state.error(0, kLateralPerMetre) : yaw_error,
                 lateral > 0.0 ? lateral : yaw_radpm);
   }

@@ -223,6 +223,9 @@ class HedgeDrive {
     std::normal_distribution<double> normal;
     simulation::Detections detections;
     for (const Eigen::Vector2d& point : points_) {
+      if (std::abs(point.x() - way_m_) > 80.0) {
+        continue;
+      }
       const Eigen::Vector2d at(point.x() - way_m_ + 0.3 * normal(random_),
                                point.y() + 0.3 * normal(random_));
       Detection detection = simulation::observe(at, {kSpeedMps, 0.0, 0.0}, mount, {0.3, 0.0, 0.1});
@@ -245,7 +248,7 @@ class HedgeDrive {
   double way_m_ = 0.0;
 };
 
-TEST_CASE("targets by chance of a dense hedge do not make the speed wrong beyond its sigma") {
+TEST_CASE("chance neighbours in a dense hedge do not make the speed wrong beyond its sigma") {
   HedgeDrive drive(GENERATE(1U, 2U, 3U));
   double error_mps = 0.0;
   double sigma_mps = 0.0;
@@ -259,7 +262,8 @@ TEST_CASE("targets by chance of a dense hedge do not make the speed wrong beyond
     }
   }
   CAPTURE(error_mps, sigma_mps);
-  CHECK(std::abs(error_mps) < 2.0 * sigma_mps);
+  CHECK(std::abs(error_mps) < 2.0 * sigma_mps);  // Without p_c: 2.3 to 2.7 times.
+  CHECK(sigma_mps < 0.004 * HedgeDrive::kSpeedMps);
 }
 
 }  // namespace

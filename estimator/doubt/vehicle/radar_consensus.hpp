@@ -32,7 +32,7 @@ class RadarConsensus {
   /// The motion by the contradicting radars, if they are two or more, the majority, and agree with
   /// each other.
   [[nodiscard]] std::optional<MotionSums> contradicting_majority(std::int64_t time_us) const;
-  /// Whether no other radar votes but witnesses.
+  /// Whether of the other radars only witnesses vote.
   [[nodiscard]] bool is_lone(std::size_t radar, std::int64_t time_us) const;
   /// All contradictions are later than the last agreement: all radars changed at once.
   [[nodiscard]] bool is_step(std::int64_t time_us) const;

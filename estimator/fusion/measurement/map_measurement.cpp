@@ -106,8 +106,8 @@ void MapMeasurement::add_nodes(const MapMatch& match, const Eigen::Matrix3d& now
   depend_on(kCommonYawPerMetre, by_yaw);
   depend_on(state.error(radar, kAzimuthScale), match.by_azimuth_scale);
   depend_on(kCommonAzimuthScale, match.by_azimuth_scale);
-  depend_on(kCommonXPerMetre,
-            -(1.0 - match.x_share) / match.x_share * way_m * Eigen::Vector3d::UnitX());
+  const double by_prior = (1.0 - match.x_share) / match.x_share;
+  depend_on(kCommonXPerMetre, Eigen::Vector3d(-by_prior * way_m, 0.0, 0.0));
   measurement.noise(0, 0) += squared(state.options().position_x_per_metre * way_m);
   measurement.noise(2, 2) += squared(state.options().position_yaw_per_turn * turned_rad);
 }

@@ -14,7 +14,7 @@ namespace cremed {
 /// state.
 struct Innovation {
   static constexpr int kNumbers = 3;      ///< Of a LinearMeasurement.
-  static constexpr int kMaxStates = 220;  ///< Those of 16 radars and the vehicle's signals.
+  static constexpr int kMaxStates = 218;  ///< Those of 16 radars and the vehicle's signals.
   using Gain = Eigen::Matrix<double, Eigen::Dynamic, kNumbers, Eigen::ColMajor, kMaxStates>;
 
   /// Normalised innovation squared (NIS): chi-square with a degree of freedom for each number of

@@ -161,10 +161,10 @@ struct OdometryOptions {
   // Positions.
   double static_doppler_mps = 0.5;  ///< A static target's Doppler is expected to within this.
   /// Static ones. On a simulated country road with 5 to 10 in a scan the way of 10 s of five radars
-  /// errs by 21 % with 20, since mounts are not learned; by 3.3, 2.0 and 2.0 % with 8, 6 and 4. With
-  /// 4 a lone front radar is usable for 66 % of the time, with 6 for 94 %.
+  /// errs by 21 % with 20, since mounts are not learned; by 3.3, 2.0 and 2.0 % with 8, 6 and 4.
+  /// With 4 a lone front radar is usable for 66 % of the time, with 6 for 94 %.
   int min_targets = 6;
-  double min_matched_share = 0.2;   ///< Least share of matched targets: half are new in a turn.
+  double min_matched_share = 0.2;  ///< Least share of matched targets: half are new in a turn.
   /// A map takes a scan after this time if the vehicle moved by node_way_m or turned by
   /// node_turn_rad.
   double node_period_s = 0.25;

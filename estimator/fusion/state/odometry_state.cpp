@@ -3,6 +3,7 @@
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -145,7 +146,7 @@ bool OdometryState::is_any_ahead_heard() const {
 }
 
 /// The Doppler of several radars tells their scales apart from the speed, if one of them looks
-/// along the vehicle's axis.
+/// within 44 degrees of the direction of travel.
 bool OdometryState::is_scale_observed() const {
   int heard = 0;
   bool is_any_along = false;
@@ -313,11 +314,20 @@ double OdometryState::mixture_std() const {
 }
 
 void OdometryState::add_jolt(double since_s) {
-  const double variance = squared(kMaxAccelerationMps2) / 3.0;  // Of all accelerations up to it.
-  gaussian.add_variance(kAcceleration, variance);
-  gaussian.add_variance(kSpeed, variance * squared(since_s));
-  gaussian.add_covariance(kAcceleration, kSpeed, variance * since_s);
-  gaussian.add_covariance(kSpeed, kAcceleration, variance * since_s);
+  // Of all accelerations up to the limit.
+  const double variance =
+      std::max(0.0, squared(kMaxAccelerationMps2) / 3.0 - gaussian.variance(kAcceleration));
+  const double yaw_rad = gaussian.mean(kYaw);
+  const double way_s2 = 0.5 * squared(since_s);
+  const std::array<std::pair<int, double>, 4> changes{{{kX, way_s2 * std::cos(yaw_rad)},
+                                                       {kY, way_s2 * std::sin(yaw_rad)},
+                                                       {kSpeed, since_s},
+                                                       {kAcceleration, 1.0}}};
+  for (const auto& [i, of_i] : changes) {
+    for (const auto& [j, of_j] : changes) {
+      gaussian.add_covariance(i, j, of_i * of_j * variance);
+    }
+  }
 }
 
 void OdometryState::add_skid(double slip_rad) {

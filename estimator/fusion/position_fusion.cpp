@@ -23,7 +23,9 @@ constexpr double kMinShareOfX = 0.2;
 /// half to nine tenths are in the map.
 constexpr double kMinConfirmedShare = 0.4;
 /// Static targets of a scan whose positions should tell the speed. Of 10 seldom enough are in the
-/// map: a radar with fewer needs no such confirmation (FaultHypotheses).
+/// map: a radar with fewer needs no such confirmation (FaultHypotheses). Nor are fewer positions of
+/// a lateral radar used: what they show moves along. With 6 the left and right radars of 0796 alone
+/// followed it, 94 % of the rows beyond 5 sigma on one of its starts.
 constexpr std::size_t kTellingTargets = 20;
 /// Beyond this slow cars are in the map, which then moves along.
 constexpr double kMaxMixtureMps = 0.1;
@@ -60,10 +62,12 @@ void PositionFusion::use(std::size_t radar, const TargetSet& targets, std::int64
   const double age_s = seconds_between(stamp_us, state_.time_us());
   select_static(state_, radar, age_s, targets, static_targets_);
   counters_[radar].moving += targets.size() - static_targets_.size();
-  if (static_targets_.size() < kTellingTargets) {
+  const bool are_few = static_targets_.size() < kTellingTargets;
+  if (are_few) {
     faults_.add_too_few_targets(radar, stamp_us);
   }
-  if (static_targets_.size() < static_cast<std::size_t>(state_.options().min_targets)) {
+  if ((are_few && looks_across(state_.mount(radar))) ||
+      static_targets_.size() < static_cast<std::size_t>(state_.options().min_targets)) {
     return;
   }
   match(radar, age_s);

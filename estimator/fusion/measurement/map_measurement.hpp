@@ -20,12 +20,11 @@ namespace cremed {
 ///     z = sum_k G_k (true pose of the scan relative to node k - the predicted one)
 ///         + sum_k G_k (d Jl_k - (p p_c, q, r + r_c) x_k) + h (g + g_c)
 ///
-/// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, p p_c
-/// error of x over distance with p = (1 - x_share) / x_share, q lateral and r yaw error over
-/// distance, g scale error of azimuths (p_c, r_c, g_c common to all radars) with its effect h
+/// d mount yaw, l_k the radar's way from now to node k and J its turn by 90 degrees, p p_c error of
+/// x over distance with p = (1 - x_share) / x_share, q lateral and r yaw error over distance, g
+/// scale error of azimuths (p_c, r_c, g_c common to all radars) with its effect h
 /// (MapMatch::by_azimuth_scale). The effects of x on y and yaw, and of these on x, are neglected in
-/// G_k. Doppler measures x far better in a single scan; over seconds x shows the scale
-/// of Doppler.
+/// G_k. Doppler measures x far better in a single scan; over seconds x shows the scale of Doppler.
 struct MapMeasurement {
   const OdometryState& state;
   const TargetMap& map;

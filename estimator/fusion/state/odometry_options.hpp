@@ -193,9 +193,10 @@ struct OdometryOptions {
   /// Error of x for each metre, common to all radars, where x has as much information by the
   /// search's prior as by targets; it grows with the ratio of the two (MapMatch::x_share). Chance
   /// neighbours pull x to where a radar sees the same density of targets, which moves along with
-  /// the vehicle. x is off by 0.1 to 0.7 % on nuScenes, where that ratio is about 1, by 0.1 % on
-  /// RadarScenes 105 (0.1), and by 0.7 to 1.7 % along simulated hedges (2 to 3). Without it the
-  /// squared error of the way of 10 s along these is 29 to 101 times its variance, with it 3 to 4.
+  /// the vehicle. By radar and x_share, x is off by up to 0.7 % on nuScenes (once 1.5), where that
+  /// ratio is about 1, by 0.1 to 0.3 % on RadarScenes 105 (0.1), and by 0.7 to 2 % along simulated
+  /// hedges (2 to 3). Without it the squared error of the way of 10 s along these is 29 to 101
+  /// times its variance, with it 2 to 4.
   double common_x_per_metre_std = 0.004;
   /// Gate, 2 DoF: false-alarm rate 0.01 %. x hardly counts: its noise is several times its errors.
   double max_position_nis = 18.0;

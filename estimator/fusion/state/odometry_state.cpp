@@ -135,26 +135,29 @@ bool OdometryState::is_heard(std::size_t radar) const {
   return !heard_us_[radar] || seconds_between(*heard_us_[radar], time_us_) <= kGoneS;
 }
 
-/// Whether a radar is heard that looks along the vehicle's axis.
-bool OdometryState::is_any_ahead_heard() const {
+template <typename IsSo>
+bool OdometryState::is_any_heard(IsSo is_so) const {
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    if (is_heard(i) && !looks_across(mounts_[i])) {
+    if (is_heard(i) && is_so(mounts_[i])) {
       return true;
     }
   }
   return false;
 }
 
+bool OdometryState::is_any_ahead_heard() const {
+  return is_any_heard([](const Pose2& mount) { return !looks_across(mount); });
+}
+
 /// The Doppler of several radars tells their scales apart from the speed, if one of them looks
 /// within 44 degrees of the direction of travel.
 bool OdometryState::is_scale_observed() const {
   int heard = 0;
-  bool is_any_along = false;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {
     heard += is_heard(i) ? 1 : 0;
-    is_any_along = is_any_along || (is_heard(i) && sine_off_travel(mounts_[i]) < kMaxSineOfScale);
   }
-  return heard > 1 && is_any_along;
+  return heard > 1 &&
+         is_any_heard([](const Pose2& mount) { return sine_off_travel(mount) < kMaxSineOfScale; });
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {

@@ -114,6 +114,9 @@ class OdometryState {
   template <typename Visit>
   void for_each_error(Visit visit) const;
   [[nodiscard]] bool is_heard(std::size_t radar) const;
+  /// Whether a radar is heard whose mount is so.
+  template <typename IsSo>
+  [[nodiscard]] bool is_any_heard(IsSo is_so) const;
   [[nodiscard]] bool is_any_ahead_heard() const;
   [[nodiscard]] bool is_scale_observed() const;
   void start(const StateError& error);

@@ -128,6 +128,28 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
   CHECK(found(radar, town, 10.0, scaled_by(-1.0)).kind == FaultKind::sign);
 }
 
+TEST_CASE("a scale that begins does not look as if all other radars were late") {
+  const double factor = GENERATE(0.9, 0.96, 1.04, 1.1);
+  const Driving faster = [](double time_s) -> Twist {
+    return {30.0 + 4.0 * std::sin(0.2 * time_s), 0.0};
+  };
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  FaultCauseSearch search(kFourMounts, 0);
+  const double begin_s = 1010.0;
+  for (double time_s = begin_s - 10.0; time_s < begin_s + 3.0; time_s += 0.15) {
+    const Twist motion = faster(time_s);
+    search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.0, 0.0},
+                      Eigen::Matrix3d::Zero());
+    const Fault fault = scaled_by(time_s < begin_s ? 1.0 : factor);
+    search.add_velocity(fault(faster, time_s, kFourMounts[0]) +
+                            Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
+                        Eigen::Matrix2d::Zero());
+    CAPTURE(factor, time_s - begin_s);
+    CHECK_FALSE(search.find_others_late().is_clear);
+  }
+}
+
 TEST_CASE("At one speed a scale is not told from an offset") {
   CHECK(found(0, straight, 10.0, scaled_by(1.05)).kind == FaultKind::unknown);
   CHECK(found(0, straight, 10.0, shifted_by(0.5)).kind == FaultKind::unknown);

@@ -185,6 +185,21 @@ TEST_CASE("the slip of the rear axle in fast bends is no radar's fault") {
   }
 }
 
+TEST_CASE("corner radars whose scales differ as their azimuths let them are healthy") {
+  constexpr double kCorner = 0.785;
+  Comparison comparison({{3.5, 0.8, kCorner},
+                         {3.5, -0.8, -kCorner},
+                         {-0.8, 0.8, 3.0 * kCorner},
+                         {-0.8, -0.8, -3.0 * kCorner}});
+  comparison.corner(30.0, 0.02, 0.003);
+  for (int i = 0; i < 10; ++i) {
+    comparison.drive(1.0, [](std::size_t radar, Comparison::Measured& measured) {
+      measured.velocity_mps.x() *= radar == 0 ? 1.012 : 0.996;
+    });
+    CHECK(comparison.faults().at_fault() == 0U);
+  }
+}
+
 TEST_CASE("the radar that differs from the others is at fault, and no other") {
   const auto guilty = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
   const Comparison::Fault fault = GENERATE_REF(scaled(guilty, 0.9), scaled(guilty, 1.05),

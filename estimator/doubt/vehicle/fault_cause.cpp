@@ -111,6 +111,7 @@ FaultCauseSearch::FaultCauseSearch(std::span<const Pose2> mounts, std::size_t ra
 void FaultCauseSearch::clear() {
   std::fill(at_mount_.begin(), at_mount_.end(), VelocityMoments());
   lags_.fill(Lag());
+  before_ = VelocityMoments();
   leads_.fill(Lag());
   chance_ = 0.0;
 }
@@ -160,27 +161,39 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
     lag.moments.add(expected_mps, measured_mps, w, weight);
     lag.delay_s = kFade * lag.delay_s + delay_s;
   };
-  Past& now = past_[(motions_ - 1) % past_.size()];
-  for (std::size_t i = 0; i < std::min(kLags, motions_ - 1); ++i) {
-    const Past& past = past_[(motions_ - 2 - i) % past_.size()];
-    const double delay_s = seconds_between(past.time_us, now.time_us);
-    add(lags_[i], past.velocity_mps, velocity_mps, delay_s);
-    if (past.own_mps) {
-      add(leads_[i], now.velocity_mps, *past.own_mps, delay_s);
-    }
+  const auto past = [&](std::size_t epochs) -> Past& {
+    return past_[(motions_ - 1 - epochs) % past_.size()];
+  };
+  for (std::size_t i = 1; i <= std::min(kLags, motions_ - 1); ++i) {
+    add(lags_[i - 1], past(i).velocity_mps, velocity_mps,
+        seconds_between(past(i).time_us, past(0).time_us));
   }
-  now.own_mps = velocity_mps;
+  past(0).own_mps = velocity_mps;
+  // All leads have the same velocities of this radar: of newer ones only short leads are known, and
+  // the long ones would explain a fault by not having it yet.
+  if (motions_ <= kLags || !past(kLags).own_mps) {
+    return;
+  }
+  const Past& first = past(kLags);
+  before_.fade(kFade);
+  before_.add(first.velocity_mps, *first.own_mps, w, weight);
+  for (std::size_t i = 1; i <= kLags; ++i) {
+    const Past& later = past(kLags - i);
+    add(leads_[i - 1], later.velocity_mps, *first.own_mps,
+        seconds_between(first.time_us, later.time_us));
+  }
 }
 
 /// The delay with the least cost, by a parabola through the lag with the least and its neighbours.
-void FaultCauseSearch::try_late(Candidates& candidates, const Lags& lags) const {
+void FaultCauseSearch::try_late(Candidates& candidates, const VelocityMoments& at_once,
+                                const Lags& lags) const {
   const double count = at_mount_[radar_].count();
   const double view_rad = mounts_[radar_].yaw_rad;
   const auto chi_square = [&](const VelocityMoments& moments) {
     return count / moments.count() *
            moments.fit(Eigen::Matrix2d::Identity(), view_rad, kHealthy).chi_square;
   };
-  std::array<double, kLags + 1> costs{chi_square(at_mount_[radar_])};
+  std::array<double, kLags + 1> costs{chi_square(at_once)};
   for (std::size_t i = 0; i < kLags; ++i) {
     costs[i + 1] = chi_square(lags[i].moments);
   }
@@ -245,7 +258,7 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
     result.add({FaultKind::mount_x, ahead.x_m}, ahead.chi_square);
   }
   try_mount_yaw(result);
-  try_late(result, lags_);
+  try_late(result, own, lags_);
   const auto shifted =
       own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
   bool is_apart = shifted.chi_square > result.chi_square + kMinDifferenceToOffset;
@@ -265,10 +278,10 @@ FaultCauseSearch::Finding FaultCauseSearch::find_others_late() const {
     return {};
   }
   Candidates early;
-  try_late(early, leads_);
-  const double healthy = at_mount_[radar_]
-                             .fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy)
-                             .chi_square;
+  try_late(early, before_, leads_);
+  const double healthy =
+      at_mount_[radar_].count() / before_.count() *
+      before_.fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy).chi_square;
   const double by_early = gain(healthy, early.chi_square);
   return {early.best, by_early,
           early.chi_square < kMaxShareOfOthersLate * healthy &&

@@ -81,7 +81,7 @@ class FaultCauseSearch {
   struct Candidates;
 
   [[nodiscard]] static bool is_complete(const Lags& lags);
-  void try_late(Candidates& candidates, const Lags& lags) const;
+  void try_late(Candidates& candidates, const VelocityMoments& at_once, const Lags& lags) const;
   void try_mount_yaw(Candidates& candidates) const;
   [[nodiscard]] bool explains(double chi_square) const;
   [[nodiscard]] double gain(double healthy, double chi_square) const;
@@ -95,7 +95,9 @@ class FaultCauseSearch {
   Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<VelocityMoments> at_mount_;  // Of this radar at the mount of each.
   Lags lags_;                              // Of this radar with earlier velocities by the others.
-  Lags leads_;                             // Of earlier velocities of this radar with the others.
+  // Of this radar kLags epochs ago, with the velocities by the others then and later.
+  VelocityMoments before_;
+  Lags leads_;
   double chance_ = 0.0;
 };
 

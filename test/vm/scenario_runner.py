@@ -58,6 +58,7 @@ class Vehicle:
         self.folder.chmod(0o755)
         self.listener = None
         self.daemons = []
+        self.taken_us = []  # When a scenario took the processor from the daemon.
 
     def bus(self, name):
         return CanBus(name).create()
@@ -79,20 +80,26 @@ class Vehicle:
     def expect_odometry(self, *sources):
         return expect_estimates(self.listener, sources)
 
-    def is_fresh(self, utime_us, seen_us):
-        """At most max_latency_s old when it left. `seen_us`: the kernel's stamp of receiving it."""
+    def is_fresh(self, utime_us, seen_us, before_us):
+        """At most max_latency_s old when its age was judged. `seen_us`: the kernel's stamp of receiving it;
+        `before_us`: of the message before. If the processor was taken in between, it may have been judged
+        until then: no process can judge and send in one."""
+        judged_us = min((taken_us for taken_us in self.taken_us
+                         if max(utime_us, before_us) < taken_us < seen_us), default=seen_us)
         limit_s = max(daemon.max_latency_s for daemon in self.daemons) + SLOWEST_SENDING_S
-        return seen_us - utime_us < limit_s * 1e6
+        return judged_us - utime_us < limit_s * 1e6
 
     def expect_speeds_are_fresh(self, speeds):
         """Each speed that motion_feedback put on the bus is of an estimate that was fresh then; in their
         order, each once."""
         check(speeds, "motion_feedback is sent")
         motions = iter(self.motions_until(speeds[-1][0]))
+        before_us = 0
         for sent_us, speed_mps in speeds:
-            check(any(motion.utime < sent_us and self.is_fresh(motion.utime, sent_us)
+            check(any(motion.utime < sent_us and self.is_fresh(motion.utime, sent_us, before_us)
                       and is_of(motion, speed_mps) for motion in motions),
                   f"{speed_mps:.2f} m/s on the bus is an estimate of now")
+            before_us = sent_us
 
     def motions_until(self, stamp_us):
         """Estimates of front. On a busy computer the listener is behind the bus: waits for it."""
@@ -104,13 +111,15 @@ class Vehicle:
     def expect_nothing_stale(self):
         """Whatever was published, but for statuses; returns the greatest age."""
         ages_s = [0.0]
-        for channel, messages in self.listener.heard.items():
-            if channel == "CREMED_STATUS":
-                continue  # Counters: the last known are sent at once when LCM is connected.
-            for heard in list(messages):
-                check(self.is_fresh(heard.message.utime, heard.wall_us),
+        before_us = 0
+        for heard, channel in sorted(((heard, channel) for channel, messages in self.listener.heard.items()
+                                      for heard in list(messages)), key=lambda each: each[0].wall_us):
+            # Not a status, of counters: the last known are sent at once when LCM is connected.
+            if channel != "CREMED_STATUS":
+                check(self.is_fresh(heard.message.utime, heard.wall_us, before_us),
                       f"nothing stale; {channel} is {heard.age_s:.2f} s old")
                 ages_s.append(heard.age_s)
+            before_us = heard.wall_us
         return max(ages_s)
 
     def expect_good_manners(self, repeated=()):

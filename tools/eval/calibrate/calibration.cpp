@@ -111,9 +111,12 @@ double above_one(const StdFactor& factor) {
   return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
 }
 
-/// Scans do not depend on it; motions do: it withdraws those that it does not believe.
-Configuration without_odometry(Configuration configuration) {
+/// Scans depend on neither. The odometry withdraws motions that it does not believe.
+Configuration without_motions(Configuration configuration) {
   configuration.odometry.enabled = false;
+  for (RadarConfiguration& radar : configuration.radars) {
+    radar.ego_motion.min_targets = kMaxDetections + 1;
+  }
   return configuration;
 }
 
@@ -180,7 +183,7 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
       logs_(logs),
       has_truth_(truth != nullptr),
       errors_(errors),
-      recorded_(record_drive(without_odometry(configuration), logs)),
+      recorded_(record_drive(without_motions(configuration), logs)),
       fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
            motion_prior(configuration)),
       radars_(configuration.radars.size()) {

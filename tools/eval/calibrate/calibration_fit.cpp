@@ -194,9 +194,11 @@ Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& resi
   const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
   const auto blocks = blocks_of(jacobian, groups);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(wanted);
+  Factors rest;
+  rest.analyzePattern(information);  // That of the rest, with zeros.
   for (const auto& [block, rows] : blocks) {
     const Eigen::SparseMatrix<double> own = rows.transpose() * rows;
-    const Factors rest(information - own);
+    rest.factorize(information - own);
     const Eigen::VectorXd gradient = rows.transpose() * residuals;
     const Eigen::VectorXd step = rest.solve(gradient);
     squares += step.tail(wanted).cwiseAbs2();

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/simulate/ars408_encoder.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "cremed/can_decoders/ars408_signals.hpp"
 
 namespace cremed {
@@ -20,9 +23,13 @@ CanFrame encoded(Ars408Message message, std::uint8_t sensor_id, std::uint8_t len
 }  // namespace
 
 std::uint8_t ars408_rms_code(double standard_deviation) {
-  std::uint8_t code = 0;
-  while (code < 30 && ars408_rms(code).value_or(0.0) < standard_deviation) ++code;
-  return code;
+  static const std::array<double, 30> kRms = [] {  // Of the last code, any larger one.
+    std::array<double, 30> rms{};
+    for (std::uint8_t code = 0; code < rms.size(); ++code) rms[code] = *ars408_rms(code);
+    return rms;
+  }();
+  return static_cast<std::uint8_t>(std::ranges::lower_bound(kRms, standard_deviation) -
+                                   kRms.begin());
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterStatus& status) {

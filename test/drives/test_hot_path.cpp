@@ -38,7 +38,8 @@ long allocations_of_replay(const Drive& simulated, const std::vector<OdometrySin
   configuration.odometry.filter.vehicle.speed.is_used = true;
   configuration.odometry.filter.vehicle.yaw_rate.is_used = true;
   Pipeline pipeline(configuration, kNoSource, sinks, {});
-  std::string_view rest = simulated.log;
+  const std::string log = simulated.log();
+  std::string_view rest = log;
   const AllocationGuard guard;
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');

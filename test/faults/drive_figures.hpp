@@ -349,7 +349,7 @@ class DriveJudge {
 };
 
 inline DriveFigures judged(const FaultDrive& drive, const FaultCase& fault) {
-  const FaultRecord result = record(drive, fault);
+  const FaultRecord result = record(drive, fault, false);
   return DriveJudge(drive, fault, result).figures();
 }
 

@@ -77,11 +77,12 @@ struct FaultRecord {
   std::vector<Given> given;
 };
 
-inline FaultRecord record(const FaultDrive& drive, const FaultCase& fault) {
+inline FaultRecord record(const FaultDrive& drive, const FaultCase& fault,
+                          bool keeps_scans = true) {
   FaultCase::Radars radars = drive.radars;
   if (fault.configure) fault.configure(radars);
   const Frames frames = fault.put_in ? fault.put_in(drive, fault.time) : drive.frames;
-  FaultRecord result{RecordingSink(radars.size()), {}};
+  FaultRecord result{RecordingSink(radars.size(), keeps_scans), {}};
   Pipeline pipeline(configuration_of(radars), kNoSource, {&result.sink}, {}, fault.learned);
   FaultRecord::Given given;
   for (std::size_t i = 0; i < frames.size(); ++i) {

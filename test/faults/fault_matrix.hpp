@@ -89,7 +89,7 @@ inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
 
 inline FaultOutcome run(const FaultDrive& drive, const FaultCase& fault) {
   const Judge judge(drive, fault.time);
-  return {&drive, fault, judge.all(record(drive, fault).sink, fault.clock_offset_us)};
+  return {&drive, fault, judge.all(record(drive, fault, false).sink, fault.clock_offset_us)};
 }
 
 inline void print(const FaultOutcome& outcome) {

@@ -15,12 +15,15 @@
 
 namespace cremed::test {
 
-/// Keeps all results.
+/// Keeps all results; the scans, 20 kB each, on request only.
 class RecordingSink final : public OdometrySink {
  public:
-  explicit RecordingSink(std::size_t radars) : motions(radars), statuses(radars), scans(radars) {}
+  explicit RecordingSink(std::size_t radars, bool keeps_scans = true)
+      : motions(radars), statuses(radars), scans(keeps_scans ? radars : 0) {}
 
-  void on_scan(std::size_t radar, const RadarScan& scan) override { scans[radar].push_back(scan); }
+  void on_scan(std::size_t radar, const RadarScan& scan) override {
+    if (!scans.empty()) scans[radar].push_back(scan);
+  }
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
     motions[radar].push_back(motion);
   }

@@ -65,8 +65,15 @@ struct Drive {
   std::vector<CanFrame> frames;
   std::vector<ScanTruth> truths;  ///< In order of their stamps.
   std::vector<Pose2> mounts;      ///< True mounts.
-  std::string log;                ///< The frames as candump text.
+  std::vector<std::string> interfaces;
   std::string truth_csv;
+
+  /// The frames as candump text.
+  [[nodiscard]] std::string log() const {
+    std::string text;
+    for (const CanFrame& frame : frames) text += candump_line(frame, interfaces[frame.interface]);
+    return text;
+  }
 };
 
 inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguration>& radars,
@@ -76,9 +83,9 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
   Simulation simulation(scenario, radars, options,
                         [&](const ScanTruth& truth) { result.truths.push_back(truth); });
   while (const auto frame = simulation.next()) {
-    result.log += candump_line(*frame, simulation.interfaces()[frame->interface]);
     result.frames.push_back(*frame);
   }
+  result.interfaces = simulation.interfaces();
   std::ostringstream csv;
   simulation.write_truth(csv);
   result.mounts = simulation.mounts();

@@ -55,7 +55,7 @@ struct RecordedDrive {
     options.seed = seed;
     options.duration_s = duration_s;
     const Drive simulated = drive(scenario, radars, exactly_mounted(options));
-    std::ofstream(log) << simulated.log;
+    std::ofstream(log) << simulated.log();
     truth = std::make_unique<TrueTrajectory>(truth_of(simulated));
   }
 };

@@ -126,7 +126,7 @@ TEST_CASE("radars that share a bus all get their whole scans through, in their r
   for (const RadarConfiguration& one : drive.radars) {
     CAPTURE(one.name);
     const bool is_gpr = one.decoder.as<BoschGprOptions>() != nullptr;
-    const auto decoded = cremed::test::decode(drive.log, one);
+    const auto decoded = cremed::test::decode(drive.log(), one);
     CHECK(is_clean(decoded));
     CHECK(decoded.decoder.state_frames >= (is_gpr ? 19U : 38U));
     REQUIRE(decoded.scans.size() > (is_gpr ? 190U : 260U));
@@ -186,7 +186,7 @@ TEST_CASE("no radar sends more targets than it can, and the nearest are first") 
     for (std::size_t i = 0; i < radars.size(); ++i) {
       CAPTURE(scenario, radars[i].name);
       std::size_t most = 0;
-      for (const auto& scan : cremed::test::decode(drive.log, radars[i]).scans) {
+      for (const auto& scan : cremed::test::decode(drive.log(), radars[i]).scans) {
         most = std::max<std::size_t>(most, scan.count);
         for (std::size_t k = 1; k < scan.count; ++k) {
           // Rounding to the grid of 0.2 m may swap neighbours.
@@ -220,14 +220,14 @@ TEST_CASE("a lossy bus loses one frame in a thousand, and some scans with them")
   const Drive lossy = short_drive("lossy", radars, 3, 60.0);
   const auto lost = static_cast<double>(whole.frames.size() - lossy.frames.size());
   CHECK(lost / static_cast<double>(whole.frames.size()) == Approx(1e-3).margin(3e-4));
-  const auto decoded = cremed::test::decode(lossy.log, radars[0]);
+  const auto decoded = cremed::test::decode(lossy.log(), radars[0]);
   CHECK(decoded.assembler.incomplete_scans > 0);
   CHECK(decoded.assembler.incomplete_scans < decoded.assembler.scans / 4);
 }
 
 TEST_CASE("silent radars go on counting") {
   const Drive drive = short_drive("silent", cremed::default_radars(), 1, 60.0);
-  const auto decoded = cremed::test::decode(drive.log, drive.radars[0]);
+  const auto decoded = cremed::test::decode(drive.log(), drive.radars[0]);
   int silences = 0;
   for (std::size_t i = 1; i < decoded.scans.size(); ++i) {
     const auto gap_us =

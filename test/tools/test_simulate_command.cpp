@@ -27,7 +27,7 @@ TEST_CASE("a seed decides every byte, and another radar changes none of the firs
   const auto radars = cremed::default_radars();
   const auto first = cremed::test::drive(city, radars, options);
   const auto again = cremed::test::drive(city, radars, options);
-  CHECK(first.log == again.log);
+  CHECK(first.log() == again.log());
   CHECK(first.truth_csv == again.truth_csv);
 
   const auto alone = cremed::test::drive(city, {radars[0]}, options);
@@ -42,7 +42,7 @@ TEST_CASE("a seed decides every byte, and another radar changes none of the firs
   CHECK(index == alone.frames.size());
 
   options.seed = 6;
-  CHECK(cremed::test::drive(city, radars, options).log != first.log);
+  CHECK(cremed::test::drive(city, radars, options).log() != first.log());
 }
 
 TEST_CASE("cremed-simulate writes log and truth") {

@@ -67,7 +67,7 @@ bool inside(const TruthTable& truth, std::int64_t stamp_us) {
 /// Errors of all static targets of one radar, by scan.
 std::vector<ScanErrors> radar_errors(const Drive& drive, std::size_t radar) {
   const TruthTable truth(drive.truth_csv);
-  const auto decoded = cremed::test::decode(drive.log, drive.radars[radar]);
+  const auto decoded = cremed::test::decode(drive.log(), drive.radars[radar]);
   std::vector<ScanErrors> all;
   std::size_t scan_index = 0;
   for (const auto& scan_truth : drive.truths) {

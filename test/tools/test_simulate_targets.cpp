@@ -36,7 +36,7 @@ constexpr double kStepS = 0.002;  // For velocities from two positions.
 
 TEST_CASE("an ARS408 tells standing from moving targets by their Doppler over ground") {
   const Drive drive = drive_of("crowd", 60.0);
-  const auto scans = cremed::test::decode(drive.log, drive.radars[0]).scans;
+  const auto scans = cremed::test::decode(drive.log(), drive.radars[0]).scans;
   std::map<std::pair<EchoKind, Motion>, std::size_t> seen;
   std::size_t scan_index = 0;
   std::size_t usable = 0;

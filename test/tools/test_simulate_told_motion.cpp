@@ -81,7 +81,7 @@ Drive told_drive(const char* name, bool is_told, double duration_s = 40.0,
 /// All targets but ghosts, which have no position.
 std::vector<Seen> all_seen(const Drive& drive) {
   const TruthTable truth(drive.truth_csv);
-  const auto scans = decode(drive.log, drive.radars[0]).scans;
+  const auto scans = decode(drive.log(), drive.radars[0]).scans;
   REQUIRE(scans.size() == drive.truths.size());
   std::vector<Seen> all;
   for (std::size_t k = 1; k + 1 < scans.size(); ++k) {

@@ -26,8 +26,9 @@ TEST_CASE("Real drives without fault: nobody is named, and front radars are avai
 TEST_CASE("Real drives from any moment on: nobody is named", "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const auto* scene : {"0061", "0103", "0655", "0796", "1094"}) {
+    const FaultDrive drive = nuscenes_fault_drive(scene);
     for (double from_s = 0.4; from_s < 12.0; from_s += 0.8) {
-      matrix.run_healthy("from any moment on", nuscenes_fault_drive(scene, 7.0, from_s));
+      matrix.run_healthy("from any moment on", part_of(drive, 7.0, from_s));
     }
   }
   matrix.check();
@@ -57,8 +58,8 @@ TEST_CASE("Real drives played backwards: nobody is named, poses are as certain a
   }
   // Not its end: there truth slides sideways.
   for (const bool are_flags_used : {true, false}) {
-    matrix.run_healthy("reversed 105",
-                       ReversedDrive::of(radarscenes_fault_drive(are_flags_used, 1e9, 8.0)));
+    matrix.run_healthy("reversed 105", ReversedDrive::of(part_of(
+                                           radarscenes_fault_drive(are_flags_used), 1e9, 8.0)));
   }
   matrix.check();
 }
@@ -67,8 +68,9 @@ TEST_CASE("Real drives by lateral radars alone: poses are as certain as they say
   SystematicMatrix matrix(&NotYet::recorded);
   // Not 1094, with its turn of 27 degrees a second at 2 m/s.
   for (const auto* scene : {"0061", "0103", "0655", "0796"}) {
+    const FaultDrive drive = nuscenes_fault_drive(scene);
     for (const auto* radars : {"left", "right", "left,right"}) {
-      matrix.run_healthy("lateral radars alone", with_radars(nuscenes_fault_drive(scene), radars));
+      matrix.run_healthy("lateral radars alone", with_radars(drive, radars));
     }
   }
   matrix.check();
@@ -80,7 +82,7 @@ TEST_CASE("Real drives: each systematic fault", "[systematic]") {
     matrix.run_faults(nuscenes_fault_drive(scene));
   }
   // Not its beginning: there truth slides sideways by 0.3 to 0.7 m/s for three seconds.
-  matrix.run_faults(radarscenes_fault_drive(true, 40.0, 8.0));
+  matrix.run_faults(part_of(radarscenes_fault_drive(true), 40.0, 8.0));
   matrix.check();
 }
 

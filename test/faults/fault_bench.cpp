@@ -81,9 +81,9 @@ void add_options(CLI::App& app, Options& options) {
 
 FaultDrive recorded_drive_of(const std::string& name, const Options& options) {
   if (name.starts_with("105")) {
-    return radarscenes_fault_drive(name == "105", options.seconds, options.from_s);
+    return part_of(radarscenes_fault_drive(name == "105"), options.seconds, options.from_s);
   }
-  return nuscenes_fault_drive(name, 1e9, options.nuscenes_from_s);
+  return part_of(nuscenes_fault_drive(name), 1e9, options.nuscenes_from_s);
 }
 
 FaultDrive drive_of(const std::string& name, const Options& options) {

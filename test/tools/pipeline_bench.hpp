@@ -15,7 +15,7 @@
 
 namespace cremed::test {
 
-/// Keeps all results; the scans, 20 kB each, on request only.
+/// Keeps all results; the scans, 20 kB each, if `keeps_scans`.
 class RecordingSink final : public OdometrySink {
  public:
   explicit RecordingSink(std::size_t radars, bool keeps_scans = true)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs scenarios, several at a time, each in a network namespace with its own buses."""
 import argparse
+import bisect
 import concurrent.futures
 import os
 import pathlib
@@ -80,11 +81,12 @@ class Vehicle:
     def expect_odometry(self, *sources):
         return expect_estimates(self.listener, sources)
 
-    def is_fresh(self, utime_us, seen_us, before_us):
+    def is_fresh(self, utime_us, seen_us, left_us):
         """At most max_latency_s old when its age was judged. `seen_us`: the kernel's stamp of receiving it;
-        `before_us`: of the message before. If the processor was taken in between, it may have been judged
-        until then: no process can judge and send in one."""
-        judged_us = min((taken_us for taken_us in self.taken_us
+        `left_us`: those of all that was sent, in order. No process can judge and send in one: if the
+        processor was taken since whatever was sent before, it was judged until then."""
+        before_us = left_us[max(bisect.bisect_left(left_us, seen_us) - 1, 0)]
+        judged_us = max((taken_us for taken_us in self.taken_us
                          if max(utime_us, before_us) < taken_us < seen_us), default=seen_us)
         limit_s = max(daemon.max_latency_s for daemon in self.daemons) + SLOWEST_SENDING_S
         return judged_us - utime_us < limit_s * 1e6
@@ -94,12 +96,11 @@ class Vehicle:
         order, each once."""
         check(speeds, "motion_feedback is sent")
         motions = iter(self.motions_until(speeds[-1][0]))
-        before_us = 0
+        left_us = sorted([heard.wall_us for heard, _ in self.heard()] + [sent_us for sent_us, _ in speeds])
         for sent_us, speed_mps in speeds:
-            check(any(motion.utime < sent_us and self.is_fresh(motion.utime, sent_us, before_us)
+            check(any(motion.utime < sent_us and self.is_fresh(motion.utime, sent_us, left_us)
                       and is_of(motion, speed_mps) for motion in motions),
                   f"{speed_mps:.2f} m/s on the bus is an estimate of now")
-            before_us = sent_us
 
     def motions_until(self, stamp_us):
         """Estimates of front. On a busy computer the listener is behind the bus: waits for it."""
@@ -108,18 +109,22 @@ class Vehicle:
         return wait_until(lambda: [m for m in heard() if m.utime > stamp_us] and heard(),
                           "an estimate after the last speed")
 
+    def heard(self):
+        """All messages, with their channels."""
+        return [(heard, channel) for channel, messages in self.listener.heard.items()
+                for heard in list(messages)]
+
     def expect_nothing_stale(self):
         """Whatever was published, but for statuses; returns the greatest age."""
         ages_s = [0.0]
-        before_us = 0
-        for heard, channel in sorted(((heard, channel) for channel, messages in self.listener.heard.items()
-                                      for heard in list(messages)), key=lambda each: each[0].wall_us):
-            # Not a status, of counters: the last known are sent at once when LCM is connected.
-            if channel != "CREMED_STATUS":
-                check(self.is_fresh(heard.message.utime, heard.wall_us, before_us),
-                      f"nothing stale; {channel} is {heard.age_s:.2f} s old")
-                ages_s.append(heard.age_s)
-            before_us = heard.wall_us
+        all_heard = self.heard()
+        left_us = sorted(heard.wall_us for heard, _ in all_heard)
+        for heard, channel in all_heard:
+            if channel == "CREMED_STATUS":
+                continue  # Counters: the last known are sent at once when LCM is connected.
+            check(self.is_fresh(heard.message.utime, heard.wall_us, left_us),
+                  f"nothing stale; {channel} is {heard.age_s:.2f} s old")
+            ages_s.append(heard.age_s)
         return max(ages_s)
 
     def expect_good_manners(self, repeated=()):

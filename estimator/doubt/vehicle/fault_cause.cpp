@@ -113,6 +113,9 @@ void FaultCauseSearch::clear() {
   lags_.fill(Lag());
   before_ = VelocityMoments();
   leads_.fill(Lag());
+  for (Past& past : past_) {
+    past.own.reset();
+  }
   chance_ = 0.0;
 }
 
@@ -155,47 +158,49 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
     at_mount_[i].fade(kFade);
     at_mount_[i].add(expected(motion_, mounts_[i]), velocity_mps, w, weight);
   }
-  const auto add = [&](Lag& lag, const Eigen::Vector2d& expected_mps,
-                       const Eigen::Vector2d& measured_mps, double delay_s) {
-    lag.moments.fade(kFade);
-    lag.moments.add(expected_mps, measured_mps, w, weight);
-    lag.delay_s = kFade * lag.delay_s + delay_s;
-  };
-  const auto past = [&](std::size_t epochs) -> Past& {
-    return past_[(motions_ - 1 - epochs) % past_.size()];
-  };
+  Past& now = past(0);
+  now.own = {velocity_mps, w, weight};
   for (std::size_t i = 1; i <= std::min(kLags, motions_ - 1); ++i) {
-    add(lags_[i - 1], past(i).velocity_mps, velocity_mps,
-        seconds_between(past(i).time_us, past(0).time_us));
+    lags_[i - 1].add(past(i).velocity_mps, *now.own,
+                     seconds_between(past(i).time_us, now.time_us));
   }
-  past(0).own_mps = velocity_mps;
-  // All leads have the same velocities of this radar: of newer ones only short leads are known, and
-  // the long ones would explain a fault by not having it yet.
-  if (motions_ <= kLags || !past(kLags).own_mps) {
+  add_leads();
+}
+
+/// All of one velocity of this radar, kLags motions ago. Otherwise long leads, which lack the newest
+/// ones, would seem to explain a fault that has just begun.
+void FaultCauseSearch::add_leads() {
+  if (motions_ <= kLags || !past(kLags).own) {
     return;
   }
   const Past& first = past(kLags);
   before_.fade(kFade);
-  before_.add(first.velocity_mps, *first.own_mps, w, weight);
+  before_.add(first.velocity_mps, first.own->mps, first.own->yaw_rate_radps, first.own->weight);
   for (std::size_t i = 1; i <= kLags; ++i) {
     const Past& later = past(kLags - i);
-    add(leads_[i - 1], later.velocity_mps, *first.own_mps,
-        seconds_between(first.time_us, later.time_us));
+    leads_[i - 1].add(later.velocity_mps, *first.own,
+                      seconds_between(first.time_us, later.time_us));
   }
+}
+
+void FaultCauseSearch::Lag::add(const Eigen::Vector2d& expected_mps, const Own& own, double by_s) {
+  moments.fade(kFade);
+  moments.add(expected_mps, own.mps, own.yaw_rate_radps, own.weight);
+  delay_s = kFade * delay_s + by_s;
+}
+
+/// As if of as many velocities as the other causes have.
+double FaultCauseSearch::chi_square_if_healthy(const VelocityMoments& moments) const {
+  return at_mount_[radar_].count() / moments.count() *
+         moments.fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy).chi_square;
 }
 
 /// The delay with the least cost, by a parabola through the lag with the least and its neighbours.
 void FaultCauseSearch::try_late(Candidates& candidates, const VelocityMoments& at_once,
                                 const Lags& lags) const {
-  const double count = at_mount_[radar_].count();
-  const double view_rad = mounts_[radar_].yaw_rad;
-  const auto chi_square = [&](const VelocityMoments& moments) {
-    return count / moments.count() *
-           moments.fit(Eigen::Matrix2d::Identity(), view_rad, kHealthy).chi_square;
-  };
-  std::array<double, kLags + 1> costs{chi_square(at_once)};
+  std::array<double, kLags + 1> costs{chi_square_if_healthy(at_once)};
   for (std::size_t i = 0; i < kLags; ++i) {
-    costs[i + 1] = chi_square(lags[i].moments);
+    costs[i + 1] = chi_square_if_healthy(lags[i].moments);
   }
   const auto least = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin()), 1,
@@ -279,9 +284,7 @@ FaultCauseSearch::Finding FaultCauseSearch::find_others_late() const {
   }
   Candidates early;
   try_late(early, before_, leads_);
-  const double healthy =
-      at_mount_[radar_].count() / before_.count() *
-      before_.fit(Eigen::Matrix2d::Identity(), mounts_[radar_].yaw_rad, kHealthy).chi_square;
+  const double healthy = chi_square_if_healthy(before_);
   const double by_early = gain(healthy, early.chi_square);
   return {early.best, by_early,
           early.chi_square < kMaxShareOfOthersLate * healthy &&

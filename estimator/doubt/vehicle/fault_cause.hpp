@@ -68,19 +68,33 @@ class FaultCauseSearch {
  private:
   static constexpr std::size_t kLags = 6;
 
+  /// What this radar measured.
+  struct Own {
+    Eigen::Vector2d mps;
+    double yaw_rate_radps;  // Of the vehicle, 0 within its noise.
+    Eigen::Vector2d weight;
+  };
   struct Past {
     std::int64_t time_us = 0;
     Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();  // By the others.
-    std::optional<Eigen::Vector2d> own_mps;                  // By this radar, if it had a scan.
+    std::optional<Own> own;                                  // If it had a scan.
   };
   struct Lag {
     VelocityMoments moments;
     double delay_s = 0.0;  // Sum over the velocities.
+
+    void add(const Eigen::Vector2d& expected_mps, const Own& own, double by_s);
   };
   using Lags = std::array<Lag, kLags>;
   struct Candidates;
 
+  [[nodiscard]] Past& past(std::size_t motions_ago) {
+    return past_[(motions_ - 1 - motions_ago) % past_.size()];
+  }
   [[nodiscard]] static bool is_complete(const Lags& lags);
+  [[nodiscard]] double chi_square_if_healthy(const VelocityMoments& moments) const;
+  void add_leads();
+  /// `at_once`: without delay.
   void try_late(Candidates& candidates, const VelocityMoments& at_once, const Lags& lags) const;
   void try_mount_yaw(Candidates& candidates) const;
   [[nodiscard]] bool explains(double chi_square) const;
@@ -95,7 +109,7 @@ class FaultCauseSearch {
   Eigen::Matrix3d motion_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<VelocityMoments> at_mount_;  // Of this radar at the mount of each.
   Lags lags_;                              // Of this radar with earlier velocities by the others.
-  // Of this radar kLags epochs ago, with the velocities by the others then and later.
+  // Of this radar kLags motions ago, with the velocities by the others then, and since.
   VelocityMoments before_;
   Lags leads_;
   double chance_ = 0.0;

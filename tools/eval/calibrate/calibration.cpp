@@ -111,7 +111,8 @@ double above_one(const StdFactor& factor) {
   return factor.value > 1.0 + kSignificant * factor.std ? factor.value : 1.0;
 }
 
-/// Scans depend on neither. The odometry withdraws motions that it does not believe.
+/// Scans need neither odometry nor motions, which take most of the time: no scan has enough
+/// targets.
 Configuration without_motions(Configuration configuration) {
   configuration.odometry.enabled = false;
   for (RadarConfiguration& radar : configuration.radars) {

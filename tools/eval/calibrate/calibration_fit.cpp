@@ -195,7 +195,7 @@ Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& resi
   const auto blocks = blocks_of(jacobian, groups);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(wanted);
   Factors rest;
-  rest.analyzePattern(information);  // That of the rest, with zeros.
+  rest.analyzePattern(information);  // Every rest has this pattern, with zeros in it.
   for (const auto& [block, rows] : blocks) {
     const Eigen::SparseMatrix<double> own = rows.transpose() * rows;
     rest.factorize(information - own);

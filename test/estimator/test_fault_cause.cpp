@@ -142,9 +142,10 @@ bool seem_others_late(const Fault& fault, double begin_s) {
     const Twist motion = motorway(time_s);
     search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.0, 0.0},
                       Eigen::Matrix3d::Zero());
-    search.add_velocity((time_s < begin_s ? scaled_by(1.0) : fault)(motorway, time_s, kFourMounts[0]) +
-                            Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
-                        Eigen::Matrix2d::Zero());
+    search.add_velocity(
+        (time_s < begin_s ? scaled_by(1.0) : fault)(motorway, time_s, kFourMounts[0]) +
+            Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
+        Eigen::Matrix2d::Zero());
     is_late = is_late || search.find_others_late().is_clear;
   }
   return is_late;

@@ -161,14 +161,13 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
   Past& now = past(0);
   now.own = {velocity_mps, w, weight};
   for (std::size_t i = 1; i <= std::min(kLags, motions_ - 1); ++i) {
-    lags_[i - 1].add(past(i).velocity_mps, *now.own,
-                     seconds_between(past(i).time_us, now.time_us));
+    lags_[i - 1].add(past(i).velocity_mps, *now.own, seconds_between(past(i).time_us, now.time_us));
   }
   add_leads();
 }
 
-/// All of one velocity of this radar, kLags motions ago. Otherwise long leads, which lack the newest
-/// ones, would seem to explain a fault that has just begun.
+/// All of one velocity of this radar, kLags motions ago. Otherwise long leads, which lack the
+/// newest ones, would seem to explain a fault that has just begun.
 void FaultCauseSearch::add_leads() {
   if (motions_ <= kLags || !past(kLags).own) {
     return;

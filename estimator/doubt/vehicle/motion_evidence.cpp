@@ -223,8 +223,8 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   const LearnedErrors prior = unlearned_errors(options, mount);
   const double mount_std = prior.mount_yaw_rad.std + kMoreMountYawStdRad;
   // As uncertain as the filter has them, also of radars off the axis of travel, of which a scale of
-  // azimuths changes the speed. Otherwise one of four corner radars with a Doppler scale of 1.04 had
-  // three healthy ones found at fault, on a simulated motorway.
+  // azimuths changes the speed. Otherwise one of four corner radars with a Doppler scale of 1.04
+  // had three healthy ones found at fault, on a simulated motorway.
   const double scale_std = std::max(options.common_scale_std, prior.doppler_scale.std);
   Eigen::Matrix2d noise = velocity.covariance;
   noise(0, 0) += squared(options.doppler_x.std) + squared(options.offset.std) +

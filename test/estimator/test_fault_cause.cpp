@@ -43,11 +43,12 @@ Eigen::Matrix3d variances(double speed_std_mps, double yaw_rate_std_radps) {
 /// What a radar with a fault measures, in the axes of the vehicle by its configured mount.
 using Fault = std::function<Eigen::Vector2d(const Driving&, double time_s, const Pose2& mount)>;
 
-FaultCause found(std::size_t radar, const Driving& drive, double duration_s, const Fault& fault,
-                 std::uint32_t at_fault = 0) {
+/// Compares what the radar measures with the motion by the others; `look` sees each result.
+template <typename Look>
+void compare(FaultCauseSearch& search, std::size_t radar, const Driving& drive, double duration_s,
+             const Fault& fault, const Look& look) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  FaultCauseSearch search(kFourMounts, radar);
   for (double time_s = 1000.0; time_s < 1000.0 + duration_s; time_s += 0.15) {
     const Twist motion = drive(time_s);
     search.add_motion(
@@ -57,7 +58,14 @@ FaultCause found(std::size_t radar, const Driving& drive, double duration_s, con
     search.add_velocity(fault(drive, time_s, kFourMounts[radar]) +
                             Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
                         Eigen::Matrix2d::Zero());
+    look();
   }
+}
+
+FaultCause found(std::size_t radar, const Driving& drive, double duration_s, const Fault& fault,
+                 std::uint32_t at_fault = 0) {
+  FaultCauseSearch search(kFourMounts, radar);
+  compare(search, radar, drive, duration_s, fault, [] {});
   return search.cause(at_fault | 1U << radar);
 }
 
@@ -128,34 +136,30 @@ TEST_CASE("what is wrong with a radar is found, with what corrects it") {
   CHECK(found(radar, town, 10.0, scaled_by(-1.0)).kind == FaultKind::sign);
 }
 
-/// Whether the other radars ever seem to be late, on a drive of 20 s on which this one has a fault
-/// from `begin_s` on.
-bool seem_others_late(const Fault& fault, double begin_s) {
+/// From 10 s on.
+Fault beginning(const Fault& fault) {
+  return [=](const Driving& drive, double time_s, const Pose2& mount) {
+    return time_s < 1010.0 ? velocity_at(drive(time_s), mount) : fault(drive, time_s, mount);
+  };
+}
+
+/// Whether the other radars ever seem to be late, on a drive of 20 s.
+bool seem_others_late(const Fault& fault) {
   const Driving motorway = [](double time_s) -> Twist {
     return {30.0 + 4.0 * std::sin(0.5 * time_s), 0.0};
   };
-  std::mt19937_64 random(2);
-  std::normal_distribution<double> normal;
   FaultCauseSearch search(kFourMounts, 0);
   bool is_late = false;
-  for (double time_s = 0.0; time_s < 20.0; time_s += 0.15) {
-    const Twist motion = motorway(time_s);
-    search.add_motion(std::llround(time_s * 1e6), {motion.v_mps, 0.0, 0.0},
-                      Eigen::Matrix3d::Zero());
-    search.add_velocity(
-        (time_s < begin_s ? scaled_by(1.0) : fault)(motorway, time_s, kFourMounts[0]) +
-            Eigen::Vector2d(0.03 * normal(random), 0.08 * normal(random)),
-        Eigen::Matrix2d::Zero());
-    is_late = is_late || search.find_others_late().is_clear;
-  }
+  compare(search, 0, motorway, 20.0, fault,
+          [&] { is_late = is_late || search.find_others_late().is_clear; });
   return is_late;
 }
 
 TEST_CASE("the others are late if a radar seems early, not if its scale changes") {
-  CHECK(seem_others_late(late(-0.5), 0.0));
+  CHECK(seem_others_late(late(-0.5)));
   for (const double factor : {0.9, 0.96, 1.04, 1.1}) {
     CAPTURE(factor);
-    CHECK_FALSE(seem_others_late(scaled_by(factor), 10.0));
+    CHECK_FALSE(seem_others_late(beginning(scaled_by(factor))));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -123,10 +124,11 @@ TEST_CASE("frames of a drive are in order, and those of one bus never overlap") 
 
 TEST_CASE("radars that share a bus all get their whole scans through, in their rhythm") {
   const Drive drive = short_drive("city", shared_buses());
+  const std::string log = drive.log();
   for (const RadarConfiguration& one : drive.radars) {
     CAPTURE(one.name);
     const bool is_gpr = one.decoder.as<BoschGprOptions>() != nullptr;
-    const auto decoded = cremed::test::decode(drive.log(), one);
+    const auto decoded = cremed::test::decode(log, one);
     CHECK(is_clean(decoded));
     CHECK(decoded.decoder.state_frames >= (is_gpr ? 19U : 38U));
     REQUIRE(decoded.scans.size() > (is_gpr ? 190U : 260U));
@@ -183,10 +185,11 @@ TEST_CASE("no radar sends more targets than it can, and the nearest are first") 
   const std::vector<std::size_t> limits{125, 48, 100, 48};
   for (const char* scenario : {"straight", "city"}) {
     const Drive drive = short_drive(scenario, radars, 2, 60.0);
+    const std::string log = drive.log();
     for (std::size_t i = 0; i < radars.size(); ++i) {
       CAPTURE(scenario, radars[i].name);
       std::size_t most = 0;
-      for (const auto& scan : cremed::test::decode(drive.log(), radars[i]).scans) {
+      for (const auto& scan : cremed::test::decode(log, radars[i]).scans) {
         most = std::max<std::size_t>(most, scan.count);
         for (std::size_t k = 1; k < scan.count; ++k) {
           // Rounding to the grid of 0.2 m may swap neighbours.

@@ -8,6 +8,7 @@ import json
 import mmap
 import multiprocessing
 import os
+import pathlib
 import socket
 import struct
 import subprocess
@@ -20,6 +21,7 @@ ERROR_CONTROLLER, ERROR_PROTOCOL, ERROR_BUS_OFF = 0x04, 0x08, 0x40
 ERROR_BUS, ERROR_RESTARTED = 0x80, 0x100
 # linux/socket.h (asm-generic); the socket module does not define it.
 SO_TIMESTAMPNS = 35
+ALL_FRAMES_RECEIVERS = pathlib.Path("/proc/net/can/rcvlist_all")
 
 
 def ip(*arguments, check=True):
@@ -56,6 +58,10 @@ class CanBus:
         sender.setsockopt(socket.SOL_CAN_RAW, socket.CAN_RAW_FILTER, b"")
         sender.bind((self.name,))
         return sender
+
+    def is_listened_to(self):
+        """Whether a socket receives all of its frames."""
+        return f"({self.name}: no entry)" not in ALL_FRAMES_RECEIVERS.read_text()
 
     def frames_sent(self):
         """By all nodes, since the interface was created."""

@@ -18,6 +18,12 @@ constexpr int kMinScansOfState = 30;
 
 }  // namespace
 
+void MajorityFollower::note_step(double change_mps, double possible_change_mps) {
+  if (condition_.used_scans() >= kMinScansOfState && std::abs(change_mps) > possible_change_mps) {
+    step_ = Step{condition_.used_us(), change_mps};
+  }
+}
+
 std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
                                                         double possible_change_mps) {
   const auto majority = consensus_.contradicting_majority(stamp_us);
@@ -29,9 +35,8 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
   const Eigen::Vector2d by_majority = majority->solution().head<2>();
   const Eigen::Vector2d error = by_majority - wrong;
   const double since_s = consensus_.longest_contradiction_s();
-  if (condition_.used_scans() >= kMinScansOfState && consensus_.is_step(stamp_us) &&
-      std::abs(error.x()) > possible_change_mps) {
-    step_ = Step{condition_.used_us(), error.x()};
+  if (consensus_.is_step(stamp_us)) {
+    note_step(error.x(), possible_change_mps);
   }
   // Positions can tell which speed is wrong once the ways at the two speeds are that far apart.
   if (has_stepped() || (std::abs(error.x()) * since_s > 2.0 * PositionFusion::kMaxConfirmedM &&
@@ -55,7 +60,7 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
 }
 
 bool MajorityFollower::is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const {
-  return has_stepped() && !condition_.is_speed_unknown() &&
+  return has_stepped() &&
          std::abs(velocity_mps.x() - state_.radar_velocity(radar).x()) > 0.5 * std::abs(step_->mps);
 }
 

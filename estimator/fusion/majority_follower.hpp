@@ -25,8 +25,10 @@ class MajorityFollower {
       : state_(state), consensus_(consensus), condition_(condition) {}
 
   void clear() { step_.reset(); }
-  /// Returns the change of (v, w) if the majority is followed. `possible_change_mps`: largest
-  /// change of a vehicle's speed since the last scan that was used.
+  /// Notes a change of the speed by all radars, or by the only one ahead, that no vehicle can make.
+  /// `possible_change_mps`: largest change since the last scan that was used.
+  void note_step(double change_mps, double possible_change_mps);
+  /// Returns the change of (v, w) if the majority is followed.
   std::optional<Eigen::Vector2d> follow(std::int64_t stamp_us, double possible_change_mps);
   /// All radars stepped, and no scan was used since.
   [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }

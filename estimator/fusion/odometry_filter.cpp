@@ -269,7 +269,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (faults_.is_unknown()) {
     condition_.doubt();
   }
-  if (condition_.is_speed_unknown() && consensus_[radar].is_trusted &&
+  if (condition_.is_speed_unknown() && consensus_[radar].is_trusted && !majority_.has_stepped() &&
       (condition_.used_scans() == 0 || condition_.is_lost())) {
     // The speed, and so the distance, was unknown since the start or the loss: restart here.
     const double gap_s = condition_.used_scans() == 0 ? 0.0 : condition_.unused_s(state_.time_us());
@@ -311,7 +311,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (!is_expected) {
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
-    follow_majority(stamp_us);
+    answer_contradiction(radar, stamp_us, measurement.residual.x());
     return false;
   }
   trust.contradicts_positions = false;
@@ -335,18 +335,33 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
 /// one by waiting.
 bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps,
                                  const Innovation& innovation) const {
-  const RadarTrust& trust = consensus_[radar];
   const bool contradicts = innovation.nis > state_.options().max_doppler_nis &&
                            innovation.nis_of_numbers.x() > innovation.nis_of_numbers.y();
-  return contradicts && trust.is_trusted && trust.has_agreed() &&
-         !looks_across(state_.mount(radar)) && condition_.is_settled() &&
-         consensus_.is_lone(radar, stamp_us) &&
+  return contradicts && consensus_[radar].has_agreed() && condition_.is_settled() &&
+         is_only_one_ahead(radar, stamp_us) &&
          condition_.unused_s(stamp_us) <= state_.options().predicted_s &&
          std::abs(change_mps) <= possible_speed_change_mps(stamp_us);
 }
 
-void OdometryFilter::follow_majority(std::int64_t stamp_us) {
-  const auto change = majority_.follow(stamp_us, possible_speed_change_mps(stamp_us));
+/// Whether no other trusted radar that looks ahead or back was heard.
+bool OdometryFilter::is_only_one_ahead(std::size_t radar, std::int64_t stamp_us) const {
+  return consensus_[radar].is_trusted && !looks_across(state_.mount(radar)) &&
+         consensus_.is_lone(radar, stamp_us);
+}
+
+/// A radar's speed differs from the state's by `change_mps`: the state follows if most radars agree
+/// with it, but not a single one.
+void OdometryFilter::answer_contradiction(std::size_t radar, std::int64_t stamp_us,
+                                          double change_mps) {
+  const double possible_mps = possible_speed_change_mps(stamp_us);
+  if (is_only_one_ahead(radar, stamp_us)) {
+    majority_.note_step(change_mps, possible_mps);
+    if (majority_.has_stepped()) {
+      condition_.doubt();
+    }
+    return;
+  }
+  const auto change = majority_.follow(stamp_us, possible_mps);
   if (!change) {
     return;
   }

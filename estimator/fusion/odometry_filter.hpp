@@ -121,7 +121,8 @@ class OdometryFilter {
                     std::int64_t stamp_us);
   [[nodiscard]] bool may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps,
                                  const Innovation& innovation) const;
-  void follow_majority(std::int64_t stamp_us);
+  [[nodiscard]] bool is_only_one_ahead(std::size_t radar, std::int64_t stamp_us) const;
+  void answer_contradiction(std::size_t radar, std::int64_t stamp_us, double change_mps);
   [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 

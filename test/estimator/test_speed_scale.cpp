@@ -66,7 +66,11 @@ TEST_CASE("an hour of accelerating and braking does not change the scale of spee
   const std::vector<Pose2> two{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}};
   const std::vector<Pose2> three{{3.4, 0.0, 0.0}, {-0.6, 0.6, 3.1}, {-0.6, -0.6, -3.1}};
   const std::vector<Pose2> corners{{3.5, 0.7, 0.8}, {3.5, -0.7, -0.8}};
-  const auto& mounts = GENERATE_REF(one, two, three, corners);
+  const std::vector<Pose2> oblique{
+      {3.5, 0.7, 0.5}, {3.5, -0.7, -0.5}, {-0.6, 0.7, 2.64}, {-0.6, -0.7, -2.64}};
+  const std::vector<Pose2> four_corners{
+      {3.5, 0.7, 0.75}, {3.5, -0.7, -0.75}, {-0.6, 0.7, 2.39}, {-0.6, -0.7, -2.39}};
+  const auto& mounts = GENERATE_REF(one, two, three, corners, oblique, four_corners);
   const double at_start = speed_error_after(2.0, mounts, mounts.size());
   const double after_an_hour = speed_error_after(60.0, mounts, mounts.size());
   CAPTURE(mounts.size(), at_start, after_an_hour);

@@ -28,7 +28,7 @@ double StateError::std_at(double speed_mps, double yaw_rate_radps) const {
 // y and yaw of positions too the speed became 0.3 % too small. At rest nothing observes mount yaws
 // and Doppler scales, and all scans have the same map, whose noise they would learn: 0.4 degrees in
 // three minutes. Doppler scales are also considered by all but x while only one radar is heard, or
-// only ones 44 degrees or more off the axis (OdometryState): they are not separable from the speed.
+// only ones 27 degrees or more off the axis (OdometryState): they are not separable from the speed.
 // Two radars at 45 degrees learned 4.5 % in 20 minutes of starts and stops.
 
 std::vector<StateError> common_errors(const OdometryOptions& o) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -9,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
@@ -84,13 +86,32 @@ TEST_CASE("motions between outputs compose to the pose since the start") {
   }
 }
 
+/// A motion with errors that last: scale, slip and yaw per metre.
+Eigen::Vector3d with_errors(const Eigen::Vector3d& motion, const Eigen::Vector3d& errors) {
+  const double turn_rad = errors.z() * motion.x();
+  const Eigen::Rotation2Dd turn(errors.y() + 0.5 * turn_rad);
+  Eigen::Vector3d result;
+  result << (1.0 + errors.x()) * (turn * motion.head<2>()), motion.z() + turn_rad;
+  return result;
+}
+
 TEST_CASE(
-    "the pose since the start is as uncertain as chained anchors, and by its difference from "
-    "them") {
+    "the pose since the start is as uncertain as chained anchors, by errors that last, and by its "
+    "difference from anchors") {
   OdometryDrive drive({kFront, kRearLeft}, 2);
   drive.set_motion(9.0, 0.2);
+  constexpr double kStep = 1e-5;
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
   Eigen::Matrix3d of_anchor = Eigen::Matrix3d::Zero();
+  std::array<Eigen::Vector3d, 3> moved;  // The anchor with each of the errors.
+  moved.fill(anchor);
+  const auto moved_by = [&](std::size_t error, const Eigen::Vector3d& motion) {
+    return composed_pose(
+        moved[error], with_errors(motion, kStep * Eigen::Vector3d::Unit(static_cast<int>(error))));
+  };
+  const LastingErrors lasting;
+  const std::array<double, 3> std{lasting.scale_std, lasting.slip_std_rad,
+                                  lasting.yaw_per_metre_std};
   Odometry last = drive.next();
   double most_m = 0.0;
   for (int i = 0; i < 200; ++i) {
@@ -98,13 +119,22 @@ TEST_CASE(
     if (odometry.utime_anchor_us != last.utime_anchor_us) {
       of_anchor = composed_covariance(anchor, of_anchor, last.pose, last.covariance);
       anchor = composed_pose(anchor, last.pose);
+      for (std::size_t error = 0; error < moved.size(); ++error) {
+        moved[error] = moved_by(error, last.pose);
+      }
     }
     last = odometry;
-    const Eigen::Matrix3d chained =
+    Eigen::Matrix3d expected =
         composed_covariance(anchor, of_anchor, odometry.pose, odometry.covariance);
-    const Eigen::Vector3d drift = odometry.odom_pose - composed_pose(anchor, odometry.pose);
-    CHECK((odometry.odom_covariance - chained - drift * drift.transpose()).norm() <
-          1e-9 + 1e-6 * chained.norm());
+    const Eigen::Vector3d by_anchors = composed_pose(anchor, odometry.pose);
+    for (std::size_t error = 0; error < moved.size(); ++error) {
+      const Eigen::Vector3d by_error =
+          std[error] / kStep * (moved_by(error, odometry.pose) - by_anchors);
+      expected += by_error * by_error.transpose();
+    }
+    const Eigen::Vector3d drift = odometry.odom_pose - by_anchors;
+    CHECK((odometry.odom_covariance - expected - drift * drift.transpose()).norm() <
+          1e-9 + 1e-3 * expected.norm());
     most_m = std::max(most_m, drift.head<2>().norm());
   }
   CHECK(most_m > 0.05);
@@ -463,6 +493,24 @@ TEST_CASE("a start amid which the believed radars fall silent does not silence t
   drive.radar(1).is_silent = drive.radar(2).is_silent = true;
   for (int i = 0; i < 300; ++i) accelerate(0.5);
   CHECK(is_good(drive.next()));
+}
+
+TEST_CASE("a step of the only radar that no vehicle can make is not followed, but its end is") {
+  const double step_mps = GENERATE(-5.0, 4.0, 8.0);
+  CAPTURE(step_mps);
+  OdometryDrive drive({GENERATE(kFront, kRearLeft)}, 8);
+  REQUIRE(drive.drive(4.0).status == OdometryStatus::ok);
+  drive.radar(0).world_mps = step_mps;
+  for (int i = 0; i < 80; ++i) {
+    const Odometry odometry = drive.next();
+    CAPTURE(i, to_string(odometry.status));
+    CHECK((!is_good(odometry) || twist_error(odometry, drive) < 5.0));
+  }
+  CHECK_FALSE(is_good(drive.next()));
+  drive.radar(0).world_mps = 0.0;
+  const Odometry after = drive.drive(2.0);
+  CHECK(is_good(after));
+  CHECK(twist_error(after, drive) < 5.0);
 }
 
 TEST_CASE("a step of all radars that no vehicle can make is not followed") {

@@ -43,12 +43,27 @@ void add_twist(const VehicleEstimate& vehicle, Odometry& odometry) {
 
 OdometryOutput::OdometryOutput(OdometryState& state) : state_(state) {}
 
+Eigen::Matrix3d OdometryOutput::Anchor::full_covariance(const LastingErrors& lasting) const {
+  const Eigen::Vector3d variance(squared(lasting.scale_std), squared(lasting.slip_std_rad),
+                                 squared(lasting.yaw_per_metre_std));
+  return symmetric(covariance + by_lasting * variance.asDiagonal() * by_lasting.transpose());
+}
+
 OdometryOutput::Anchor OdometryOutput::Anchor::moved(std::int64_t at_us,
                                                      const VehicleEstimate& vehicle) const {
   const Eigen::Vector3d motion = vehicle.mean.head<kPose>();
-  return {at_us, composed_pose(pose, motion),
-          symmetric(composed_covariance(pose, covariance, motion,
-                                        vehicle.covariance.topLeftCorner<kPose, kPose>()))};
+  const auto jacobian = composed_pose_jacobian(pose, motion);
+  const double x_m = motion.x();
+  const double y_m = motion.y();
+  Eigen::Matrix3d motion_by_lasting;
+  motion_by_lasting << x_m, -y_m, -0.5 * x_m * y_m,  //
+      y_m, x_m, 0.5 * x_m * x_m,                     //
+      0.0, 0.0, x_m;
+  return {
+      at_us, composed_pose(pose, motion),
+      symmetric(composed_covariance(pose, covariance, motion,
+                                    vehicle.covariance.topLeftCorner<kPose, kPose>())),
+      jacobian.leftCols<kPose>() * by_lasting + jacobian.rightCols<kPose>() * motion_by_lasting};
 }
 
 void OdometryOutput::restart(std::int64_t time_us, double gap_s, Gap gap) {
@@ -137,13 +152,14 @@ Odometry OdometryOutput::at_scan() {
 }
 
 Odometry OdometryOutput::odometry(const VehicleEstimate& vehicle, const Anchor& anchor,
-                                  std::int64_t utime_us) {
+                                  std::int64_t utime_us) const {
   Odometry result;
   result.utime_us = utime_us;
   result.utime_anchor_us = anchor.utime_us;
   result.pose = vehicle.mean.head<kPose>();
   result.covariance = symmetric(vehicle.covariance.topLeftCorner<kPose, kPose>());
-  result.odom_covariance = anchor.moved(utime_us, vehicle).covariance;
+  result.odom_covariance =
+      anchor.moved(utime_us, vehicle).full_covariance(state_.options().lasting);
   add_twist(vehicle, result);
   return result;
 }

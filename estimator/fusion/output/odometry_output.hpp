@@ -26,8 +26,9 @@ namespace cremed {
 ///
 /// The pose since the start is composed of the motions between outputs, as they were when they were
 /// published, so that it never jumps. Anchors also have what was learned later of the way since the
-/// anchor before. The covariance of the pose since the start is that by anchors, and the square of
-/// its difference from the pose by anchors.
+/// anchor before. The covariance of the pose since the start is that by anchors as if independent,
+/// the effect of errors that last (LastingErrors), and the square of its difference from the pose
+/// by anchors.
 class OdometryOutput {
  public:
   /// The state must outlive this object.
@@ -69,14 +70,19 @@ class OdometryOutput {
   struct Anchor {
     std::int64_t utime_us = 0;
     Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+    /// By segments as if they were independent.
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    /// Derivatives of the pose by LastingErrors: scale, slip, yaw per metre.
+    Eigen::Matrix3d by_lasting = Eigen::Matrix3d::Zero();
 
+    /// With the errors that last.
+    [[nodiscard]] Eigen::Matrix3d full_covariance(const LastingErrors& lasting) const;
     /// The anchor at the estimated pose.
     [[nodiscard]] Anchor moved(std::int64_t at_us, const VehicleEstimate& vehicle) const;
   };
 
-  [[nodiscard]] static Odometry odometry(const VehicleEstimate& vehicle, const Anchor& anchor,
-                                         std::int64_t utime_us);
+  [[nodiscard]] Odometry odometry(const VehicleEstimate& vehicle, const Anchor& anchor,
+                                  std::int64_t utime_us) const;
   void renew_anchor();
   void add_motion(Odometry& odometry);
   [[nodiscard]] Odometry predicted(std::int64_t utime_us) const;

@@ -37,13 +37,13 @@ struct Odometry {
   bool is_new = false;  ///< utime_us is later than that of the previous output.
 
   /// Pose in the frame of the anchor, the pose at utime_anchor_us. Covariances may be chained from
-  /// anchor to anchor as if independent.
+  /// anchor to anchor as if independent, for a minute.
   std::int64_t utime_anchor_us = 0;
   Eigen::Vector3d pose = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// Pose since the start: the composition of the motions below, so that it never jumps. Its
-  /// covariance is chained over the anchors.
+  /// covariance is chained over the anchors, with LastingErrors.
   Eigen::Vector3d odom_pose = Eigen::Vector3d::Zero();
   Eigen::Matrix3d odom_covariance = Eigen::Matrix3d::Zero();
 

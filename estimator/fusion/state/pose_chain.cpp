@@ -38,12 +38,20 @@ Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& r
   return {a.x() + moved.x(), a.y() + moved.y(), a.z() + relative.z()};
 }
 
+Eigen::Matrix<double, 3, 6> composed_pose_jacobian(const Eigen::Vector3d& a,
+                                                   const Eigen::Vector3d& relative) {
+  const Eigen::Vector2d moved = Rotation(a.z()) * relative.head<2>();
+  Eigen::Matrix<double, 3, 6> result;
+  result.leftCols<3>().setIdentity();
+  result.col(2) += Eigen::Vector3d(-moved.y(), moved.x(), 0.0);
+  result.rightCols<3>() = rotation(a.z());
+  return result;
+}
+
 Eigen::Matrix3d composed_covariance(const Eigen::Vector3d& a, const Eigen::Matrix3d& a_covariance,
                                     const Eigen::Vector3d& relative,
                                     const Eigen::Matrix3d& relative_covariance) {
-  const Eigen::Vector2d moved = Rotation(a.z()) * relative.head<2>();
-  Eigen::Matrix3d by_a = Eigen::Matrix3d::Identity();
-  by_a.topRightCorner<2, 1>() << -moved.y(), moved.x();
+  const Eigen::Matrix3d by_a = composed_pose_jacobian(a, relative).leftCols<3>();
   return by_a * a_covariance * by_a.transpose() + turned_covariance(a.z(), relative_covariance);
 }
 

@@ -15,6 +15,9 @@ Eigen::Matrix<double, 3, 6> relative_pose_jacobian(const Eigen::Vector3d& a,
                                                    const Eigen::Vector3d& relative);
 /// Pose of b, if `relative` is its pose in the frame of a.
 Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& relative);
+/// Its derivatives by a (columns 0 to 2) and `relative`.
+Eigen::Matrix<double, 3, 6> composed_pose_jacobian(const Eigen::Vector3d& a,
+                                                   const Eigen::Vector3d& relative);
 /// Covariance of composed_pose(), if a and `relative` are independent.
 Eigen::Matrix3d composed_covariance(const Eigen::Vector3d& a, const Eigen::Matrix3d& a_covariance,
                                     const Eigen::Vector3d& relative,

@@ -60,8 +60,8 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
 }
 
 bool MajorityFollower::is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const {
-  return has_stepped() &&
-         std::abs(velocity_mps.x() - state_.radar_velocity(radar).x()) > 0.5 * std::abs(step_->mps);
+  return has_stepped() && (velocity_mps.x() - state_.radar_velocity(radar).x()) * step_->mps >
+                              0.5 * squared(step_->mps);
 }
 
 }  // namespace cremed

@@ -15,9 +15,10 @@
 namespace cremed {
 
 /// If a majority of radars contradicts the filter and agrees with each other, the velocity of the
-/// state is reset to theirs. Not followed are a step of all radars that no vehicle can make,
-/// velocities near that step, and a majority that its own positions contradict: the filter is then
-/// in doubt and later lost, and positions have to confirm the next start.
+/// state is reset to theirs. Not followed are a step of all radars, or of the only one ahead, that
+/// no vehicle can make, velocities near that step, and a majority that its own positions
+/// contradict: the filter is then in doubt and later lost, and positions have to confirm the next
+/// start.
 class MajorityFollower {
  public:
   /// The arguments must outlive this object.
@@ -30,7 +31,7 @@ class MajorityFollower {
   void note_step(double change_mps, double possible_change_mps);
   /// Returns the change of (v, w) if the majority is followed.
   std::optional<Eigen::Vector2d> follow(std::int64_t stamp_us, double possible_change_mps);
-  /// All radars stepped, and no scan was used since.
+  /// Such a step was noted, and no scan was used since.
   [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
   /// After such a step, whether a radar's velocity is nearer to where the radars stepped to than to
   /// the state. Its scan is not used, even if it passes the gate, since the sigma of the state
@@ -38,7 +39,7 @@ class MajorityFollower {
   [[nodiscard]] bool is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const;
 
  private:
-  /// A step of the speed by all radars that no vehicle can make.
+  /// See note_step().
   struct Step {
     std::int64_t used_us = 0;  // Of the last scan used before.
     double mps = 0.0;

@@ -311,7 +311,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (!is_expected) {
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
-    answer_contradiction(radar, stamp_us, measurement.residual.x());
+    answer_contradiction(radar, stamp_us, measurement.residual.x(), innovation);
     return false;
   }
   trust.contradicts_positions = false;
@@ -343,19 +343,22 @@ bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us, doubl
          std::abs(change_mps) <= possible_speed_change_mps(stamp_us);
 }
 
-/// Whether no other trusted radar that looks ahead or back was heard.
+/// Whether in the last 0.3 s no other trusted radar that looks ahead or back was heard.
 bool OdometryFilter::is_only_one_ahead(std::size_t radar, std::int64_t stamp_us) const {
   return consensus_[radar].is_trusted && !looks_across(state_.mount(radar)) &&
          consensus_.is_lone(radar, stamp_us);
 }
 
-/// A radar's speed differs from the state's by `change_mps`: the state follows if most radars agree
-/// with it, but not a single one.
+/// A scan contradicts the state, its speed by `change_mps`. The state follows if most radars agree
+/// on another velocity. The only radar ahead is not followed: a change of its speed that no vehicle
+/// can make is noted as a step.
 void OdometryFilter::answer_contradiction(std::size_t radar, std::int64_t stamp_us,
-                                          double change_mps) {
+                                          double change_mps, const Innovation& innovation) {
   const double possible_mps = possible_speed_change_mps(stamp_us);
-  if (is_only_one_ahead(radar, stamp_us)) {
-    majority_.note_step(change_mps, possible_mps);
+  if (is_only_one_ahead(radar, stamp_us) && !consensus_.contradicting_majority(stamp_us)) {
+    if (innovation.nis_of_numbers.x() > state_.options().max_doppler_nis) {
+      majority_.note_step(change_mps, possible_mps);
+    }
     if (majority_.has_stepped()) {
       condition_.doubt();
     }

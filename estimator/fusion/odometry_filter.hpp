@@ -122,7 +122,8 @@ class OdometryFilter {
   [[nodiscard]] bool may_be_jolt(std::size_t radar, std::int64_t stamp_us, double change_mps,
                                  const Innovation& innovation) const;
   [[nodiscard]] bool is_only_one_ahead(std::size_t radar, std::int64_t stamp_us) const;
-  void answer_contradiction(std::size_t radar, std::int64_t stamp_us, double change_mps);
+  void answer_contradiction(std::size_t radar, std::int64_t stamp_us, double change_mps,
+                            const Innovation& innovation);
   [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 

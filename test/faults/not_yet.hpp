@@ -24,7 +24,6 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
      "105, both ambiguous, are named one at a time"},
     {"buses rotated", "BO", "", "two that agree are believed below 1 m/s"},
     {"alone, scale 0.90", "BO", "", "the first 0.6 s of 105, at 22 m/s"},
-    {"from any moment on", "O", "", "1094 begun in its tight bend: 5.2 sigma after seven seconds"},
     {"scale drifts to 0.95", "I", "",
      "0796: which of three is wrong is not known for half a second"},
     {"late 200 ms", "", "BU", "a bend that begins in the first second tells too little of it"},

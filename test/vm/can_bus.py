@@ -61,7 +61,8 @@ class CanBus:
 
     def is_listened_to(self):
         """Whether a socket receives all of its frames."""
-        return f"({self.name}: no entry)" not in ALL_FRAMES_RECEIVERS.read_text()
+        receivers = ALL_FRAMES_RECEIVERS.read_text().splitlines()
+        return any(line.split()[:1] == [self.name] for line in receivers)
 
     def frames_sent(self):
         """By all nodes, since the interface was created."""

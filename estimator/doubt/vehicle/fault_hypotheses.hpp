@@ -96,9 +96,9 @@ class FaultHypotheses {
                                                     : std::nullopt;
   }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
-  /// positions must confirm them. `is_after_step`: the speed of all radars stepped
-  /// (MajorityFollower). Positions at rest then confirm nothing until all step back, since a map of
-  /// targets that do not move always fits.
+  /// positions must confirm them. `is_after_step`: the speed of all radars, or of the
+  /// only one ahead, stepped (MajorityFollower). Positions at rest then confirm nothing until all
+  /// step back, since a map of targets that do not move always fits.
   void require_positions(bool is_after_step);
 
  private:

@@ -71,9 +71,9 @@ struct VehicleOptions {
 
 /// What is left of errors that last for the drive, in the motion from anchor to anchor: RMS of the
 /// constant part of each drive of 4 to 10 minutes, simulated by another simulator with errors drawn
-/// from the priors (town, country road, motorway, stops; five radars, front and rear, front and rear
-/// corners). One segment does not show them; after minutes they are most of the error of the pose
-/// since the start.
+/// from the priors (town, country road, motorway, stops; five radars, front and rear, front and
+/// rear corners). One segment does not show them; after minutes they are most of the error of the
+/// pose since the start.
 struct LastingErrors {
   double scale_std = 0.002;            ///< Of the way: 0.06 to 0.21 %.
   double slip_std_rad = 0.004;         ///< And mounts' common yaw: 0.0027 to 0.0045.
@@ -158,6 +158,8 @@ struct OdometryOptions {
   /// 5 sigma before it is named.
   ErrorProcess lateral_per_metre{.std = 0.01, .time_s = 5.0, .per_lateral_acceleration = 0.015};
 
+  LastingErrors lasting;  ///< In the pose since the start.
+
   // Doppler.
   /// Of one target: initial value, adapted to the residuals.
   double doppler_std_mps = kArs408DopplerStdMps;
@@ -225,7 +227,6 @@ struct OdometryOptions {
 
   // Time.
   double anchor_period_s = 2.2;  ///< Period of the anchor's renewal.
-  LastingErrors lasting;         ///< Of the pose since the start.
   double max_lateness_s = 0.2;   ///< Largest age of a scan relative to the latest.
   double max_gap_s = 2.0;        ///< Longer time between scans: restart.
   /// Rate of predictions, at whole multiples of 1 / rate; anchors are then renewed at these times.

@@ -151,8 +151,8 @@ bool OdometryState::is_any_ahead_heard() const {
   return is_any_heard([](const Pose2& mount) { return !looks_across(mount); });
 }
 
-/// The Doppler of several radars tells their scales apart from the speed, if one of them looks
-/// within 27 degrees of the direction of travel.
+/// Whether Doppler scales are learned: by several radars, one of which looks within 27 degrees of the
+/// direction of travel. Otherwise they are not told apart from the speed well enough.
 bool OdometryState::is_scale_observed() const {
   int heard = 0;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {

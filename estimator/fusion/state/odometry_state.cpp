@@ -37,8 +37,8 @@ constexpr double kMaxSkids = 5.0;
 /// speed.
 constexpr double kGoneS = 0.5;
 /// 27 degrees. Four healthy radars at 43 degrees learned 1 % in 5 minutes of a simulated motorway,
-/// two at 45 learned 4.5 % in 20 minutes of starts and stops. The front radars of RadarScenes are at
-/// 25.
+/// two at 45 learned 4.5 % in 20 minutes of starts and stops. The front radars of RadarScenes are
+/// at 25.
 constexpr double kMaxSineOfScale = 0.45;
 constexpr int kMostRadars = 16;
 static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);
@@ -151,8 +151,8 @@ bool OdometryState::is_any_ahead_heard() const {
   return is_any_heard([](const Pose2& mount) { return !looks_across(mount); });
 }
 
-/// Whether Doppler scales are learned: by several radars, one of which looks within 27 degrees of the
-/// direction of travel. Otherwise they are not told apart from the speed well enough.
+/// Whether Doppler scales are learned: by several radars, one of which looks within 27 degrees of
+/// the direction of travel. Otherwise they are not told apart from the speed well enough.
 bool OdometryState::is_scale_observed() const {
   int heard = 0;
   for (std::size_t i = 0; i < mounts_.size(); ++i) {

@@ -516,6 +516,23 @@ TEST_CASE("a step of the only radar that no vehicle can make is not followed, bu
   CHECK(twist_error(after, drive) < 5.0);
 }
 
+TEST_CASE("a lone radar that suddenly shows rest is believed again when the vehicle drives") {
+  OdometryDrive drive({GENERATE(kFront, kRearLeft)}, 8);
+  REQUIRE(drive.drive(4.0).status == OdometryStatus::ok);
+  drive.set_motion(0.0, 0.0);  // A crash, or Doppler that is stuck: it cannot be told.
+  drive.drive(OdometryOptions().predicted_s);
+  for (int i = 0; i < 80; ++i) {
+    CHECK_FALSE(is_good(drive.next()));
+  }
+  for (double speed_mps = 0.0; speed_mps < 6.0; speed_mps += 0.15) {
+    drive.set_motion(speed_mps, 0.0);
+    drive.next();
+  }
+  const Odometry after = drive.drive(1.0);
+  CHECK(is_good(after));
+  CHECK(twist_error(after, drive) < 5.0);
+}
+
 TEST_CASE("a step of all radars that no vehicle can make is not followed") {
   const double step_mps = GENERATE(-5.0, -4.0, -3.0, 4.0);
   CAPTURE(step_mps);

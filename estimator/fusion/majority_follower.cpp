@@ -24,15 +24,12 @@ void MajorityFollower::note_step(double change_mps, double possible_change_mps) 
   }
 }
 
-std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
+std::optional<Eigen::Vector2d> MajorityFollower::follow(const MotionSums& majority,
+                                                        std::int64_t stamp_us,
                                                         double possible_change_mps) {
-  const auto majority = consensus_.contradicting_majority(stamp_us);
-  if (!majority) {
-    return std::nullopt;
-  }
   GaussianState& state = state_.gaussian;
   const Eigen::Vector2d wrong(state.mean(kSpeed), state.mean(kYawRate));
-  const Eigen::Vector2d by_majority = majority->solution().head<2>();
+  const Eigen::Vector2d by_majority = majority.solution().head<2>();
   const Eigen::Vector2d error = by_majority - wrong;
   const double since_s = consensus_.longest_contradiction_s();
   if (consensus_.is_step(stamp_us)) {
@@ -51,7 +48,7 @@ std::optional<Eigen::Vector2d> MajorityFollower::follow(std::int64_t stamp_us,
       consensus_[i].forgive();
     }
   }
-  state_.start_motion(by_majority, majority->covariance().topLeftCorner<2, 2>());
+  state_.start_motion(by_majority, majority.covariance().topLeftCorner<2, 2>());
   // The pose errs by the error of the velocity over the time of the contradiction.
   state.add_variance(kX, squared(error.x() * since_s));
   state.add_variance(kY, squared(error.x() * since_s));

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
+#include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 
@@ -29,8 +30,10 @@ class MajorityFollower {
   /// Notes a change of the speed by all radars, or by the only one ahead, that no vehicle can make.
   /// `possible_change_mps`: largest change since the last scan that was used.
   void note_step(double change_mps, double possible_change_mps);
-  /// Returns the change of (v, w) if the majority is followed.
-  std::optional<Eigen::Vector2d> follow(std::int64_t stamp_us, double possible_change_mps);
+  /// Returns the change of (v, w) if the majority is followed. `majority`:
+  /// RadarConsensus::contradicting_majority.
+  std::optional<Eigen::Vector2d> follow(const MotionSums& majority, std::int64_t stamp_us,
+                                        double possible_change_mps);
   /// Such a step was noted, and no scan was used since.
   [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
   /// After such a step, whether a radar's velocity is nearer to where the radars stepped to than to

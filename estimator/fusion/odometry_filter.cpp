@@ -355,16 +355,16 @@ bool OdometryFilter::is_only_one_ahead(std::size_t radar, std::int64_t stamp_us)
 void OdometryFilter::answer_contradiction(std::size_t radar, std::int64_t stamp_us,
                                           double change_mps, const Innovation& innovation) {
   const double possible_mps = possible_speed_change_mps(stamp_us);
-  if (is_only_one_ahead(radar, stamp_us) && !consensus_.contradicting_majority(stamp_us)) {
+  const auto majority = consensus_.contradicting_majority(stamp_us);
+  if (!majority && is_only_one_ahead(radar, stamp_us)) {
     if (innovation.nis_of_numbers.x() > state_.options().max_doppler_nis) {
       majority_.note_step(change_mps, possible_mps);
     }
     if (majority_.has_stepped()) {
       condition_.doubt();
     }
-    return;
   }
-  const auto change = majority_.follow(stamp_us, possible_mps);
+  const auto change = majority ? majority_.follow(*majority, stamp_us, possible_mps) : std::nullopt;
   if (!change) {
     return;
   }

@@ -5,7 +5,7 @@
 //     fuse_gyro GYRO.csv [LCM URL]      GYRO.csv: utime,yaw_rate_radps
 // Neighbouring messages share errors (the body's for 0.3 s, the mounts' permanently): used as one
 // measurement each, they would make the filter overconfident. Errors from anchor to anchor
-// (odometry.anchor_period_s) are independent for a minute: so it uses one measurement per anchor.
+// (odometry.anchor_period_s) count as independent for a minute: one measurement per anchor.
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>

@@ -6,7 +6,7 @@
 
 Neighbouring messages share errors (the body's for 0.3 s, the mounts' permanently): used as one
 measurement each, they would make the filter overconfident. Errors from anchor to anchor
-(odometry.anchor_period_s) are independent for a minute: so it uses one measurement per anchor.
+(odometry.anchor_period_s) count as independent for a minute: one measurement per anchor.
 """
 import bisect
 import csv

@@ -119,7 +119,8 @@ void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
   const bool is_contradicted = odometry() && contradicts(*odometry(), motion);
   motion.covariance *= radar.self_check.covariance_factor();
   if (filter != nullptr) {
-    filter->compare(radar.index, motion, radar.self_check.is_trusted());
+    filter->compare(radar.index, motion, radar.self_check.is_trusted(),
+                    radar.self_check.is_speed_open());
   }
   if (is_contradicted) {
     motion = withdrawn(motion);

@@ -104,8 +104,10 @@ std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
   return odometry ? std::optional(with_condition(*odometry)) : std::nullopt;
 }
 
-void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is_trusted) {
+void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
+                             bool is_speed_open) {
   faults_.add_motion(radar, motion);
+  faults_.note_speed_open(radar, is_speed_open);
   if (is_trusted && !faults_.is_at_fault(radar)) {
     vehicle_.compare(state_.mount(radar), motion);
   }
@@ -193,6 +195,22 @@ void OdometryFilter::allow_for_scale(double scale) {
   state_.gaussian.add_variance(kX, squared(way_m));
 }
 
+/// The speed by the only radar jumped, as no vehicle moves. The state may have followed it.
+void OdometryFilter::reject_jump(const SpeedJump::Jump& jump) {
+  GaussianState& state = state_.gaussian;
+  const double speed_mps = state.mean(kSpeed);
+  const double change_mps = jump.after_mps - jump.before_mps;
+  if (std::abs(speed_mps - jump.after_mps) < std::abs(speed_mps - jump.before_mps)) {
+    state.set_mean(kSpeed, speed_mps - change_mps);
+    state.add_variance(kSpeed, squared(change_mps));
+    state.add_variance(kX, squared(change_mps * seconds_between(jump.stamp_us, state_.time_us())));
+  }
+  majority_.note_step(change_mps, 0.0);
+  if (majority_.has_stepped()) {
+    condition_.doubt();
+  }
+}
+
 /// A radar was found at fault: the pose since the anchor and the slip may have its error. Adds to
 /// their variance the difference of the state to `believed`, (v, w, slip) by the other radars.
 void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
@@ -265,6 +283,9 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     faults_.pause();
   } else if (seen == Seen::road) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
+    if (const auto jump = faults_.take_lone_jump()) {
+      reject_jump(*jump);
+    }
   }
   if (faults_.is_unknown()) {
     condition_.doubt();

@@ -77,7 +77,9 @@ class OdometryFilter {
 
   /// A radar's own motion, which is compared with other radars and with the signals of the
   /// vehicle's bus. To be called before update() with its scan.
-  void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted);
+  /// `is_speed_open`: its own check does not know yet whether the speed is right.
+  void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
+               bool is_speed_open = false);
 
   /// Notes that a radar's own check finds its speed wrong. True if that is chance: two others have
   /// the same speed.
@@ -113,6 +115,7 @@ class OdometryFilter {
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
   void allow_for_scale(double scale);
+  void reject_jump(const SpeedJump::Jump& jump);
   void add_error_by_radar(const Eigen::Vector3d& believed);
   void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);
   [[nodiscard]] std::uint32_t left_out() const;

@@ -54,7 +54,7 @@ TEST_CASE("Doppler scale: a right one is not doubted, and known to 2 %") {
 
 TEST_CASE(
     "Doppler scale: one that is 5 % or more off is found in 2 s, 10 % in a turn, and its end") {
-  const double scale = GENERATE(0.8, 0.9, 0.95, 1.06, 1.1, 1.25);
+  const double scale = GENERATE(0.62, 0.7, 0.8, 0.9, 0.95, 1.06, 1.1, 1.25, 1.55);
   const double speed_mps = GENERATE(-5.0, 5.0, 12.0, 25.0);
   const double yaw_rate_radps = GENERATE(-0.2, 0.0);
   const Pose2 mount = GENERATE(kFront, kBackLeft);
@@ -89,6 +89,21 @@ TEST_CASE("Doppler scale: a wrong sign is found in 2 s, and its end too") {
   CHECK(drive.check.correction() == -1.0);
   drive.go_on(healthy, 2.0);
   CHECK_FALSE(drive.check.is_wrong());
+}
+
+TEST_CASE("Doppler scale: open for a second of driving, and again if Doppler jumps") {
+  ScaleCheckedDrive drive;
+  drive.go_on({.speed_mps = 0.0}, 2.0);
+  CHECK_FALSE(drive.check.is_open());
+  drive.go_on({.speed_mps = 8.0}, 0.5);
+  CHECK(drive.check.is_open());
+  drive.go_on({.speed_mps = 8.0}, 1.5);
+  CHECK_FALSE(drive.check.is_open());
+  drive.go_on({.speed_mps = 8.0, .doppler_factor = 1.15}, 0.5);
+  CHECK(drive.check.is_open());
+  drive.go_on({.speed_mps = 8.0, .doppler_factor = 1.15}, 1.5);
+  CHECK_FALSE(drive.check.is_open());
+  CHECK(drive.check.is_wrong());
 }
 
 TEST_CASE("Doppler scale: once acquitted it is not doubted, until the votes say so again") {

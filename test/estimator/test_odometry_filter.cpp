@@ -516,6 +516,44 @@ TEST_CASE("a step of the only radar that no vehicle can make is not followed, bu
   CHECK(twist_error(after, drive) < 5.0);
 }
 
+TEST_CASE("a jump of the only radar is not believed before its own check knows its speed") {
+  const double jump_mps = GENERATE(-1.1, 1.1);  // Hard braking may change as much between scans.
+  CAPTURE(jump_mps);
+  OdometryDrive drive({GENERATE(kFront, kRearLeft)}, 8);
+  REQUIRE(drive.drive(4.0).status == OdometryStatus::ok);
+  drive.radar(0).world_mps = jump_mps;
+  drive.drive(2.0 * 0.075);  // It is seen with the next scan.
+  for (int i = 0; i < 80; ++i) {
+    drive.filter().compare(0, EgoMotion(), true, true);
+    const Odometry odometry = drive.next();
+    CAPTURE(i, to_string(odometry.status));
+    CHECK((!is_good(odometry) || twist_error(odometry, drive) < 5.0));
+  }
+  CHECK_FALSE(is_good(drive.next()));
+  drive.radar(0).world_mps = 0.0;
+  drive.filter().compare(0, EgoMotion(), true, false);
+  const Odometry after = drive.drive(2.0);
+  CHECK(is_good(after));
+  CHECK(twist_error(after, drive) < 5.0);
+}
+
+TEST_CASE("a lone radar starts once its own check knows its speed, two at once") {
+  const std::vector<Pose2> alone{kFront};
+  const std::vector<Pose2> two{kFront, kRearLeft};
+  const auto& mounts = GENERATE_REF(alone, two);
+  OdometryDrive drive(mounts, 8);
+  Odometry odometry;
+  for (int i = 0; i < 40; ++i) {
+    for (std::size_t radar = 0; radar < mounts.size(); ++radar) {
+      drive.filter().compare(radar, EgoMotion(), true, true);
+    }
+    odometry = drive.next();
+  }
+  CHECK(is_good(odometry) == (mounts.size() > 1));
+  drive.filter().compare(0, EgoMotion(), true, false);
+  CHECK(is_good(drive.drive(0.6)));
+}
+
 TEST_CASE("a lone radar that suddenly shows rest is believed again when the vehicle drives") {
   OdometryDrive drive({GENERATE(kFront, kRearLeft)}, 8);
   REQUIRE(drive.drive(4.0).status == OdometryStatus::ok);

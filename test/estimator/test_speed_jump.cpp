@@ -18,13 +18,14 @@ constexpr double kCycleS = 0.075;
 constexpr double kNoiseMps = 0.03;
 using SpeedAt = std::function<double(double time_s)>;
 
-/// Times of the jumps of a speed in 10 s, of which every `lost`th scan is missing, and whose stamps
+/// The jumps of a speed in 10 s, of which every `lost`th scan is missing, and whose stamps
 /// wait for the end of a halt of the computer every 1.6 s.
-std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000, double halt_s = 0.0) {
+std::vector<SpeedJump::Jump> jumps_of(const SpeedAt& speed_at, int lost = 1000,
+                                      double halt_s = 0.0) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0.0, kNoiseMps);
   SpeedJump check;
-  std::vector<double> result;
+  std::vector<SpeedJump::Jump> result;
   for (int i = 1; i < 134; ++i) {
     DopplerVelocity velocity;
     velocity.velocity_mps = {speed_at(i * kCycleS) + normal(random), normal(random)};
@@ -34,7 +35,7 @@ std::vector<double> jumps_of(const SpeedAt& speed_at, int lost = 1000, double ha
     const auto jump = i % lost == 0
                           ? std::nullopt
                           : check.add(std::llround((i * kCycleS + late_s) * 1e6), velocity);
-    if (jump) result.push_back(1e-6 * static_cast<double>(*jump));
+    if (jump) result.push_back(*jump);
   }
   return result;
 }
@@ -56,8 +57,13 @@ TEST_CASE("A speed that jumps is found with the next scan, there and back") {
   const auto found =
       jumps_of([&](double time_s) { return 8.0 + (time_s > 4.0 && time_s < 7.0 ? by_mps : 0.0); });
   REQUIRE(found.size() == 2);
-  CHECK(found[0] == Approx(4.0).margin(kCycleS));
-  CHECK(found[1] == Approx(7.0).margin(kCycleS));
+  CHECK(1e-6 * static_cast<double>(found[0].stamp_us) == Approx(4.0).margin(kCycleS));
+  CHECK(1e-6 * static_cast<double>(found[1].stamp_us) == Approx(7.0).margin(kCycleS));
+  for (const SpeedJump::Jump& jump : found) {
+    const bool is_first = &jump == &found[0];
+    CHECK(jump.before_mps == Approx(is_first ? 8.0 : 8.0 + by_mps).margin(5.0 * kNoiseMps));
+    CHECK(jump.after_mps == Approx(is_first ? 8.0 + by_mps : 8.0).margin(5.0 * kNoiseMps));
+  }
 }
 
 TEST_CASE("No vehicle jumps: emergency braking, a stop, lost scans") {

@@ -23,7 +23,11 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
      "I: the one that is left is contradicted for a second by those beside; U: the front radars of "
      "105, both ambiguous, are named one at a time"},
     {"buses rotated", "BO", "", "two that agree are believed below 1 m/s"},
-    {"alone, scale 0.90", "BO", "", "the first 0.6 s of 105, at 22 m/s"},
+    {"alone, scale 0.70", "BO", "",
+     "200 targets a scan (105) fit other scales by chance for two seconds; walking pace (1094)"},
+    {"alone, scale 0.70 from 8 s", "BO", "", "likewise; 0103 creeps then"},
+    {"alone, scale 1.20 from 8 s", "BO", "",
+     "a jump of less than 0.7 m/s (0061, 0103, 1094) is not told from hard braking"},
     {"scale drifts to 0.95", "I", "",
      "0796: which of three is wrong is not known for half a second"},
     {"late 200 ms", "", "BU", "a bend that begins in the first second tells too little of it"},

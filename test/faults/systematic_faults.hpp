@@ -94,16 +94,22 @@ class SystematicFaults {
             .may_be_learned = std::abs(factor - 1.0) < 0.06 || drive_.is_side(radar);
       }
     }
-    for (const double factor : {1.0, 0.9, 1.1}) {
-      const std::size_t radar = front();
-      FaultCase& alone =
-          add(fault_kind("alone, scale %.2f", factor), radar, always(), FaultKind::scale);
-      if (factor == 1.0) alone.guilty = 0;
-      alone.configure = [radar, factor](Radars& radars) {
-        radars = {radars[radar]};
-        scale(radars[0], factor);
-      };
+    for (const double factor : {1.0, 0.7, 0.9, 1.1}) {
+      add_alone("alone, scale %.2f", factor, always());
     }
+    for (const double factor : {0.7, 1.2}) {
+      add_alone("alone, scale %.2f from 8 s", factor, onwards());
+    }
+  }
+
+  void add_alone(const char* kind, double factor, FaultTime time) {
+    const std::size_t radar = front();
+    FaultCase& alone = add(fault_kind(kind, factor), radar, time, FaultKind::scale);
+    if (factor == 1.0) alone.guilty = 0;
+    alone.configure = [radar](Radars& radars) { radars = {radars[radar]}; };
+    alone.put_in = [radar, factor](const FaultDrive& d, FaultTime t) {
+      return with_scaled_doppler(d.frames, t, only(radar), factor);
+    };
   }
 
   void add_signs_and_mounts() {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/doubt/radar/speed_jump.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -43,15 +44,20 @@ class DopplerScale {
 
   /// Doppler has another scale or sign than the positions. Changes only with clear votes.
   [[nodiscard]] bool is_wrong() const { return is_wrong_; }
+  /// While driving, too few scans were compared since the start, or since Doppler jumped.
+  [[nodiscard]] bool is_open() const;
   /// Factor that corrects Doppler by the latest clear votes: 1 + r, or -1.
   [[nodiscard]] double correction() const { return correction_; }
 
  private:
   static constexpr std::size_t kScans = 16;
   static constexpr std::size_t kMaxTargets = 128;
-  static constexpr int kMaxShareSteps = 30;  // Largest r that is searched for, in steps of 0.01.
-  static constexpr int kMiddle = 45;         // Index of r = 0.
-  static constexpr std::size_t kSteps = 2 * kMiddle + 1;
+  // The r that are searched for, in steps of 0.01: Doppler scales from 1.6 to 0.6.
+  static constexpr int kMinShareSteps = -38;
+  static constexpr int kMaxShareSteps = 67;
+  static constexpr int kMargin = 15;                        // Of votes on both sides of these.
+  static constexpr int kMiddle = kMargin - kMinShareSteps;  // Index of r = 0.
+  static constexpr std::size_t kSteps = kMiddle + kMaxShareSteps + kMargin + 1;
 
   using Votes = std::array<double, kSteps>;
 
@@ -75,6 +81,7 @@ class DopplerScale {
 
   Pose2 mount_;
   DopplerVelocityEstimator doppler_;
+  SpeedJump jumps_;
   TargetSet fixed_;
   Eigen::Vector2d velocity_mps_ = Eigen::Vector2d::Zero();
   std::array<Scan, kScans> scans_;
@@ -83,6 +90,7 @@ class DopplerScale {
   double share_by_turn_ = 0.0;  // Added to the limit of r in turns.
   std::size_t newest_ = 0;
   std::size_t count_ = 0;
+  int compared_ = 0;  // Comparisons that votes_ are of.
   double correction_ = 1.0;
   bool is_wrong_ = false;
 };

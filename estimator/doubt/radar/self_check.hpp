@@ -43,6 +43,8 @@ class SelfCheck {
   [[nodiscard]] bool contradicts_speed() const {
     return speed_.is_contradicted() || scale_.is_wrong();
   }
+  /// Whether positions contradict it is not known yet.
+  [[nodiscard]] bool is_speed_open() const { return scale_.is_open(); }
   /// Discards this finding: other radars confirm the speed by Doppler.
   void acquit_speed();
 

@@ -22,7 +22,8 @@ constexpr double kMaxPeriodS = 0.16;
 
 }  // namespace
 
-std::optional<std::int64_t> SpeedJump::add(std::int64_t stamp_us, const DopplerVelocity& velocity) {
+std::optional<SpeedJump::Jump> SpeedJump::add(std::int64_t stamp_us,
+                                              const DopplerVelocity& velocity) {
   std::shift_left(speeds_.begin(), speeds_.end(), 1);
   speeds_.back() = {stamp_us, velocity.velocity_mps.x(), velocity.covariance(0, 0)};
   count_ = std::min(count_ + 1, speeds_.size());
@@ -54,7 +55,7 @@ std::optional<std::int64_t> SpeedJump::add(std::int64_t stamp_us, const DopplerV
   const double variance = 2.25 * (b.variance + c.variance) + 0.25 * (a.variance + d.variance);
   const bool is_jump = jump_mps > kMinJumpMps + kSigmas * std::sqrt(variance) &&
                        beside_mps < kMaxShareBeside * jump_mps;
-  return is_jump ? std::optional(c.stamp_us) : std::nullopt;
+  return is_jump ? std::optional(Jump{c.stamp_us, b.mps, c.mps}) : std::nullopt;
 }
 
 }  // namespace cremed

@@ -22,9 +22,14 @@ namespace cremed {
 /// is 0.34 m/s at most.
 class SpeedJump {
  public:
-  /// Adds the velocity of the next scan. Returns the stamp of the previous scan if the speed jumped
-  /// there.
-  std::optional<std::int64_t> add(std::int64_t stamp_us, const DopplerVelocity& velocity);
+  struct Jump {
+    std::int64_t stamp_us = 0;  ///< Of the first scan after it.
+    double before_mps = 0.0;
+    double after_mps = 0.0;
+  };
+
+  /// Adds the velocity of the next scan. Returns whether the speed jumped to that of the previous.
+  std::optional<Jump> add(std::int64_t stamp_us, const DopplerVelocity& velocity);
   /// Whether the radar has measured since `since_us` that the vehicle did not jump: no scan was
   /// missing among any four in a row, and no change stood out by half of a jump.
   [[nodiscard]] bool is_steady(std::int64_t since_us) const {

@@ -95,6 +95,13 @@ class FaultHypotheses {
     return std::exchange(is_newly_disputed_, false) ? std::optional(evidence_.disputed_scale())
                                                     : std::nullopt;
   }
+  /// A jump of the speed by the only radar that is heard, other than of those that look sideways;
+  /// returned once.
+  std::optional<SpeedJump::Jump> take_lone_jump() { return evidence_.take_lone_jump(); }
+  /// Whether a radar's own check does not know yet whether its speed is right.
+  void note_speed_open(std::size_t radar, bool is_open) {
+    speed_open_ = (speed_open_ & ~set_of(radar)) | (is_open ? set_of(radar) : 0U);
+  }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
   /// positions must confirm them. `is_after_step`: the speed of all radars, or of the
   /// only one ahead, stepped (MajorityFollower). Positions at rest then confirm nothing until all
@@ -113,6 +120,7 @@ class FaultHypotheses {
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
+  [[nodiscard]] bool is_open(RadarSet set) const;
   [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
   void begin_search(std::size_t radar);
@@ -126,6 +134,7 @@ class FaultHypotheses {
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
   std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By own checks, by radar.
+  RadarSet speed_open_ = 0;                                    // Likewise.
   /// The radar that seems to be late, its delay, and for how many epochs that has been the same.
   struct Lateness {
     std::size_t radar = 0;

@@ -98,11 +98,12 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
       stamp_us, velocity.velocity_mps,
       velocity.covariance + squared(state_.mixture_std()) * Eigen::Matrix2d::Identity()};
   track.count = std::min(track.count + 1, 2);
-  if (const auto jump_us = track.jumps.add(stamp_us, velocity)) {
-    track.jump_us = jump_us;
+  if (const auto jump = track.jumps.add(stamp_us, velocity)) {
+    track.jump = jump;
   }
-  if (track.is_after_step && is_step(radar)) {
+  if (track.is_after_step && (track.jump || is_step(radar))) {
     track.is_after_step = false;
+    track.jump.reset();
     has_stepped_back_ = !is_after_step(judged_);
     count_ = has_stepped_back_ ? 0 : count_;
   }
@@ -133,8 +134,8 @@ RadarSet MotionEvidence::take_jumped() {
   for_each(judged_, [&](std::size_t i) {
     const Track& track = tracks_[i];
     heard |= is_heard(track) ? set_of(i) : 0U;
-    jumped |= track.jump_us ? set_of(i) : 0U;
-    last_us = std::max(last_us, track.jump_us.value_or(last_us));
+    jumped |= track.jump ? set_of(i) : 0U;
+    last_us = track.jump ? std::max(last_us, track.jump->stamp_us) : last_us;
   });
   if (jumped == 0) {
     return 0;
@@ -145,7 +146,10 @@ RadarSet MotionEvidence::take_jumped() {
       })) {
     return 0;
   }
-  for_each(jumped, [&](std::size_t i) { tracks_[i].jump_us.reset(); });
+  if (heard == jumped && std::has_single_bit(heard)) {
+    lone_jump_ = tracks_[static_cast<std::size_t>(std::countr_zero(heard))].jump;
+  }
+  for_each(jumped, [&](std::size_t i) { tracks_[i].jump.reset(); });
   // A kerb or a bump from behind jolts the vehicle: another radar must surely have seen none.
   return any_of(others, [&](std::size_t i) { return tracks_[i].jumps.is_steady(last_us); }) ? jumped
                                                                                             : 0U;

@@ -67,6 +67,8 @@ class MotionEvidence {
   /// Radars whose speed jumped (SpeedJump) while that of another surely did not. Each jump is
   /// judged once, when all radars that are heard have measured since.
   RadarSet take_jumped();
+  /// A jump of the only radar that is heard of the judged ones; returned once.
+  std::optional<SpeedJump::Jump> take_lone_jump() { return std::exchange(lone_jump_, {}); }
   /// Epochs until now are not compared any more.
   void forget_epochs() { count_ = 0; }
   /// From now on the Doppler scales of the judged radars may be off by `share`.
@@ -163,7 +165,7 @@ class MotionEvidence {
     std::optional<std::int64_t> accused_us;
     bool is_after_step = false;
     SpeedJump jumps;
-    std::optional<std::int64_t> jump_us;  // Of a jump that is not yet judged.
+    std::optional<SpeedJump::Jump> jump;  // Not yet judged.
     int count = 0;                        // Of velocities.
   };
 
@@ -194,6 +196,7 @@ class MotionEvidence {
   std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t time_us_ = 0;
   double disputed_scale_ = 0.0;
+  std::optional<SpeedJump::Jump> lone_jump_;
   bool has_stepped_back_ = false;
 };
 

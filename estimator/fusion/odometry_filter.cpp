@@ -62,7 +62,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   is_trusted = is_trusted && !faults_.is_at_fault(radar) && !faults_.is_unknown();
   const auto believed = faults_.take_correction();
   if (believed) {
-    add_error_by_radar(*believed);
+    add_error_of_motion(*believed);
     follow_if_far(*believed, possible_speed_change_mps(stamp_us));
   }
   if (const auto scale = faults_.take_scale_in_dispute()) {
@@ -70,11 +70,13 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   }
   // 2. A start, after a gap or a loss.
   start_if_needed(stamp_us, is_trusted);
+  bool is_signal_wrong = false;
   if (is_usable(radar, targets, stamp_us)) {
     state_.hear(radar, stamp_us);
     // 3. Propagation to the scan (9), with what the vehicle's bus told until then (12).
     vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
+    is_signal_wrong = allow_for_signals();
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     // 4. Velocity by Doppler (10), and 5. if that fits, motion by positions (11, 13).
@@ -90,7 +92,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   odometry.status = result.status;
   was_ok_ = was_ok_ || result.status == OdometryStatus::ok;
   traffic_.parked.add_output(odometry);
-  if (condition_.settle() || believed) {
+  if (condition_.settle() || believed || is_signal_wrong) {
     output_.end_anchor();
   }
   return result;
@@ -211,9 +213,25 @@ void OdometryFilter::reject_jump(const SpeedJump::Jump& jump) {
   }
 }
 
-/// A radar was found at fault: the pose since the anchor and the slip may have its error. Adds to
-/// their variance the difference of the state to `believed`, (v, w, slip) by the other radars.
-void OdometryFilter::add_error_by_radar(const Eigen::Vector3d& believed) {
+/// If signals of the vehicle's bus were found wrong, the state may have followed them.
+bool OdometryFilter::allow_for_signals() {
+  const auto error = vehicle_.take_error();
+  if (error) {
+    GaussianState& state = state_.gaussian;
+    const double v = state.mean(kSpeed);
+    const double w = state.mean(kYawRate);
+    const double slip_rad = state.mean(kSlip) - state.mean(kSlipPerAcceleration) * v * w;
+    add_error_of_motion({v - error->x(), w - error->y(), slip_rad});
+    state.add_variance(kSpeed, squared(error->x()));
+    state.add_variance(kYawRate, squared(error->y()));
+    positions_.clear();
+  }
+  return error.has_value();
+}
+
+/// A radar or signal was found at fault: the pose since the anchor and the slip may have its error.
+/// Adds to their variance the difference of the state to `believed`, (v, w, slip) by the others.
+void OdometryFilter::add_error_of_motion(const Eigen::Vector3d& believed) {
   GaussianState& state = state_.gaussian;
   const double since_s = output_.anchor_age_s();
   const double v = state.mean(kSpeed);

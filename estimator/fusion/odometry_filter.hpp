@@ -116,7 +116,8 @@ class OdometryFilter {
   void set_trusted(std::size_t radar, bool is_trusted);
   void allow_for_scale(double scale);
   void reject_jump(const SpeedJump::Jump& jump);
-  void add_error_by_radar(const Eigen::Vector3d& believed);
+  bool allow_for_signals();
+  void add_error_of_motion(const Eigen::Vector3d& believed);
   void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);
   [[nodiscard]] std::uint32_t left_out() const;
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);

@@ -52,7 +52,7 @@ void VehicleSignals::add(const VehicleReading& reading) {
   ++source.readings;
   source.heard_us = reading.stamp_us;
   source.standing.add(reading.stamp_us, reading.value);
-  // A value that repeats for half a second tells nothing new. At standstill that is no fault.
+  // A value that repeats for 0.2 s tells nothing new. At standstill that is no fault.
   if (source.standing.is_standing()) {
     source.track.clear();
     source.check.clear();
@@ -164,7 +164,7 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
   measurement.noise(0, 0) += unverified_variance(source, value.value);
   const Innovation innovation = state_.gaussian.innovate(measurement);
   source.nis.add(value.utime_us, innovation.nis);
-  judge(source, innovation);
+  judge(source, innovation, measurement.residual(0));
 }
 
 /// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
@@ -177,7 +177,7 @@ double VehicleSignals::unverified_variance(const Source& source, double value) c
 }
 
 /// Updates the state if the signal is trusted.
-void VehicleSignals::judge(Source& source, const Innovation& innovation) {
+void VehicleSignals::judge(Source& source, const Innovation& innovation, double residual) {
   const bool was_left_out = source.trust.is_left_out();
   const bool is_expected = innovation.nis <= state_.options().vehicle.max_nis &&
                            !(was_left_out && source.check.fault() != SignalFault::none);
@@ -193,9 +193,22 @@ void VehicleSignals::judge(Source& source, const Innovation& innovation) {
     }
   }
   if (!was_left_out && source.trust.is_left_out()) {
+    add_error(source, residual);
     state_.start_signal(source.signal);
     source.noise.clear();
   }
+}
+
+/// The state followed a signal that is found wrong now: it may have the whole error that the radars
+/// see, and of one that contradicts the state that contradiction.
+void VehicleSignals::add_error(const Source& source, double residual) {
+  const int rate = rate_of(source.signal);
+  const Eigen::Vector3d found = source.check.find().errors;
+  const Eigen::Vector3d by(1.0, state_.gaussian.mean(rate), -state_.gaussian.mean(rate + 1));
+  const double error = std::max(std::abs(by.dot(found)), std::abs(residual));
+  Eigen::Vector2d sum = error_.value_or(Eigen::Vector2d::Zero());
+  sum(source.signal == VehicleSignal::speed ? 0 : 1) = error;
+  error_ = sum;
 }
 
 bool VehicleSignals::has_credible_errors(VehicleSignal signal) const {
@@ -234,11 +247,11 @@ VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
     report.bias_radps = state.mean(bias);
     report.bias_std_radps = state.std(bias);
   }
-  const Eigen::Vector3d seen = source.check.errors().value;
-  report.fault = source.check.fault();
-  report.seen_offset = seen(0);
-  report.seen_scale = seen(1);
-  report.seen_delay_s = seen(2);
+  const SignalCheck::Finding found = source.check.find();
+  report.fault = found.fault;
+  report.seen_offset = found.errors(0);
+  report.seen_scale = found.errors(1);
+  report.seen_delay_s = found.errors(2);
   return report;
 }
 

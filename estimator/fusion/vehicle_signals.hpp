@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
+
+#include <Eigen/Core>
 
 #include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/doubt/radar/nis_mean.hpp"
@@ -40,6 +43,9 @@ class VehicleSignals {
   /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
   /// radars alone start the filter.
   void use_until(std::int64_t stamp_us, bool is_known);
+  /// By how much the speed and yaw rate of the state may err since signals were found wrong; none
+  /// if none were since the last call.
+  std::optional<Eigen::Vector2d> take_error() { return std::exchange(error_, std::nullopt); }
   /// Notes which signals are lost at this time; use_until() does so too.
   void note_lost(std::int64_t stamp_us);
   /// Discards the readings; to be called when the clock was set.
@@ -83,12 +89,14 @@ class VehicleSignals {
   Source* earliest();
   void use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;
-  void judge(Source& source, const Innovation& innovation);
+  void judge(Source& source, const Innovation& innovation, double residual);
   [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
+  void add_error(const Source& source, double residual);
 
   OdometryState& state_;
   OdometryOutput& output_;
   std::array<Source, kVehicleSignals> sources_;
+  std::optional<Eigen::Vector2d> error_;
 };
 
 }  // namespace cremed

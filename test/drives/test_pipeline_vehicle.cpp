@@ -105,6 +105,18 @@ std::vector<CanFrame> scaled(const std::vector<CanFrame>& frames, std::uint32_t 
   });
 }
 
+/// From a time on the yaw rate is too large by this.
+std::vector<CanFrame> shifted(const std::vector<CanFrame>& frames, std::int64_t from_us,
+                              double by_radps) {
+  return changed(frames, kYawRateId, [=](const CanFrame& frame) {
+    const double value = decode_vehicle_reading(VehicleSignal::yaw_rate, frame)->value;
+    CanFrame result =
+        frame.stamp_us < from_us ? frame : encode_ars408_yaw_rate(0, value + by_radps);
+    result.stamp_us = frame.stamp_us;
+    return std::optional(result);
+  });
+}
+
 /// From a time on, the last frame again and again.
 std::vector<CanFrame> frozen(const std::vector<CanFrame>& frames, std::uint32_t id,
                              std::int64_t from_us) {
@@ -243,6 +255,18 @@ TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the fir
   CHECK(outcome.yaw_rate.odometry.seen_scale == Approx(0.1).margin(0.03));
   CHECK(signal_state(outcome.speed) == SignalState::ok);
   check_credible(outcome, simulated, begin_us(simulated) + 45'000'000);
+}
+
+TEST_CASE("A yaw rate that is off from some time on is excluded, and the pose may have its error",
+          "[long]") {
+  const Drive simulated = town();
+  const std::int64_t from_us = begin_us(simulated) + 40'000'000;
+  const double by_radps = GENERATE(-0.05, 0.05);
+  CAPTURE(by_radps);
+  const VehicleOutcome outcome = run_with(simulated, shifted(simulated.frames, from_us, by_radps));
+  CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);
+  CHECK(signal_state(outcome.speed) == SignalState::ok);
+  check_credible(outcome, simulated, from_us);
 }
 
 TEST_CASE("Signals that come 0.3 s late are excluded and named after the first manoeuvres",

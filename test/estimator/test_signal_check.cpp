@@ -19,6 +19,7 @@ struct Wrong {
   double offset = 0.0;
   double scale = 1.0;
   double delay_s = 0.0;
+  double from_s = 0.0;
 };
 
 /// A town: turns of 4 s with up to 0.4 rad/s, every 15 s.
@@ -48,7 +49,8 @@ SignalCheck after(double duration_s, const Wrong& wrong, double walk_radps = 0.0
   for (int i = 0; i < static_cast<int>(duration_s * 100.0); ++i) {
     const double now_s = 0.01 * i;
     const double measured_s = now_s - options.yaw_rate.delay_s - wrong.delay_s;
-    check.add(i * 10'000, wrong.scale * yaw_rate(measured_s) + wrong.offset);
+    const double offset = now_s >= wrong.from_s ? wrong.offset : 0.0;
+    check.add(i * 10'000, wrong.scale * yaw_rate(measured_s) + offset);
     if (now_s >= next_scan_s + 0.06) {
       const double start_s = next_scan_s - kScanS;
       walk = walk * std::exp(-kScanS / 2.0) +
@@ -85,6 +87,23 @@ TEST_CASE("a wrong scale, delay and offset are named, and how large they are") {
   CHECK(off.errors().value(0) == Approx(0.05).margin(0.01));
 
   CHECK(after(60.0, {.scale = -1.0}).fault() == SignalFault::scale);  // Its sign is wrong.
+}
+
+TEST_CASE("an offset that begins after minutes is named within seconds") {
+  const SignalCheck healthy = after(90.0, {.offset = 0.04, .from_s = 90.0}, 0.005);
+  CHECK(healthy.fault() == SignalFault::none);
+  const SignalCheck off = after(96.0, {.offset = 0.04, .from_s = 90.0}, 0.005);
+  CHECK(off.fault() == SignalFault::offset);
+  CHECK(off.find().errors(0) == Approx(0.04).margin(0.02));
+}
+
+TEST_CASE("on a straight road an offset is a fault, though it may be one of scale") {
+  SignalCheck check(VehicleSignal::yaw_rate, VehicleOptions());
+  for (int i = 0; i < 200; ++i) {
+    check.add(i * 75'000, 0.05);
+    check.compare((i - 2) * 75'000, (i - 1) * 75'000, 0.0, 4e-4);
+  }
+  CHECK(check.fault() != SignalFault::none);
 }
 
 TEST_CASE("on a straight road nothing is known of scale and delay") {

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kTolerance = 0.1;
 
-TEST_CASE("a value that stays for half a second stands; it is frozen if the true one changes") {
+TEST_CASE("a value that stays for 0.2 s stands; it is frozen if the true one changes") {
   StandingValue value(0.5);
   double truth = 8.0;
   for (std::int64_t at_us = 0; at_us <= 4'000'000; at_us += 20'000) {
     value.add(at_us, 8.0);
     value.expect(truth, kTolerance);
     CAPTURE(at_us);
-    CHECK(value.is_standing() == (at_us >= 500'000));
+    CHECK(value.is_standing() == (at_us >= 200'000));
     // Brakes by 0.5 m/s each second: beyond doubt after 1.4 s.
     CHECK(value.is_frozen() == (at_us >= 2'000'000));
     truth -= 0.01;

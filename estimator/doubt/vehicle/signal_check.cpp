@@ -7,15 +7,15 @@
 
 #include <Eigen/LU>
 
-#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
 namespace cremed {
 namespace {
 
-/// Comparisons lose their weight over this time: some turns of a drive in town.
-constexpr double kSignalMemoryS = 60.0;
+/// Comparisons lose their weight over this time: some turns of a drive in town; one manoeuvre.
+constexpr double kMinuteS = 60.0;
+constexpr double kSecondsS = 5.0;
 /// Prior of the errors: wide enough for any wrong unit. A speed has no offset, which could hardly
 /// be told from a scale.
 constexpr double kScalePriorStd = 1.0;
@@ -26,6 +26,10 @@ constexpr double kSpeedOffsetPriorMps = 0.01;
 constexpr double kTurnScaleStd = 0.02;
 /// Speed by Doppler: its scale, and targets above the road.
 constexpr double kSpeedScaleStd = 0.005;
+/// What lasts of a radar's yaw rate in a drive: 0.0001 rad/m at 15 m/s.
+constexpr double kYawRateOffsetStdRadps = 0.0015;
+/// Chi-square of three errors, false-alarm rate as of 3 sigma of one.
+constexpr double kMaxChiSquare = 14.2;
 /// Error of a radar's motions that lasts for seconds: on straights its yaw walks by 0.1 to 0.35
 /// degrees each second (nuScenes). Without this noise it is taken for a scale of the signal where
 /// the vehicle hardly turns: 17 +- 5 % on 0103.
@@ -44,7 +48,8 @@ const OrnsteinUhlenbeck& radar_error(VehicleSignal signal) {
 
 Eigen::Vector3d tolerance_of(VehicleSignal signal, const VehicleOptions& options) {
   const bool is_speed = signal == VehicleSignal::speed;
-  return {std::hypot(radar_error(signal).std, is_speed ? 0.0 : options.yaw_rate_bias_std_radps),
+  return {is_speed ? kSpeedError.std
+                   : std::hypot(kYawRateOffsetStdRadps, options.yaw_rate_bias_std_radps),
           std::hypot(is_speed ? kSpeedScaleStd : kTurnScaleStd, options.of(signal).scale_std),
           std::hypot(kRadarDelayStdS, options.delay_std_s)};
 }
@@ -65,7 +70,8 @@ SignalCheck::SignalCheck(VehicleSignal signal, const VehicleOptions& options)
       delay_us_(std::llround(options.of(signal).delay_s * 1e6)),
       tolerance_(tolerance_of(signal, options)),
       prior_(prior_of(signal)),
-      information_(prior_) {}
+      minute_{kMinuteS, prior_},
+      seconds_{kSecondsS, prior_} {}
 
 void SignalCheck::add(std::int64_t stamp_us, double value) {
   const std::int64_t utime_us = stamp_us - delay_us_;
@@ -111,40 +117,56 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const double duration_s = seconds_between(start_us, end_us);
   const double mean = (end->integral - start->integral) / duration_s;
   const Eigen::Vector3d by(1.0, mean, -(end->value - start->value) / duration_s);
-  const Eigen::Vector3d left = by.cwiseProduct(errors().value);
   const double passed_s = compared_us_ == 0 ? duration_s : seconds_between(compared_us_, end_us);
+  compared_us_ = std::max(compared_us_, end_us);
   // Spread over the comparisons, as in VehicleMeasurement.
   const double interval_s = std::max(std::min(passed_s, duration_s), kShortestIntervalS);
   const double std = std::sqrt(
       variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
-  const double error = std::abs(mean - rate - left.sum()) / std;
-  const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
-  const double kept = std::exp(-std::max(passed_s, 0.0) / kSignalMemoryS);
-  compared_us_ = std::max(compared_us_, end_us);
-  information_ = prior_ + kept * (information_ - prior_) + weight * by * by.transpose();
-  weighted_ = kept * weighted_ + weight * (mean - rate) * by;
+  add(minute_, by, mean - rate, std, passed_s);
+  add(seconds_, by, mean - rate, std, passed_s);
 }
 
-SignalCheck::Errors SignalCheck::errors() const {
-  const Eigen::Matrix3d covariance = information_.inverse();
-  return {covariance * weighted_, covariance.diagonal()};
+void SignalCheck::add(Evidence& evidence, const Eigen::Vector3d& by, double difference, double std,
+                      double passed_s) const {
+  const double error = std::abs(difference - by.dot(evidence.errors().value)) / std;
+  const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
+  const double kept = std::exp(-std::max(passed_s, 0.0) / evidence.memory_s);
+  evidence.information =
+      prior_ + kept * (evidence.information - prior_) + weight * by * by.transpose();
+  evidence.weighted = kept * evidence.weighted + weight * difference * by;
+}
+
+SignalCheck::Errors SignalCheck::Evidence::errors() const {
+  const Eigen::Matrix3d covariance = information.inverse();
+  return {covariance * weighted, covariance.diagonal()};
 }
 
 Eigen::Vector3d SignalCheck::unverified_std() const {
   return (errors().variance.cwiseSqrt() - tolerance_).cwiseMax(0.0);
 }
 
-SignalFault SignalCheck::fault() const {
-  const Errors found = errors();
-  const Eigen::Vector3d sigmas =
-      found.value.cwiseAbs2().cwiseQuotient(found.variance + tolerance_.cwiseAbs2());
-  Eigen::Index largest = 0;
-  if (sigmas.maxCoeff(&largest) <= squared(kGateSigmas)) {
-    return SignalFault::none;
+SignalCheck::Finding SignalCheck::find() const {
+  const auto of_minute = fault_by(minute_);
+  const auto of_seconds = of_minute ? std::nullopt : fault_by(seconds_);
+  return of_minute    ? *of_minute
+         : of_seconds ? *of_seconds
+                      : Finding{SignalFault::none, errors().value};
+}
+
+std::optional<SignalCheck::Finding> SignalCheck::fault_by(const Evidence& evidence) const {
+  const Eigen::Vector3d variance = tolerance_.cwiseAbs2();
+  Eigen::Matrix3d covariance = evidence.information.inverse();
+  const Eigen::Vector3d value = covariance * evidence.weighted;
+  covariance.diagonal() += variance;
+  if (value.dot(covariance.inverse() * value) <= kMaxChiSquare) {
+    return std::nullopt;
   }
+  Eigen::Index largest = 0;
+  value.cwiseAbs2().cwiseQuotient(covariance.diagonal()).maxCoeff(&largest);
   constexpr std::array<SignalFault, 3> kFaults{SignalFault::offset, SignalFault::scale,
                                                SignalFault::delay};
-  return kFaults[static_cast<std::size_t>(largest)];
+  return Finding{kFaults[static_cast<std::size_t>(largest)], value};
 }
 
 }  // namespace cremed

@@ -23,8 +23,10 @@ namespace cremed {
 ///
 ///     z - w = h + g z - tau c + noise
 ///
-/// h offset, g scale and tau delay by least squares. An error is a fault if it differs from 0 by
-/// more than its uncertainty together with those of sensors and radars explains.
+/// h offset, g scale and tau delay by least squares. They are a fault if they differ from 0 by more
+/// than their uncertainty together with those of sensors and radars explains: all three at once,
+/// since on a straight road offset and scale are one; over the last minute, or the last seconds, in
+/// which a fault that begins while driving shows first.
 class SignalCheck {
  public:
   SignalCheck(VehicleSignal signal, const VehicleOptions& options);
@@ -44,12 +46,16 @@ class SignalCheck {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< h, g, tau
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
   };
-  [[nodiscard]] Errors errors() const;
+  [[nodiscard]] Errors errors() const { return minute_.errors(); }
   /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for
   /// one that is known to be right.
   [[nodiscard]] Eigen::Vector3d unverified_std() const;
-  /// Which of the errors is a fault, the largest if several are.
-  [[nodiscard]] SignalFault fault() const;
+  struct Finding {
+    SignalFault fault = SignalFault::none;  ///< The largest of the errors.
+    Eigen::Vector3d errors = Eigen::Vector3d::Zero();
+  };
+  [[nodiscard]] Finding find() const;
+  [[nodiscard]] SignalFault fault() const { return find().fault; }
 
  private:
   /// At 100 Hz more than the time of a motion (max_gap_s) and its delay.
@@ -60,6 +66,18 @@ class SignalCheck {
     double integral = 0.0;  ///< Over all readings until this one.
   };
 
+  /// What the comparisons of some time tell.
+  struct Evidence {
+    double memory_s;
+    Eigen::Matrix3d information;
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+
+    [[nodiscard]] Errors errors() const;
+  };
+
+  void add(Evidence& evidence, const Eigen::Vector3d& by, double difference, double std,
+           double passed_s) const;
+  [[nodiscard]] std::optional<Finding> fault_by(const Evidence& evidence) const;
   [[nodiscard]] std::optional<Sum> at(std::int64_t utime_us) const;
   [[nodiscard]] const Sum& sum(std::size_t i) const { return sums_[(first_ + i) % kCapacity]; }
 
@@ -70,8 +88,8 @@ class SignalCheck {
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   Eigen::Matrix3d prior_;  // Information of the prior.
-  Eigen::Matrix3d information_;
-  Eigen::Vector3d weighted_ = Eigen::Vector3d::Zero();
+  Evidence minute_;
+  Evidence seconds_;
   std::int64_t compared_us_ = 0;
 };
 

@@ -27,8 +27,8 @@ class StandingValue {
 
  private:
   /// Noise of a gyro, and the speed of a driving car, change by a step of the signal within
-  /// hundredths of a second.
-  static constexpr std::int64_t kStandingUs = 500'000;
+  /// hundredths of a second. In 0.5 s a yaw rate that froze in a turn moved the state by 5 deg/s.
+  static constexpr std::int64_t kStandingUs = 200'000;
   /// A manoeuvre takes seconds; a shorter time could be a step of the filter's own.
   static constexpr std::int64_t kFrozenUs = 2'000'000;
 

@@ -53,10 +53,10 @@ struct VehicleOptions {
   VehicleSignalOptions speed{false, 0.01, 0.01, {0.05, 1.0}};
   /// rad/s. Over 10 s the yaw errs by 0.07 to 0.13 degrees besides bias and scale.
   VehicleSignalOptions yaw_rate{false, 0.01, 0.01, {0.002, 0.2}};
-  double delay_std_s = 0.02;     ///< Of a delay: two periods of a message at 100 Hz.
-  double scale_time_s = 3600.0;  ///< Tyres warm up, gyros age.
-  double yaw_rate_bias_std_radps = 0.0005;
-  double yaw_rate_bias_walk = 0.00001;  ///< rad/s/sqrt(s): 0.03 deg/s an hour.
+  double delay_std_s = 0.02;               ///< Of a delay: two periods of a message at 100 Hz.
+  double scale_time_s = 3600.0;            ///< Tyres warm up, gyros age.
+  double yaw_rate_bias_std_radps = 0.001;  ///< These two cars have half of it.
+  double yaw_rate_bias_walk = 0.00001;     ///< rad/s/sqrt(s): 0.03 deg/s an hour.
   /// A wheel's pulses are too rare to tell speeds below kDrivingMps by more than this, m/s.
   double crawling_std_mps = 0.1;
   double period_s = 0.05;  ///< Of measurements: the mean of the readings in it.

@@ -212,8 +212,7 @@ std::string LiveReporter::report_odometry() {
   const std::optional<Odometry>& odometry = pipeline_.odometry();
   const bool is_new = odometry && odometry->utime_us != odometry_us_;
   odometry_us_ = odometry ? odometry->utime_us : 0;
-  const bool is_good = is_new && (odometry->status == OdometryStatus::ok ||
-                                  odometry->status == OdometryStatus::standing_still);
+  const bool is_good = is_new && odometry->is_usable();
   std::string state(is_new ? to_string(odometry->status) : "none");
   if (!has_scans_) {
     seconds_without_odometry_ = 0;

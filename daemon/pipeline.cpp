@@ -259,9 +259,8 @@ VehicleStatus Pipeline::vehicle(VehicleSignal signal) const {
 }
 
 std::vector<std::optional<LearnedErrors>> Pipeline::learned() const {
-  const bool is_good = odometry() && (odometry()->status == OdometryStatus::ok ||
-                                      odometry()->status == OdometryStatus::standing_still);
-  return is_good ? odometry_.filter()->learned() : std::vector<std::optional<LearnedErrors>>();
+  const bool is_usable = odometry() && odometry()->is_usable();
+  return is_usable ? odometry_.filter()->learned() : std::vector<std::optional<LearnedErrors>>();
 }
 
 void Pipeline::finish() {

@@ -17,8 +17,6 @@ namespace cremed {
 /// the outlier ray.
 class Mixture {
  public:
-  static constexpr std::size_t kMaxComponents = MixtureComponents::kCapacity;
-
   /// Uses the fastest kernel of this machine.
   Mixture() : Mixture(mixture_kernels().front().kernel) {}
   explicit Mixture(MixtureKernel kernel) : kernel_(kernel) {}

@@ -24,12 +24,7 @@ std::optional<Eigen::Matrix<double, States, States>> invert(
 
 void NormalEquations::add_point(const Symmetric2& m, const Eigen::Vector2d& v,
                                 const Eigen::Vector2d& lever_m) {
-  const double x_yaw = m.xy * lever_m.x() - m.xx * lever_m.y();
-  const double y_yaw = m.yy * lever_m.x() - m.xy * lever_m.y();
-  const double yaw_yaw = y_yaw * lever_m.x() - x_yaw * lever_m.y();
-  Eigen::Matrix3d sum;
-  sum << m.xx, m.xy, x_yaw, m.xy, m.yy, y_yaw, x_yaw, y_yaw, yaw_yaw;
-  information += sum;
+  information += point_information(m, lever_m);
   gradient += along_states(v, lever_m);
 }
 

@@ -15,6 +15,15 @@ inline Eigen::Vector3d along_states(const Eigen::Vector2d& v, const Eigen::Vecto
   return {v.x(), v.y(), lever_m.x() * v.y() - lever_m.y() * v.x()};
 }
 
+/// J' M J
+inline Eigen::Matrix3d point_information(const Symmetric2& m, const Eigen::Vector2d& lever_m) {
+  const Eigen::Vector2d by_yaw = m * Eigen::Vector2d(-lever_m.y(), lever_m.x());
+  const double yaw_yaw = by_yaw.y() * lever_m.x() - by_yaw.x() * lever_m.y();
+  Eigen::Matrix3d result;
+  result << m.xx, m.xy, by_yaw.x(), m.xy, m.yy, by_yaw.y(), by_yaw.x(), by_yaw.y(), yaw_yaw;
+  return result;
+}
+
 /// Systematic errors of all targets of a scan, estimated as nuisance parameters: see SharedDoppler.
 using SharedErrors = Eigen::Matrix<double, 5, 1>;
 

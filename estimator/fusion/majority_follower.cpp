@@ -24,6 +24,12 @@ void MajorityFollower::note_step(double change_mps, double possible_change_mps) 
   }
 }
 
+bool MajorityFollower::note_jump(double change_mps) {
+  const bool is_back = step_ && takes_back(change_mps, step_->mps);
+  step_ = is_back ? std::nullopt : std::optional(Step{condition_.used_us(), change_mps});
+  return !is_back;
+}
+
 std::optional<Eigen::Vector2d> MajorityFollower::follow(const MotionSums& majority,
                                                         std::int64_t stamp_us,
                                                         double possible_change_mps) {

@@ -30,12 +30,18 @@ class MajorityFollower {
   /// Notes a change of the speed by all radars, or by the only one ahead, that no vehicle can make.
   /// `possible_change_mps`: largest change since the last scan that was used.
   void note_step(double change_mps, double possible_change_mps);
+  /// Notes a jump (SpeedJump) of the only radar ahead. False if it takes back the last step.
+  bool note_jump(double change_mps);
   /// Returns the change of (v, w) if the majority is followed. `majority`:
   /// RadarConsensus::contradicting_majority.
   std::optional<Eigen::Vector2d> follow(const MotionSums& majority, std::int64_t stamp_us,
                                         double possible_change_mps);
   /// Such a step was noted, and no scan was used since.
   [[nodiscard]] bool has_stepped() const { return step_ && step_->used_us == condition_.used_us(); }
+  /// Its change of the speed.
+  [[nodiscard]] std::optional<double> step_mps() const {
+    return has_stepped() ? std::optional(step_->mps) : std::nullopt;
+  }
   /// After such a step, whether a radar's velocity is nearer to where the radars stepped to than to
   /// the state. Its scan is not used, even if it passes the gate, since the sigma of the state
   /// grows: without this a step from 5 m/s to 0 was followed half a second later.

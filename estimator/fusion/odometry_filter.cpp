@@ -141,7 +141,7 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
                        is_reversed || has_stepped_back;
   if (has_started_ && (gap_s > state_.options().max_gap_s || is_lost)) {
     if (is_lost) {
-      faults_.require_positions(majority_.has_stepped());
+      faults_.require_positions(majority_.step_mps());
     }
     // A late scan does not take back what was published.
     const std::int64_t from_us = std::max(stamp_us, state_.time_us());
@@ -197,20 +197,23 @@ void OdometryFilter::allow_for_scale(double scale) {
   state_.gaussian.add_variance(kX, squared(way_m));
 }
 
-/// The speed by the only radar jumped, as no vehicle moves. The state may have followed it.
-void OdometryFilter::reject_jump(const SpeedJump::Jump& jump) {
+/// The speed by the only radar jumped, as no vehicle moves. The state may have followed it. Before
+/// it is settled the jump only makes the start wait (DopplerScale::is_open).
+void OdometryFilter::reject_jump(std::size_t radar, const SpeedJump::Jump& jump) {
+  const double change_mps = jump.change_mps();
+  if (!condition_.is_settled() || !is_only_one_ahead(radar, jump.stamp_us) ||
+      !majority_.note_jump(change_mps)) {
+    return;
+  }
   GaussianState& state = state_.gaussian;
-  const double speed_mps = state.mean(kSpeed);
-  const double change_mps = jump.after_mps - jump.before_mps;
-  if (std::abs(speed_mps - jump.after_mps) < std::abs(speed_mps - jump.before_mps)) {
-    state.set_mean(kSpeed, speed_mps - change_mps);
-    state.add_variance(kSpeed, squared(change_mps));
+  const double v = state.mean(kSpeed);
+  if (std::abs(v - jump.after_mps) < std::abs(v - jump.before_mps)) {
+    const double std_mps = std::min(std::abs(change_mps), state_.options().settled_speed_std_mps);
+    state_.start_motion({v - change_mps, state.mean(kYawRate)},
+                        Eigen::Vector2d(squared(std_mps), state.variance(kYawRate)).asDiagonal());
     state.add_variance(kX, squared(change_mps * seconds_between(jump.stamp_us, state_.time_us())));
   }
-  majority_.note_step(change_mps, 0.0);
-  if (majority_.has_stepped()) {
-    condition_.doubt();
-  }
+  condition_.doubt();
 }
 
 /// If signals of the vehicle's bus were found wrong, the state may have followed them.
@@ -302,7 +305,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   } else if (seen == Seen::road) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
     if (const auto jump = faults_.take_lone_jump()) {
-      reject_jump(*jump);
+      reject_jump(radar, *jump);
     }
   }
   if (faults_.is_unknown()) {

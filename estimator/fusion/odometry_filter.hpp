@@ -115,7 +115,7 @@ class OdometryFilter {
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
   void allow_for_scale(double scale);
-  void reject_jump(const SpeedJump::Jump& jump);
+  void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
   bool allow_for_signals();
   void add_error_of_motion(const Eigen::Vector3d& believed);
   void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);

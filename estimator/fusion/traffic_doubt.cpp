@@ -93,21 +93,13 @@ TwoWorlds::Before TrafficDoubt::before(std::size_t radar) const {
 }
 
 bool TrafficDoubt::is_alone(std::size_t radar) const {
-  for (std::size_t i = 0; i < scan_us_.size(); ++i) {
-    if (i != radar && is_heard(i)) {
-      return false;
-    }
-  }
-  return true;
+  return !any_of(first_radars(scan_us_.size()) & ~set_of(radar),
+                 [&](std::size_t i) { return is_heard(i); });
 }
 
 bool TrafficDoubt::is_any_believed_heard() const {
-  for (std::size_t i = 0; i < scan_us_.size(); ++i) {
-    if (is_believed(i) && is_heard(i)) {
-      return true;
-    }
-  }
-  return false;
+  return any_of(first_radars(scan_us_.size()),
+                [&](std::size_t i) { return is_believed(i) && is_heard(i); });
 }
 
 bool TrafficDoubt::is_heard(std::size_t radar) const {

@@ -66,7 +66,7 @@ void VehicleSignals::forget() {
   for (Source& source : sources_) {
     source.track.clear();
     source.standing.clear();
-    source.check.clear();
+    source.check.leave_clock();
     source.heard_us.reset();
     source.compared_us.reset();
   }
@@ -199,16 +199,18 @@ void VehicleSignals::judge(Source& source, const Innovation& innovation, double 
   }
 }
 
-/// The state followed a signal that is found wrong now: it may have the whole error that the radars
-/// see, and of one that contradicts the state that contradiction.
+/// A signal is found wrong, which the state may have followed: z - w is its error, and z less the
+/// state the residual.
 void VehicleSignals::add_error(const Source& source, double residual) {
   const int rate = rate_of(source.signal);
-  const Eigen::Vector3d found = source.check.find().errors;
+  const SignalCheck::Finding found = source.check.find();
+  if (found.fault == SignalFault::none) {
+    return;  // The gate kept it out.
+  }
   const Eigen::Vector3d by(1.0, state_.gaussian.mean(rate), -state_.gaussian.mean(rate + 1));
-  const double error = std::max(std::abs(by.dot(found)), std::abs(residual));
-  Eigen::Vector2d sum = error_.value_or(Eigen::Vector2d::Zero());
-  sum(source.signal == VehicleSignal::speed ? 0 : 1) = error;
-  error_ = sum;
+  Eigen::Vector2d error = error_.value_or(Eigen::Vector2d::Zero());
+  error(source.signal == VehicleSignal::speed ? 0 : 1) = by.dot(found.errors) - residual;
+  error_ = error;
 }
 
 bool VehicleSignals::has_credible_errors(VehicleSignal signal) const {
@@ -239,7 +241,6 @@ VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
   report.readings = source.readings;
   report.measurements_used = source.used;
   report.nis = source.nis.mean();
-  report.noise_factor = source.noise.value();
   report.scale = state.mean(scale);
   report.scale_std = state.std(scale);
   if (signal == VehicleSignal::yaw_rate) {

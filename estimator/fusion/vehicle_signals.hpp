@@ -43,8 +43,8 @@ class VehicleSignals {
   /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
   /// radars alone start the filter.
   void use_until(std::int64_t stamp_us, bool is_known);
-  /// By how much the speed and yaw rate of the state may err since signals were found wrong; none
-  /// if none were since the last call.
+  /// Errors that the speed and yaw rate of the state may have by signals that were found wrong
+  /// since the last call; none if none were.
   std::optional<Eigen::Vector2d> take_error() { return std::exchange(error_, std::nullopt); }
   /// Notes which signals are lost at this time; use_until() does so too.
   void note_lost(std::int64_t stamp_us);

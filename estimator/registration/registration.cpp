@@ -108,7 +108,7 @@ RegistrationResult Registration::solve_exclusive(const TargetSet& current, doubl
   result.iterations += iterations;
   const bool has_ended = result.status == RegistrationStatus::converged ||
                          result.status == RegistrationStatus::degenerate;
-  if (options_.restarts && has_ended && matches_few(result) && !is_expected(result)) {
+  if (has_ended && matches_few(result) && !is_expected(result)) {
     result = search_again(starts.front(), result);
   }
   if (result.status == RegistrationStatus::converged &&

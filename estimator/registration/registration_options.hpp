@@ -22,9 +22,6 @@ struct RegistrationOptions {
   /// sensors, 1 in simulation.
   double start_doppler_scale = 2.0;
   int max_iterations = 100;  ///< Gauss-Newton steps of the second stage.
-  /// If few targets are matched, search from other yaw angles, unless the result continues the
-  /// motion before (PredictedMotion).
-  bool restarts = true;
   /// Limit on the work of one registration, in evaluations of a mixture component.
   std::int64_t max_component_evaluations = 800'000;
   Likelihood likelihood = Likelihood::exclusive;

@@ -42,10 +42,10 @@ void write(std::ostream& out, const BoschGprOptions& options) {
 }
 
 void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, iterations, restarts, work, likelihood, ray, doppler,
-               errors] = options;
-  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << iterations << ' ' << restarts
-      << ' ' << work << ' ' << static_cast<int>(likelihood);
+  const auto& [freedom, scale, doppler_scale, iterations, work, likelihood, ray, doppler, errors] =
+      options;
+  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << iterations << ' ' << work << ' '
+      << static_cast<int>(likelihood);
   const auto& [weight, min_range, max_range, field_of_view] = ray;
   out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << field_of_view;
   const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;

@@ -57,10 +57,7 @@ class OdometryCounter final : public OdometrySink {
  public:
   void on_motion(std::size_t, const EgoMotion&, std::int32_t) override {}
   void on_odometry(const Odometry& odometry) override {
-    good_odometries +=
-        odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still
-            ? 1
-            : 0;
+    good_odometries += odometry.is_usable() ? 1 : 0;
   }
   [[nodiscard]] std::uint64_t failures() const override { return 0; }
 

@@ -265,8 +265,10 @@ TEST_CASE("A yaw rate that is off from some time on is excluded, and the pose ma
   CAPTURE(by_radps);
   const VehicleOutcome outcome = run_with(simulated, shifted(simulated.frames, from_us, by_radps));
   CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);
+  CHECK(outcome.yaw_rate.odometry.times_left_out == 1);
   CHECK(signal_state(outcome.speed) == SignalState::ok);
   check_credible(outcome, simulated, from_us);
+  CHECK(segments(outcome.sink.odometries, truth_of(simulated), from_us).anees() > 0.1);
 }
 
 TEST_CASE("Signals that come 0.3 s late are excluded and named after the first manoeuvres",

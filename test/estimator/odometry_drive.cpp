@@ -12,10 +12,6 @@
 
 namespace cremed::simulation {
 
-bool is_good(const Odometry& odometry) {
-  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
-}
-
 OdometryDrive::OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t seed,
                              const OdometryOptions& options,
                              const std::vector<std::optional<LearnedErrors>>& learned)

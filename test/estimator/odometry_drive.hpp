@@ -15,8 +15,6 @@
 
 namespace cremed::simulation {
 
-bool is_good(const Odometry& odometry);
-
 /// A vehicle with radars that drives through static points, and its filter.
 class OdometryDrive {
  public:

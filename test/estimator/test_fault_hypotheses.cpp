@@ -68,7 +68,9 @@ class Comparison {
   bool refutes_speed_doubt(std::size_t radar) {
     return faults_.refutes_speed_doubt(radar, std::llround(time_s_ * 1e6));
   }
-  void lose(bool is_after_step = false) { faults_.require_positions(is_after_step); }
+  void lose(bool is_after_step = false) {
+    faults_.require_positions(is_after_step ? std::optional(-8.0) : std::nullopt);
+  }
   void set_clock(double by_s) {
     time_s_ += by_s;
     faults_.clear();
@@ -573,7 +575,7 @@ TEST_CASE("an accusation of hours ago does not keep a radar out for longer") {
     convictions.accuse(kRadar, time_us);
     double result = 0.0;
     for (; convictions.at_fault() != 0U; result += 0.1, time_us += 100'000) {
-      convictions.release(set_of(kRadar), time_us);
+      convictions.release(time_us);
     }
     return result;
   };

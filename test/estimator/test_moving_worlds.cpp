@@ -98,7 +98,7 @@ class Stage {
     }
     odometry_ = filter_->update(0, estimator_->targets(), scan.stamp_us);
     last = odometry_.status;
-    if (is_good(odometry_)) {
+    if (odometry_.is_usable()) {
       note(odometry_.twist.x(), std::sqrt(odometry_.twist_covariance(0, 0)), vehicle_mps,
            odometry_.status == OdometryStatus::standing_still);
     }

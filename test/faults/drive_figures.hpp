@@ -22,10 +22,6 @@
 
 namespace cremed::test {
 
-inline bool is_usable(const Odometry& odometry) {
-  return odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
-}
-
 /// How often one radar was believed.
 struct RadarFigures {
   double left_out = 0.0;                ///< Share of the time it was excluded by the odometry.
@@ -115,7 +111,7 @@ class DriveJudge {
     std::optional<double> sigmas;  ///< Of the largest error of the pose since the anchor.
 
     [[nodiscard]] bool is_good() const {
-      return is_usable(*odometry) && (!sigmas || *sigmas <= kMaxSigma);
+      return odometry->is_usable() && (!sigmas || *sigmas <= kMaxSigma);
     }
   };
 
@@ -194,7 +190,7 @@ class DriveJudge {
 
   void count_rows(DriveFigures& figures) const {
     for (const Row& row : rows_) {
-      if (row.us < fault_.time.from_us || !is_usable(*row.odometry) || !row.sigmas) continue;
+      if (row.us < fault_.time.from_us || !row.odometry->is_usable() || !row.sigmas) continue;
       ++figures.usable;
       figures.beyond += row.is_good() ? 0 : 1;
       figures.worst_sigmas = std::max(figures.worst_sigmas, *row.sigmas);
@@ -229,11 +225,11 @@ class DriveJudge {
         continue;
       }
       std::size_t last = first;
-      while (last < rows_.size() && is_usable(*rows_[last].odometry) &&
+      while (last < rows_.size() && rows_[last].odometry->is_usable() &&
              rows_[last].us < rows_[first].us + kWindowUs) {
         ++last;
       }
-      if (last == rows_.size() || !is_usable(*rows_[last].odometry)) continue;
+      if (last == rows_.size() || !rows_[last].odometry->is_usable()) continue;
       const auto truth = drive_.truth.motion(rows_[first].us, rows_[last].us);
       if (!truth || rows_[last].us < fault_.time.from_us) continue;
       const Eigen::Vector3d error = estimation_error(
@@ -247,11 +243,11 @@ class DriveJudge {
   /// Truth begins at the first usable row, whose pose since the start is nearly certain.
   void count_odom(DriveFigures& figures) const {
     const auto first = std::find_if(rows_.begin(), rows_.end(),
-                                    [](const Row& row) { return is_usable(*row.odometry); });
+                                    [](const Row& row) { return row.odometry->is_usable(); });
     for (auto row = first; row != rows_.end(); ++row) {
       const Odometry& odometry = *row->odometry;
       const auto truth = drive_.truth.motion(first->us, row->us);
-      if (!is_usable(odometry) || !truth || row->us < fault_.time.from_us) continue;
+      if (!odometry.is_usable() || !truth || row->us < fault_.time.from_us) continue;
       const Eigen::Vector3d error =
           estimation_error(odometry.odom_pose, composed_pose(first->odometry->odom_pose, *truth));
       const Eigen::Vector3d variance =

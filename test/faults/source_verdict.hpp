@@ -88,7 +88,7 @@ class Judge {
         !sink.statuses[index].empty() && sink.statuses[index].back().belief.doubts != 0;
     std::map<std::int64_t, Eigen::Vector3d> poses;
     for (const Odometry& odometry : sink.odometries) {
-      if (is_usable(odometry)) poses[odometry.utime_us] = odometry.odom_pose;
+      if (odometry.is_usable()) poses[odometry.utime_us] = odometry.odom_pose;
     }
     SquaredErrors of_radar;
     for (const EgoMotion& motion : sink.motions[index]) {
@@ -128,17 +128,12 @@ class Judge {
     SourceVerdict verdict;
     verdict.source = "odometry";
     for (const Odometry& odometry : sink.odometries) {
-      if (is_usable(odometry)) {
+      if (odometry.is_usable()) {
         add(verdict, odometry.utime_anchor_us, odometry.utime_us, odometry.pose,
             odometry.covariance);
       }
     }
     return verdict;
-  }
-
-  static bool is_usable(const Odometry& odometry) {
-    return odometry.status == OdometryStatus::ok ||
-           odometry.status == OdometryStatus::standing_still;
   }
 
   void add(SourceVerdict& verdict, std::int64_t start_us, std::int64_t end_us,

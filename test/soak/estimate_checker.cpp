@@ -90,7 +90,7 @@ void EstimateChecker::on_odometry(const Odometry& odometry) {
   motion.motion = odometry.pose;
   motion.covariance = odometry.covariance;
   check_covariance(kOdometry, motion);
-  if (odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still) {
+  if (odometry.is_usable()) {
     compare(kOdometry, motion);
   }
 }

@@ -200,10 +200,8 @@ TEST_CASE(
   const TrueTrajectory truth = truth_of(simulated);
   int wrong = 0;
   for (const Odometry& odometry : run_pipeline(radars, simulated.frames).odometries) {
-    const bool is_good =
-        odometry.status == OdometryStatus::ok || odometry.status == OdometryStatus::standing_still;
     const auto motion = truth.motion(odometry.utime_anchor_us, odometry.utime_us);
-    if (!is_good || !motion) continue;
+    if (!odometry.is_usable() || !motion) continue;
     const Eigen::Array3d error = (odometry.pose - *motion).array().abs();
     wrong += (error > 5.0 * odometry.covariance.diagonal().array().sqrt()).any() ? 1 : 0;
   }

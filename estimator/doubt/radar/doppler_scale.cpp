@@ -53,6 +53,8 @@ constexpr double kContradictingSigmas = 1.6;
 /// radar, from the start or later, 308 end as the fault matrix demands with 10, 300 with 15, 250
 /// with none; healthy starts of a lone radar take 0.3 s longer.
 constexpr int kTellingComparisons = 10;
+/// Scans after which these are not waited for, 3 s of an ARS408: too few targets are found again.
+constexpr int kMostScansAwaited = 40;
 
 /// A target in the axes of the way between two scans.
 struct AlongWay {
@@ -66,16 +68,21 @@ struct AlongWay {
 void DopplerScale::forget() {
   count_ = 0;
   compared_ = 0;
+  awaited_ = 0;
   votes_.fill(0.0);
   reversed_.fill(0.0);
   share_by_turn_ = 0.0;
 }
 
 bool DopplerScale::is_open() const {
-  return compared_ < kTellingComparisons && velocity_mps_.norm() > kMinWayM / kMaxIntervalS;
+  return compared_ < kTellingComparisons && awaited_ < kMostScansAwaited && is_driving();
 }
 
+/// Fast enough for comparisons.
+bool DopplerScale::is_driving() const { return velocity_mps_.norm() > kMinWayM / kMaxIntervalS; }
+
 void DopplerScale::add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us) {
+  awaited_ += is_driving() ? 1 : 0;
   auto velocity = doppler_.fit(targets, velocity_mps_, kArs408DopplerStdMps);
   if (!velocity) {
     velocity =

@@ -36,7 +36,8 @@ class DopplerScale {
   void add(const TargetSet& targets, double yaw_rate_radps, std::int64_t stamp_us);
   /// To be called when the clock of the stamps was set.
   void forget();
-  /// Discards votes and verdict: other radars confirm the speed by Doppler, or Doppler stepped.
+  /// Discards votes and verdict: other radars confirm the speed by Doppler, or Doppler stepped or
+  /// jumped.
   void acquit() {
     forget();
     is_wrong_ = false;
@@ -74,6 +75,7 @@ class DopplerScale {
   };
 
   [[nodiscard]] Scan& scan(std::size_t age) { return scans_[(newest_ + kScans - age) % kScans]; }
+  [[nodiscard]] bool is_driving() const;
   void advance(const Eigen::Vector2d& velocity_mps, double yaw_rate_radps, std::int64_t stamp_us);
   void take(const TargetSet& targets, Scan& to);
   void vote(const Scan& from, const Scan& to, const Eigen::Vector2d& way_m);
@@ -91,6 +93,7 @@ class DopplerScale {
   std::size_t newest_ = 0;
   std::size_t count_ = 0;
   int compared_ = 0;  // Comparisons that votes_ are of.
+  int awaited_ = 0;   // Scans since then while driving.
   double correction_ = 1.0;
   bool is_wrong_ = false;
 };

@@ -12,6 +12,11 @@
 
 namespace cremed {
 
+/// Whether a change of the speed ends an earlier one.
+inline bool takes_back(double change_mps, double earlier_mps) {
+  return change_mps * earlier_mps < -0.5 * earlier_mps * earlier_mps;
+}
+
 /// Detects a jump of a radar's speed along the vehicle by Doppler: it changes between two scans,
 /// and neither before nor after. No vehicle moves so, since brakes take 0.1 s or more to act, and
 /// then go on acting: a fault of the radar begins or ends. (Sideways speed does not tell: a change
@@ -26,9 +31,12 @@ class SpeedJump {
     std::int64_t stamp_us = 0;  ///< Of the first scan after it.
     double before_mps = 0.0;
     double after_mps = 0.0;
+
+    [[nodiscard]] double change_mps() const { return after_mps - before_mps; }
   };
 
-  /// Adds the velocity of the next scan. Returns whether the speed jumped to that of the previous.
+  /// Adds the velocity of the next scan. Returns the jump if the previous scan was the first after
+  /// one.
   std::optional<Jump> add(std::int64_t stamp_us, const DopplerVelocity& velocity);
   /// Whether the radar has measured since `since_us` that the vehicle did not jump: no scan was
   /// missing among any four in a row, and no change stood out by half of a jump.

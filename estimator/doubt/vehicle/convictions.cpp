@@ -55,15 +55,14 @@ void Convictions::acquit(RadarSet set) {
   accused_ &= ~set;
 }
 
-void Convictions::release(RadarSet set, std::int64_t time_us) {
-  for_each(set, [&](std::size_t radar) {
+void Convictions::release(std::int64_t time_us) {
+  for (std::size_t radar = 0; radar < verdicts_.size(); ++radar) {
     Verdict& verdict = verdicts_[radar];
     verdict.until_us = verdict.until_us.value_or(time_us + verdict.hold_us);
     if (time_us > *verdict.until_us) {
-      at_fault_ &= ~set_of(radar);
-      accused_ &= ~set_of(radar);
+      acquit(set_of(radar));
     }
-  });
+  }
 }
 
 }  // namespace cremed

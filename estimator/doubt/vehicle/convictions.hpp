@@ -29,7 +29,7 @@ class Convictions {
   /// From now on these radars are not at fault.
   void acquit(RadarSet set);
   /// Releases the radars of `set` whose hold is over.
-  void release(RadarSet set, std::int64_t time_us);
+  void release(std::int64_t time_us);
 
   [[nodiscard]] RadarSet at_fault() const { return at_fault_; }
   /// The radars at fault by their own checks.

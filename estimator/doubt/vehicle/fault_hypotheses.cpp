@@ -146,9 +146,9 @@ bool FaultHypotheses::take_step_back() {
   return has_stepped_back;
 }
 
-void FaultHypotheses::require_positions(bool is_after_step) {
-  if (is_after_step) {
-    evidence_.add_step();
+void FaultHypotheses::require_positions(std::optional<double> step_mps) {
+  if (step_mps) {
+    evidence_.set_after_step(step_mps);
   }
   needs_positions_ = true;
   is_verified_ = false;
@@ -204,7 +204,7 @@ void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
   if (is_verified_) {
-    evidence_.end_step();
+    evidence_.set_after_step(std::nullopt);
   }
 }
 
@@ -230,7 +230,7 @@ void FaultHypotheses::convict_others(RadarSet believed) {
   // Radars that are all at fault may agree because they have the same fault: they convict none.
   const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
   convict(others, evidence_.time_us());
-  convictions_.release(set_of(state_.radars()) - 1U, evidence_.time_us());
+  convictions_.release(evidence_.time_us());
 }
 
 /// Whether a radar that is wrong by itself agrees with the Doppler of the set: the set then has the

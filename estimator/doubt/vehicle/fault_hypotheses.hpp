@@ -95,18 +95,17 @@ class FaultHypotheses {
     return std::exchange(is_newly_disputed_, false) ? std::optional(evidence_.disputed_scale())
                                                     : std::nullopt;
   }
-  /// A jump of the speed by the only radar that is heard, other than of those that look sideways;
-  /// returned once.
+  /// A jump of the speed by the only judged radar that is heard; returned once.
   std::optional<SpeedJump::Jump> take_lone_jump() { return evidence_.take_lone_jump(); }
   /// Whether a radar's own check does not know yet whether its speed is right.
   void note_speed_open(std::size_t radar, bool is_open) {
     speed_open_ = (speed_open_ & ~set_of(radar)) | (is_open ? set_of(radar) : 0U);
   }
   /// To be called if the filter was lost: all radars may be wrong alike. From now on their
-  /// positions must confirm them. `is_after_step`: the speed of all radars, or of the
-  /// only one ahead, stepped (MajorityFollower). Positions at rest then confirm nothing until all
-  /// step back, since a map of targets that do not move always fits.
-  void require_positions(bool is_after_step);
+  /// positions must confirm them. `step_mps`: if the speed of all radars, or of the only
+  /// one ahead, stepped (MajorityFollower), by how much. Positions at rest then confirm nothing
+  /// until all step back, since a map of targets that do not move always fits.
+  void require_positions(std::optional<double> step_mps);
 
  private:
   /// So that one scan decides nothing.

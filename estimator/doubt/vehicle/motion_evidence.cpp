@@ -101,7 +101,9 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   if (const auto jump = track.jumps.add(stamp_us, velocity)) {
     track.jump = jump;
   }
-  if (track.is_after_step && (track.jump || is_step(radar))) {
+  const bool jumps_back =
+      track.jump && step_mps_ && takes_back(track.jump->change_mps(), *step_mps_);
+  if (track.is_after_step && (jumps_back || is_step(radar))) {
     track.is_after_step = false;
     track.jump.reset();
     has_stepped_back_ = !is_after_step(judged_);
@@ -116,9 +118,10 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   return is_due;
 }
 
-void MotionEvidence::set_after_step(bool value) {
+void MotionEvidence::set_after_step(std::optional<double> step_mps) {
+  step_mps_ = step_mps;
   for (Track& track : tracks_) {
-    track.is_after_step = value;
+    track.is_after_step = step_mps.has_value();
   }
 }
 

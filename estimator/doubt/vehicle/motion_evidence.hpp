@@ -55,11 +55,9 @@ class MotionEvidence {
     tracks_[radar].accused_us = time_us;
   }
   void add_motion(std::size_t radar, const EgoMotion& motion);
-  /// The speed of all radars changed more than a vehicle's can. Each is suspect until its speed
-  /// steps again.
-  void add_step() { set_after_step(true); }
-  /// Positions confirm the speed: no radar is suspect any more.
-  void end_step() { set_after_step(false); }
+  /// The speed of all radars changed by this, more than a vehicle's can: each is suspect until its
+  /// speed steps again, or jumps back. None: positions confirm the speed, and no radar is suspect.
+  void set_after_step(std::optional<double> step_mps);
   /// True once after all radars stepped again.
   bool take_step_back() { return std::exchange(has_stepped_back_, false); }
   /// True if this completes an epoch.
@@ -80,7 +78,7 @@ class MotionEvidence {
   /// The radars that do not look sideways.
   [[nodiscard]] RadarSet judged() const { return judged_; }
   /// The radars that look sideways.
-  [[nodiscard]] RadarSet witnesses() const { return set_of(tracks_.size()) - 1U - judged_; }
+  [[nodiscard]] RadarSet witnesses() const { return first_radars(tracks_.size()) & ~judged_; }
   [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
 
   static constexpr std::size_t kEpochs = 7;  ///< A second.
@@ -130,7 +128,7 @@ class MotionEvidence {
   }
   /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
   [[nodiscard]] bool is_supported(RadarSet set) const;
-  /// Whether a radar of the set that is heard is suspect after a step (add_step()).
+  /// Whether a radar of the set that is heard is suspect (set_after_step()).
   [[nodiscard]] bool is_after_step(RadarSet set) const;
   /// A radar's own check found it wrong, in one of its last scans.
   [[nodiscard]] bool is_accused(std::size_t radar) const {
@@ -169,7 +167,6 @@ class MotionEvidence {
     int count = 0;                        // Of velocities.
   };
 
-  void set_after_step(bool value);
   [[nodiscard]] bool is_heard(const Track& track) const;
   [[nodiscard]] bool is_step(std::size_t radar) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
@@ -196,6 +193,7 @@ class MotionEvidence {
   std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t time_us_ = 0;
   double disputed_scale_ = 0.0;
+  std::optional<double> step_mps_;
   std::optional<SpeedJump::Jump> lone_jump_;
   bool has_stepped_back_ = false;
 };

@@ -12,6 +12,8 @@ namespace cremed {
 using RadarSet = std::uint32_t;
 
 constexpr RadarSet set_of(std::size_t radar) { return 1U << radar; }
+/// The radars 0 to count - 1.
+constexpr RadarSet first_radars(std::size_t count) { return set_of(count) - 1U; }
 constexpr bool contains(RadarSet set, std::size_t radar) { return (set >> radar & 1U) != 0; }
 
 template <typename Use>

@@ -147,11 +147,12 @@ Eigen::Vector3d SignalCheck::unverified_std() const {
 }
 
 SignalCheck::Finding SignalCheck::find() const {
-  const auto of_minute = fault_by(minute_);
-  const auto of_seconds = of_minute ? std::nullopt : fault_by(seconds_);
-  return of_minute    ? *of_minute
-         : of_seconds ? *of_seconds
-                      : Finding{SignalFault::none, errors().value};
+  for (const Evidence* evidence : {&minute_, &seconds_}) {
+    if (const auto fault = fault_by(*evidence)) {
+      return *fault;
+    }
+  }
+  return {SignalFault::none, errors().value};
 }
 
 std::optional<SignalCheck::Finding> SignalCheck::fault_by(const Evidence& evidence) const {

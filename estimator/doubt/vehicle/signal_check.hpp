@@ -34,8 +34,10 @@ class SignalCheck {
   /// A reading, in the order of the stamps; otherwise the earlier ones are discarded.
   void add(std::int64_t stamp_us, double value);
   /// Discards the readings, not the findings.
-  void clear() {
-    count_ = 0;
+  void clear() { count_ = 0; }
+  /// To be called when the clock of the stamps was set.
+  void leave_clock() {
+    clear();
     compared_us_ = 0;
   }
   /// Mean rate of a radar's motion from `start_us` to `end_us`, with its variance.
@@ -51,7 +53,7 @@ class SignalCheck {
   /// one that is known to be right.
   [[nodiscard]] Eigen::Vector3d unverified_std() const;
   struct Finding {
-    SignalFault fault = SignalFault::none;  ///< The largest of the errors.
+    SignalFault fault = SignalFault::none;  ///< The largest of the errors, in sigmas.
     Eigen::Vector3d errors = Eigen::Vector3d::Zero();
   };
   [[nodiscard]] Finding find() const;

@@ -35,20 +35,6 @@ constexpr double kOutOfReach = 49.0;
 constexpr double kMinObservedShareOfStep = 0.2;
 constexpr double kMinObservedShareOfResult = 0.1;
 
-/// J'f of a force f on a point, with J = [1, 0, -y; 0, 1, x], the derivative of the point.
-Eigen::Vector3d gradient_of(const Eigen::Vector2d& force, const Eigen::Vector2d& at) {
-  return {force.x(), force.y(), at.x() * force.y() - at.y() * force.x()};
-}
-
-/// J'WJ
-Eigen::Matrix3d information_of(const Symmetric2& w, const Eigen::Vector2d& at) {
-  const Eigen::Vector2d across(-at.y(), at.x());
-  const Eigen::Vector2d wa = w * across;
-  Eigen::Matrix3d result;
-  result << w.xx, w.xy, wa.x(), w.xy, w.yy, wa.y(), wa.x(), wa.y(), across.dot(wa);
-  return result;
-}
-
 /// v v'
 Symmetric2 outer(const Eigen::Vector2d& v) { return {v.x() * v.x(), v.x() * v.y(), v.y() * v.y()}; }
 
@@ -96,9 +82,9 @@ MapRegistration::Sums MapRegistration::sum_up(const TargetSet& targets,
     const PairSums pairs = pairs_.sum_up(begin_[i], begin_[i + 1], turned + motion.head<2>());
     const double share = 1.0 / (clutter + pairs.weight);
     const Eigen::Vector2d force = share * pairs.force;
-    sums.complete += information_of(share * pairs.information, turned);
-    sums.missing += information_of(share * pairs.squared_force + -1.0 * outer(force), turned);
-    sums.gradient += gradient_of(force, turned);
+    sums.complete += point_information(share * pairs.information, turned);
+    sums.missing += point_information(share * pairs.squared_force + -1.0 * outer(force), turned);
+    sums.gradient += along_states(force, turned);
     sums.matched += share * pairs.weight;
     share_[i] = share;
   }
@@ -123,12 +109,14 @@ void MapRegistration::add_derivatives(const TargetSet& targets, const TargetMap&
       const std::uint8_t node = pairs_.node(k);
       const Eigen::Vector2d more_moved =
           moved - pairs_.azimuth_rad(k) * (pairs_.at_m(k) - map.radar_m(node));
-      const Eigen::Matrix3d information = probability * information_of(pairs_.information(k), at);
+      const Eigen::Matrix3d information =
+          probability * point_information(pairs_.information(k), at);
       match.by_node[node] += information;
       complete += information;
       match.by_azimuth_scale +=
           probability *
-          gradient_of(pairs_.information(k) * Eigen::Vector2d(-more_moved.y(), more_moved.x()), at);
+          along_states(pairs_.information(k) * Eigen::Vector2d(-more_moved.y(), more_moved.x()),
+                       at);
     }
   }
   const Eigen::Matrix3d inverse = complete.inverse();

@@ -59,6 +59,10 @@ struct Odometry {
 
   std::uint32_t radars = 0;    ///< Bit i: radar i was used since the previous output.
   std::uint32_t left_out = 0;  ///< Bit i: radar i is not believed (`doubt/`).
+
+  [[nodiscard]] bool is_usable() const {
+    return status == OdometryStatus::ok || status == OdometryStatus::standing_still;
+  }
 };
 
 /// A systematic error that explains the velocities of a radar that is at fault.
@@ -125,7 +129,6 @@ struct VehicleSignalReport {
   std::uint64_t readings = 0;           ///< Valid frames.
   std::uint64_t measurements_used = 0;  ///< By the filter, each the mean of several readings.
   double nis = 0.0;                     ///< Time-averaged, per degree of freedom, as of a radar.
-  double noise_factor = 1.0;
   /// Learned errors, with standard deviations.
   double scale = 0.0;
   double scale_std = 0.0;

@@ -274,7 +274,8 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
   positions_.clear();
 }
 
-/// Left-out radars as a bit set: all that are judged if it is not known which is at fault.
+/// Radars that are not used: at fault, side radars that contradict, or all that are judged if it is
+/// not known which are at fault.
 std::uint32_t OdometryFilter::left_out() const {
   return consensus_.at_fault() | (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
 }

@@ -106,6 +106,13 @@ TEST_CASE("Doppler scale: open for a second of driving, and again if Doppler jum
   CHECK(drive.check.is_wrong());
 }
 
+TEST_CASE("Doppler scale: not open for ever where scans cannot be compared") {
+  ScaleCheckedDrive drive;
+  drive.go_on({.speed_mps = GENERATE(1.52, 1.7)}, 6.0);
+  CHECK_FALSE(drive.check.is_open());
+  CHECK_FALSE(drive.check.is_wrong());
+}
+
 TEST_CASE("Doppler scale: once acquitted it is not doubted, until the votes say so again") {
   ScaleCheckedDrive drive;
   const CircleDrive faulty{.speed_mps = 12.0, .doppler_factor = 0.9};

@@ -41,8 +41,8 @@ constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Decay of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
-/// Chance, over sqrt(chance_): where e and m are both noise, the decrease of chi-square by another
-/// sign has the variance 16 e^2 m^2. 2.5 sigma of it.
+/// At rest e and m are noise, and a wrong sign may lower chi-square by chance, with a variance of
+/// 16 e^2 m^2: 2.5 sigma, over sqrt(chance_).
 constexpr double kChance = 10.0;
 /// Velocities in a second: with fewer no cause is named.
 constexpr double kMinCount = 7.0;

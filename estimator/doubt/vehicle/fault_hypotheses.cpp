@@ -199,7 +199,7 @@ void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
   const bool is_heard = judged() == 0 || evidence_.present() != 0;
   const bool is_supported = is_known && is_heard && evidence_.is_supported(best.radars) &&
                             !(needs_positions_ && is_refuted(best.radars)) &&
-                            !is_open(best.radars) &&
+                            !is_speed_open(best.radars) &&
                             !(evidence_.is_after_step(best.radars) && is_at_rest(best.radars));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
@@ -208,10 +208,10 @@ void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
   }
 }
 
-/// No radar's own check knows yet whether its speed is right.
-bool FaultHypotheses::is_open(RadarSet set) const {
+/// The own check of the only radar that is heard does not know yet whether its speed is right.
+bool FaultHypotheses::is_speed_open(RadarSet set) const {
   const RadarSet present = set & evidence_.present();
-  return present != 0 && (present & ~speed_open_) == 0;
+  return std::has_single_bit(present) && (present & ~speed_open_) == 0;
 }
 
 bool FaultHypotheses::is_at_rest(RadarSet set) const {

@@ -119,7 +119,7 @@ class FaultHypotheses {
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
-  [[nodiscard]] bool is_open(RadarSet set) const;
+  [[nodiscard]] bool is_speed_open(RadarSet set) const;
   [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
   void begin_search(std::size_t radar);

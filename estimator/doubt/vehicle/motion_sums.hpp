@@ -14,7 +14,8 @@ struct MotionSums {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double squares = 0.0;
-  /// Covariance of `weighted` by the random part of the errors; the rest of them lasts for seconds.
+  /// Covariance of `weighted` by the noise of targets alone, which is new in each scan; other
+  /// errors last for seconds.
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
 
   void add(const Eigen::Vector3d& derivative, double value, double variance,

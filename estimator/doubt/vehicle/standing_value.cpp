@@ -20,8 +20,8 @@ void StandingValue::add(std::int64_t stamp_us, double value) {
 void StandingValue::expect(double value, double tolerance) {
   const double most = value + tolerance;
   const double least = value - tolerance;
-  lowest_ = has_range_ ? std::min(lowest_, most) : most;
-  highest_ = has_range_ ? std::max(highest_, least) : least;
+  least_upper_ = has_range_ ? std::min(least_upper_, most) : most;
+  greatest_lower_ = has_range_ ? std::max(greatest_lower_, least) : least;
   has_range_ = true;
 }
 

@@ -22,7 +22,7 @@ class StandingValue {
   [[nodiscard]] bool is_standing() const { return is_longer_than(kStandingUs); }
   /// It has not changed while the true value did.
   [[nodiscard]] bool is_frozen() const {
-    return is_longer_than(kFrozenUs) && highest_ - lowest_ > max_change_;
+    return is_longer_than(kFrozenUs) && greatest_lower_ - least_upper_ > max_change_;
   }
 
  private:
@@ -42,8 +42,8 @@ class StandingValue {
   std::int64_t since_us_ = 0;
   std::int64_t last_us_ = 0;
   bool has_range_ = false;
-  double lowest_ = 0.0;   // Lowest upper bound of the filter's value.
-  double highest_ = 0.0;  // Highest lower bound of it.
+  double least_upper_ = 0.0;     // Bounds of the filter's value while the signal
+  double greatest_lower_ = 0.0;  // repeats: their gap is the change that is certain.
 };
 
 }  // namespace cremed

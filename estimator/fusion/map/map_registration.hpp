@@ -26,8 +26,8 @@ struct MapMatch {
   /// Derivative of the pose that fits best, without prior, by a motion of each node's targets: the
   /// node's share of the information. The diagonals of all nodes add up to 1.
   std::array<Eigen::Matrix3d, TargetMap::kNodes> by_node;
-  /// Share of the targets in the observed information of x; the rest is the prior's. `correction`
-  /// has this share of a displacement along x.
+  /// How far targets, not the search's prior, determine x (0 to 1): of a displacement s along x
+  /// `correction` shows x_share s.
   double x_share = 1.0;
   /// Derivative of `correction` by a scale error of all azimuths: true = (1 + error) reported.
   Eigen::Vector3d by_azimuth_scale = Eigen::Vector3d::Zero();

@@ -72,8 +72,8 @@ class GaussianState {
                       const Eigen::Matrix3d& by_first);
 
   [[nodiscard]] Innovation innovate(const LinearMeasurement& measurement) const;
-  /// A consider parameter (Schmidt-Kalman): only the numbers of a measurement before `from` change
-  /// its mean. The others leave its variance, and its covariances with other considered states.
+  /// A consider parameter (Schmidt-Kalman): components of a measurement from `from` on count its
+  /// uncertainty, but do not update it; earlier ones do.
   struct Considered {
     int state;
     int from = 0;

@@ -203,13 +203,12 @@ struct OdometryOptions {
   /// back x scatters by 0.004 to 0.009 from scan to scan and by 0.002 to 0.005 over 2 s, since
   /// scans share the map (nuScenes, RadarScenes 105).
   double position_x_per_metre = 0.045;
-  /// Error of x for each metre, common to all radars, where x has as much information by the
-  /// search's prior as by targets; it grows with the ratio of the two (MapMatch::x_share). Chance
-  /// neighbours pull x to where a radar sees the same density of targets, which moves along with
-  /// the vehicle. By radar and x_share, x is off by up to 0.7 % on nuScenes (once 1.5), where that
-  /// ratio is about 1, by 0.1 to 0.3 % on RadarScenes 105 (0.1), and by 0.7 to 2 % along simulated
-  /// hedges (2 to 3). Without it the squared error of the way of 10 s along these is 29 to 101
-  /// times its variance, with it 2 to 4.
+  /// Error of x for each metre, common to all radars: chance neighbours pull x to where a radar
+  /// sees the same density of targets, which moves along with the vehicle. Times the ratio of the
+  /// prior's information of x to that of targets (MapMatch::x_share). x is off by up to 0.7 % on
+  /// nuScenes (once 1.5), where that ratio is about 1, by 0.1 to 0.3 % on RadarScenes 105 (0.1),
+  /// and by 0.7 to 2 % along simulated hedges (2 to 3): without it the way of 10 s along these errs
+  /// by 29 to 101 times its variance, with it by 2 to 4.
   double common_x_per_metre_std = 0.004;
   /// Gate, 2 DoF: false-alarm rate 0.01 %. x hardly counts: its noise is several times its errors.
   double max_position_nis = 18.0;

@@ -205,7 +205,7 @@ void VehicleSignals::add_error(const Source& source, double residual) {
   const int rate = rate_of(source.signal);
   const SignalCheck::Finding found = source.check.find();
   if (found.fault == SignalFault::none) {
-    return;  // The gate kept it out.
+    return;  // It contradicted the state, which did not follow it, or its learned errors are large.
   }
   const Eigen::Vector3d by(1.0, state_.gaussian.mean(rate), -state_.gaussian.mean(rate + 1));
   Eigen::Vector2d error = error_.value_or(Eigen::Vector2d::Zero());

@@ -25,7 +25,7 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"buses rotated", "BO", "", "two that agree are believed below 1 m/s"},
     {"alone, scale 0.70", "BO", "",
      "200 targets a scan (105) fit other scales by chance for two seconds; walking pace (1094)"},
-    {"alone, scale 0.70 from 8 s", "BO", "", "likewise; 0103 creeps then"},
+    {"alone, scale 0.70 from 8 s", "BO", "", "likewise; 0103 creeps from 8 s on"},
     {"alone, scale 1.20 from 8 s", "BO", "",
      "a jump of less than 0.7 m/s (0061, 0103, 1094) is not told from hard braking"},
     {"scale drifts to 0.95", "I", "",

@@ -81,7 +81,7 @@ class Input {
 inline Ars408TalkOptions quick_talk(const Ars408Manners& manners) {
   const bool answers = manners.obeys && !manners.keeps_range && !manners.falls_silent;
   Ars408TalkOptions options;
-  options.address.shortest_gap_us = 0;
+  options.address.shortest_three_us = 0;
   options.listen_us = 60'000;
   options.confirm_us = answers ? 20'000'000 : 400'000;
   return options;

@@ -227,13 +227,30 @@ TEST_CASE("Two sensors that are set alike are told by how often their id reports
   const Configuration configuration = two_ars408s();
   Ars408TalkOptions options = quick_talk({});
   options.consent.is_given = true;
-  options.address.shortest_gap_us = 100'000'000;
+  options.address.shortest_three_us = 100'000'000;
   options.listen_us = 500'000;
   std::ostringstream out;
   CHECK(set_up_ars408({configuration, configuration.radars[0], options, sensors.socket(), out},
                       {}) == TalkResult::not_sent);
   CHECK(sensors.all_received().empty());
   CHECK_THAT(out.str(), Catch::Contains("two sensors with id 0 seem to be on can0"));
+}
+
+TEST_CASE("A report that comes late is not of a second sensor") {
+  constexpr std::int64_t kSecondUs = 1'000'000;
+  const auto late_us = GENERATE(0, 300'000, 450'000);
+  const auto second = GENERATE(range(0, 6));
+  Ars408States states;
+  for (int i = 0; i < 7; ++i) {
+    CanFrame report = encode_ars408(0, good_state());
+    report.stamp_us = i * kSecondUs + (i == second ? late_us : 0);
+    note_state(report, states);
+  }
+  const Configuration configuration = two_ars408s();
+  const auto bus = std::make_unique<BusObservation>();
+  const Ars408Search found = find_ars408(configuration, configuration.radars[0], {}, *bus, states);
+  CHECK(found.problem.empty());
+  CHECK(found.sensor_id == 0);
 }
 
 TEST_CASE("Of two sensors with one id, one may report every 5 s only") {

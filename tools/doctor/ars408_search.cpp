@@ -73,7 +73,7 @@ std::string absence(std::uint8_t wanted, const Configuration& configuration,
 
 bool is_twin(const Ars408Reports& reports, const Ars408Address& address) {
   return reports.is_changing ||
-         (reports.shortest_gap_us && *reports.shortest_gap_us < address.shortest_gap_us);
+         (reports.shortest_three_us && *reports.shortest_three_us < address.shortest_three_us);
 }
 
 /// Why a sensor with this id must not be changed; empty if it may be.
@@ -113,8 +113,11 @@ void note_state(const CanFrame& frame, Ars408States& states) {
   }
   Ars408Reports& reports = states[sensor];
   if (reports.state) {
-    const std::int64_t gap_us = frame.stamp_us - reports.stamp_us;
-    reports.shortest_gap_us = std::min(reports.shortest_gap_us.value_or(gap_us), gap_us);
+    if (reports.stamp_before_us) {
+      const std::int64_t three_us = frame.stamp_us - *reports.stamp_before_us;
+      reports.shortest_three_us = std::min(reports.shortest_three_us.value_or(three_us), three_us);
+    }
+    reports.stamp_before_us = reports.stamp_us;
     reports.is_changing = reports.is_changing || !is_set_alike(*reports.state, *state);
   }
   reports.state = state;

@@ -15,10 +15,12 @@ namespace cremed {
 
 /// Observations of one sensor id from its 0x201.
 struct Ars408Reports {
-  std::optional<Ars408RadarState> state;        ///< The latest.
-  bool is_changing = false;                     ///< The settings changed between two of them.
-  std::optional<std::int64_t> shortest_gap_us;  ///< Between two of them.
+  std::optional<Ars408RadarState> state;  ///< The latest.
+  bool is_changing = false;               ///< The settings changed between two of them.
+  /// From the first to the last of three: of two, the first may have come late.
+  std::optional<std::int64_t> shortest_three_us;
   std::int64_t stamp_us = 0;                    ///< Of the latest.
+  std::optional<std::int64_t> stamp_before_us;  ///< Of the one before it.
 };
 
 /// By sensor id.
@@ -31,8 +33,8 @@ void note_state(const CanFrame& frame, Ars408States& states);
 struct Ars408Address {
   /// The sensor's present id if the user gave one; otherwise the configured id.
   std::optional<std::uint8_t> said_id;
-  /// A sensor sends 0x201 once a second; shorter gaps mean two sensors with one id.
-  std::int64_t shortest_gap_us = 750'000;
+  /// A sensor sends 0x201 once a second, so three take 2 s; with a second sensor of its id, 1 s.
+  std::int64_t shortest_three_us = 1'500'000;
 };
 
 /// Result of the search for the radar's sensor.

@@ -74,9 +74,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   if (is_usable(radar, targets, stamp_us)) {
     state_.hear(radar, stamp_us);
     // 3. Propagation to the scan (9), with what the vehicle's bus told until then (12).
-    vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
+    is_signal_wrong =
+        vehicle_.use_until(stamp_us, condition_.is_settled() && !condition_.is_speed_unknown());
     output_.advance_to(stamp_us);
-    is_signal_wrong = allow_for_signals();
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     // 4. Velocity by Doppler (10), and 5. if that fits, motion by positions (11, 13).
@@ -214,22 +214,6 @@ void OdometryFilter::reject_jump(std::size_t radar, const SpeedJump::Jump& jump)
     state.add_variance(kX, squared(change_mps * seconds_between(jump.stamp_us, state_.time_us())));
   }
   condition_.doubt();
-}
-
-/// If signals of the vehicle's bus were found wrong, the state may have followed them.
-bool OdometryFilter::allow_for_signals() {
-  const auto error = vehicle_.take_error();
-  if (error) {
-    GaussianState& state = state_.gaussian;
-    const double v = state.mean(kSpeed);
-    const double w = state.mean(kYawRate);
-    const double slip_rad = state.mean(kSlip) - state.mean(kSlipPerAcceleration) * v * w;
-    add_error_of_motion({v - error->x(), w - error->y(), slip_rad});
-    state.add_variance(kSpeed, squared(error->x()));
-    state.add_variance(kYawRate, squared(error->y()));
-    positions_.clear();
-  }
-  return error.has_value();
 }
 
 /// A radar or signal was found at fault: the pose since the anchor and the slip may have its error.

@@ -116,7 +116,6 @@ class OdometryFilter {
   void set_trusted(std::size_t radar, bool is_trusted);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
-  bool allow_for_signals();
   void add_error_of_motion(const Eigen::Vector3d& believed);
   void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);
   [[nodiscard]] std::uint32_t left_out() const;

@@ -22,6 +22,9 @@ constexpr double kFrozenYawRateRadps = 0.02;
 /// A learned error of more sigmas of its prior is not the sensor's: the factor or unit is wrong.
 constexpr double kMaxErrorSigmas = 4.0;
 
+/// Of a fault: a manoeuvre in which it shows.
+constexpr double kFaultS = 5.0;
+
 double frozen_change(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? kFrozenSpeedMps : kFrozenYawRateRadps;
 }
@@ -70,6 +73,7 @@ void VehicleSignals::forget() {
     source.heard_us.reset();
     source.compared_us.reset();
   }
+  asked_since_us_.reset();
 }
 
 void VehicleSignals::restart_errors() {
@@ -105,22 +109,43 @@ void VehicleSignals::note_lost(std::int64_t stamp_us) {
   }
 }
 
-void VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
+bool VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   note_lost(stamp_us);
+  ask_filter(stamp_us);
   for (Source& source : sources_) {
     if (is_used(source.signal)) {
       watch(source, is_known);
     }
   }
+  bool is_one_wrong = false;
   for (Source* source = earliest(); source != nullptr; source = earliest()) {
     const SignalTrack::Value value = *source->track.front();
     if (value.utime_us > stamp_us) {
-      return;
+      break;
     }
     source->track.pop();
     if (is_known) {
-      use(*source, value);
+      is_one_wrong = use(*source, value) || is_one_wrong;
     }
+  }
+  return is_one_wrong;
+}
+
+/// Hands what the filter's innovations tell to the checks: of faults that began when the filter last
+/// forgot them, which it does as long as there is no sign of one. What is known of a signal that is
+/// left out stays, since the filter does not follow it.
+void VehicleSignals::ask_filter(std::int64_t stamp_us) {
+  bool is_clear = true;
+  for (Source& source : sources_) {
+    if (!source.trust.is_left_out()) {
+      const OdometryState::FaultEvidence& evidence = state_.fault_evidence(source.signal);
+      source.check.take(evidence.information, evidence.weighted);
+      is_clear = is_clear && source.check.is_clear();
+    }
+  }
+  if (!asked_since_us_ || (is_clear && seconds_between(*asked_since_us_, stamp_us) > kFaultS)) {
+    asked_since_us_ = stamp_us;
+    state_.forget_faults();
   }
 }
 
@@ -145,7 +170,8 @@ VehicleSignals::Source* VehicleSignals::earliest() {
   return first;
 }
 
-void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
+/// True if the signal is found wrong by it.
+bool VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
   output_.advance_to(value.utime_us);
   const OdometryOptions& options = state_.options();
   const double age_s = seconds_between(value.utime_us, state_.time_us());
@@ -153,7 +179,7 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
   const double interval_s =
       source.compared_us ? seconds_between(*source.compared_us, value.utime_us) : longest_s;
   if (age_s > options.max_lateness_s || interval_s <= 0.0) {
-    return;
+    return false;
   }
   state_.advance_signal(source.signal, interval_s);
   source.compared_us = value.utime_us;
@@ -164,7 +190,7 @@ void VehicleSignals::use(Source& source, const SignalTrack::Value& value) {
   measurement.noise(0, 0) += unverified_variance(source, value.value);
   const Innovation innovation = state_.gaussian.innovate(measurement);
   source.nis.add(value.utime_us, innovation.nis);
-  judge(source, innovation, measurement.residual(0));
+  return judge(source, innovation);
 }
 
 /// Noise for a scale and delay that the radars have not yet seen to be right. Without it a yaw rate
@@ -176,11 +202,11 @@ double VehicleSignals::unverified_variance(const Source& source, double value) c
   return squared(value * unverified(1)) + squared(change * unverified(2));
 }
 
-/// Updates the state if the signal is trusted.
-void VehicleSignals::judge(Source& source, const Innovation& innovation, double residual) {
+/// Updates the state if the signal is trusted. True if it is no longer.
+bool VehicleSignals::judge(Source& source, const Innovation& innovation) {
   const bool was_left_out = source.trust.is_left_out();
   const bool is_expected = innovation.nis <= state_.options().vehicle.max_nis &&
-                           !(was_left_out && source.check.fault() != SignalFault::none);
+                           !(was_left_out && source.check.is_refuted_by_radars());
   source.trust.judge(is_expected);
   if (!was_left_out && !source.trust.is_left_out()) {
     source.noise.add(innovation.nis);
@@ -192,25 +218,14 @@ void VehicleSignals::judge(Source& source, const Innovation& innovation, double 
       source.trust.leave_out();
     }
   }
-  if (!was_left_out && source.trust.is_left_out()) {
-    add_error(source, residual);
+  const bool is_found_wrong = !was_left_out && source.trust.is_left_out();
+  if (is_found_wrong) {
+    const auto [errors, covariance] = source.check.errors_by_filter();
+    state_.correct_fault(source.signal, errors, covariance);
     state_.start_signal(source.signal);
     source.noise.clear();
   }
-}
-
-/// A signal is found wrong, which the state may have followed: z - w is its error, and z less the
-/// state the residual.
-void VehicleSignals::add_error(const Source& source, double residual) {
-  const int rate = rate_of(source.signal);
-  const SignalCheck::Finding found = source.check.find();
-  if (found.fault == SignalFault::none) {
-    return;  // It contradicted the state, which did not follow it, or its learned errors are large.
-  }
-  const Eigen::Vector3d by(1.0, state_.gaussian.mean(rate), -state_.gaussian.mean(rate + 1));
-  Eigen::Vector2d error = error_.value_or(Eigen::Vector2d::Zero());
-  error(source.signal == VehicleSignal::speed ? 0 : 1) = by.dot(found.errors) - residual;
-  error_ = error;
+  return is_found_wrong;
 }
 
 bool VehicleSignals::has_credible_errors(VehicleSignal signal) const {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -41,11 +40,9 @@ class VehicleSignals {
   void compare(const Pose2& mount, const EgoMotion& motion);
   /// Uses what was measured until `stamp_us`. The state may move on, but not beyond that time.
   /// `is_known`: the state no longer depends on its prior. Otherwise readings are discarded: the
-  /// radars alone start the filter.
-  void use_until(std::int64_t stamp_us, bool is_known);
-  /// Errors that the speed and yaw rate of the state may have by signals that were found wrong
-  /// since the last call; none if none were.
-  std::optional<Eigen::Vector2d> take_error() { return std::exchange(error_, std::nullopt); }
+  /// radars alone start the filter. True if a signal that was used is found wrong: the state has
+  /// been corrected by what it followed.
+  bool use_until(std::int64_t stamp_us, bool is_known);
   /// Notes which signals are lost at this time; use_until() does so too.
   void note_lost(std::int64_t stamp_us);
   /// Discards the readings; to be called when the clock was set.
@@ -87,16 +84,16 @@ class VehicleSignals {
   [[nodiscard]] bool is_used(VehicleSignal signal) const;
   void watch(Source& source, bool is_known);
   Source* earliest();
-  void use(Source& source, const SignalTrack::Value& value);
+  void ask_filter(std::int64_t stamp_us);
+  bool use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;
-  void judge(Source& source, const Innovation& innovation, double residual);
+  bool judge(Source& source, const Innovation& innovation);
   [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
-  void add_error(const Source& source, double residual);
 
   OdometryState& state_;
   OdometryOutput& output_;
   std::array<Source, kVehicleSignals> sources_;
-  std::optional<Eigen::Vector2d> error_;
+  std::optional<std::int64_t> asked_since_us_;
 };
 
 }  // namespace cremed

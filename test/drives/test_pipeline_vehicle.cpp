@@ -261,7 +261,7 @@ TEST_CASE("A yaw rate that is off from some time on is excluded, and the pose ma
           "[long]") {
   const Drive simulated = town();
   const std::int64_t from_us = begin_us(simulated) + 40'000'000;
-  const double by_radps = GENERATE(-0.05, 0.05);
+  const double by_radps = GENERATE(-0.05, 0.0175, 0.05);
   CAPTURE(by_radps);
   const VehicleOutcome outcome = run_with(simulated, shifted(simulated.frames, from_us, by_radps));
   CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);

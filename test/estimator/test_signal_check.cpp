@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <random>
 
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/vehicle/signal_check.hpp"
@@ -19,7 +20,6 @@ struct Wrong {
   double offset = 0.0;
   double scale = 1.0;
   double delay_s = 0.0;
-  double from_s = 0.0;
 };
 
 /// A town: turns of 4 s with up to 0.4 rad/s, every 15 s.
@@ -49,8 +49,7 @@ SignalCheck after(double duration_s, const Wrong& wrong, double walk_radps = 0.0
   for (int i = 0; i < static_cast<int>(duration_s * 100.0); ++i) {
     const double now_s = 0.01 * i;
     const double measured_s = now_s - options.yaw_rate.delay_s - wrong.delay_s;
-    const double offset = now_s >= wrong.from_s ? wrong.offset : 0.0;
-    check.add(i * 10'000, wrong.scale * yaw_rate(measured_s) + offset);
+    check.add(i * 10'000, wrong.scale * yaw_rate(measured_s) + wrong.offset);
     if (now_s >= next_scan_s + 0.06) {
       const double start_s = next_scan_s - kScanS;
       walk = walk * std::exp(-kScanS / 2.0) +
@@ -89,12 +88,23 @@ TEST_CASE("a wrong scale, delay and offset are named, and how large they are") {
   CHECK(after(60.0, {.scale = -1.0}).fault() == SignalFault::scale);  // Its sign is wrong.
 }
 
-TEST_CASE("an offset that begins after minutes is named within seconds") {
-  const SignalCheck healthy = after(90.0, {.offset = 0.04, .from_s = 90.0}, 0.005);
-  CHECK(healthy.fault() == SignalFault::none);
-  const SignalCheck off = after(96.0, {.offset = 0.04, .from_s = 90.0}, 0.005);
-  CHECK(off.fault() == SignalFault::offset);
-  CHECK(off.find().errors(0) == Approx(0.04).margin(0.02));
+TEST_CASE("what the innovations of the filter tell is a fault as well, until it forgets") {
+  const Eigen::Vector3d offset(0.04, 0.0, 0.0);
+  SignalCheck check = after(60.0, {}, 0.005);
+  const auto tell = [&](double std) {
+    const Eigen::Matrix3d information = Eigen::Vector3d(1.0 / (std * std), 1.0, 1.0).asDiagonal();
+    check.take(information, information * offset);
+  };
+  tell(0.02);  // Two sigmas.
+  CHECK(check.fault() == SignalFault::none);
+  tell(0.005);
+  CHECK(check.fault() == SignalFault::offset);
+  CHECK(check.find().errors(0) == Approx(0.04).margin(0.002));
+  CHECK_FALSE(check.is_clear());
+  CHECK_FALSE(check.is_refuted_by_radars());
+  check.take(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero());
+  CHECK(check.fault() == SignalFault::none);
+  CHECK(check.is_clear());
 }
 
 TEST_CASE("on a straight road an offset is a fault, though it may be one of scale") {
@@ -113,8 +123,8 @@ TEST_CASE("on a straight road nothing is known of scale and delay") {
     check.add(i * 75'000, 0.0);
     check.compare((i - 2) * 75'000, (i - 1) * 75'000, 0.0, 4e-4);
   }
-  CHECK(check.errors().variance(1) == Approx(1.0).epsilon(0.01));
-  CHECK(check.errors().variance(2) == Approx(1.0).epsilon(0.01));
+  CHECK(check.errors().covariance(1, 1) == Approx(1.0).epsilon(0.01));
+  CHECK(check.errors().covariance(2, 2) == Approx(1.0).epsilon(0.01));
   CHECK(check.fault() == SignalFault::none);
 }
 
@@ -124,9 +134,9 @@ TEST_CASE("scans that waited and came within milliseconds are compared like othe
     check.add(10'000 * i, 5.0);
   }
   check.compare(50'000, 125'000, 5.0, 0.01);
-  const double before = check.errors().variance(1);
+  const double before = check.errors().covariance(1, 1);
   check.compare(125'000, 128'000, 5.0, 0.01);
-  CHECK(check.errors().variance(1) < before);
+  CHECK(check.errors().covariance(1, 1) < before);
 }
 
 }  // namespace

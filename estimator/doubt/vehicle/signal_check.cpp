@@ -13,9 +13,8 @@
 namespace cremed {
 namespace {
 
-/// Comparisons lose their weight over this time: some turns of a drive in town; one manoeuvre.
+/// Comparisons lose their weight over this time: some turns of a drive in town.
 constexpr double kMinuteS = 60.0;
-constexpr double kSecondsS = 5.0;
 /// Prior of the errors: wide enough for any wrong unit. A speed has no offset, which could hardly
 /// be told from a scale.
 constexpr double kScalePriorStd = 1.0;
@@ -30,6 +29,8 @@ constexpr double kSpeedScaleStd = 0.005;
 constexpr double kYawRateOffsetStdRadps = 0.0015;
 /// Chi-square of three errors, false-alarm rate as of 3 sigma of one.
 constexpr double kMaxChiSquare = 14.2;
+/// Less than the mean of three errors and a sigma.
+constexpr double kClearChiSquare = 4.0;
 /// Error of a radar's motions that lasts for seconds: on straights its yaw walks by 0.1 to 0.35
 /// degrees each second (nuScenes). Without this noise it is taken for a scale of the signal where
 /// the vehicle hardly turns: 17 +- 5 % on 0103.
@@ -70,8 +71,8 @@ SignalCheck::SignalCheck(VehicleSignal signal, const VehicleOptions& options)
       delay_us_(std::llround(options.of(signal).delay_s * 1e6)),
       tolerance_(tolerance_of(signal, options)),
       prior_(prior_of(signal)),
-      minute_{kMinuteS, prior_},
-      seconds_{kSecondsS, prior_} {}
+      minute_{prior_},
+      filter_{prior_} {}
 
 void SignalCheck::add(std::int64_t stamp_us, double value) {
   const std::int64_t utime_us = stamp_us - delay_us_;
@@ -107,6 +108,24 @@ std::optional<SignalCheck::Sum> SignalCheck::at(std::int64_t utime_us) const {
   return std::nullopt;
 }
 
+void SignalCheck::take(const Eigen::Matrix3d& information, const Eigen::Vector3d& weighted) {
+  filter_ = {prior_ + information, weighted};
+}
+
+bool SignalCheck::is_clear() const { return chi_square_by(filter_) < kClearChiSquare; }
+
+SignalCheck::Errors SignalCheck::errors_by(const Evidence& evidence) {
+  const Eigen::Matrix3d covariance = evidence.information.inverse();
+  return {covariance * evidence.weighted, covariance};
+}
+
+/// Of the errors, beyond those that sensors and radars have anyway.
+double SignalCheck::chi_square_by(const Evidence& evidence) const {
+  Errors errors = errors_by(evidence);
+  errors.covariance.diagonal() += tolerance_.cwiseAbs2();
+  return errors.value.dot(errors.covariance.inverse() * errors.value);
+}
+
 void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rate,
                           double variance) {
   const auto start = at(start_us);
@@ -123,31 +142,21 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const double interval_s = std::max(std::min(passed_s, duration_s), kShortestIntervalS);
   const double std = std::sqrt(
       variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
-  add(minute_, by, mean - rate, std, passed_s);
-  add(seconds_, by, mean - rate, std, passed_s);
-}
-
-void SignalCheck::add(Evidence& evidence, const Eigen::Vector3d& by, double difference, double std,
-                      double passed_s) const {
-  const double error = std::abs(difference - by.dot(evidence.errors().value)) / std;
+  const double difference = mean - rate;
+  const double error = std::abs(difference - by.dot(errors().value)) / std;
   const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
-  const double kept = std::exp(-std::max(passed_s, 0.0) / evidence.memory_s);
-  evidence.information =
-      prior_ + kept * (evidence.information - prior_) + weight * by * by.transpose();
-  evidence.weighted = kept * evidence.weighted + weight * difference * by;
-}
-
-SignalCheck::Errors SignalCheck::Evidence::errors() const {
-  const Eigen::Matrix3d covariance = information.inverse();
-  return {covariance * weighted, covariance.diagonal()};
+  const double kept = std::exp(-std::max(passed_s, 0.0) / kMinuteS);
+  minute_.information =
+      prior_ + kept * (minute_.information - prior_) + weight * by * by.transpose();
+  minute_.weighted = kept * minute_.weighted + weight * difference * by;
 }
 
 Eigen::Vector3d SignalCheck::unverified_std() const {
-  return (errors().variance.cwiseSqrt() - tolerance_).cwiseMax(0.0);
+  return (errors().covariance.diagonal().cwiseSqrt() - tolerance_).cwiseMax(0.0);
 }
 
 SignalCheck::Finding SignalCheck::find() const {
-  for (const Evidence* evidence : {&minute_, &seconds_}) {
+  for (const Evidence* evidence : {&minute_, &filter_}) {
     if (const auto fault = fault_by(*evidence)) {
       return *fault;
     }
@@ -156,15 +165,13 @@ SignalCheck::Finding SignalCheck::find() const {
 }
 
 std::optional<SignalCheck::Finding> SignalCheck::fault_by(const Evidence& evidence) const {
-  const Eigen::Vector3d variance = tolerance_.cwiseAbs2();
-  Eigen::Matrix3d covariance = evidence.information.inverse();
-  const Eigen::Vector3d value = covariance * evidence.weighted;
-  covariance.diagonal() += variance;
-  if (value.dot(covariance.inverse() * value) <= kMaxChiSquare) {
+  if (chi_square_by(evidence) <= kMaxChiSquare) {
     return std::nullopt;
   }
+  const auto [value, covariance] = errors_by(evidence);
+  const Eigen::Vector3d variance = covariance.diagonal() + tolerance_.cwiseAbs2();
   Eigen::Index largest = 0;
-  value.cwiseAbs2().cwiseQuotient(covariance.diagonal()).maxCoeff(&largest);
+  value.cwiseAbs2().cwiseQuotient(variance).maxCoeff(&largest);
   constexpr std::array<SignalFault, 3> kFaults{SignalFault::offset, SignalFault::scale,
                                                SignalFault::delay};
   return Finding{kFaults[static_cast<std::size_t>(largest)], value};

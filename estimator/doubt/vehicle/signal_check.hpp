@@ -15,18 +15,19 @@
 
 namespace cremed {
 
-/// What is wrong with a signal of the vehicle's bus, by the radars' own motions from scan to scan.
-/// Unlike the filter these do not follow a wrong yaw rate. At one time that signal is far more
-/// precise than a radar, but not over the minute that this check looks back.
+/// What is wrong with a signal of the vehicle's bus: h offset, g scale and tau delay by least
+/// squares. They are a fault if they differ from 0 by more than their uncertainty together with
+/// those of sensors and radars explains: all three at once, since on a straight road offset and
+/// scale are one. There are two kinds of evidence:
 ///
-/// Over a motion of rate w (a speed or yaw rate) and its change c, the mean of the readings errs by
+/// The radars' own motions from scan to scan of the last minute. Unlike the filter these do not
+/// follow a wrong yaw rate. Over a motion of rate w (a speed or yaw rate) and its change c, the
+/// mean of the readings errs by
 ///
 ///     z - w = h + g z - tau c + noise
 ///
-/// h offset, g scale and tau delay by least squares. They are a fault if they differ from 0 by more
-/// than their uncertainty together with those of sensors and radars explains: all three at once,
-/// since on a straight road offset and scale are one; over the last minute, or the last seconds, in
-/// which a fault that begins while driving shows first.
+/// The filter's innovations, if its state follows such an error since a few seconds
+/// (GaussianState): the maps know the yaw ten times as well as motions from scan to scan do.
 class SignalCheck {
  public:
   SignalCheck(VehicleSignal signal, const VehicleOptions& options);
@@ -40,15 +41,21 @@ class SignalCheck {
     clear();
     compared_us_ = 0;
   }
+  /// What the filter's innovations tell of the errors (GaussianState).
+  void take(const Eigen::Matrix3d& information, const Eigen::Vector3d& weighted);
   /// Mean rate of a radar's motion from `start_us` to `end_us`, with its variance.
   void compare(std::int64_t start_us, std::int64_t end_us, double rate, double variance);
 
-  /// The errors and their variances. Zero and wide before the first comparisons.
   struct Errors {
-    Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< h, g, tau
-    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
+    Eigen::Vector3d value;  ///< h, g, tau
+    Eigen::Matrix3d covariance;
   };
-  [[nodiscard]] Errors errors() const { return minute_.errors(); }
+  /// By the radars' motions. Zero and wide before the first comparisons.
+  [[nodiscard]] Errors errors() const { return errors_by(minute_); }
+  /// By what was last taken of the filter.
+  [[nodiscard]] Errors errors_by_filter() const { return errors_by(filter_); }
+  /// The filter shows no sign of a fault.
+  [[nodiscard]] bool is_clear() const;
   /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for
   /// one that is known to be right.
   [[nodiscard]] Eigen::Vector3d unverified_std() const;
@@ -57,6 +64,8 @@ class SignalCheck {
     Eigen::Vector3d errors = Eigen::Vector3d::Zero();
   };
   [[nodiscard]] Finding find() const;
+  /// The radars' motions alone show a fault.
+  [[nodiscard]] bool is_refuted_by_radars() const { return fault_by(minute_).has_value(); }
   [[nodiscard]] SignalFault fault() const { return find().fault; }
 
  private:
@@ -68,17 +77,13 @@ class SignalCheck {
     double integral = 0.0;  ///< Over all readings until this one.
   };
 
-  /// What the comparisons of some time tell.
   struct Evidence {
-    double memory_s;
     Eigen::Matrix3d information;
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-
-    [[nodiscard]] Errors errors() const;
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();  // Information times the errors.
   };
 
-  void add(Evidence& evidence, const Eigen::Vector3d& by, double difference, double std,
-           double passed_s) const;
+  [[nodiscard]] static Errors errors_by(const Evidence& evidence);
+  [[nodiscard]] double chi_square_by(const Evidence& evidence) const;
   [[nodiscard]] std::optional<Finding> fault_by(const Evidence& evidence) const;
   [[nodiscard]] std::optional<Sum> at(std::int64_t utime_us) const;
   [[nodiscard]] const Sum& sum(std::size_t i) const { return sums_[(first_ + i) % kCapacity]; }
@@ -91,7 +96,7 @@ class SignalCheck {
   std::size_t count_ = 0;
   Eigen::Matrix3d prior_;  // Information of the prior.
   Evidence minute_;
-  Evidence seconds_;
+  Evidence filter_;
   std::int64_t compared_us_ = 0;
 };
 

@@ -30,6 +30,9 @@ LinearMeasurement VehicleMeasurement::linearise(double value) const {
   if (!is_speed) {
     result.depend_on(bias, 1.0);
   }
+  // Offset, scale, delay.
+  result.by_faults.row(0).segment<3>(OdometryState::fault_of(signal)) << 1.0, motion,
+      -x.mean(rate + 1);
   result.noise(0, 0) = variance(value);
   return result;
 }

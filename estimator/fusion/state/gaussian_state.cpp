@@ -11,11 +11,12 @@
 
 namespace cremed {
 
-GaussianState::GaussianState(int size)
+GaussianState::GaussianState(int size, bool has_faults)
     : mean_(Eigen::VectorXd::Zero(size)), covariance_(Eigen::MatrixXd::Zero(size, size)) {
   if (size > Innovation::kMaxStates) {
     throw std::length_error("too many states");
   }
+  by_faults_.setZero(size, has_faults ? LinearMeasurement::kFaults : 0);
 }
 
 double GaussianState::std(int i) const { return std::sqrt(covariance_(i, i)); }
@@ -25,10 +26,12 @@ void GaussianState::set(int i, double value, double variance) {
   covariance_.row(i).setZero();
   covariance_.col(i).setZero();
   covariance_(i, i) = variance;
+  by_faults_.row(i).setZero();
 }
 
 void GaussianState::decay(int i, double factor, double noise_variance) {
   mean_(i) *= factor;
+  by_faults_.row(i) *= factor;
   covariance_.row(i) *= factor;
   covariance_.col(i) *= factor;
   covariance_(i, i) += noise_variance;
@@ -36,6 +39,7 @@ void GaussianState::decay(int i, double factor, double noise_variance) {
 
 void GaussianState::copy(int from, int to) {
   mean_.segment<3>(to) = mean_.segment<3>(from);
+  by_faults_.middleRows<3>(to) = by_faults_.middleRows<3>(from);
   for (int k = 0; k < 3; ++k) {
     covariance_.col(to + k) = covariance_.col(from + k);
   }
@@ -62,6 +66,11 @@ void GaussianState::transform_pose(int to, const Eigen::Vector3d& mean,
     covariance_.col(to + k) = covariance_.row(to + k).transpose();
   }
   covariance_.block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
+  for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
+    by_faults_.col(k).segment<3>(to) =
+        (by_self * by_faults_.col(k).segment<3>(to) + by_first * by_faults_.col(k).head<3>())
+            .eval();
+  }
   mean_.segment<3>(to) = mean;
 }
 
@@ -84,15 +93,42 @@ Innovation GaussianState::innovate(const LinearMeasurement& measurement) const {
   if (root.info() != Eigen::Success) {
     gain.setZero();
     result.whitened.setZero();
+    result.whitened_by_faults.setZero();
     result.nis = std::numeric_limits<double>::infinity();
     result.nis_of_numbers.setConstant(result.nis);
     return result;
   }
   root.matrixU().solveInPlace<Eigen::OnTheRight>(gain);
   result.whitened = root.matrixL().solve(measurement.residual);
+  result.whitened_by_faults = root.matrixL().solve(residual_by_faults(measurement));
   result.nis = result.whitened.squaredNorm();
   result.nis_of_numbers = measurement.residual.cwiseAbs2().cwiseQuotient(covariance.diagonal());
   return result;
+}
+
+/// Derivative of the measurement's residual z - h(x) by the faults.
+Eigen::Matrix<double, 3, LinearMeasurement::kFaults> GaussianState::residual_by_faults(
+    const LinearMeasurement& measurement) const {
+  Eigen::Matrix<double, 3, LinearMeasurement::kFaults> by_faults = measurement.by_faults;
+  for (Eigen::Index fault = 0; fault < by_faults_.cols(); ++fault) {
+    for (int k = 0; k < measurement.states; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      by_faults.col(fault) -= measurement.jacobian[i] * by_faults_(measurement.state[i], fault);
+    }
+  }
+  return by_faults;
+}
+
+void GaussianState::correct_faults(int first, const Eigen::Vector3d& mean,
+                                   const Eigen::Matrix3d& covariance) {
+  const auto by_faults = by_faults_.middleCols<3>(first);
+  const Eigen::Matrix3d factor = covariance.llt().matrixL();
+  const Innovation::Gain root = by_faults.lazyProduct(factor);
+  for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
+    covariance_.col(j) +=
+        root(j, 0) * root.col(0) + root(j, 1) * root.col(1) + root(j, 2) * root.col(2);
+  }
+  mean_ -= by_faults * mean;
 }
 
 void GaussianState::update(const Innovation& innovation, std::span<const Considered> considered) {
@@ -115,6 +151,9 @@ void GaussianState::update(const Innovation& innovation, std::span<const Conside
   }
   for (int number = 0; number < Innovation::kNumbers; ++number) {
     mean_ += innovation.whitened(number) * gain.col(number);
+    for (Eigen::Index fault = 0; fault < by_faults_.cols(); ++fault) {
+      by_faults_.col(fault) += innovation.whitened_by_faults(number, fault) * gain.col(number);
+    }
   }
 }
 

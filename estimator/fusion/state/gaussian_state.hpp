@@ -24,15 +24,22 @@ struct Innovation {
   Eigen::Vector3d nis_of_numbers;  ///< Of each number alone.
   Eigen::Vector3d whitened;        ///< L^-1 residual, with the innovation's covariance S = L L'.
   Gain gain;                       ///< P H' L'^-1: the update adds gain whitened.
+  /// Derivative of `whitened` by the faults; zero if there are none.
+  Eigen::Matrix<double, kNumbers, LinearMeasurement::kFaults> whitened_by_faults;
 };
 
 /// Mean and covariance of a state of fixed size, with the operations of a Kalman filter. Every
 /// operation keeps the covariance exactly symmetric and costs O(n), an update O(n^2). Only the
 /// constructor allocates.
+///
+/// Optionally with the derivative of the mean by faults of some measurements, which the
+/// state does not contain: constant errors of z since the last forget_faults(). By them the
+/// innovations tell whether there is such a fault (generalised likelihood ratio; Willsky and Jones,
+/// IEEE Trans. Automatic Control 1976).
 class GaussianState {
  public:
   /// At most Innovation::kMaxStates, otherwise std::length_error.
-  explicit GaussianState(int size);
+  explicit GaussianState(int size, bool has_faults = false);
 
   [[nodiscard]] int size() const { return static_cast<int>(mean_.size()); }
   [[nodiscard]] const Eigen::VectorXd& mean() const { return mean_; }
@@ -46,6 +53,9 @@ class GaussianState {
   /// to linearise the next measurement near its true value.
   void assume(int i, double value) {
     mean_ += (value - mean_(i)) / covariance_(i, i) * covariance_.col(i);
+    for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
+      by_faults_.col(k) -= by_faults_(i, k) / covariance_(i, i) * covariance_.col(i);
+    }
   }
   /// Sets mean and variance of x_i, independent of all other states.
   void set(int i, double value, double variance);
@@ -71,6 +81,15 @@ class GaussianState {
   void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
                       const Eigen::Matrix3d& by_first);
 
+  /// Derivative of the mean by the faults; no columns if there are none.
+  using ByFaults = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                                 Innovation::kMaxStates, LinearMeasurement::kFaults>;
+  [[nodiscard]] const ByFaults& by_faults() const { return by_faults_; }
+  /// Three faults from `first` on have this mean and covariance: corrects the state by them.
+  void correct_faults(int first, const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
+  /// The mean does not depend on faults before now.
+  void forget_faults() { by_faults_.setZero(); }
+
   [[nodiscard]] Innovation innovate(const LinearMeasurement& measurement) const;
   /// A consider parameter (Schmidt-Kalman): components of a measurement from `from` on count its
   /// uncertainty, but do not update it; earlier ones do.
@@ -82,8 +101,12 @@ class GaussianState {
   void update(const Innovation& innovation, std::span<const Considered> considered);
 
  private:
+  [[nodiscard]] Eigen::Matrix<double, 3, LinearMeasurement::kFaults> residual_by_faults(
+      const LinearMeasurement& measurement) const;
+
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
+  ByFaults by_faults_;
 };
 
 template <int Size>
@@ -99,6 +122,10 @@ void GaussianState::transform(const Eigen::Matrix<double, Size, 1>& mean,
     covariance_.row(j).template head<Size>() = column.transpose();
   }
   covariance_.template topLeftCorner<Size, Size>() = 0.5 * (corner + corner.transpose());
+  for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
+    by_faults_.col(k).template head<Size>() =
+        (jacobian * by_faults_.col(k).template head<Size>()).eval();
+  }
   mean_.template head<Size>() = mean;
 }
 
@@ -116,6 +143,10 @@ void GaussianState::clone(int to, const Eigen::Vector3d& mean,
     covariance_.col(to + k) = covariance_.row(to + k).transpose();
   }
   covariance_.template block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
+  for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
+    by_faults_.col(k).template segment<3>(to) =
+        (jacobian * by_faults_.col(k).template head<Size>()).eval();
+  }
   mean_.template segment<3>(to) = mean;
 }
 

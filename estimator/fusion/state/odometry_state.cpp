@@ -76,7 +76,7 @@ SharedPrior prior_of(const OdometryOptions& options, const std::vector<Pose2>& m
 
 OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
                              const std::vector<std::optional<LearnedErrors>>& learned)
-    : gaussian(size_of(mounts.size(), options)),
+    : gaussian(size_of(mounts.size(), options), options.vehicle.is_used()),
       options_(options),
       mounts_(std::move(mounts)),
       heard_us_(mounts_.size()),
@@ -163,6 +163,12 @@ bool OdometryState::is_scale_observed() const {
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {
+  for (const VehicleSignal signal : {VehicleSignal::speed, VehicleSignal::yaw_rate}) {
+    const auto by_faults = innovation.whitened_by_faults.middleCols<3>(fault_of(signal));
+    FaultEvidence& evidence = fault_evidence_[static_cast<std::size_t>(signal)];
+    evidence.information += by_faults.transpose() * by_faults;
+    evidence.weighted += by_faults.transpose() * innovation.whitened;
+  }
   const bool is_at_rest = std::abs(gaussian.mean(kSpeed)) < options_.standstill_mps;
   const Considered& considered = is_scale_observed() ? considered_ : considered_without_scales_;
   const auto& driving = is_of_positions ? considered.by_positions : considered.by_velocities;
@@ -351,6 +357,12 @@ double OdometryState::least_skid() const { return squared(kLeastSkid * options_.
 
 double OdometryState::skid_variance() const {
   return is_skidding_ ? skid_variance_ + squared(gaussian.mean(kSlip)) : 0.0;
+}
+
+void OdometryState::correct_fault(VehicleSignal signal, const Eigen::Vector3d& errors,
+                                  const Eigen::Matrix3d& covariance) {
+  gaussian.correct_faults(fault_of(signal), errors, covariance);
+  forget_faults();
 }
 
 void OdometryState::start_signal(VehicleSignal signal) {

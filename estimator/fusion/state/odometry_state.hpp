@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -108,6 +109,26 @@ class OdometryState {
   /// Index of one of the errors of the vehicle's signals; only with options().vehicle.is_used().
   [[nodiscard]] int vehicle_error(int which) const;
 
+  /// What the innovations since the last forget_faults() tell of offset, scale and delay of a
+  /// signal of the vehicle's bus, if the other signal is right.
+  struct FaultEvidence {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();  ///< Information times the faults.
+  };
+  [[nodiscard]] const FaultEvidence& fault_evidence(VehicleSignal signal) const {
+    return fault_evidence_[static_cast<std::size_t>(signal)];
+  }
+  /// A signal has errors with this mean and covariance, and is no longer used: corrects the state
+  /// by what it followed of them.
+  void correct_fault(VehicleSignal signal, const Eigen::Vector3d& errors,
+                     const Eigen::Matrix3d& covariance);
+  /// Index of the first of a signal's faults.
+  static int fault_of(VehicleSignal signal) { return 3 * static_cast<int>(signal); }
+  void forget_faults() {
+    gaussian.forget_faults();
+    fault_evidence_ = {};
+  }
+
   GaussianState gaussian;
 
  private:
@@ -135,6 +156,7 @@ class OdometryState {
   double mixture_variance_ = 0.0;  // Of the process of kMixture.
   bool is_skidding_ = false;
   double skid_variance_ = 0.0;  // Of the change of the slip, beyond its process.
+  std::array<FaultEvidence, kVehicleSignals> fault_evidence_;
   std::vector<Pose2> mounts_;
   std::vector<std::optional<std::int64_t>> heard_us_;  // By radar: its last scan.
   SharedPrior mount_yaw_;

@@ -19,10 +19,9 @@ using namespace state_layout;
 /// show a crawling vehicle as standing.
 constexpr double kFrozenSpeedMps = 0.5;
 constexpr double kFrozenYawRateRadps = 0.02;
-/// A learned error of more sigmas of its prior is not the sensor's: the factor or unit is wrong.
+/// Of learned errors. Beyond it the factor or unit is wrong.
 constexpr double kMaxErrorSigmas = 4.0;
-
-/// Of a fault: a manoeuvre in which it shows.
+/// The filter forgets faults after so long without a sign of one: a manoeuvre in which one shows.
 constexpr double kFaultS = 5.0;
 
 double frozen_change(VehicleSignal signal) {
@@ -73,7 +72,7 @@ void VehicleSignals::forget() {
     source.heard_us.reset();
     source.compared_us.reset();
   }
-  asked_since_us_.reset();
+  faults_since_us_.reset();
 }
 
 void VehicleSignals::restart_errors() {
@@ -111,7 +110,7 @@ void VehicleSignals::note_lost(std::int64_t stamp_us) {
 
 bool VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   note_lost(stamp_us);
-  ask_filter(stamp_us);
+  take_evidence(stamp_us);
   for (Source& source : sources_) {
     if (is_used(source.signal)) {
       watch(source, is_known);
@@ -131,10 +130,10 @@ bool VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   return is_one_wrong;
 }
 
-/// Hands what the filter's innovations tell to the checks: of faults that began when the filter last
-/// forgot them, which it does as long as there is no sign of one. What is known of a signal that is
-/// left out stays, since the filter does not follow it.
-void VehicleSignals::ask_filter(std::int64_t stamp_us) {
+/// Hands what the filter's innovations tell to the checks: of faults that began when the filter
+/// last forgot them, which it does as long as there is no sign of one. What is known of a signal
+/// that is left out stays, since the filter does not follow it.
+void VehicleSignals::take_evidence(std::int64_t stamp_us) {
   bool is_clear = true;
   for (Source& source : sources_) {
     if (!source.trust.is_left_out()) {
@@ -143,8 +142,8 @@ void VehicleSignals::ask_filter(std::int64_t stamp_us) {
       is_clear = is_clear && source.check.is_clear();
     }
   }
-  if (!asked_since_us_ || (is_clear && seconds_between(*asked_since_us_, stamp_us) > kFaultS)) {
-    asked_since_us_ = stamp_us;
+  if (!faults_since_us_ || (is_clear && seconds_between(*faults_since_us_, stamp_us) > kFaultS)) {
+    faults_since_us_ = stamp_us;
     state_.forget_faults();
   }
 }
@@ -214,7 +213,7 @@ bool VehicleSignals::judge(Source& source, const Innovation& innovation) {
       state_.update(innovation);
       ++source.used;
     }
-    if (!has_credible_errors(source.signal) || source.check.fault() != SignalFault::none) {
+    if (!has_credible_errors(source) || source.check.fault() != SignalFault::none) {
       source.trust.leave_out();
     }
   }
@@ -228,14 +227,14 @@ bool VehicleSignals::judge(Source& source, const Innovation& innovation) {
   return is_found_wrong;
 }
 
-bool VehicleSignals::has_credible_errors(VehicleSignal signal) const {
-  const VehicleOptions& options = state_.options().vehicle;
+/// Whether sensors and radars may have the learned errors of a signal.
+bool VehicleSignals::has_credible_errors(const Source& source) const {
+  const Eigen::Vector3d& tolerance = source.check.tolerance();
   const auto is_within = [&](int error, double std) {
     return std::abs(state_.gaussian.mean(state_.vehicle_error(error))) <= kMaxErrorSigmas * std;
   };
-  return is_within(scale_of(signal), options.of(signal).scale_std) &&
-         (signal == VehicleSignal::speed ||
-          is_within(kYawRateBias, options.yaw_rate_bias_std_radps));
+  return is_within(scale_of(source.signal), tolerance(1)) &&
+         (source.signal == VehicleSignal::speed || is_within(kYawRateBias, tolerance(0)));
 }
 
 VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {

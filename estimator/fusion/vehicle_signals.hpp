@@ -84,16 +84,16 @@ class VehicleSignals {
   [[nodiscard]] bool is_used(VehicleSignal signal) const;
   void watch(Source& source, bool is_known);
   Source* earliest();
-  void ask_filter(std::int64_t stamp_us);
+  void take_evidence(std::int64_t stamp_us);
   bool use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;
   bool judge(Source& source, const Innovation& innovation);
-  [[nodiscard]] bool has_credible_errors(VehicleSignal signal) const;
+  [[nodiscard]] bool has_credible_errors(const Source& source) const;
 
   OdometryState& state_;
   OdometryOutput& output_;
   std::array<Source, kVehicleSignals> sources_;
-  std::optional<std::int64_t> asked_since_us_;
+  std::optional<std::int64_t> faults_since_us_;
 };
 
 }  // namespace cremed

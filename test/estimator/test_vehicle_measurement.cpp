@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/fusion/measurement/vehicle_measurement.hpp"
@@ -74,6 +75,28 @@ TEST_CASE("a measurement is of the motion at its time, with scale and bias") {
   CHECK(residual(VehicleSignal::speed, 0.1, 8.12 * 1.013).norm() < 1e-12);
   CHECK(residual(VehicleSignal::yaw_rate, 0.0, 0.4 * 0.992 + 0.002).norm() < 1e-12);
   CHECK(residual(VehicleSignal::yaw_rate, 0.1, 0.37 * 0.992 + 0.002).norm() < 1e-12);
+}
+
+TEST_CASE("a fault of a signal is an offset, a scale or a delay of the motion beyond its noise") {
+  OdometryState state = turning_state(8.0);
+  const auto signal = GENERATE(VehicleSignal::speed, VehicleSignal::yaw_rate);
+  const bool is_speed = signal == VehicleSignal::speed;
+  const auto faults = [&] {
+    return VehicleMeasurement{state, signal, 0.0, 0.05}.linearise(0.5).by_faults;
+  };
+  for (const int i : {kSpeed, kAcceleration, kYawRate, kYawAcceleration}) {
+    state.gaussian.set(i, state.gaussian.mean(i), 0.01);
+  }
+  Eigen::Matrix<double, 3, 6> expected = Eigen::Matrix<double, 3, 6>::Zero();
+  expected.row(0).segment<3>(OdometryState::fault_of(signal)) =
+      is_speed ? Eigen::RowVector3d(1.0, 8.0, 1.2) : Eigen::RowVector3d(1.0, 0.4, -0.3);
+  CHECK((faults() - expected).norm() < 1e-12);
+
+  for (const int i : {kSpeed, kAcceleration, kYawRate, kYawAcceleration}) {
+    state.gaussian.set(i, 0.09, 0.01);
+  }
+  expected.row(0).segment<3>(OdometryState::fault_of(signal)) << 1.0, 0.0, 0.0;
+  CHECK(faults() == expected);
 }
 
 TEST_CASE("at standstill the speed says nothing of its scale") {

@@ -54,6 +54,8 @@ class SignalCheck {
   [[nodiscard]] Errors errors() const { return errors_by(minute_); }
   /// By what was last taken of the filter.
   [[nodiscard]] Errors errors_by_filter() const { return errors_by(filter_); }
+  /// Standard deviations of the errors that sensors and radars have anyway.
+  [[nodiscard]] const Eigen::Vector3d& tolerance() const { return tolerance_; }
   /// The filter shows no sign of a fault.
   [[nodiscard]] bool is_clear() const;
   /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for

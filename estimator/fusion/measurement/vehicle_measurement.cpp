@@ -10,6 +10,14 @@
 #include "cremed/estimator/scan/squared.hpp"
 
 namespace cremed {
+namespace {
+
+/// A motion within a sigma of zero is mostly noise, which is in the residual as well: a scale or
+/// delay of it explains that. With it healthy yaw rates were excluded 5 times in 15 minutes of
+/// simulated town.
+double beyond_noise(double rate, double std) { return std::abs(rate) > std ? rate : 0.0; }
+
+}  // namespace
 
 using namespace state_layout;
 
@@ -31,8 +39,8 @@ LinearMeasurement VehicleMeasurement::linearise(double value) const {
     result.depend_on(bias, 1.0);
   }
   // Offset, scale, delay.
-  result.by_faults.row(0).segment<3>(OdometryState::fault_of(signal)) << 1.0, motion,
-      -x.mean(rate + 1);
+  result.by_faults.row(0).segment<3>(OdometryState::fault_of(signal)) << 1.0,
+      beyond_noise(motion, x.std(rate)), -beyond_noise(x.mean(rate + 1), x.std(rate + 1));
   result.noise(0, 0) = variance(value);
   return result;
 }

@@ -216,7 +216,7 @@ void OdometryFilter::reject_jump(std::size_t radar, const SpeedJump::Jump& jump)
   condition_.doubt();
 }
 
-/// A radar or signal was found at fault: the pose since the anchor and the slip may have its error.
+/// A radar was found at fault: the pose since the anchor and the slip may have its error.
 /// Adds to their variance the difference of the state to `believed`, (v, w, slip) by the others.
 void OdometryFilter::add_error_of_motion(const Eigen::Vector3d& believed) {
   GaussianState& state = state_.gaussian;
@@ -232,6 +232,7 @@ void OdometryFilter::add_error_of_motion(const Eigen::Vector3d& believed) {
       kY, squared(believed.x() * since_s) * (squared(slip_rad) + squared(0.5 * turn_rad)));
   state.add_variance(kYaw, squared(turn_rad));
   state.add_variance(kSlip, squared(slip_rad));
+  state_.forget_faults();
 }
 
 /// If the state is far from `believed` it followed a radar at fault, and so did the errors of the

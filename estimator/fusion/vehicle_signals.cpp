@@ -21,8 +21,10 @@ constexpr double kFrozenSpeedMps = 0.5;
 constexpr double kFrozenYawRateRadps = 0.02;
 /// Of learned errors. Beyond it the factor or unit is wrong.
 constexpr double kMaxErrorSigmas = 4.0;
-/// The filter forgets faults after so long without a sign of one: a manoeuvre in which one shows.
+/// So long the filter looks for a fault that began at one time: a manoeuvre in which it shows; if
+/// there is a sign of one, several.
 constexpr double kFaultS = 5.0;
+constexpr double kLongestFaultS = 30.0;
 
 double frozen_change(VehicleSignal signal) {
   return signal == VehicleSignal::speed ? kFrozenSpeedMps : kFrozenYawRateRadps;
@@ -72,7 +74,6 @@ void VehicleSignals::forget() {
     source.heard_us.reset();
     source.compared_us.reset();
   }
-  faults_since_us_.reset();
 }
 
 void VehicleSignals::restart_errors() {
@@ -110,10 +111,10 @@ void VehicleSignals::note_lost(std::int64_t stamp_us) {
 
 bool VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   note_lost(stamp_us);
-  take_evidence(stamp_us);
   for (Source& source : sources_) {
     if (is_used(source.signal)) {
       watch(source, is_known);
+      look_anew(source);
     }
   }
   bool is_one_wrong = false;
@@ -130,21 +131,12 @@ bool VehicleSignals::use_until(std::int64_t stamp_us, bool is_known) {
   return is_one_wrong;
 }
 
-/// Hands what the filter's innovations tell to the checks: of faults that began when the filter
-/// last forgot them, which it does as long as there is no sign of one. What is known of a signal
-/// that is left out stays, since the filter does not follow it.
-void VehicleSignals::take_evidence(std::int64_t stamp_us) {
-  bool is_clear = true;
-  for (Source& source : sources_) {
-    if (!source.trust.is_left_out()) {
-      const OdometryState::FaultEvidence& evidence = state_.fault_evidence(source.signal);
-      source.check.take(evidence.information, evidence.weighted);
-      is_clear = is_clear && source.check.is_clear();
-    }
-  }
-  if (!faults_since_us_ || (is_clear && seconds_between(*faults_since_us_, stamp_us) > kFaultS)) {
-    faults_since_us_ = stamp_us;
-    state_.forget_faults();
+/// Looks for a fault that begins now, if there is no sign of an earlier one.
+void VehicleSignals::look_anew(const Source& source) {
+  const double since_s =
+      seconds_between(state_.fault_evidence(source.signal).since_us, state_.time_us());
+  if (since_s > (source.check.is_clear_by_filter() ? kFaultS : kLongestFaultS)) {
+    state_.forget_faults(source.signal);
   }
 }
 
@@ -207,24 +199,35 @@ bool VehicleSignals::judge(Source& source, const Innovation& innovation) {
   const bool is_expected = innovation.nis <= state_.options().vehicle.max_nis &&
                            !(was_left_out && source.check.is_refuted_by_radars());
   source.trust.judge(is_expected);
-  if (!was_left_out && !source.trust.is_left_out()) {
+  if (was_left_out) {
+    return false;
+  }
+  if (!source.trust.is_left_out()) {
     source.noise.add(innovation.nis);
     if (is_expected) {
       state_.update(innovation);
       ++source.used;
     }
+    const OdometryState::FaultEvidence& evidence = state_.fault_evidence(source.signal);
+    source.check.take(evidence.information, evidence.weighted);
     if (!has_credible_errors(source) || source.check.fault() != SignalFault::none) {
       source.trust.leave_out();
     }
   }
-  const bool is_found_wrong = !was_left_out && source.trust.is_left_out();
-  if (is_found_wrong) {
-    const auto [errors, covariance] = source.check.errors_by_filter();
-    state_.correct_fault(source.signal, errors, covariance);
-    state_.start_signal(source.signal);
-    source.noise.clear();
+  if (source.trust.is_left_out()) {
+    leave_out(source);
   }
-  return is_found_wrong;
+  return source.trust.is_left_out();
+}
+
+/// Corrects the state by what it followed. What was found stays for the report.
+void VehicleSignals::leave_out(Source& source) {
+  const SignalCheck::Finding found = source.check.find();
+  const SignalCheck::Errors errors =
+      found.fault == SignalFault::none ? source.check.errors_by_filter() : found.errors;
+  state_.correct_fault(source.signal, errors.value, errors.covariance);
+  state_.start_signal(source.signal);
+  source.noise.clear();
 }
 
 /// Whether sensors and radars may have the learned errors of a signal.
@@ -264,9 +267,9 @@ VehicleSignalReport VehicleSignals::report(VehicleSignal signal) const {
   }
   const SignalCheck::Finding found = source.check.find();
   report.fault = found.fault;
-  report.seen_offset = found.errors(0);
-  report.seen_scale = found.errors(1);
-  report.seen_delay_s = found.errors(2);
+  report.seen_offset = found.errors.value(0);
+  report.seen_scale = found.errors.value(1);
+  report.seen_delay_s = found.errors.value(2);
   return report;
 }
 

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <Eigen/Core>
-
 #include "cremed/can_decoders/vehicle_reading.hpp"
 #include "cremed/estimator/doubt/radar/nis_mean.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
@@ -26,9 +24,9 @@ namespace cremed {
 
 /// Speed and yaw rate of the vehicle's bus as measurements of the filter's state
 /// (VehicleMeasurement), each with a gate. A signal is left out, and does not change the state, if
-/// it repeatedly contradicts the filter, if its learned errors exceed any sensor's, or if
-/// SignalCheck finds a fault. A value that repeats (StandingValue) is not used. A signal that is
-/// frozen or lost is reported.
+/// it repeatedly contradicts the filter, if its learned errors exceed those of sensors and radars,
+/// or if SignalCheck finds a fault. A value that repeats (StandingValue) is not used. A signal that
+/// is frozen or lost is reported.
 class VehicleSignals {
  public:
   /// Both must outlive this object.
@@ -84,16 +82,16 @@ class VehicleSignals {
   [[nodiscard]] bool is_used(VehicleSignal signal) const;
   void watch(Source& source, bool is_known);
   Source* earliest();
-  void take_evidence(std::int64_t stamp_us);
+  void look_anew(const Source& source);
   bool use(Source& source, const SignalTrack::Value& value);
   [[nodiscard]] double unverified_variance(const Source& source, double value) const;
   bool judge(Source& source, const Innovation& innovation);
+  void leave_out(Source& source);
   [[nodiscard]] bool has_credible_errors(const Source& source) const;
 
   OdometryState& state_;
   OdometryOutput& output_;
   std::array<Source, kVehicleSignals> sources_;
-  std::optional<std::int64_t> faults_since_us_;
 };
 
 }  // namespace cremed

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/radar/self_check.hpp"
+#include "cremed/estimator/fusion/state/gaussian_state.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 #include "test/estimator/allocation_guard.hpp"
 #include "test/estimator/drawn_vehicle.hpp"
@@ -269,6 +270,31 @@ TEST_CASE("self-check does not allocate with any kind of motion") {
   CHECK(count == 0);
   CHECK(check->doubts() != 0);
   CHECK(count_allocations([&] { check->forget(); }) == 0);
+}
+
+TEST_CASE("a state with faults does not allocate") {
+  GaussianState state(Innovation::kMaxStates, true);
+  for (int i = 0; i < state.size(); ++i) {
+    state.set(i, 0.0, 1.0);
+  }
+  LinearMeasurement measurement;
+  measurement.residual.x() = 1.0;
+  measurement.depend_on(0, 1.0);
+  measurement.by_faults(0, 3) = 1.0;
+  CHECK(
+      count_allocations([&] {
+        for (int i = 0; i < 3; ++i) {
+          state.update(state.innovate(measurement), {});
+          state.transform<2>({1.0, 2.0}, Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity());
+          state.clone<2>(4, Eigen::Vector3d::Ones(), Eigen::Matrix<double, 3, 2>::Ones(),
+                         Eigen::Matrix3d::Zero());
+          state.copy(4, 8);
+          state.transform_pose(4, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
+                               Eigen::Matrix3d::Identity());
+          state.correct_faults(3, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
+          state.forget_faults(3);
+        }
+      }) == 0);
 }
 
 TEST_CASE("the odometry filter does not allocate with any kind of scan") {

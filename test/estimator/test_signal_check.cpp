@@ -75,15 +75,15 @@ TEST_CASE("a sound signal has no fault, whatever the radar errs by for seconds")
 TEST_CASE("a wrong scale, delay and offset are named, and how large they are") {
   const SignalCheck scaled = after(60.0, {.scale = 1.15}, 0.005);
   CHECK(scaled.fault() == SignalFault::scale);
-  CHECK(scaled.errors().value(1) == Approx(0.15).margin(0.03));
+  CHECK(scaled.errors_by_radars().value(1) == Approx(0.15).margin(0.03));
 
   const SignalCheck late = after(60.0, {.delay_s = 0.3}, 0.005);
   CHECK(late.fault() == SignalFault::delay);
-  CHECK(late.errors().value(2) == Approx(0.3).margin(0.05));
+  CHECK(late.errors_by_radars().value(2) == Approx(0.3).margin(0.05));
 
   const SignalCheck off = after(30.0, {.offset = 0.05}, 0.005);
   CHECK(off.fault() == SignalFault::offset);
-  CHECK(off.errors().value(0) == Approx(0.05).margin(0.01));
+  CHECK(off.errors_by_radars().value(0) == Approx(0.05).margin(0.01));
 
   CHECK(after(60.0, {.scale = -1.0}).fault() == SignalFault::scale);  // Its sign is wrong.
 }
@@ -99,12 +99,12 @@ TEST_CASE("what the innovations of the filter tell is a fault as well, until it 
   CHECK(check.fault() == SignalFault::none);
   tell(0.005);
   CHECK(check.fault() == SignalFault::offset);
-  CHECK(check.find().errors(0) == Approx(0.04).margin(0.002));
-  CHECK_FALSE(check.is_clear());
+  CHECK(check.find().errors.value(0) == Approx(0.04).margin(0.002));
+  CHECK_FALSE(check.is_clear_by_filter());
   CHECK_FALSE(check.is_refuted_by_radars());
   check.take(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero());
   CHECK(check.fault() == SignalFault::none);
-  CHECK(check.is_clear());
+  CHECK(check.is_clear_by_filter());
 }
 
 TEST_CASE("on a straight road an offset is a fault, though it may be one of scale") {
@@ -123,8 +123,8 @@ TEST_CASE("on a straight road nothing is known of scale and delay") {
     check.add(i * 75'000, 0.0);
     check.compare((i - 2) * 75'000, (i - 1) * 75'000, 0.0, 4e-4);
   }
-  CHECK(check.errors().covariance(1, 1) == Approx(1.0).epsilon(0.01));
-  CHECK(check.errors().covariance(2, 2) == Approx(1.0).epsilon(0.01));
+  CHECK(check.errors_by_radars().covariance(1, 1) == Approx(1.0).epsilon(0.01));
+  CHECK(check.errors_by_radars().covariance(2, 2) == Approx(1.0).epsilon(0.01));
   CHECK(check.fault() == SignalFault::none);
 }
 
@@ -134,9 +134,9 @@ TEST_CASE("scans that waited and came within milliseconds are compared like othe
     check.add(10'000 * i, 5.0);
   }
   check.compare(50'000, 125'000, 5.0, 0.01);
-  const double before = check.errors().covariance(1, 1);
+  const double before = check.errors_by_radars().covariance(1, 1);
   check.compare(125'000, 128'000, 5.0, 0.01);
-  CHECK(check.errors().covariance(1, 1) < before);
+  CHECK(check.errors_by_radars().covariance(1, 1) < before);
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ TEST_CASE("Two sensors that are set alike are told by how often their id reports
 
 TEST_CASE("A report that comes late is not of a second sensor") {
   constexpr std::int64_t kSecondUs = 1'000'000;
-  const auto late_us = GENERATE(0, 300'000, 450'000);
+  const auto late_us = GENERATE(300'000, 450'000);
   const auto second = GENERATE(range(0, 6));
   Ars408States states;
   for (int i = 0; i < 7; ++i) {

@@ -39,8 +39,8 @@ class FakeArs408(threading.Thread):
         while not self.ended.is_set():
             with contextlib.suppress(OSError):  # No frame, or the interface is down.
                 if time.monotonic() >= due_s:
-                    self.socket.send(pack(0x201 + 0x10 * self.sensor_id, self.state()))
                     due_s = time.monotonic() + 1  # A late one is not made up for by a second.
+                    self.socket.send(pack(0x201 + 0x10 * self.sensor_id, self.state()))
                 self.socket.settimeout(max(0.01, due_s - time.monotonic()))
                 identifier, length, data = struct.unpack("=IB3x8s", self.socket.recv(16))
                 self.hear(identifier, data[:length])

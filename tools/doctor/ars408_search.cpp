@@ -113,7 +113,7 @@ void note_state(const CanFrame& frame, Ars408States& states) {
   }
   Ars408Reports& reports = states[sensor];
   if (reports.state) {
-    if (reports.stamp_before_us) {
+    if (reports.stamp_before_us && *reports.stamp_before_us <= frame.stamp_us) {
       const std::int64_t three_us = frame.stamp_us - *reports.stamp_before_us;
       reports.shortest_three_us = std::min(reports.shortest_three_us.value_or(three_us), three_us);
     }

@@ -17,7 +17,7 @@ namespace cremed {
 struct Ars408Reports {
   std::optional<Ars408RadarState> state;  ///< The latest.
   bool is_changing = false;               ///< The settings changed between two of them.
-  /// From the first to the last of three: of two, the first may have come late.
+  /// From the first to the last of three: of two, the first may have come late (by 0.5 s).
   std::optional<std::int64_t> shortest_three_us;
   std::int64_t stamp_us = 0;                    ///< Of the latest.
   std::optional<std::int64_t> stamp_before_us;  ///< Of the one before it.

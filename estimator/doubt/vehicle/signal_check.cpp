@@ -29,7 +29,7 @@ constexpr double kSpeedScaleStd = 0.005;
 constexpr double kYawRateOffsetStdRadps = 0.0015;
 /// Chi-square of three errors, false-alarm rate as of 3 sigma of one.
 constexpr double kMaxChiSquare = 14.2;
-/// Less than the mean of three errors and a sigma.
+/// Below it there is no sign of a fault: a chi-square of three is larger by chance in 26 %.
 constexpr double kClearChiSquare = 4.0;
 /// Error of a radar's motions that lasts for seconds: on straights its yaw walks by 0.1 to 0.35
 /// degrees each second (nuScenes). Without this noise it is taken for a scale of the signal where
@@ -112,7 +112,7 @@ void SignalCheck::take(const Eigen::Matrix3d& information, const Eigen::Vector3d
   filter_ = {prior_ + information, weighted};
 }
 
-bool SignalCheck::is_clear() const { return chi_square_by(filter_) < kClearChiSquare; }
+bool SignalCheck::is_clear_by_filter() const { return chi_square_by(filter_) < kClearChiSquare; }
 
 SignalCheck::Errors SignalCheck::errors_by(const Evidence& evidence) {
   const Eigen::Matrix3d covariance = evidence.information.inverse();
@@ -143,7 +143,7 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
   const double std = std::sqrt(
       variance + squared(radar_error_.std) * std::max(1.0, 2.0 * radar_error_.time_s / interval_s));
   const double difference = mean - rate;
-  const double error = std::abs(difference - by.dot(errors().value)) / std;
+  const double error = std::abs(difference - by.dot(errors_by_radars().value)) / std;
   const double weight = std::min(1.0, kOutlierSigmas / std::max(error, 1e-9)) / squared(std);
   const double kept = std::exp(-std::max(passed_s, 0.0) / kMinuteS);
   minute_.information =
@@ -152,7 +152,7 @@ void SignalCheck::compare(std::int64_t start_us, std::int64_t end_us, double rat
 }
 
 Eigen::Vector3d SignalCheck::unverified_std() const {
-  return (errors().covariance.diagonal().cwiseSqrt() - tolerance_).cwiseMax(0.0);
+  return (errors_by_radars().covariance.diagonal().cwiseSqrt() - tolerance_).cwiseMax(0.0);
 }
 
 SignalCheck::Finding SignalCheck::find() const {
@@ -161,20 +161,20 @@ SignalCheck::Finding SignalCheck::find() const {
       return *fault;
     }
   }
-  return {SignalFault::none, errors().value};
+  return {SignalFault::none, errors_by_radars()};
 }
 
 std::optional<SignalCheck::Finding> SignalCheck::fault_by(const Evidence& evidence) const {
   if (chi_square_by(evidence) <= kMaxChiSquare) {
     return std::nullopt;
   }
-  const auto [value, covariance] = errors_by(evidence);
-  const Eigen::Vector3d variance = covariance.diagonal() + tolerance_.cwiseAbs2();
+  const Errors errors = errors_by(evidence);
+  const Eigen::Vector3d variance = errors.covariance.diagonal() + tolerance_.cwiseAbs2();
   Eigen::Index largest = 0;
-  value.cwiseAbs2().cwiseQuotient(variance).maxCoeff(&largest);
+  errors.value.cwiseAbs2().cwiseQuotient(variance).maxCoeff(&largest);
   constexpr std::array<SignalFault, 3> kFaults{SignalFault::offset, SignalFault::scale,
                                                SignalFault::delay};
-  return Finding{kFaults[static_cast<std::size_t>(largest)], value};
+  return Finding{kFaults[static_cast<std::size_t>(largest)], errors};
 }
 
 }  // namespace cremed

@@ -18,16 +18,14 @@ namespace cremed {
 /// What is wrong with a signal of the vehicle's bus: h offset, g scale and tau delay by least
 /// squares. They are a fault if they differ from 0 by more than their uncertainty together with
 /// those of sensors and radars explains: all three at once, since on a straight road offset and
-/// scale are one. There are two kinds of evidence:
+/// scale are one. Two kinds of evidence are judged by themselves:
 ///
-/// The radars' own motions from scan to scan of the last minute. Unlike the filter these do not
-/// follow a wrong yaw rate. Over a motion of rate w (a speed or yaw rate) and its change c, the
-/// mean of the readings errs by
-///
-///     z - w = h + g z - tau c + noise
-///
-/// The filter's innovations, if its state follows such an error since a few seconds
-/// (GaussianState): the maps know the yaw ten times as well as motions from scan to scan do.
+/// - The radars' own motions from scan to scan of the last minute. Unlike the filter these do not
+///   follow a wrong yaw rate. Over a motion of rate w (a speed or yaw rate) and its change c, the
+///   mean of the readings errs by z - w = h + g z - tau c + noise.
+/// - The filter's innovations, if its state follows such an error (GaussianState): maps know the
+/// yaw
+///   ten times as well as motions from scan to scan do.
 class SignalCheck {
  public:
   SignalCheck(VehicleSignal signal, const VehicleOptions& options);
@@ -50,20 +48,20 @@ class SignalCheck {
     Eigen::Vector3d value;  ///< h, g, tau
     Eigen::Matrix3d covariance;
   };
-  /// By the radars' motions. Zero and wide before the first comparisons.
-  [[nodiscard]] Errors errors() const { return errors_by(minute_); }
-  /// By what was last taken of the filter.
+  /// Zero and wide before the first comparisons.
+  [[nodiscard]] Errors errors_by_radars() const { return errors_by(minute_); }
+  /// By what was last taken.
   [[nodiscard]] Errors errors_by_filter() const { return errors_by(filter_); }
   /// Standard deviations of the errors that sensors and radars have anyway.
   [[nodiscard]] const Eigen::Vector3d& tolerance() const { return tolerance_; }
   /// The filter shows no sign of a fault.
-  [[nodiscard]] bool is_clear() const;
+  [[nodiscard]] bool is_clear_by_filter() const;
   /// By how much the uncertainty of each error exceeds what sensors and radars have anyway: 0 for
   /// one that is known to be right.
   [[nodiscard]] Eigen::Vector3d unverified_std() const;
   struct Finding {
     SignalFault fault = SignalFault::none;  ///< The largest of the errors, in sigmas.
-    Eigen::Vector3d errors = Eigen::Vector3d::Zero();
+    Errors errors;                          ///< By the evidence that shows it.
   };
   [[nodiscard]] Finding find() const;
   /// The radars' motions alone show a fault.

@@ -17,7 +17,7 @@ class SignalTrust {
 
   /// Records whether a measurement is as the filter expects.
   void judge(bool is_expected);
-  /// Its learned errors are larger than any sensor's.
+  /// Its errors are larger than sensors and radars have them.
   void leave_out();
 
   [[nodiscard]] bool is_left_out() const { return is_left_out_; }

@@ -32,10 +32,9 @@ struct Innovation {
 /// operation keeps the covariance exactly symmetric and costs O(n), an update O(n^2). Only the
 /// constructor allocates.
 ///
-/// Optionally with the derivative of the mean by faults of some measurements, which the
-/// state does not contain: constant errors of z since the last forget_faults(). By them the
-/// innovations tell whether there is such a fault (generalised likelihood ratio; Willsky and Jones,
-/// IEEE Trans. Automatic Control 1976).
+/// Optionally with the derivative of the mean by faults, which are no states: constant errors of
+/// some measurements since forget_faults(). By it the innovations tell whether there is such a
+/// fault (generalised likelihood ratio; Willsky and Jones, IEEE Trans. Automatic Control 1976).
 class GaussianState {
  public:
   /// At most Innovation::kMaxStates, otherwise std::length_error.
@@ -87,8 +86,8 @@ class GaussianState {
   [[nodiscard]] const ByFaults& by_faults() const { return by_faults_; }
   /// Three faults from `first` on have this mean and covariance: corrects the state by them.
   void correct_faults(int first, const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
-  /// The mean does not depend on faults before now.
-  void forget_faults() { by_faults_.setZero(); }
+  /// Takes the mean as free of three faults from `first` on until now.
+  void forget_faults(int first) { by_faults_.middleCols<3>(first).setZero(); }
 
   [[nodiscard]] Innovation innovate(const LinearMeasurement& measurement) const;
   /// A consider parameter (Schmidt-Kalman): components of a measurement from `from` on count its

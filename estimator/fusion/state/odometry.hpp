@@ -134,7 +134,7 @@ struct VehicleSignalReport {
   double scale_std = 0.0;
   double bias_radps = 0.0;  ///< Of the yaw rate.
   double bias_std_radps = 0.0;
-  /// By the radars' motions alone (SignalCheck): which error is a fault, and the errors.
+  /// Which error is a fault (SignalCheck), and the errors.
   SignalFault fault = SignalFault::none;
   double seen_offset = 0.0;  ///< m/s or rad/s
   double seen_scale = 0.0;

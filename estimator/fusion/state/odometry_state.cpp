@@ -236,6 +236,7 @@ void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matr
   gaussian.set(kYawAcceleration, 0.0, squared(options_.yaw_acceleration.std));
   gaussian.add_covariance(kSpeed, kYawRate, covariance(0, 1));
   gaussian.add_covariance(kYawRate, kSpeed, covariance(1, 0));
+  forget_faults();
 }
 
 void OdometryState::widen_errors(std::size_t radar) {
@@ -246,6 +247,7 @@ void OdometryState::widen_errors(std::size_t radar) {
       start(error);
     }
   }
+  forget_faults();
 }
 
 void OdometryState::widen_scale(std::size_t radar, double std) {
@@ -362,7 +364,21 @@ double OdometryState::skid_variance() const {
 void OdometryState::correct_fault(VehicleSignal signal, const Eigen::Vector3d& errors,
                                   const Eigen::Matrix3d& covariance) {
   gaussian.correct_faults(fault_of(signal), errors, covariance);
-  forget_faults();
+  // The evidence of the other signal took this one for right.
+  fault_evidence_.fill({.since_us = time_us_});
+  forget_faults(signal);
+}
+
+void OdometryState::forget_faults(VehicleSignal signal) {
+  if (options_.vehicle.is_used()) {
+    gaussian.forget_faults(fault_of(signal));
+    fault_evidence_[static_cast<std::size_t>(signal)] = {.since_us = time_us_};
+  }
+}
+
+void OdometryState::forget_faults() {
+  forget_faults(VehicleSignal::speed);
+  forget_faults(VehicleSignal::yaw_rate);
 }
 
 void OdometryState::start_signal(VehicleSignal signal) {

@@ -109,11 +109,12 @@ class OdometryState {
   /// Index of one of the errors of the vehicle's signals; only with options().vehicle.is_used().
   [[nodiscard]] int vehicle_error(int which) const;
 
-  /// What the innovations since the last forget_faults() tell of offset, scale and delay of a
-  /// signal of the vehicle's bus, if the other signal is right.
+  /// What the innovations since forget_faults() tell of offset, scale and delay of a signal of the
+  /// vehicle's bus, if the other signal is right.
   struct FaultEvidence {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d weighted = Eigen::Vector3d::Zero();  ///< Information times the faults.
+    std::int64_t since_us = 0;
   };
   [[nodiscard]] const FaultEvidence& fault_evidence(VehicleSignal signal) const {
     return fault_evidence_[static_cast<std::size_t>(signal)];
@@ -124,10 +125,10 @@ class OdometryState {
                      const Eigen::Matrix3d& covariance);
   /// Index of the first of a signal's faults.
   static int fault_of(VehicleSignal signal) { return 3 * static_cast<int>(signal); }
-  void forget_faults() {
-    gaussian.forget_faults();
-    fault_evidence_ = {};
-  }
+  /// From now on looks for faults that begin now. To be called when the state may have followed
+  /// anything else that was wrong.
+  void forget_faults();
+  void forget_faults(VehicleSignal signal);
 
   GaussianState gaussian;
 

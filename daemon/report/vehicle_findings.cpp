@@ -3,7 +3,9 @@
 #include "daemon/report/vehicle_findings.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <string>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -17,13 +19,27 @@ std::string times_text(bool is_present, int times) {
   return is_present ? "" : fmt::format(" for a while, {} time{}", times, times == 1 ? "" : "s");
 }
 
-/// What the radars see wrong with it: ", it is 10.2 % too large".
+/// `seen`: share of the reading that is wrong.
+std::string scale_text(double seen) {
+  const double right = 1.0 - seen;
+  if (right < 0.0) {
+    return ": its sign is wrong";
+  }
+  // Beyond a factor of ten the unit is wrong, and the share tells it no better than that.
+  if (right < 0.1) {
+    return ": it is more than ten times too large";
+  }
+  const double percent = 100.0 * seen / right;
+  return fmt::format(": it is {:.1f} % too {}", std::abs(percent),
+                     percent > 0.0 ? "large" : "small");
+}
+
+/// What the radars see wrong with it: ": it is 10.2 % too large".
 std::string fault_text(VehicleSignal signal, const VehicleSignalReport& report) {
   const bool is_speed = signal == VehicleSignal::speed;
   switch (report.fault) {
     case SignalFault::scale:
-      return fmt::format(": it is {:.1f} % too {}", 100.0 * std::abs(report.seen_scale),
-                         report.seen_scale > 0.0 ? "large" : "small");
+      return scale_text(report.seen_scale);
     case SignalFault::delay:
       return fmt::format(": it comes {:.2f} s {} than configured", std::abs(report.seen_delay_s),
                          report.seen_delay_s > 0.0 ? "later" : "earlier");

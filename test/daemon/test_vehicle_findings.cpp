@@ -77,11 +77,17 @@ TEST_CASE("a frozen signal and one that contradicts are named, with what the rad
   const std::string head = "excluded from the odometry: 0x301 contradicts the radars";
   CHECK(only_finding(status) == head + " (normalised innovation squared 20.0, 1 expected)");
   CHECK(signal_state(status) == SignalState::excluded);
-  status.odometry.seen_scale = 0.1;
+  status.odometry.seen_scale = 0.2;
   status.odometry.seen_delay_s = 0.3;
   status.odometry.seen_offset = 0.017453;
   status.odometry.fault = SignalFault::scale;
-  CHECK(only_finding(status) == head + ": it is 10.0 % too large");
+  CHECK(only_finding(status) == head + ": it is 25.0 % too large");
+  status.odometry.seen_scale = -0.25;
+  CHECK(only_finding(status) == head + ": it is 20.0 % too small");
+  status.odometry.seen_scale = 1.0 - 1.0 / 57.3;  // A yaw rate in degrees, taken for radians.
+  CHECK(only_finding(status) == head + ": it is more than ten times too large");
+  status.odometry.seen_scale = 2.0;
+  CHECK(only_finding(status) == head + ": its sign is wrong");
   status.odometry.fault = SignalFault::delay;
   CHECK(only_finding(status) == head + ": it comes 0.30 s later than configured");
   status.odometry.fault = SignalFault::offset;

@@ -240,7 +240,7 @@ TEST_CASE("A speed that is 10 % too large is excluded and named", "[long]") {
   const VehicleOutcome outcome = run_with(simulated, scaled(simulated.frames, kSpeedId, 1.1));
   CHECK(signal_state(outcome.speed) == SignalState::excluded);
   CHECK(outcome.speed.odometry.fault == SignalFault::scale);
-  CHECK(outcome.speed.odometry.seen_scale == Approx(0.1).margin(0.015));
+  CHECK(outcome.speed.odometry.seen_scale == Approx(0.091).margin(0.015));
   CHECK(signal_state(outcome.yaw_rate) == SignalState::ok);
   check_credible(outcome, simulated);
   CHECK(errors_of(outcome, simulated).path < errors_of(run_without(simulated), simulated).path);
@@ -252,7 +252,7 @@ TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the fir
   const VehicleOutcome outcome = run_with(simulated, scaled(simulated.frames, kYawRateId, 1.1));
   CHECK(signal_state(outcome.yaw_rate) == SignalState::excluded);
   CHECK(outcome.yaw_rate.odometry.fault == SignalFault::scale);
-  CHECK(outcome.yaw_rate.odometry.seen_scale == Approx(0.1).margin(0.03));
+  CHECK(outcome.yaw_rate.odometry.seen_scale == Approx(0.091).margin(0.03));
   CHECK(signal_state(outcome.speed) == SignalState::ok);
   check_credible(outcome, simulated, begin_us(simulated) + 45'000'000);
 }

@@ -136,8 +136,8 @@ struct VehicleSignalReport {
   double bias_std_radps = 0.0;
   /// Which error is a fault (SignalCheck), and the errors.
   SignalFault fault = SignalFault::none;
-  double seen_offset = 0.0;  ///< m/s or rad/s
-  double seen_scale = 0.0;
+  double seen_offset = 0.0;   ///< m/s or rad/s
+  double seen_scale = 0.0;    ///< Share of the reading: 1 - (true value) / reading.
   double seen_delay_s = 0.0;  ///< Beyond the configured one.
 };
 

@@ -24,8 +24,7 @@ namespace cremed {
 ///   follow a wrong yaw rate. Over a motion of rate w (a speed or yaw rate) and its change c, the
 ///   mean of the readings errs by z - w = h + g z - tau c + noise.
 /// - The filter's innovations, if its state follows such an error (GaussianState): maps know the
-/// yaw
-///   ten times as well as motions from scan to scan do.
+///   yaw ten times as well as motions from scan to scan do.
 class SignalCheck {
  public:
   SignalCheck(VehicleSignal signal, const VehicleOptions& options);

@@ -31,7 +31,7 @@ TEST_CASE("An interface is followed up and down, and one that is absent is no er
   LinkWatch links;
   CHECK(links.link("lo").index == ::if_nametoindex("lo"));
   CHECK(links.link("lo").is_up);
-  for (const bool is_up : {false, true, false}) {
+  for (const bool is_up : {false, true, false, true}) {  // Later cases use it.
     REQUIRE(set_up("lo", is_up));
     CHECK(links.link("lo").is_up != is_up);  // Not before it is asked.
     links.update();

@@ -87,7 +87,7 @@ TEST_CASE("a fault of a signal is an offset, a scale or a delay of the motion be
   for (const int i : {kSpeed, kAcceleration, kYawRate, kYawAcceleration}) {
     state.gaussian.set(i, state.gaussian.mean(i), 0.01);
   }
-  Eigen::Matrix<double, 3, 6> expected = Eigen::Matrix<double, 3, 6>::Zero();
+  LinearMeasurement::ByFaults expected = LinearMeasurement::ByFaults::Zero();
   expected.row(0).segment<3>(OdometryState::fault_of(signal)) =
       is_speed ? Eigen::RowVector3d(1.0, 8.0, 1.2) : Eigen::RowVector3d(1.0, 0.4, -0.3);
   CHECK((faults() - expected).norm() < 0.05);

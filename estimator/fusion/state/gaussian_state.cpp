@@ -107,9 +107,9 @@ Innovation GaussianState::innovate(const LinearMeasurement& measurement) const {
 }
 
 /// Derivative of the measurement's residual z - h(x) by the faults.
-Eigen::Matrix<double, 3, LinearMeasurement::kFaults> GaussianState::residual_by_faults(
+LinearMeasurement::ByFaults GaussianState::residual_by_faults(
     const LinearMeasurement& measurement) const {
-  Eigen::Matrix<double, 3, LinearMeasurement::kFaults> by_faults = measurement.by_faults;
+  LinearMeasurement::ByFaults by_faults = measurement.by_faults;
   for (Eigen::Index fault = 0; fault < by_faults_.cols(); ++fault) {
     for (int k = 0; k < measurement.states; ++k) {
       const auto i = static_cast<std::size_t>(k);

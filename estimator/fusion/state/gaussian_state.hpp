@@ -25,7 +25,7 @@ struct Innovation {
   Eigen::Vector3d whitened;        ///< L^-1 residual, with the innovation's covariance S = L L'.
   Gain gain;                       ///< P H' L'^-1: the update adds gain whitened.
   /// Derivative of `whitened` by the faults; zero if there are none.
-  Eigen::Matrix<double, kNumbers, LinearMeasurement::kFaults> whitened_by_faults;
+  LinearMeasurement::ByFaults whitened_by_faults;
 };
 
 /// Mean and covariance of a state of fixed size, with the operations of a Kalman filter. Every
@@ -100,7 +100,7 @@ class GaussianState {
   void update(const Innovation& innovation, std::span<const Considered> considered);
 
  private:
-  [[nodiscard]] Eigen::Matrix<double, 3, LinearMeasurement::kFaults> residual_by_faults(
+  [[nodiscard]] LinearMeasurement::ByFaults residual_by_faults(
       const LinearMeasurement& measurement) const;
 
   Eigen::VectorXd mean_;

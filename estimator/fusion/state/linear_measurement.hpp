@@ -15,11 +15,12 @@ struct LinearMeasurement {
   static constexpr int kMaxStates = 80;
   static constexpr int kFaults = 6;
   using Column = Eigen::Vector3d;
+  using ByFaults = Eigen::Matrix<double, 3, kFaults>;
 
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Identity();  ///< Covariance of z.
   /// Derivative of z by the faults of GaussianState.
-  Eigen::Matrix<double, 3, kFaults> by_faults = Eigen::Matrix<double, 3, kFaults>::Zero();
+  ByFaults by_faults = ByFaults::Zero();
   int states = 0;
   std::array<int, kMaxStates> state{};        ///< Indices of the states.
   std::array<Column, kMaxStates> jacobian{};  ///< Column of dh/dx by each.

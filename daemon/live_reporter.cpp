@@ -202,7 +202,7 @@ std::string LiveReporter::report_radar(std::size_t radar) {
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});
   });
-  report_left_out(radar, status);
+  report_fault(radar, status);
   return fmt::format("{}: {} scans/s, {} estimates/s", configuration.name, scans, estimates);
 }
 
@@ -234,18 +234,18 @@ std::string LiveReporter::report_vehicle(VehicleSignal signal) {
   return concat({name, ": ", to_string(state)});
 }
 
-void LiveReporter::report_left_out(std::size_t radar, const RadarStatus& status) {
+void LiveReporter::report_fault(std::size_t radar, const RadarStatus& status) {
   const RadarConfiguration& configuration = configuration_.radars[radar];
   FaultCause& cause = progress_[radar].cause;
   if (!status.odometry.is_left_out || status.odometry.cause.kind != FaultKind::unknown) {
     cause = status.odometry.cause;
   }
-  log_.update(concat({configuration.name, " in the odometry"}),
-              status.odometry.is_left_out ? 1 + static_cast<int>(cause.kind) : 0, [&] {
-                RadarStatus named = status;
-                named.odometry.cause = cause;
-                return to_text(left_out_finding(configuration, named, configuration_.radars));
-              });
+  const int state = 2 * static_cast<int>(cause.kind) + (status.odometry.is_left_out ? 1 : 0);
+  log_.update(concat({configuration.name, " in the odometry"}), state, [&] {
+    RadarStatus named = status;
+    named.odometry.cause = cause;
+    return to_text(fault_finding(configuration, named, configuration_.radars));
+  });
 }
 
 std::string LiveReporter::report_feedback(std::size_t radar) {

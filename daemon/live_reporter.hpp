@@ -49,7 +49,7 @@ class LiveReporter {
   std::string report_radar(std::size_t radar);
   std::string report_odometry();
   std::string report_vehicle(VehicleSignal signal);
-  void report_left_out(std::size_t radar, const RadarStatus& status);
+  void report_fault(std::size_t radar, const RadarStatus& status);
   std::string report_feedback(std::size_t radar);
   void report_stale();
   void report_publisher();

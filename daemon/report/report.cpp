@@ -387,10 +387,11 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
           "vehicle; `cremed-eval calibrate` finds errors of some degrees or percent"};
 }
 
-void add_left_out(const RadarConfiguration& radar, const RadarStatus& status,
-                  std::span<const RadarConfiguration> all, Findings& findings) {
-  if ((status.belief.doubts & other_radars_contradict) != 0) {
-    findings.push_back(left_out_finding(radar, status, all));
+void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
+               std::span<const RadarConfiguration> all, Findings& findings) {
+  const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
+  if (is_left_out || status.odometry.cause.kind != FaultKind::unknown) {
+    findings.push_back(fault_finding(radar, status, all));
   }
 }
 
@@ -400,15 +401,17 @@ std::string configure_command(const RadarConfiguration& radar) {
   return concat({"`cremed-doctor --configure-ars408 ", radar.name, "`"});
 }
 
-Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
-                         std::span<const RadarConfiguration> all) {
+Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status,
+                      std::span<const RadarConfiguration> all) {
   const CauseText text = cause_text(radar, status.odometry.cause, all);
-  return {Severity::warning,
-          concat({text.what,
-                  "; excluded from the odometry (normalised innovation squared of its "
-                  "Doppler ",
-                  decimal(status.odometry.doppler_nis), ", 1 expected)"}),
-          text.remedy};
+  const bool is_learned =
+      !status.odometry.is_left_out && status.odometry.cause.kind != FaultKind::unknown;
+  const std::string effect =
+      is_learned ? "; the odometry has learned that"
+                 : concat({"; excluded from the odometry (normalised innovation squared of its "
+                           "Doppler ",
+                           decimal(status.odometry.doppler_nis), ", 1 expected)"});
+  return {Severity::warning, text.what + effect, text.remedy};
 }
 
 std::uint64_t estimates(const RadarStatus& status) {
@@ -463,7 +466,7 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_doubts(status.belief, findings);
   add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
   add_clock(status.belief, findings);
-  add_left_out(radar, status, all, findings);
+  add_fault(radar, status, all, findings);
   return findings;
 }
 

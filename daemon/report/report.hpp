@@ -26,9 +26,10 @@ std::string irregularities(const RadarStatus& status);
 std::vector<Finding> radar_findings(const RadarConfiguration& radar, const RadarStatus& status,
                                     std::span<const RadarConfiguration> all);
 
-/// Why the odometry leaves a radar out, and what corrects it, as far as known.
-Finding left_out_finding(const RadarConfiguration& radar, const RadarStatus& status,
-                         std::span<const RadarConfiguration> all);
+/// What is wrong with a radar that the odometry leaves out, or of which it learned the mount, and
+/// what corrects it, as far as known.
+Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status,
+                      std::span<const RadarConfiguration> all);
 
 /// What configures an ARS408 as expected, in backquotes.
 std::string configure_command(const RadarConfiguration& radar);

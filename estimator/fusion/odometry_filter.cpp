@@ -43,6 +43,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       condition_(state_, consensus_, faults_),
       traffic_(state_, consensus_, faults_, condition_),
       side_slip_(state_),
+      lone_mount_(state_),
       majority_(state_, consensus_, condition_),
       positions_(state_, consensus_, faults_, condition_),
       output_(state_),
@@ -71,6 +72,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   // 2. A start, after a gap or a loss.
   start_if_needed(stamp_us, is_trusted);
   bool is_signal_wrong = false;
+  bool has_turned = false;
   if (is_usable(radar, targets, stamp_us)) {
     state_.hear(radar, stamp_us);
     // 3. Propagation to the scan (9), with what the vehicle's bus told until then (12).
@@ -80,8 +82,15 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     state_.advance_errors(radar, tracks_[radar]->begin(stamp_us));
     set_trusted(radar, is_trusted);
     // 4. Velocity by Doppler (10), and 5. if that fits, motion by positions (11, 13).
-    if (use_doppler(radar, targets, stamp_us)) {
-      positions_.use(radar, targets, stamp_us);
+    const bool is_used = use_doppler(radar, targets, stamp_us);
+    const auto yaw_rate = is_used ? positions_.use(radar, targets, stamp_us) : std::nullopt;
+    if (is_only_one_ahead(radar, stamp_us)) {
+      if (is_used) {
+        lone_mount_.note_agreement(radar, yaw_rate);
+      }
+      has_turned = learn_mount_if_turned(radar);
+    } else if (!looks_across(state_.mount(radar))) {
+      lone_mount_.join(radar);
     }
   }
   // 6. The output. Its condition is set before the anchor is renewed, which ends a segment that may
@@ -92,7 +101,11 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   odometry.status = result.status;
   was_ok_ = was_ok_ || result.status == OdometryStatus::ok;
   traffic_.parked.add_output(odometry);
-  if (condition_.settle() || believed || is_signal_wrong) {
+  const bool settles = condition_.settle();
+  if (settles) {
+    lone_mount_.settle();
+  }
+  if (settles || believed || is_signal_wrong || has_turned) {
     output_.end_anchor();
   }
   return result;
@@ -167,6 +180,7 @@ void OdometryFilter::restart(std::int64_t stamp_us, OdometryOutput::Gap gap) {
   majority_.clear();
   traffic_.parked.clear();
   side_slip_.clear();
+  lone_mount_.restart();
   has_started_ = true;
   was_ok_ = false;
 }
@@ -185,6 +199,24 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
     trust.doppler_noise.clear();
   }
   trust.is_trusted = is_trusted;
+}
+
+/// The mount of the only radar turned: the pose and the slip may have that error.
+bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
+  const auto turn = majority_.has_stepped() ? std::nullopt : lone_mount_.take_turn(radar);
+  if (turn) {
+    const double v = state_.gaussian.mean(kSpeed);
+    const double w = turn->yaw_rate_radps;
+    add_error_of_motion({v, w, -state_.gaussian.mean(kSlipPerAcceleration) * v * w});
+    lone_mount_.learn(radar, *turn);
+    if (turn->is_sudden) {
+      positions_.clear();
+    }
+  }
+  if (lone_mount_.is_too_far(radar)) {
+    condition_.unsettle();
+  }
+  return turn.has_value();
 }
 
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
@@ -259,10 +291,15 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
   positions_.clear();
 }
 
-/// Radars that are not used: at fault, side radars that contradict, or all that are judged if it is
-/// not known which are at fault.
+/// Radars that are not believed: at fault, side radars that contradict, all that are judged if it
+/// is not known which are at fault, or the only one if its mount is too far off.
 std::uint32_t OdometryFilter::left_out() const {
-  return consensus_.at_fault() | (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
+  std::uint32_t turned = 0;
+  for (std::size_t i = 0; i < state_.radars(); ++i) {
+    turned |= lone_mount_.is_left_out(i) ? set_of(i) : 0U;
+  }
+  return turned | consensus_.at_fault() |
+         (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
 }
 
 // Doppler.
@@ -338,6 +375,10 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     trust.doppler_noise.add(0.5 * innovation.nis);
   }
   if (!is_expected) {
+    if (is_used && (condition_.is_settled() || state_.is_turned(radar)) &&
+        is_only_one_ahead(radar, stamp_us)) {
+      lone_mount_.note_contradiction(radar, measurement, innovation);
+    }
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
     answer_contradiction(radar, stamp_us, measurement.residual.x(), innovation);
     return false;
@@ -350,7 +391,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   if (is_used) {
     state_.update(innovation);
     output_.add_radar(radar);
-    if (!state_.is_witness(radar)) {
+    if (!state_.is_witness(radar) && !lone_mount_.is_too_far(radar)) {
       condition_.use_scan(scan.is_clear);
     }
   }
@@ -422,6 +463,12 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
   return result;
 }
 
+FaultCause OdometryFilter::cause(std::size_t radar) const {
+  const FaultCause turned = lone_mount_.cause(radar);
+  const bool is_other = faults_.is_at_fault(radar) && turned.kind == FaultKind::unknown;
+  return is_other ? faults_.cause(radar) : turned;
+}
+
 RadarReport OdometryFilter::report(std::size_t radar) const {
   const RadarTrust& trust = consensus_[radar];
   const GaussianState& state = state_.gaussian;
@@ -429,7 +476,7 @@ RadarReport OdometryFilter::report(std::size_t radar) const {
   const int doppler_scale = state_.error(radar, kDopplerScale);
   const bool is_left_out = contains(left_out(), radar);
   return {is_left_out,
-          faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause(),
+          cause(radar),
           trust.doppler.mean(),
           trust.lateral.mean(),
           trust.yaw.mean(),

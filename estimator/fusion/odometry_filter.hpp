@@ -14,6 +14,7 @@
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+#include "cremed/estimator/fusion/lone_mount.hpp"
 #include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/measurement/side_slip.hpp"
@@ -114,6 +115,7 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
+  bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
   void add_error_of_motion(const Eigen::Vector3d& believed);
@@ -128,6 +130,7 @@ class OdometryFilter {
   void answer_contradiction(std::size_t radar, std::int64_t stamp_us, double change_mps,
                             const Innovation& innovation);
   [[nodiscard]] double possible_speed_change_mps(std::int64_t stamp_us) const;
+  [[nodiscard]] FaultCause cause(std::size_t radar) const;
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
@@ -137,6 +140,7 @@ class OdometryFilter {
   FilterCondition condition_;
   TrafficDoubt traffic_;
   SideSlip side_slip_;
+  LoneMount lone_mount_;
   MajorityFollower majority_;
   PositionFusion positions_;
   OdometryOutput output_;

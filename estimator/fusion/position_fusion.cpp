@@ -54,9 +54,11 @@ void PositionFusion::clear() {
   nodes_.clear();
 }
 
-void PositionFusion::use(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us) {
+std::optional<PositionFusion::YawRate> PositionFusion::use(std::size_t radar,
+                                                           const TargetSet& targets,
+                                                           std::int64_t stamp_us) {
   if (state_.is_witness(radar)) {
-    return;
+    return std::nullopt;
   }
   nodes_.advance();
   const double age_s = seconds_between(stamp_us, state_.time_us());
@@ -68,10 +70,11 @@ void PositionFusion::use(std::size_t radar, const TargetSet& targets, std::int64
   }
   if ((are_few && looks_across(state_.mount(radar))) ||
       static_targets_.size() < static_cast<std::size_t>(state_.options().min_targets)) {
-    return;
+    return std::nullopt;
   }
-  match(radar, age_s);
+  const auto yaw_rate = match(radar, age_s);
   extend_map(radar, stamp_us, age_s);
+  return yaw_rate;
 }
 
 bool PositionFusion::confirm_state(std::size_t radar, const TargetSet& targets, double age_s) {
@@ -85,7 +88,7 @@ bool PositionFusion::confirm_state(std::size_t radar, const TargetSet& targets, 
          std::abs(match->correction.x()) <= kMaxConfirmedM;
 }
 
-void PositionFusion::match(std::size_t radar, double age_s) {
+std::optional<PositionFusion::YawRate> PositionFusion::match(std::size_t radar, double age_s) {
   TargetMap& map = *maps_[radar];
   const MapMeasurement from_map{state_, map, radar, age_s};
   map.place(from_map.now_from_node());
@@ -95,12 +98,13 @@ void PositionFusion::match(std::size_t radar, double age_s) {
   counters.at_rest += map.scans() > 0 ? static_targets_.size() : 0;
   counters.found += match ? static_cast<std::uint64_t>(std::lround(match->matched)) : 0;
   if (!match || match->matched < state_.options().min_matched_share * possible) {
-    return;
+    return std::nullopt;
   }
   RadarTrust& trust = consensus_[radar];
   const bool has_x = !looks_across(state_.mount(radar)) && match->x_share > kMinShareOfX &&
                      state_.mixture_std() < kMaxMixtureMps;
-  if (has_x && match->matched >= kMinConfirmedShare * possible) {
+  const bool is_confirmed = match->matched >= kMinConfirmedShare * possible;
+  if (has_x && is_confirmed) {
     compare_speed(radar, *match);
   }
   LinearMeasurement measurement = from_map.linearise(*match, has_x);
@@ -112,22 +116,33 @@ void PositionFusion::match(std::size_t radar, double age_s) {
   trust.lateral.add(state_.time_us(), innovation.nis_of_numbers.y());
   trust.yaw.add(state_.time_us(), innovation.nis_of_numbers.z());
   trust.position_noise.add(0.5 * innovation.nis);
-  if (innovation.nis <= state_.options().max_position_nis) {
+  const double max_nis = state_.options().max_position_nis;
+  const double yaw_since_s = since_s(*match, 2);
+  const YawRate yaw_rate{state_.gaussian.mean(kYawRate) + match->correction.z() / yaw_since_s,
+                         innovation.nis > max_nis && innovation.nis_of_numbers.z() > 0.5 * max_nis};
+  if (innovation.nis <= max_nis) {
     state_.update(innovation, true);
   }
+  return is_confirmed && yaw_since_s > 0.0 ? std::optional(yaw_rate) : std::nullopt;
+}
+
+/// Mean time since the nodes with whose targets a number (x, y, yaw) was compared.
+double PositionFusion::since_s(const MapMatch& match, int number) const {
+  double since_s = 0.0;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    since_s += match.by_node[i](number, number) * nodes_.since_s(i);
+  }
+  return since_s;
 }
 
 /// Tells the speed by positions: that of the state, corrected by how much further they moved.
 void PositionFusion::compare_speed(std::size_t radar, const MapMatch& match) {
-  double since_s = 0.0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    since_s += match.by_node[i](0, 0) * nodes_.since_s(i);
-  }
-  if (!condition_.is_speed_unknown() && since_s > 0.0) {
+  const double way_since_s = since_s(match, 0);
+  if (!condition_.is_speed_unknown() && way_since_s > 0.0) {
     faults_.add_speed_by_positions(
         radar, state_.time_us(),
-        state_.radar_velocity(radar).x() + match.correction.x() / (match.x_share * since_s),
-        since_s, match.covariance(0, 0) / squared(match.x_share));
+        state_.radar_velocity(radar).x() + match.correction.x() / (match.x_share * way_since_s),
+        way_since_s, match.covariance(0, 0) / squared(match.x_share));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
@@ -30,8 +31,15 @@ class PositionFusion {
   PositionFusion(OdometryState& state, RadarConsensus& consensus, FaultHypotheses& faults,
                  const FilterCondition& condition);
 
-  /// Updates the state with a scan whose Doppler was used, and its map with the scan.
-  void use(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
+  /// The yaw rate by positions since the nodes.
+  struct YawRate {
+    double radps = 0.0;
+    bool contradicts_state = false;
+  };
+
+  /// Updates the state with a scan whose Doppler was used, and its map with the scan. Returns the
+  /// yaw rate if the map has most of its targets.
+  std::optional<YawRate> use(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   /// Whether all targets of a scan, `age_s` older than the state, are where the state expects the
   /// map, whatever their Doppler: it is then the Doppler that is wrong.
   [[nodiscard]] bool confirm_state(std::size_t radar, const TargetSet& targets, double age_s);
@@ -41,7 +49,8 @@ class PositionFusion {
   [[nodiscard]] const MapCounters& counters(std::size_t radar) const { return counters_[radar]; }
 
  private:
-  void match(std::size_t radar, double age_s);
+  std::optional<YawRate> match(std::size_t radar, double age_s);
+  [[nodiscard]] double since_s(const MapMatch& match, int number) const;
   void compare_speed(std::size_t radar, const MapMatch& match);
   void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);
 

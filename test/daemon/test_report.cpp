@@ -265,12 +265,22 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
   CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
 }
 
+TEST_CASE("A mount that the odometry has learned is named with its value") {
+  RadarStatus status = healthy();
+  status.odometry.cause = {FaultKind::mount_yaw, 0.1};
+  const auto findings = radar_findings(front(), status, {});
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what,
+             Catch::Contains("5.7 degrees further left") && Catch::Contains("has learned that"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains("mount.yaw_rad = 0.1"));
+}
+
 TEST_CASE("No key is advised that the radar does not have, and no value that it cannot have") {
   RadarConfiguration gpr = front();
   RadarStatus status = healthy();
   const auto remedy_of = [&](const RadarConfiguration& radar, FaultCause cause) {
     status.odometry.cause = cause;
-    return left_out_finding(radar, status, std::array{radar}).remedy;
+    return fault_finding(radar, status, std::array{radar}).remedy;
   };
   CHECK(remedy_of(front(), {FaultKind::sign, -1.0}) == "turn mount.yaw_rad by pi");
   gpr.decoder = BoschGprOptions();

@@ -277,6 +277,81 @@ TEST_CASE("a faulty radar is left out and reported, and used again when it agree
   CHECK(radars == 7U);
 }
 
+/// Largest NEES of the pose since the anchor and of the velocity, in usable outputs.
+double largest_nees(OdometryDrive& drive, double time_s) {
+  std::map<std::int64_t, Eigen::Vector3d> poses;
+  double largest = 0.0;
+  const std::int64_t end_us = drive.stamp_us() + std::llround(1e6 * time_s);
+  while (drive.stamp_us() < end_us) {
+    const Odometry odometry = drive.next();
+    poses[drive.stamp_us()] = drive.pose();
+    const auto anchor = poses.find(odometry.utime_anchor_us);
+    if (odometry.is_usable() && anchor != poses.end() && anchor->first != odometry.utime_us) {
+      const Eigen::Vector3d error = odometry.pose - relative_pose(anchor->second, drive.pose());
+      const Eigen::Vector3d of_twist =
+          odometry.twist - Eigen::Vector3d(drive.speed_mps(), 0.0, drive.yaw_rate_radps());
+      largest = std::max({largest, numeric::normalised_error(error, odometry.covariance, 3) / 3.0,
+                          numeric::normalised_error(of_twist, odometry.twist_covariance, 3) / 3.0});
+    }
+  }
+  return largest;
+}
+
+TEST_CASE("the mount of a lone radar that looks elsewhere is learned and named") {
+  OdometryDrive drive({kFront}, 23);
+  const double turned_deg = GENERATE(3.0, -6.0);
+  SECTION("from the start") {
+    drive.radar(0).mount.yaw_rad += numeric::radians(turned_deg);
+    CHECK(largest_nees(drive, 10.0) < 8.0);
+  }
+  SECTION("while driving") {
+    drive.drive(3.0);
+    CHECK(drive.filter().report(0).cause.kind == FaultKind::unknown);
+    drive.radar(0).mount.yaw_rad += numeric::radians(turned_deg);
+    CHECK(largest_nees(drive, 10.0) < 8.0);
+  }
+  CHECK(drive.next().status == OdometryStatus::ok);
+  const RadarReport report = drive.filter().report(0);
+  CHECK_FALSE(report.is_left_out);
+  CAPTURE(turned_deg, report.mount_yaw_rad, report.mount_yaw_std_rad, report.cause.value);
+  REQUIRE(report.cause.kind == FaultKind::mount_yaw);
+  CHECK(report.cause.value == Approx(numeric::radians(turned_deg)).margin(numeric::radians(0.8)));
+}
+
+TEST_CASE("a lone radar that turns too far to be learned is left out until it turns back") {
+  OdometryDrive drive({kFront}, 24);
+  REQUIRE(drive.drive(3.0).status == OdometryStatus::ok);
+  drive.radar(0).mount.yaw_rad += numeric::radians(20.0);
+  CHECK(largest_nees(drive, 4.0) < 8.0);
+  CHECK_FALSE(drive.next().is_usable());
+  const RadarReport report = drive.filter().report(0);
+  CAPTURE(report.mount_yaw_rad, report.mount_yaw_std_rad, report.cause.value);
+  CHECK(report.is_left_out);
+  CHECK(report.cause.kind == FaultKind::mount_yaw);
+  CHECK(report.cause.value == Approx(numeric::radians(20.0)).margin(numeric::radians(4.0)));
+  drive.radar(0).mount.yaw_rad -= numeric::radians(20.0);
+  drive.drive(8.0);
+  CHECK(largest_nees(drive, 4.0) < 8.0);
+  CHECK(drive.next().status == OdometryStatus::ok);
+  CHECK(drive.filter().report(0).cause.kind == FaultKind::unknown);
+}
+
+TEST_CASE("radars that join a lone one whose mount was learned agree with it, or judge it") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 25);
+  const double turned_deg = GENERATE(6.0, 20.0);
+  drive.radar(1).is_silent = drive.radar(2).is_silent = true;
+  drive.drive(3.0);
+  drive.radar(0).mount.yaw_rad += numeric::radians(turned_deg);
+  drive.drive(3.0);
+  REQUIRE(drive.filter().report(0).cause.kind == FaultKind::mount_yaw);
+  drive.radar(1).is_silent = drive.radar(2).is_silent = false;
+  drive.drive(4.0);
+  CHECK(largest_nees(drive, 6.0) < 8.0);
+  const Odometry odometry = drive.next();
+  CHECK(odometry.status == OdometryStatus::ok);
+  CHECK(odometry.left_out == (turned_deg > 10.0 ? 1U : 0U));
+}
+
 TEST_CASE("of four corner radars at 45 degrees the faulty one is left out") {
   constexpr double kCorner = 0.25 * std::numbers::pi;
   const std::vector<Pose2> corners{{3.5, 0.8, kCorner},

@@ -95,21 +95,39 @@ class SystematicFaults {
       }
     }
     for (const double factor : {1.0, 0.7, 0.9, 1.1}) {
-      add_alone("alone, scale %.2f", factor, always());
+      add_scale_alone("alone, scale %.2f", factor, always());
     }
     for (const double factor : {0.7, 1.2}) {
-      add_alone("alone, scale %.2f from 8 s", factor, onwards());
+      add_scale_alone("alone, scale %.2f from 8 s", factor, onwards());
+    }
+    for (const double yaw_rad : {0.05, 0.1, -0.1}) {
+      add_turned_alone("alone, mount %g rad off", yaw_rad, always());
+    }
+    for (const double yaw_rad : {0.1, -0.1}) {
+      add_turned_alone("alone, knocked by %g rad at 8 s", yaw_rad, onwards());
     }
   }
 
-  void add_alone(const char* kind, double factor, FaultTime time) {
+  FaultCase& add_alone(const std::string& kind, FaultTime time, FaultKind cause) {
+    FaultCase& alone = add(kind, front(), time, cause);
+    alone.configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
+    return alone;
+  }
+
+  void add_scale_alone(const char* kind, double factor, FaultTime time) {
     const std::size_t radar = front();
-    FaultCase& alone = add(fault_kind(kind, factor), radar, time, FaultKind::scale);
+    FaultCase& alone = add_alone(fault_kind(kind, factor), time, FaultKind::scale);
     if (factor == 1.0) alone.guilty = 0;
-    alone.configure = [radar](Radars& radars) { radars = {radars[radar]}; };
     alone.put_in = [radar, factor](const FaultDrive& d, FaultTime t) {
       return with_scaled_doppler(d.frames, t, only(radar), factor);
     };
+  }
+
+  void add_turned_alone(const char* kind, double yaw_rad, FaultTime time) {
+    add_alone(fault_kind(kind, yaw_rad), time, FaultKind::mount_yaw).put_in =
+        [radar = front(), yaw_rad](const FaultDrive& d, FaultTime t) {
+          return with_knocked_mount(d.frames, t, radar, yaw_rad);
+        };
   }
 
   void add_signs_and_mounts() {

@@ -251,7 +251,7 @@ TEST_CASE("Of its keys only those are advised that it has") {
   RadarStatus status;
   const auto remedy_of = [&](FaultKind kind) {
     status.odometry.cause = {kind};
-    return left_out_finding(configuration.radars[0], status, configuration.radars).remedy;
+    return fault_finding(configuration.radars[0], status, configuration.radars).remedy;
   };
   CHECK(remedy_of(FaultKind::sign) == "change invert_doppler, or turn mount.yaw_rad by pi");
   CHECK(remedy_of(FaultKind::upside_down) == "if it is mounted upside down, turn it over");

@@ -44,6 +44,11 @@ void FilterCondition::doubt() {
   doubts_ = std::min(doubts_ + 1, kMaxDoubts);
 }
 
+void FilterCondition::unsettle() {
+  is_settled_ = false;
+  doubt();
+}
+
 void FilterCondition::use_scan(bool is_clear) {
   if (is_lost() && doubts_ > 0) {
     start();  // Lost among traffic, not by silence: one clear scan is not the end.

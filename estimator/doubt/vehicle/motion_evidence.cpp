@@ -80,7 +80,7 @@ void MotionEvidence::add_speed_by_positions(std::size_t radar, std::int64_t stam
 
 void MotionEvidence::add_motion(std::size_t radar, const EgoMotion& motion) {
   const double dt_s = seconds_between(motion.utime_start_us, motion.utime_us);
-  if (!motion.has_estimate() || !(dt_s > 0.0)) {
+  if (!motion.has_estimate() || !(dt_s > 0.0) || state_.is_turned(radar)) {
     return;
   }
   auto& rates = tracks_[radar].yaw_rates;
@@ -228,7 +228,11 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   const bool is_witness = looks_across(mount);
   const double speed_mps = velocity.mps.norm();
   const LearnedErrors prior = unlearned_errors(options, mount);
-  const double mount_std = prior.mount_yaw_rad.std + kMoreMountYawStdRad;
+  const int mount_yaw = state_.error(mount_of, state_layout::kMountYaw);
+  const bool is_turned = state_.is_turned(mount_of);
+  const double turned_rad = is_turned ? state_.gaussian.mean(mount_yaw) : 0.0;
+  const double mount_std =
+      (is_turned ? state_.gaussian.std(mount_yaw) : prior.mount_yaw_rad.std) + kMoreMountYawStdRad;
   // As uncertain as the filter has them, also of radars off the axis of travel, of which a scale of
   // azimuths changes the speed. Otherwise one of four corner radars with a Doppler scale of 1.04
   // had three healthy ones found at fault, on a simulated motorway.
@@ -241,7 +245,8 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   noise(0, 0) +=
       squared(is_witness ? kWitnessMps + kWitnessShare * speed_mps : disputed_scale_ * speed_mps);
   MotionSums sums;
-  sums.add_velocity(mount, velocity.mps, noise, velocity.covariance);
+  sums.add_velocity(mount, Eigen::Rotation2Dd(turned_rad) * velocity.mps, noise,
+                    velocity.covariance);
   return sums;
 }
 

@@ -65,7 +65,7 @@ struct Odometry {
   }
 };
 
-/// A systematic error that explains the velocities of a radar that is at fault.
+/// A systematic error that explains the velocities of a radar.
 enum class FaultKind : std::uint8_t {
   unknown,      ///< None of these, or several.
   scale,        ///< Doppler too large or small.
@@ -97,7 +97,7 @@ struct MapCounters {
 /// Diagnostics of one radar.
 struct RadarReport {
   bool is_left_out = false;  ///< It is not believed (`doubt/`).
-  FaultCause cause;          ///< If it is left out.
+  FaultCause cause;  ///< If it is left out, or the odometry has learned its mount (LoneMount).
   /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
   /// without measurements.
   double doppler_nis = 0.0;

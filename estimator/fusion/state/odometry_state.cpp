@@ -80,6 +80,7 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
       options_(options),
       mounts_(std::move(mounts)),
       heard_us_(mounts_.size()),
+      is_turned_(mounts_.size()),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
                           options.mount_yaw_restart_std_rad)),
       doppler_scale_(prior_of(options, mounts_, learned, &LearnedErrors::doppler_scale,
@@ -252,6 +253,19 @@ void OdometryState::widen_errors(std::size_t radar) {
 
 void OdometryState::widen_scale(std::size_t radar, double std) {
   gaussian.add_variance(error(radar, kDopplerScale), squared(std));
+}
+
+void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad) {
+  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  gaussian.set(error(radar, kMountYaw), yaw_rad, squared(std_rad));
+  // What the linear model leaves out.
+  widen_scale(radar, 1.0 - std::cos(yaw_rad));
+  is_turned_[radar] = true;
+}
+
+void OdometryState::turn_mount_back(std::size_t radar) {
+  gaussian.set(error(radar, kMountYaw), 0.0, squared(options_.mount_yaw_std_rad));
+  is_turned_[radar] = false;
 }
 
 void OdometryState::advance_to(std::int64_t time_us) {

@@ -43,6 +43,12 @@ class OdometryState {
   void widen_errors(std::size_t radar);
   /// The Doppler scale of a radar may be off by `std`.
   void widen_scale(std::size_t radar, double std);
+  /// The mount of a radar turned: its yaw error is `yaw_rad` with `std_rad`, and the slip unknown.
+  void turn_mount(std::size_t radar, double yaw_rad, double std_rad);
+  /// Its yaw error is that of a mount measured by hand again.
+  void turn_mount_back(std::size_t radar);
+  /// Whether it is turned. Its error may then be larger than that of a mount measured by hand.
+  [[nodiscard]] bool is_turned(std::size_t radar) const { return is_turned_[radar]; }
 
   /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);
@@ -160,6 +166,7 @@ class OdometryState {
   std::array<FaultEvidence, kVehicleSignals> fault_evidence_;
   std::vector<Pose2> mounts_;
   std::vector<std::optional<std::int64_t>> heard_us_;  // By radar: its last scan.
+  std::vector<bool> is_turned_;
   SharedPrior mount_yaw_;
   SharedPrior doppler_scale_;
   // The table of errors.

@@ -263,6 +263,11 @@ void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad
   is_turned_[radar] = true;
 }
 
+bool OdometryState::is_turned(std::size_t radar) const {
+  const double usual_rad = 3.0 * options_.mount_yaw_std_rad;
+  return is_turned_[radar] && std::abs(gaussian.mean(error(radar, kMountYaw))) > usual_rad;
+}
+
 void OdometryState::turn_mount_back(std::size_t radar) {
   gaussian.set(error(radar, kMountYaw), 0.0, squared(options_.mount_yaw_std_rad));
   is_turned_[radar] = false;

@@ -47,8 +47,8 @@ class OdometryState {
   void turn_mount(std::size_t radar, double yaw_rad, double std_rad);
   /// Its yaw error is that of a mount measured by hand again.
   void turn_mount_back(std::size_t radar);
-  /// Whether it is turned. Its error may then be larger than that of a mount measured by hand.
-  [[nodiscard]] bool is_turned(std::size_t radar) const { return is_turned_[radar]; }
+  /// Whether it is turned: by more than a mount measured by hand may be off.
+  [[nodiscard]] bool is_turned(std::size_t radar) const;
 
   /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);

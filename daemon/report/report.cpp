@@ -390,7 +390,7 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
 void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
                std::span<const RadarConfiguration> all, Findings& findings) {
   const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
-  if (is_left_out || status.odometry.cause.kind != FaultKind::unknown) {
+  if (is_left_out || status.odometry.cause.kind == FaultKind::mount_yaw) {
     findings.push_back(fault_finding(radar, status, all));
   }
 }
@@ -405,9 +405,9 @@ Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status
                       std::span<const RadarConfiguration> all) {
   const CauseText text = cause_text(radar, status.odometry.cause, all);
   const bool is_learned =
-      !status.odometry.is_left_out && status.odometry.cause.kind != FaultKind::unknown;
+      !status.odometry.is_left_out && status.odometry.cause.kind == FaultKind::mount_yaw;
   const std::string effect =
-      is_learned ? "; the odometry has learned that"
+      is_learned ? "; the odometry corrects for it"
                  : concat({"; excluded from the odometry (normalised innovation squared of its "
                            "Doppler ",
                            decimal(status.odometry.doppler_nis), ", 1 expected)"});

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,16 +14,18 @@
 
 namespace cremed {
 
-/// The mount yaw of the only radar that is heard (with others FaultHypotheses finds a wrong one).
-/// If it is wrong, Doppler shows a lateral velocity that no vehicle has: as a slip, or as a turn
-/// that the positions of the targets contradict. The odometry then learns the yaw anew.
+/// The mount yaw of a radar while no other that looks ahead or back is heard (with others
+/// FaultHypotheses finds a wrong one). If it is wrong, Doppler shows a lateral velocity that no
+/// vehicle has: as a slip, or as a turn that the positions of the targets contradict. The odometry
+/// then learns the yaw anew.
 class LoneMount {
  public:
   /// A mount turned by `yaw_rad`.
   struct Turn {
     double yaw_rad = 0.0;
     double yaw_rate_radps = 0.0;  ///< Of the vehicle.
-    bool is_sudden = false;       ///< What was measured before it is of another mount.
+    double yaw_rate_std_radps = 0.0;
+    bool is_sudden = false;  ///< What was measured before it is of another mount.
   };
 
   /// `state` must outlive this object.
@@ -31,17 +33,17 @@ class LoneMount {
 
   /// To be called at a restart. A mount that is too far off may have turned back.
   void restart();
-  /// To be called with a radar that is not the only one, instead of the functions below: what the
-  /// single radar showed counts no more, and the others judge a mount that is too far off.
-  void join(std::size_t radar);
   /// To be called when the odometry has started: the mounts are as they were learned.
-  void settle() { std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0); }
+  void settle();
+  /// To be called with scans of a radar that is not alone: what one showed alone counts no more,
+  /// and all of them judge a mount that is too far off.
+  void join();
 
-  /// To be called when the only radar's Doppler contradicts the state.
-  void note_contradiction(std::size_t radar, const LinearMeasurement& doppler,
-                          const Innovation& innovation);
+  /// To be called when the lone radar's Doppler contradicts the state.
+  void note_contradiction(std::size_t radar, std::int64_t stamp_us,
+                          const LinearMeasurement& doppler, const Innovation& innovation);
   /// To be called when it does not. `by_positions`: of the same scan.
-  void note_agreement(std::size_t radar,
+  void note_agreement(std::size_t radar, std::int64_t stamp_us,
                       const std::optional<PositionFusion::YawRate>& by_positions);
 
   /// The turn that was noted, once; or one without which the vehicle turns or slips as none can.
@@ -61,17 +63,27 @@ class LoneMount {
   [[nodiscard]] FaultCause cause(std::size_t radar) const;
 
  private:
+  /// Scans of one radar in succession that show a turn.
+  struct Signs {
+    std::size_t radar = 0;
+    std::int64_t last_us = 0;
+    int count = 0;
+
+    /// True if they suffice: they then begin anew.
+    bool add(std::size_t of_radar, std::int64_t stamp_us);
+  };
+
   [[nodiscard]] double error_rad(std::size_t radar) const {
     return state_.gaussian.mean(state_.error(radar, state_layout::kMountYaw));
   }
+  [[nodiscard]] std::optional<Turn> impossible_motion(std::size_t radar) const;
+  [[nodiscard]] Turn by_yaw_rate(std::size_t radar, double radps, double std_radps) const;
   [[nodiscard]] bool may_be_upside_down(std::size_t radar, double error_rad) const;
-  [[nodiscard]] Turn by_yaw_rate(std::size_t radar, double radps) const;
-
   void forget_signs();
 
   OdometryState& state_;
-  int contradictions_ = 0;               // Of Doppler, in succession.
-  int contradictions_by_positions_ = 0;  // Likewise.
+  Signs by_doppler_;
+  Signs by_positions_;
   std::optional<Turn> turn_;
   std::vector<double> before_restart_rad_;  // By radar: the error if it was too large, or 0.
 };

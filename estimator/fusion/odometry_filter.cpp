@@ -84,13 +84,13 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     // 4. Velocity by Doppler (10), and 5. if that fits, motion by positions (11, 13).
     const bool is_used = use_doppler(radar, targets, stamp_us);
     const auto yaw_rate = is_used ? positions_.use(radar, targets, stamp_us) : std::nullopt;
-    if (is_only_one_ahead(radar, stamp_us)) {
+    if (is_alone(radar)) {
       if (is_used) {
-        lone_mount_.note_agreement(radar, yaw_rate);
+        lone_mount_.note_agreement(radar, stamp_us, yaw_rate);
       }
       has_turned = learn_mount_if_turned(radar);
-    } else if (!looks_across(state_.mount(radar))) {
-      lone_mount_.join(radar);
+    } else if (is_used && !state_.is_witness(radar)) {
+      lone_mount_.join();
     }
   }
   // 6. The output. Its condition is set before the anchor is renewed, which ends a segment that may
@@ -201,22 +201,30 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// The mount of the only radar turned: the pose and the slip may have that error.
+/// Whether no other radar that looks ahead or back is heard, believed or not.
+bool OdometryFilter::is_alone(std::size_t radar) const {
+  return consensus_[radar].is_trusted && !looks_across(state_.mount(radar)) &&
+         state_.is_alone_ahead(radar);
+}
+
+/// The mount of the lone radar turned: the pose and the slip may have that error.
 bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
-  const auto turn = majority_.has_stepped() ? std::nullopt : lone_mount_.take_turn(radar);
-  if (turn) {
+  const auto turn = lone_mount_.take_turn(radar);
+  const bool has_turned = turn && !majority_.has_stepped();
+  if (has_turned) {
     const double v = state_.gaussian.mean(kSpeed);
     const double w = turn->yaw_rate_radps;
     add_error_of_motion({v, w, -state_.gaussian.mean(kSlipPerAcceleration) * v * w});
     lone_mount_.learn(radar, *turn);
     if (turn->is_sudden) {
       positions_.clear();
+      vehicle_.restart_errors();
     }
   }
   if (lone_mount_.is_too_far(radar)) {
     condition_.unsettle();
   }
-  return turn.has_value();
+  return has_turned;
 }
 
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
@@ -375,9 +383,8 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     trust.doppler_noise.add(0.5 * innovation.nis);
   }
   if (!is_expected) {
-    if (is_used && (condition_.is_settled() || state_.is_turned(radar)) &&
-        is_only_one_ahead(radar, stamp_us)) {
-      lone_mount_.note_contradiction(radar, measurement, innovation);
+    if (is_used && is_alone(radar) && (condition_.is_settled() || state_.is_turned(radar))) {
+      lone_mount_.note_contradiction(radar, stamp_us, measurement, innovation);
     }
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
     answer_contradiction(radar, stamp_us, measurement.residual.x(), innovation);
@@ -390,8 +397,11 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (is_used) {
     state_.update(innovation);
+    if (lone_mount_.is_too_far(radar)) {
+      return is_used;  // Only to see whether it turns back.
+    }
     output_.add_radar(radar);
-    if (!state_.is_witness(radar) && !lone_mount_.is_too_far(radar)) {
+    if (!state_.is_witness(radar)) {
       condition_.use_scan(scan.is_clear);
     }
   }
@@ -455,8 +465,12 @@ double OdometryFilter::possible_speed_change_mps(std::int64_t stamp_us) const {
 std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
   std::vector<std::optional<LearnedErrors>> result(tracks_.size());
   const std::vector<LearnedErrors> learned = state_.learned();
+  bool is_any_turned = false;  // Errors are relative to the mean of all radars.
   for (std::size_t i = 0; i < learned.size(); ++i) {
-    if (!contains(left_out(), i)) {
+    is_any_turned = is_any_turned || state_.is_turned(i);
+  }
+  for (std::size_t i = 0; i < learned.size(); ++i) {
+    if (!contains(left_out(), i) && !is_any_turned) {
       result[i] = learned[i];
     }
   }
@@ -464,9 +478,8 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
 }
 
 FaultCause OdometryFilter::cause(std::size_t radar) const {
-  const FaultCause turned = lone_mount_.cause(radar);
-  const bool is_other = faults_.is_at_fault(radar) && turned.kind == FaultKind::unknown;
-  return is_other ? faults_.cause(radar) : turned;
+  const FaultCause by_others = faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause();
+  return by_others.kind == FaultKind::unknown ? lone_mount_.cause(radar) : by_others;
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

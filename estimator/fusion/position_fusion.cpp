@@ -117,13 +117,23 @@ std::optional<PositionFusion::YawRate> PositionFusion::match(std::size_t radar, 
   trust.yaw.add(state_.time_us(), innovation.nis_of_numbers.z());
   trust.position_noise.add(0.5 * innovation.nis);
   const double max_nis = state_.options().max_position_nis;
-  const double yaw_since_s = since_s(*match, 2);
-  const YawRate yaw_rate{state_.gaussian.mean(kYawRate) + match->correction.z() / yaw_since_s,
-                         innovation.nis > max_nis && innovation.nis_of_numbers.z() > 0.5 * max_nis};
-  if (innovation.nis <= max_nis) {
+  const bool is_contradicted = innovation.nis > max_nis;
+  const auto yaw_rate = is_confirmed ? yaw_rate_by(*match) : std::nullopt;
+  if (!is_contradicted) {
     state_.update(innovation, true);
   }
-  return is_confirmed && yaw_since_s > 0.0 ? std::optional(yaw_rate) : std::nullopt;
+  if (!yaw_rate) {
+    return std::nullopt;
+  }
+  return YawRate{*yaw_rate, is_contradicted && innovation.nis_of_numbers.z() > 0.5 * max_nis};
+}
+
+/// The yaw rate of the state, corrected by how much further the targets turned.
+std::optional<double> PositionFusion::yaw_rate_by(const MapMatch& match) const {
+  const double turning_s = since_s(match, 2);
+  return turning_s > 0.0
+             ? std::optional(state_.gaussian.mean(kYawRate) + match.correction.z() / turning_s)
+             : std::nullopt;
 }
 
 /// Mean time since the nodes with whose targets a number (x, y, yaw) was compared.

@@ -24,18 +24,18 @@ namespace cremed {
 /// registration of its scans against it. Positions of a witness are not used.
 class PositionFusion {
  public:
+  /// The yaw rate by positions since the nodes, before the state is updated.
+  struct YawRate {
+    double radps = 0.0;
+    bool contradicts_state = false;  ///< By more than max_position_nis, most of it by the yaw.
+  };
+
   /// Largest distance along x between the state and positions that confirm it.
   static constexpr double kMaxConfirmedM = 0.3;
 
   /// The arguments must outlive this object.
   PositionFusion(OdometryState& state, RadarConsensus& consensus, FaultHypotheses& faults,
                  const FilterCondition& condition);
-
-  /// The yaw rate by positions since the nodes.
-  struct YawRate {
-    double radps = 0.0;
-    bool contradicts_state = false;
-  };
 
   /// Updates the state with a scan whose Doppler was used, and its map with the scan. Returns the
   /// yaw rate if the map has most of its targets.
@@ -50,6 +50,7 @@ class PositionFusion {
 
  private:
   std::optional<YawRate> match(std::size_t radar, double age_s);
+  [[nodiscard]] std::optional<double> yaw_rate_by(const MapMatch& match) const;
   [[nodiscard]] double since_s(const MapMatch& match, int number) const;
   void compare_speed(std::size_t radar, const MapMatch& match);
   void extend_map(std::size_t radar, std::int64_t stamp_us, double age_s);

@@ -271,7 +271,7 @@ TEST_CASE("A mount that the odometry has learned is named with its value") {
   const auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK_THAT(findings[0].what,
-             Catch::Contains("5.7 degrees further left") && Catch::Contains("has learned that"));
+             Catch::Contains("5.7 degrees further left") && Catch::Contains("corrects for it"));
   CHECK_THAT(findings[0].remedy, Catch::Contains("mount.yaw_rad = 0.1"));
 }
 

@@ -244,9 +244,10 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
       squared(options.doppler_y.std) + squared(kBetweenScansMps) + squared(mount_std * speed_mps);
   noise(0, 0) +=
       squared(is_witness ? kWitnessMps + kWitnessShare * speed_mps : disputed_scale_ * speed_mps);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(turned_rad).toRotationMatrix();
   MotionSums sums;
-  sums.add_velocity(mount, Eigen::Rotation2Dd(turned_rad) * velocity.mps, noise,
-                    velocity.covariance);
+  sums.add_velocity(mount, turn * velocity.mps, turn * noise * turn.transpose(),
+                    turn * velocity.covariance * turn.transpose());
   return sums;
 }
 

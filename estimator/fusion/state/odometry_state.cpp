@@ -10,6 +10,7 @@
 #include "cremed/estimator/cost/driving_share.hpp"
 #include "cremed/estimator/fusion/state/pose_chain.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
+#include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -152,6 +153,15 @@ bool OdometryState::is_any_ahead_heard() const {
   return is_any_heard([](const Pose2& mount) { return !looks_across(mount); });
 }
 
+bool OdometryState::is_alone_ahead(std::size_t radar) const {
+  for (std::size_t i = 0; i < mounts_.size(); ++i) {
+    if (i != radar && is_heard(i) && !looks_across(mounts_[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Whether Doppler scales are learned: by several radars, one of which looks within 27 degrees of
 /// the direction of travel. Otherwise they are not told apart from the speed well enough.
 bool OdometryState::is_scale_observed() const {
@@ -243,7 +253,9 @@ void OdometryState::start_motion(const Eigen::Vector2d& value, const Eigen::Matr
 void OdometryState::widen_errors(std::size_t radar) {
   for (const StateError& error : radar_errors_[radar]) {
     if (error.reset == StateError::Reset::doubt) {
-      gaussian.set(error.state, gaussian.mean(error.state), squared(error.process.std));
+      // That of a mount that turned is larger.
+      const double variance = std::max(gaussian.variance(error.state), squared(error.process.std));
+      gaussian.set(error.state, gaussian.mean(error.state), variance);
     } else if (error.reset == StateError::Reset::scene) {
       start(error);
     }
@@ -258,19 +270,20 @@ void OdometryState::widen_scale(std::size_t radar, double std) {
 void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad) {
   gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
   gaussian.set(error(radar, kMountYaw), yaw_rad, squared(std_rad));
-  // What the linear model leaves out.
-  widen_scale(radar, 1.0 - std::cos(yaw_rad));
-  is_turned_[radar] = true;
-}
-
-bool OdometryState::is_turned(std::size_t radar) const {
-  const double usual_rad = 3.0 * options_.mount_yaw_std_rad;
-  return is_turned_[radar] && std::abs(gaussian.mean(error(radar, kMountYaw))) > usual_rad;
+  // The speed has the part of the error that the linear model leaves out.
+  set_scale_variance(radar, squared(options_.doppler_scale_std) + squared(1.0 - std::cos(yaw_rad)));
+  is_turned_[radar] = std::abs(yaw_rad) > kGateSigmas * options_.mount_yaw_std_rad;
 }
 
 void OdometryState::turn_mount_back(std::size_t radar) {
   gaussian.set(error(radar, kMountYaw), 0.0, squared(options_.mount_yaw_std_rad));
+  set_scale_variance(radar, squared(options_.doppler_scale_std));
   is_turned_[radar] = false;
+}
+
+void OdometryState::set_scale_variance(std::size_t radar, double variance) {
+  const int scale = error(radar, kDopplerScale);
+  gaussian.set(scale, gaussian.mean(scale), variance);
 }
 
 void OdometryState::advance_to(std::int64_t time_us) {
@@ -301,8 +314,13 @@ VehicleEstimate OdometryState::vehicle() const {
 }
 
 void OdometryState::advance_errors(std::size_t radar, double dt_s) {
+  const int mount_yaw = error(radar, kMountYaw);
+  const double mount_yaw_rad = gaussian.mean(mount_yaw);
   for (const StateError& error : radar_errors_[radar]) {
     advance(error, dt_s);
+  }
+  if (is_turned_[radar]) {
+    gaussian.set_mean(mount_yaw, mount_yaw_rad);
   }
 }
 

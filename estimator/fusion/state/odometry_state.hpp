@@ -44,11 +44,12 @@ class OdometryState {
   /// The Doppler scale of a radar may be off by `std`.
   void widen_scale(std::size_t radar, double std);
   /// The mount of a radar turned: its yaw error is `yaw_rad` with `std_rad`, and the slip unknown.
+  /// From then on the error is taken to stay as it is, not to pass.
   void turn_mount(std::size_t radar, double yaw_rad, double std_rad);
   /// Its yaw error is that of a mount measured by hand again.
   void turn_mount_back(std::size_t radar);
   /// Whether it is turned: by more than a mount measured by hand may be off.
-  [[nodiscard]] bool is_turned(std::size_t radar) const;
+  [[nodiscard]] bool is_turned(std::size_t radar) const { return is_turned_[radar]; }
 
   /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);
@@ -106,6 +107,8 @@ class OdometryState {
   /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
   /// others are heard are gone.
   void hear(std::size_t radar, std::int64_t stamp_us);
+  /// Whether no other radar that looks ahead or back was heard in the last 0.5 s.
+  [[nodiscard]] bool is_alone_ahead(std::size_t radar) const;
   /// To be called when the clock of the stamps was set.
   void leave_clock() { std::fill(heard_us_.begin(), heard_us_.end(), std::nullopt); }
   /// Velocity of a radar in the axes of the vehicle, without slip.
@@ -155,6 +158,7 @@ class OdometryState {
   [[nodiscard]] const std::vector<StateError>& signal_errors(VehicleSignal signal) const {
     return signal_errors_[static_cast<std::size_t>(signal)];
   }
+  void set_scale_variance(std::size_t radar, double variance);
   void start_shared(int which, const SharedPrior& prior);
 
   OdometryOptions options_;

@@ -67,11 +67,14 @@ void LoneMount::restart() {
   }
 }
 
-void LoneMount::settle() { std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0); }
+void LoneMount::settle() {
+  has_settled_ = true;
+  std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0);
+}
 
 void LoneMount::join() {
   forget_signs();
-  settle();
+  std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0);
   for (std::size_t i = 0; i < before_restart_rad_.size(); ++i) {
     if (is_too_far(i)) {
       state_.turn_mount_back(i);
@@ -111,6 +114,12 @@ void LoneMount::note_agreement(std::size_t radar, std::int64_t stamp_us,
     by_positions_ = Signs();
   } else if (by_positions_.add(radar, stamp_us)) {
     turn_ = by_yaw_rate(radar, by_positions->radps, state_.options().settled_yaw_rate_std_radps);
+  }
+}
+
+void LoneMount::note_impossible_slip(const Eigen::Vector3d& motion) {
+  if (!has_settled_) {
+    turn_ = Turn{-motion.z(), motion.y(), state_.options().settled_yaw_rate_std_radps, true};
   }
 }
 

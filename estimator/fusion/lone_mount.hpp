@@ -46,6 +46,10 @@ class LoneMount {
   void note_agreement(std::size_t radar, std::int64_t stamp_us,
                       const std::optional<PositionFusion::YawRate>& by_positions);
 
+  /// To be called with a motion (v, w, slip) that no vehicle makes, by the lone radar alone. Counts
+  /// before the first start only: later it may as well skid.
+  void note_impossible_slip(const Eigen::Vector3d& motion);
+
   /// The turn that was noted, once; or one without which the vehicle turns or slips as none can.
   std::optional<Turn> take_turn(std::size_t radar);
 
@@ -82,6 +86,7 @@ class LoneMount {
   void forget_signs();
 
   OdometryState& state_;
+  bool has_settled_ = false;
   Signs by_doppler_;
   Signs by_positions_;
   std::optional<Turn> turn_;

@@ -85,7 +85,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     const bool is_used = use_doppler(radar, targets, stamp_us);
     const auto yaw_rate = is_used ? positions_.use(radar, targets, stamp_us) : std::nullopt;
     if (is_alone(radar)) {
-      if (is_used) {
+      if (const auto motion = faults_.motion_with_impossible_slip()) {
+        lone_mount_.note_impossible_slip(*motion);
+      } else if (is_used) {
         lone_mount_.note_agreement(radar, stamp_us, yaw_rate);
       }
       has_turned = learn_mount_if_turned(radar);
@@ -203,7 +205,7 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
 
 /// Whether no other radar that looks ahead or back is heard, believed or not.
 bool OdometryFilter::is_alone(std::size_t radar) const {
-  return consensus_[radar].is_trusted && !looks_across(state_.mount(radar)) &&
+  return !faults_.is_at_fault(radar) && !looks_across(state_.mount(radar)) &&
          state_.is_alone_ahead(radar);
 }
 
@@ -219,6 +221,7 @@ bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
     if (turn->is_sudden) {
       positions_.clear();
       vehicle_.restart_errors();
+      faults_.pause();
     }
   }
   if (lone_mount_.is_too_far(radar)) {

@@ -59,6 +59,10 @@ class FaultHypotheses {
   }
   /// The vehicle skids: radars cannot be compared, nor by what they measured shortly before.
   void pause();
+  /// MotionEvidence::motion_with_impossible_slip() if it is not known which radars are wrong.
+  [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const {
+    return is_unknown() ? evidence_.motion_with_impossible_slip() : std::nullopt;
+  }
   /// The velocity of a scan by Doppler; judges the radars if that completes an epoch.
   void add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
 

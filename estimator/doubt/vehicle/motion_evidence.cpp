@@ -42,6 +42,12 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Error of the speed along x of a radar that looks sideways: reflections on passed objects move.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
+/// Prior of the slip if the mount may be turned (17 degrees), and the decrease of chi-square by it
+/// that shows one, as for a radar at fault, in this many epochs: one wrong registration tells
+/// nothing.
+constexpr double kAnySlipRad = 0.3;
+constexpr double kImpossibleSlip = 8.0;
+constexpr int kMinImpossible = 2;
 /// Lateral acceleration of turns, which bounds the yaw rate: slow vehicles turn faster than the
 /// prior at a start allows. With that prior alone a U-turn at full lock (0.85 rad/s) contradicts a
 /// lone radar by 8.
@@ -339,6 +345,23 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
   });
   add_slip(sum);
   return sum;
+}
+
+std::optional<Eigen::Vector3d> MotionEvidence::motion_with_impossible_slip() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t k = 0; k < epochs(); ++k) {
+    MotionSums with_any_slip = prior(turn_std_radps(epochs_[k]));
+    for_each(present(), [&](std::size_t i) { with_any_slip.add(epochs_[k][i].all); });
+    MotionSums with_slip = with_any_slip;
+    add_slip(with_slip);
+    with_any_slip.add(Eigen::Vector3d::UnitZ(), 0.0, squared(kAnySlipRad));
+    if (with_slip.chi_square() - with_any_slip.chi_square() > kImpossibleSlip) {
+      sum += with_any_slip.solution();
+      ++count;
+    }
+  }
+  return count >= kMinImpossible ? std::optional<Eigen::Vector3d>(sum / count) : std::nullopt;
 }
 
 MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,

@@ -122,6 +122,9 @@ class MotionEvidence {
   [[nodiscard]] MotionSums sum(RadarSet set) const {
     return sum(set, newest_epoch(), {}, state_.options().start_yaw_rate_std_radps);
   }
+  /// Mean motion by the radars that are present, in the epochs that no slip of a vehicle explains
+  /// but any other does: of a lone radar whose mount is turned.
+  [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const;
   /// Doppler of a radar that is present.
   [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
     return by_doppler(radar, *velocity(radar));

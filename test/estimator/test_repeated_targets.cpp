@@ -44,6 +44,24 @@ TEST_CASE("a standing vehicle, or one that sees little, may see the same twice")
   CHECK_FALSE(is_repeated({}, {}));
 }
 
+TEST_CASE("a sensor that hangs at rest is found after ten repeats, and no longer when it goes on") {
+  const TargetSet standing = row_of_targets(5, 10.0, 0.0);
+  RepeatedTargets repeated;
+  repeated.add(standing);
+  for (int i = 1; i < 10; ++i) {
+    repeated.add(standing);
+    CHECK_FALSE(repeated.is_repeated());
+  }
+  for (int i = 0; i < 3; ++i) {
+    repeated.add(standing);
+    CHECK(repeated.is_repeated());
+  }
+  repeated.add(row_of_targets(5, 10.2, 0.0));
+  CHECK_FALSE(repeated.is_repeated());
+  repeated.add(row_of_targets(5, 10.2, 0.0));
+  CHECK_FALSE(repeated.is_repeated());
+}
+
 TEST_CASE("a radar that repeats is doubted at once, and no longer when it does not") {
   const bool is_aside = GENERATE(false, true);
   EgoMotionOptions options;

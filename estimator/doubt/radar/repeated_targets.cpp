@@ -10,6 +10,8 @@ namespace cremed {
 namespace {
 
 constexpr std::size_t kMinRepeatedTargets = 5;
+/// Scans in succession, 0.75 s.
+constexpr int kMinRepeatsAtRest = 10;
 /// Mean square of the Doppler of a moving vehicle: five times an ARS408's noise.
 constexpr double kMinDopplerMps = 0.5;
 
@@ -23,7 +25,8 @@ void RepeatedTargets::add(const TargetSet& targets) {
     squares += squared(target.doppler_mps);
   }
   const bool is_moving = squares > squared(kMinDopplerMps) * static_cast<double>(targets.size());
-  is_repeated_ = targets.size() >= kMinRepeatedTargets && is_moving && sums == last_;
+  repeats_ = targets.size() >= kMinRepeatedTargets && sums == last_ ? repeats_ + 1 : 0;
+  is_repeated_ = repeats_ >= (is_moving ? 1 : kMinRepeatsAtRest);
   last_ = sums;
 }
 

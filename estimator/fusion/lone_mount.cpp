@@ -17,6 +17,10 @@ namespace {
 
 using namespace state_layout;
 
+/// Least distance from the axle. At 0.56 m and 12 m/s a yaw error of a degree looks like a turn of
+/// 0.4 rad/s: learned mounts of nuScenes' rear radars put 6 % of the rows beyond 5 sigma, most of
+/// which had been ambiguous.
+constexpr double kMinLeverM = 1.0;
 /// Of the slip, in standard deviations of its prior. Single healthy radars reach 1.6 (17 on the six
 /// drives); with a mount that is 3 degrees off it is 2.6 to 3.9.
 constexpr double kMaxSlipSigmas = 2.2;
@@ -55,6 +59,10 @@ bool LoneMount::Signs::add(std::size_t of_radar, std::int64_t stamp_us) {
   const bool are_enough = count == kMinSigns;
   count = are_enough ? 0 : count;
   return are_enough;
+}
+
+bool LoneMount::judges(std::size_t radar) const {
+  return std::abs(state_.mount(radar).x_m) > kMinLeverM;
 }
 
 void LoneMount::restart() {

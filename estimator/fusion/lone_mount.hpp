@@ -31,6 +31,9 @@ class LoneMount {
   /// `state` must outlive this object.
   explicit LoneMount(OdometryState& state) : state_(state), before_restart_rad_(state.radars()) {}
 
+  /// Whether it judges this radar: not one near the axle.
+  [[nodiscard]] bool judges(std::size_t radar) const;
+
   /// To be called at a restart. A mount that is too far off may have turned back.
   void restart();
   /// To be called when the odometry has started: the mounts are as they were learned.

@@ -91,7 +91,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
         lone_mount_.note_agreement(radar, stamp_us, yaw_rate);
       }
       has_turned = learn_mount_if_turned(radar);
-    } else if (is_used && !state_.is_witness(radar)) {
+    } else if (is_used && !state_.is_witness(radar) && !state_.is_alone_ahead(radar)) {
       lone_mount_.join();
     }
   }
@@ -203,10 +203,10 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// Whether no other radar that looks ahead or back is heard, believed or not.
+/// Whether LoneMount judges the radar: no other that looks ahead or back is heard, believed or not.
 bool OdometryFilter::is_alone(std::size_t radar) const {
   return !faults_.is_at_fault(radar) && !looks_across(state_.mount(radar)) &&
-         state_.is_alone_ahead(radar);
+         state_.is_alone_ahead(radar) && lone_mount_.judges(radar);
 }
 
 /// The mount of the lone radar turned: the pose and the slip may have that error.

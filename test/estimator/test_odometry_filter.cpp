@@ -315,10 +315,9 @@ Judged judge(OdometryDrive& drive, double time_s) {
 constexpr double kCredibleNees = 8.0;
 
 TEST_CASE("the mount of a lone radar that looks elsewhere is learned and named") {
-  const auto [mount, turned_deg] =
-      GENERATE(std::pair(kFront, 3.0), std::pair(kFront, -6.0), std::pair(kRearLeft, -3.0));
-  OdometryDrive drive({mount}, 23);
-  CAPTURE(mount.yaw_rad, turned_deg);
+  const double turned_deg = GENERATE(3.0, -6.0);
+  OdometryDrive drive({kFront}, 23);
+  CAPTURE(turned_deg);
   SECTION("from the start") {
     drive.radar(0).mount.yaw_rad += numeric::radians(turned_deg);
     const Judged judged = judge(drive, 10.0);

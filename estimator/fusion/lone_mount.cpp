@@ -81,13 +81,8 @@ void LoneMount::settle() {
 }
 
 void LoneMount::join() {
-  forget_signs();
+  restart();
   std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0);
-  for (std::size_t i = 0; i < before_restart_rad_.size(); ++i) {
-    if (is_too_far(i)) {
-      state_.turn_mount_back(i);
-    }
-  }
 }
 
 void LoneMount::forget_signs() {

@@ -38,17 +38,14 @@ void MixtureCost::add_positions(const Eigen::Vector3d& motion, NormalEquations& 
   const Rotation rotation(motion.z());
   for (std::size_t i = 0; i < size; ++i) {
     const Target& target = (*current_)[i];
-    lever_m_[i] = rotation * Eigen::Vector2d(target.x_m, target.y_m);
-    points_[i] = {lever_m_[i].x() + motion.x(), lever_m_[i].y() + motion.y(),
-                  rotation * (scale_ * scale_ * target.covariance_m2)};
-  }
-  mixture_.evaluate({points_.data(), size}, {residuals_.data(), size});
-  for (std::size_t i = 0; i < size; ++i) {
-    const Eigen::Matrix<double, 3, 2>& jacobian = residuals_[i].jacobian;
+    const Eigen::Vector2d lever_m = rotation * Eigen::Vector2d(target.x_m, target.y_m);
+    const MixtureResidual residual = mixture_.evaluate(
+        lever_m + motion.head<2>(), rotation * (scale_ * scale_ * target.covariance_m2));
+    const Eigen::Matrix<double, 3, 2>& jacobian = residual.jacobian;
     equations.add_point({jacobian.col(0).squaredNorm(), jacobian.col(0).dot(jacobian.col(1)),
                          jacobian.col(1).squaredNorm()},
-                        jacobian.transpose() * residuals_[i].residual, lever_m_[i]);
-    equations.cost += residuals_[i].cost;
+                        jacobian.transpose() * residual.residual, lever_m);
+    equations.cost += residual.cost;
   }
   evaluations_ += static_cast<std::int64_t>(size * mixture_.size());
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -70,10 +69,6 @@ class MixtureCost {
   double scale_ = 1.0;
   double doppler_scale_ = 1.0;
   std::int64_t evaluations_ = 0;
-  // Scratch for each current target.
-  std::array<Eigen::Vector2d, kMaxDetections> lever_m_;  // R(yaw) m_i
-  std::array<MixturePoint, kMaxDetections> points_;
-  std::array<MixtureResidual, kMaxDetections> residuals_;
 };
 
 }  // namespace cremed

@@ -90,7 +90,7 @@ CREMED_ALWAYS_INLINE PairSums MapPairs::sum_up_packs(std::size_t begin, std::siz
     fxy_sum[part] = fxys;
     fyy_sum[part] = fyys;
   }
-  const auto total = [](Sums& sums) { return reduce(sums, Sum()); };
+  const auto total = [](Sums& sums) { return sum(sums); };
   PairSums sums;
   sums.weight = total(w_sum);
   sums.information = {total(xx_sum), total(xy_sum), total(yy_sum)};

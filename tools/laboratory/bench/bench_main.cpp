@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 
-#include "cremed/estimator/cost/mixture_kernel.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/laboratory/bench/bench_problem.hpp"
 #include "tools/laboratory/bench/bench_report.hpp"
@@ -74,7 +72,6 @@ int run(CLI::App& app, int argc, char** argv) {
     return 2;
   }
   register_all(arguments);
-  std::printf("Kernel: %s, one thread\n", cremed::mixture_kernels().front().name.data());
   cremed::BenchReport report;
   benchmark::RunSpecifiedBenchmarks(&report);
   return 0;

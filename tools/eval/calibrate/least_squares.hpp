@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -15,11 +16,12 @@
 
 namespace cremed {
 
-/// What a squared residual costs: quadratic near zero, less beyond `scale`.
+/// What a squared residual costs: quadratic near zero, less beyond `scale`. Least squares by
+/// default.
 struct Loss {
-  enum class Kind { square, huber, cauchy };
-  Kind kind = Kind::square;
-  double scale = 1.0;
+  enum class Kind { huber, cauchy };
+  Kind kind = Kind::huber;
+  double scale = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] double cost(double square) const;
   /// Derivative of the cost.
@@ -33,13 +35,13 @@ class LeastSquares {
   /// Columns of the Jacobian, in the order of the calls.
   template <std::size_t N>
   void add_unknowns(std::array<double, N>& values) {
-    columns_[values.data()] = count_;
-    blocks_.push_back({values.data(), N});
-    count_ += static_cast<int>(N);
+    columns_[values.data()] = static_cast<int>(unknowns_.size());
+    for (double& value : values) {
+      unknowns_.push_back(&value);
+    }
   }
 
-  /// `residual(const T* block, ..., T* rows)` has Rows rows and depends on these unknowns, each
-  /// named once.
+  /// `residual(const T* block, ..., T* rows)` has Rows rows and depends on these unknowns.
   template <int Rows, typename Residual, std::size_t... N>
   void add(const Residual& residual, Loss loss, std::array<double, N>&... unknowns);
 
@@ -63,33 +65,12 @@ class LeastSquares {
     std::vector<int> columns;
     std::function<void(Rows&, RowsJacobian&)> evaluate;
   };
-  struct Block {
-    double* values;
-    std::size_t size;
-  };
-  /// Sum over the terms of J'J, of which it is the lower part, of J'r and of the cost.
-  struct NormalEquations {
-    Eigen::SparseMatrix<double> information;
-    Eigen::VectorXd gradient;
-    double cost = 0.0;
-  };
-  /// Where the terms' products of columns stand in the information, term by term.
-  struct Pattern {
-    Eigen::SparseMatrix<double> information;
-    std::vector<int> places;
-  };
-  [[nodiscard]] Pattern pattern() const;
-  [[nodiscard]] NormalEquations normal_equations(const Pattern& pattern) const;
-  /// Calls `use(term, rows, jacobian)` for each term, both weighted; returns the cost.
-  template <typename Use>
-  double evaluate(const Use& use) const;
   [[nodiscard]] Eigen::VectorXd values() const;
   void set_values(const Eigen::VectorXd& values);
 
   std::vector<Term> terms_;
-  std::vector<Block> blocks_;
-  std::map<const double*, int> columns_;  // First of a block.
-  int count_ = 0;
+  std::vector<double*> unknowns_;
+  std::map<const double*, int> columns_;  // First of an array.
 };
 
 template <int Rows, typename Residual, std::size_t... N>

@@ -36,7 +36,7 @@ inline DriftErrors drift_errors(const std::vector<Odometry>& odometries,
                                 const TrueTrajectory& truth, double window_s) {
   const RecordedOdometry odometry = motions_since_anchors(recorded_states(odometries));
   const WindowErrors errors =
-      window_errors(ChainedPoses(odometry.steps()), truth, first_window_us({odometry}, truth),
+      window_errors(chained_poses(odometry.steps()), truth, first_window_us({odometry}, truth),
                     std::llround(1e6 * window_s));
   return {static_cast<int>(errors.windows), kDegPerRad * errors.rmse.z(),
           0.01 * errors.position_percent};

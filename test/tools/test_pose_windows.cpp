@@ -24,7 +24,7 @@ std::vector<RecordedEstimate> exact_steps(const Circle& circle, std::int64_t ste
 
 TEST_CASE("Poses between the steps' ends are interpolated") {
   const Circle circle{10.0, 0.1};
-  const ChainedPoses poses(exact_steps(circle, 75'000, 100));
+  const TrueTrajectory poses = chained_poses(exact_steps(circle, 75'000, 100));
   const auto motion = poses.motion(512'345, 6'012'345);
   REQUIRE(motion);
   CHECK(motion->isApprox(circle.motion(5.5), 1e-4));
@@ -43,12 +43,12 @@ TEST_CASE("Windows begin one step after both have begun, half a second apart, to
   }
   const std::int64_t first_us = first_window_us({{"late", steps, 0}, {"blind", {}, 5}}, truth);
   CHECK(first_us == 730'000);
-  const WindowErrors errors = window_errors(ChainedPoses(steps), truth, first_us, 2'000'000);
+  const WindowErrors errors = window_errors(chained_poses(steps), truth, first_us, 2'000'000);
   CHECK(errors.windows == 14);  // From 0.73 to 7.23 s; the steps end at 9.23 s.
   CHECK(errors.rmse.z() == Approx(0.0).margin(1e-9));
   CHECK(first_window_us({}, truth) == 500'000);
-  CHECK(std::isnan(window_errors(ChainedPoses({}), truth, 0, 2'000'000).rmse.z()));
-  CHECK(window_errors(ChainedPoses(steps), {}, 0, 2'000'000).windows == 0);
+  CHECK(std::isnan(window_errors(chained_poses({}), truth, 0, 2'000'000).rmse.z()));
+  CHECK(window_errors(chained_poses(steps), {}, 0, 2'000'000).windows == 0);
 }
 
 TEST_CASE("A damaged last stamp of truth adds no windows, and takes no time") {
@@ -64,7 +64,7 @@ TEST_CASE("A damaged last stamp of truth adds no windows, and takes no time") {
   poses.push_back(poses.back());
   const TrueTrajectory damaged(utime_us, poses);
   const auto windows = [&](const TrueTrajectory& of) {
-    return window_errors(ChainedPoses(steps), of, 500'000, 2'000'000).windows;
+    return window_errors(chained_poses(steps), of, 500'000, 2'000'000).windows;
   };
   CHECK(windows(damaged) == windows(truth));
 }
@@ -76,14 +76,14 @@ TEST_CASE("A constant error of scale and of yaw rate is that of every window") {
     step.motion.x() *= 1.02;
   }
   const auto truth = exact_truth(circle, 200);
-  const auto scale = window_errors(ChainedPoses(steps), truth, 500'000, 5'000'000);
+  const auto scale = window_errors(chained_poses(steps), truth, 500'000, 5'000'000);
   CHECK(scale.windows == 30);
   CHECK(scale.rmse.x() == Approx(0.8));
   CHECK(scale.position_percent == Approx(2.0));
   for (RecordedEstimate& step : steps) {
     step.motion.z() += 0.002;
   }
-  const auto turned = window_errors(ChainedPoses(steps), truth, 500'000, 5'000'000);
+  const auto turned = window_errors(chained_poses(steps), truth, 500'000, 5'000'000);
   CHECK(turned.rmse.z() == Approx(0.1));
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("A window across a gap is left out; stamps that differ by their roundi
   steps[20].start_us += 2;
   const auto truth = exact_truth(circle, 100);
   const auto windows = [&] {
-    return window_errors(ChainedPoses(steps), truth, 500'000, 3'000'000).windows;
+    return window_errors(chained_poses(steps), truth, 500'000, 3'000'000).windows;
   };
   CHECK(windows() == 14);
   steps.erase(steps.begin() + 52);
@@ -104,7 +104,7 @@ TEST_CASE("A window with an end in a gap of truth, or with a long gap in it, is 
   const Circle circle;
   const auto steps = exact_steps(circle, kStepUs, 100);
   const auto errors = [&](std::size_t first, std::size_t last) {
-    return window_errors(ChainedPoses(steps), with_gap(exact_truth(circle, 100), first, last),
+    return window_errors(chained_poses(steps), with_gap(exact_truth(circle, 100), first, last),
                          500'000, 2'000'000);
   };
   CHECK(errors(53, 53).windows == 16);  // One pose less is interpolated.
@@ -121,6 +121,6 @@ TEST_CASE("Standing still, an error counts as one over a metre") {
     step.motion.x() = 0.001;
   }
   const auto errors =
-      window_errors(ChainedPoses(steps), exact_truth(circle, 50), 500'000, 1'000'000);
+      window_errors(chained_poses(steps), exact_truth(circle, 50), 500'000, 1'000'000);
   CHECK(errors.position_percent == Approx(1.0));
 }

@@ -3,7 +3,8 @@
 #include "tools/eval/drive/pose_windows.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/motion_chain.hpp"
@@ -41,45 +42,31 @@ std::optional<double> true_path_m(const TrueTrajectory& truth, std::int64_t star
 
 }  // namespace
 
-ChainedPoses::ChainedPoses(const std::vector<RecordedEstimate>& steps) {
-  for (const RecordedEstimate& step : steps) {
-    Place place = places_.empty() ? Place{} : places_.back();
-    if (utime_us_.empty() || !is_same_stamp(step.start_us, utime_us_.back())) {
-      place.gaps += utime_us_.empty() ? 0 : 1;
-      push(step.start_us, place);
+TrueTrajectory chained_poses(const std::vector<RecordedEstimate>& steps) {
+  std::vector<std::int64_t> utime_us;
+  std::vector<Pose2> poses;
+  std::vector<TimeSpan> gaps;
+  bool is_broken = false;  // Between the last pose and the next.
+  const auto add = [&](std::int64_t time_us, const Pose2& pose) {
+    if (!utime_us.empty() && time_us <= utime_us.back()) {
+      return;
     }
-    place.pose = moved(place.pose, step.motion);
-    push(step.end_us, place);
+    if (std::exchange(is_broken, false)) {
+      gaps.push_back({utime_us.back(), time_us});
+    }
+    utime_us.push_back(time_us);
+    poses.push_back(pose);
+  };
+  Pose2 pose;
+  for (const RecordedEstimate& step : steps) {
+    if (utime_us.empty() || !is_same_stamp(step.start_us, utime_us.back())) {
+      is_broken = !utime_us.empty();
+      add(step.start_us, pose);
+    }
+    pose = moved(pose, step.motion);
+    add(step.end_us, pose);
   }
-}
-
-void ChainedPoses::push(std::int64_t utime_us, const Place& place) {
-  if (utime_us_.empty() || utime_us > utime_us_.back()) {
-    utime_us_.push_back(utime_us);
-    places_.push_back(place);
-  }
-}
-
-std::optional<ChainedPoses::Place> ChainedPoses::at(std::int64_t utime_us) const {
-  const auto place = bracket(utime_us_, utime_us);
-  if (!place || places_[place->left].gaps != places_[place->right].gaps) {
-    return std::nullopt;
-  }
-  const Pose2& a = places_[place->left].pose;
-  const Pose2& b = places_[place->right].pose;
-  return Place{{std::lerp(a.x_m, b.x_m, place->share), std::lerp(a.y_m, b.y_m, place->share),
-                std::lerp(a.yaw_rad, b.yaw_rad, place->share)},
-               places_[place->left].gaps};
-}
-
-std::optional<Eigen::Vector3d> ChainedPoses::motion(std::int64_t start_us,
-                                                    std::int64_t end_us) const {
-  const auto start = at(start_us);
-  const auto end = at(end_us);
-  if (!start || !end || start->gaps != end->gaps) {
-    return std::nullopt;
-  }
-  return motion_between(start->pose, end->pose);
+  return {std::move(utime_us), std::move(poses), std::move(gaps)};
 }
 
 std::int64_t first_window_us(const std::vector<RecordedOdometry>& sources,
@@ -95,15 +82,17 @@ std::int64_t first_window_us(const std::vector<RecordedOdometry>& sources,
   return std::max(begin_us.value_or(truth_us), truth_us) + kWindowStepUs;
 }
 
-WindowErrors window_errors(const ChainedPoses& poses, const TrueTrajectory& truth,
+WindowErrors window_errors(const TrueTrajectory& poses, const TrueTrajectory& truth,
                            std::int64_t first_us, std::int64_t length_us) {
   WindowErrors errors;
-  const std::int64_t of_truth_us = truth.utime_us().empty() ? first_us : truth.utime_us().back();
-  const std::int64_t last_us = std::min(of_truth_us, poses.last_us().value_or(first_us));
+  const auto last_of = [&](const TrueTrajectory& of) {
+    return of.utime_us().empty() ? first_us : of.utime_us().back();
+  };
+  const std::int64_t last_us = std::min(last_of(truth), last_of(poses));
   for (std::int64_t begin_us = first_us; begin_us + length_us <= last_us;
        begin_us += kWindowStepUs) {
     const std::int64_t end_us = begin_us + length_us;
-    const auto motion = poses.motion(begin_us, end_us);
+    const auto motion = poses.unbroken_motion(begin_us, end_us);
     const auto true_motion = truth.motion(begin_us, end_us);
     const auto path_m = true_path_m(truth, begin_us, end_us);
     if (motion && true_motion && path_m) {

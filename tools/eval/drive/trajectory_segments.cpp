@@ -163,7 +163,7 @@ std::vector<SegmentErrors> trajectory_segments(const RecordedOdometry& odometry,
   for (const std::size_t first : chain_begins(odometry.estimates, first_window_us)) {
     add_segments(odometry.estimates, first, truth, noise, lengths);
   }
-  const ChainedPoses poses(odometry.steps());
+  const TrueTrajectory poses = chained_poses(odometry.steps());
   std::vector<SegmentErrors> result;
   result.reserve(lengths.size());
   for (const LengthErrors& length : lengths) {

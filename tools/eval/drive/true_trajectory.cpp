@@ -88,9 +88,14 @@ TrueTrajectory::TrueTrajectory(std::istream& input) {
   gaps_ = gaps_in(utime_us_);
 }
 
-TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)
-    : utime_us_(std::move(utime_us)), poses_(std::move(poses)) {
+TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses,
+                               std::vector<TimeSpan> gaps)
+    : utime_us_(std::move(utime_us)), poses_(std::move(poses)), gaps_(std::move(gaps)) {
   check_order(utime_us_);
+}
+
+TrueTrajectory::TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses)
+    : TrueTrajectory(std::move(utime_us), std::move(poses), {}) {
   gaps_ = gaps_in(utime_us_);
 }
 
@@ -119,6 +124,11 @@ std::optional<Eigen::Vector3d> TrueTrajectory::motion(std::int64_t start_us,
     return std::nullopt;
   }
   return motion_between(*start, *end);
+}
+
+std::optional<Eigen::Vector3d> TrueTrajectory::unbroken_motion(std::int64_t start_us,
+                                                               std::int64_t end_us) const {
+  return touches_gap(start_us, end_us) ? std::nullopt : motion(start_us, end_us);
 }
 
 Eigen::Vector3d motion_between(const Pose2& start, const Pose2& end) {

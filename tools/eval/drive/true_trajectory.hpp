@@ -14,7 +14,7 @@
 
 namespace cremed {
 
-/// True poses of the vehicle over time, interpolated linearly.
+/// Poses of the vehicle over time, such as true ones, interpolated linearly.
 class TrueTrajectory {
  public:
   /// Reads CSV with the columns utime (us), x_m, y_m, yaw_rad; throws std::runtime_error, also if
@@ -22,6 +22,9 @@ class TrueTrajectory {
   explicit TrueTrajectory(std::istream& input);
   /// From poses and their times, which must increase; throws std::runtime_error.
   TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses);
+  /// With these gaps, whatever the distances of the poses.
+  TrueTrajectory(std::vector<std::int64_t> utime_us, std::vector<Pose2> poses,
+                 std::vector<TimeSpan> gaps);
   TrueTrajectory() = default;
 
   /// Pose at a time; nothing outside of the recorded time, or in a gap.
@@ -29,6 +32,9 @@ class TrueTrajectory {
   /// Pose at `end_us` in the vehicle's frame at `start_us`: (x_m, y_m, yaw_rad).
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
                                                       std::int64_t end_us) const;
+  /// The same; nothing across a gap either.
+  [[nodiscard]] std::optional<Eigen::Vector3d> unbroken_motion(std::int64_t start_us,
+                                                               std::int64_t end_us) const;
   /// Where poses are missing: neighbours that are farther apart than longest_step_us.
   [[nodiscard]] const std::vector<TimeSpan>& gaps() const { return gaps_; }
   /// Whether a gap is between these times, in part or all.

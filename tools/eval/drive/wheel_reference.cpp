@@ -39,12 +39,6 @@ WheelReference::WheelReference(std::istream& input, const WheelStd& std) : std_(
   dead_reckoning_ = TrueTrajectory(std::move(utime_us), std::move(poses));
 }
 
-std::optional<Eigen::Vector3d> WheelReference::motion(std::int64_t start_us,
-                                                      std::int64_t end_us) const {
-  return dead_reckoning_.touches_gap(start_us, end_us) ? std::nullopt
-                                                       : dead_reckoning_.motion(start_us, end_us);
-}
-
 std::optional<Eigen::Vector2d> WheelReference::rates(std::int64_t utime_us) const {
   if (!dead_reckoning_.at(utime_us)) {
     return std::nullopt;

@@ -31,7 +31,9 @@ class WheelReference {
   /// integrated by the trapezoid rule, y without slip. Nothing outside of the recorded time, or
   /// across a gap of it.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion(std::int64_t start_us,
-                                                      std::int64_t end_us) const;
+                                                      std::int64_t end_us) const {
+    return dead_reckoning_.unbroken_motion(start_us, end_us);
+  }
   /// (speed_mps, yaw_rate_radps) at a time, interpolated linearly.
   [[nodiscard]] std::optional<Eigen::Vector2d> rates(std::int64_t utime_us) const;
   [[nodiscard]] const WheelStd& std() const { return std_; }

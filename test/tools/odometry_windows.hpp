@@ -34,7 +34,7 @@ inline double way_m(const TrueTrajectory& truth, std::int64_t from_us, std::int6
 
 inline DriftErrors drift_errors(const std::vector<Odometry>& odometries,
                                 const TrueTrajectory& truth, double window_s) {
-  const RecordedOdometry odometry = motions_since_anchors(recorded_states(odometries));
+  const RecordedOdometry odometry = recorded_states(odometries).odometry;
   const WindowErrors errors =
       window_errors(chained_poses(odometry.steps()), truth, first_window_us({odometry}, truth),
                     std::llround(1e6 * window_s));

@@ -3,6 +3,8 @@
 #include "tools/eval/drive/drive_evaluation.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "daemon/configuration/configuration.hpp"
@@ -41,16 +43,32 @@ void compare_estimates(const std::vector<RecordedEstimate>& estimates,
   }
 }
 
-std::vector<RunningNees> mean_nees(const std::vector<EstimateError>& errors, int dof) {
-  std::vector<TimedNees> nees;
-  nees.reserve(errors.size());
-  for (const EstimateError& error : errors) {
-    nees.push_back({error.utime_us, error.nees});
-  }
-  return running_nees(nees, dof, kNeesWindowUs);
-}
-
 }  // namespace
+
+std::vector<RunningNees> running_nees(const std::vector<EstimateError>& estimates,
+                                      int degrees_of_freedom) {
+  std::vector<RunningNees> result;
+  std::map<std::size_t, Interval> intervals;  // By count: of a few sizes, and slow to compute.
+  auto begin = estimates.begin();
+  auto end = begin;
+  for (const EstimateError& centre : estimates) {
+    begin = std::find_if(begin, estimates.end(), [&](const EstimateError& e) {
+      return e.utime_us >= centre.utime_us - kNeesWindowUs / 2;
+    });
+    end = std::find_if(end, estimates.end(), [&](const EstimateError& e) {
+      return e.utime_us > centre.utime_us + kNeesWindowUs / 2;
+    });
+    const auto count = static_cast<std::size_t>(end - begin);
+    const double sum = std::accumulate(
+        begin, end, 0.0, [](double total, const EstimateError& e) { return total + e.nees; });
+    const auto [interval, is_new] = intervals.try_emplace(count);
+    if (is_new) {
+      interval->second = anees_interval(count, degrees_of_freedom, 0.95);
+    }
+    result.push_back({sum / static_cast<double>(count), interval->second});
+  }
+  return result;
+}
 
 SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveReference& reference,
                                  std::int64_t first_window_us) {
@@ -65,7 +83,7 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveRe
   result.availability = odometry.availability;
   result.without_estimate = odometry.without_estimate;
   compare_estimates(odometry.estimates, reference, result);
-  result.mean_nees = mean_nees(result.errors, result.degrees_of_freedom);
+  result.mean_nees = running_nees(result.errors, result.degrees_of_freedom);
   result.path = driven_path(odometry.steps(), reference.truth);
   result.drift = path_drift(result.path);
   result.segments =
@@ -79,9 +97,8 @@ SourceEvaluation evaluate_source(const RecordedOdometry& odometry, const DriveRe
 namespace {
 
 SourceEvaluation evaluate_states(const RecordedStates& states, const DriveReference& reference) {
-  const RecordedOdometry odometry = motions_since_anchors(states);
-  SourceEvaluation result =
-      evaluate_source(odometry, reference, first_window_us({odometry}, reference.truth));
+  SourceEvaluation result = evaluate_source(states.odometry, reference,
+                                            first_window_us({states.odometry}, reference.truth));
   if (reference.wheels) {
     result.twist = against_wheels(states.states, *reference.wheels);
   }

@@ -11,11 +11,11 @@
 
 #include <Eigen/Core>
 
+#include "tools/eval/chi_square.hpp"
 #include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/against_wheels.hpp"
 #include "tools/eval/drive/path_drift.hpp"
 #include "tools/eval/drive/recorded_odometry.hpp"
-#include "tools/eval/drive/running_nees.hpp"
 #include "tools/eval/drive/trajectory_segments.hpp"
 #include "tools/eval/drive/true_trajectory.hpp"
 #include "tools/eval/drive/truth_noise.hpp"
@@ -46,6 +46,19 @@ struct EstimateError {
   MeanRates truth;
 };
 
+inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
+
+/// Mean of NEES over a window, and the 95 % interval of such means for credible, independent
+/// estimates. (Neighbours share a scan, so slightly more lie outside.)
+struct RunningNees {
+  double mean = 0.0;
+  Interval interval;
+};
+
+/// For each estimate, in order of time, the mean of those at most half a window away.
+std::vector<RunningNees> running_nees(const std::vector<EstimateError>& estimates,
+                                      int degrees_of_freedom);
+
 /// One source's odometry against truth.
 struct SourceEvaluation {
   std::string source;
@@ -64,8 +77,6 @@ struct SourceEvaluation {
   std::optional<MotionsAgainstWheels> wheels;  ///< With wheels only, as is twist.
   std::optional<TwistAgainstWheels> twist;     ///< Of the vehicle's state only.
 };
-
-inline constexpr std::int64_t kNeesWindowUs = 2'000'000;
 
 /// Compares every estimate of a source with the reference. A source whose cov_yy is always 0 has 2
 /// DoF. Several sources have the same windows, counted from the first.

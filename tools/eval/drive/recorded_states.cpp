@@ -57,12 +57,13 @@ RecordedStates read_states(const CsvTable& table) {
     times.push_back({outputs.back().utime_us, is_usable(outputs.back())});
   }
   RecordedStates result = recorded_states(outputs);
-  result.availability = availability(times, time_of(table));
+  result.odometry.availability = availability(times, time_of(table));
   return result;
 }
 
 RecordedStates recorded_states(const std::vector<Odometry>& outputs) {
   RecordedStates result;
+  RecordedOdometry& odometry = result.odometry;
   std::optional<Pose2> before;
   std::int64_t before_us = 0;
   for (const Odometry& output : outputs) {
@@ -70,28 +71,20 @@ RecordedStates recorded_states(const std::vector<Odometry>& outputs) {
     if (output.status != OdometryStatus::initialising && std::isfinite(since_start.x())) {
       const Pose2 pose{since_start.x(), since_start.y(), since_start.z()};
       if (before && output.utime_us > before_us) {
-        result.steps.push_back(
+        odometry.steps_since_start.push_back(
             {before_us, output.utime_us, motion_between(*before, pose), Eigen::Matrix3d::Zero()});
       }
       before = pose;
       before_us = output.utime_us;
     }
-    if (is_usable(output)) {
-      result.states.push_back(output);
-    } else {
-      ++result.without_estimate;
+    if (!is_usable(output)) {
+      ++odometry.without_estimate;
+      continue;
     }
-  }
-  return result;
-}
-
-RecordedOdometry motions_since_anchors(const RecordedStates& states) {
-  RecordedOdometry result{
-      "odometry", {}, states.without_estimate, states.steps, states.availability};
-  for (const Odometry& state : states.states) {
-    if (state.utime_us > state.utime_anchor_us) {
-      result.estimates.push_back(
-          {state.utime_anchor_us, state.utime_us, state.pose, state.covariance});
+    result.states.push_back(output);
+    if (output.utime_us > output.utime_anchor_us) {
+      odometry.estimates.push_back(
+          {output.utime_anchor_us, output.utime_us, output.pose, output.covariance});
     }
   }
   return result;

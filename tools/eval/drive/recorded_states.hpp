@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "cremed/estimator/fusion/state/odometry.hpp"
@@ -11,14 +10,14 @@
 
 namespace cremed {
 
-/// The vehicle's state as `cremed --output-odometry` writes it: of each row that has an estimate.
+/// The vehicle's state as `cremed --output-odometry` writes it.
 struct RecordedStates {
-  std::vector<Odometry> states;
-  std::size_t without_estimate = 0;  ///< Rows whose status has no estimate.
-  /// From each pose since the start to the next, in all rows that have one and are no longer
+  std::vector<Odometry> states;  ///< Of each row that has an estimate.
+  /// Each state's pose as a motion since its anchor; none for a state at its own anchor's time. The
+  /// state at the time of a new anchor still refers to the old one, so that the anchors form a
+  /// chain. Its steps since the start are those between all rows that have a pose and are no longer
   /// initialising.
-  std::vector<RecordedEstimate> steps;
-  Availability availability{};
+  RecordedOdometry odometry{"odometry", {}, 0};
 };
 
 /// Whether the table's header is that of the vehicle's state.
@@ -29,10 +28,5 @@ RecordedStates read_states(const CsvTable& table);
 
 /// The same from the pipeline's outputs.
 RecordedStates recorded_states(const std::vector<Odometry>& outputs);
-
-/// Each state's pose as a motion since its anchor; none for a state at its own anchor's time. The
-/// state at the time of a new anchor still refers to the old one, so that the anchors form a chain.
-/// Its steps are those since the start.
-RecordedOdometry motions_since_anchors(const RecordedStates& states);
 
 }  // namespace cremed

@@ -77,7 +77,7 @@ void add_front_alone(Configuration configuration, const std::string& log,
   }
   OutputSink sink;
   play_drive(configuration, {log}, {&sink});
-  const RecordedOdometry odometry = motions_since_anchors(recorded_states(sink.outputs));
+  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
   figures["front alone"] = pose_figures(after_time(segments_of(odometry, truth), 10.0));
 }
 
@@ -133,7 +133,7 @@ DriveFigures drive_figures(const TabledDrive& drive) {
   const Configuration configuration = load_configuration(drive.configuration);
   OutputSink sink;
   const auto radars = record_drive(configuration, {log}, {&sink});
-  const RecordedOdometry odometry = motions_since_anchors(recorded_states(sink.outputs));
+  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
   DriveFigures figures;
   add_odometry(odometry, truth, figures);
   add_front_alone(configuration, log, truth, figures);

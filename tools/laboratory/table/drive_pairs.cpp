@@ -168,7 +168,7 @@ DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
   PairingSink sink(paired_radar(drive.configuration));
   play_drive(drive.configuration, {drive.log}, {&sink});
   result.own = beside_truth(sink.motions, truth, drive.truth_noise);
-  const RecordedOdometry odometry = motions_since_anchors(recorded_states(sink.outputs));
+  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
   result.odometry =
       trajectory_segments(odometry, truth, drive.truth_noise, first_window_us({odometry}, truth));
   if (result.own.motions.empty()) {

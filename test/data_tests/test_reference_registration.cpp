@@ -105,14 +105,14 @@ TEST_CASE("Registration agrees with the reference implementation, pair by pair")
   const auto theirs = read_reference(folder + row.reference);
   REQUIRE(ours.size() == theirs.size());
 
-  std::size_t left_out = 0;
-  const Credibility our = evaluate_pairs(pairs, ours, options.degrees_of_freedom, left_out);
-  CHECK(left_out == 0);
-  std::vector<PairResult> wrapped(theirs.size());
+  const PairsFigures figures = pairs_figures(ours, options.degrees_of_freedom);
+  CHECK(figures.left_out == 0);
+  const Credibility& our = figures.credibility;
+  std::vector<PairResult> wrapped = ours;
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     wrapped[i].registration = theirs[i];
   }
-  const Credibility their = evaluate_pairs(pairs, wrapped, options.degrees_of_freedom, left_out);
+  const Credibility their = pairs_figures(wrapped, options.degrees_of_freedom).credibility;
   const Differences d = compare(pairs, ours, theirs, options, row.max_median_difference);
   std::printf(
       "%-36s rmse %+.2f %% m, %+.2f %% deg; anees %+.2f %%; median %.1e m %.1e rad; "

@@ -72,19 +72,19 @@ TEST_CASE("The table of real drives has the paper's figures and ours, and those 
   CHECK(table.rows[2].method == "cremed");
   for (std::size_t i = 0; i < 3; ++i) {
     CAPTURE(i);
-    CHECK(table.rows[i].count >= 150);  // Of 6 s of two ARS408, 13.7 scans a second.
-    CHECK(table.rows[i].count <= 166);
+    CHECK(table.rows[i].credibility.count() >= 150);  // Of 6 s of two ARS408, 13.7 scans a second.
+    CHECK(table.rows[i].credibility.count() <= 166);
     CHECK(std::isnan(table.rows[3 + i].paper_850.rmse_m));
     CHECK(table.rows[3 + i].problem == "Robot");
   }
-  CHECK(positions.ours.rmse_m > 0.05);
-  CHECK(table.rows[1].ours.rmse_m < 0.02);
-  CHECK(table.rows[2].ours.rmse_m < 0.02);
-  CHECK(table.rows[2].ours.anees < 2.0);
+  CHECK(positions.credibility.rmse_m() > 0.05);
+  CHECK(table.rows[1].credibility.rmse_m() < 0.02);
+  CHECK(table.rows[2].credibility.rmse_m() < 0.02);
+  CHECK(table.rows[2].credibility.anees() < 2.0);
   CHECK(table.rows[3].paper.anees == 2.53);
   CHECK(table.rows[4].paper.rmse_m == 0.0110);
-  CHECK(table.rows[5].ours.anees > 0.8);
-  CHECK(table.rows[5].ours.anees < 1.25);
+  CHECK(table.rows[5].credibility.anees() > 0.8);
+  CHECK(table.rows[5].credibility.anees() < 1.25);
   REQUIRE(table.odometry.size() == 4);
   CHECK(table.odometry[0].errors.segments > 0);
   CHECK(table.odometry[3].errors.length.time_s == 10.0);
@@ -97,7 +97,7 @@ TEST_CASE("The table of real drives has the paper's figures and ours, and those 
   CHECK_THAT(text, Catch::Contains("Robot     after 10 s "));
   const auto json = nlohmann::json::parse(real_table_json(table));
   CHECK(json["rows"].size() == 6);
-  CHECK(json["rows"][2]["ours"]["anees"] == Approx(table.rows[2].ours.anees));
+  CHECK(json["rows"][2]["ours"]["anees"] == Approx(table.rows[2].credibility.anees()));
   CHECK(json["rows"][4]["is_simulated"] == true);
   CHECK(json["rows"][4]["paper_trainval"]["rmse_m"].is_null());
   CHECK(json["odometry"][1]["time_s"] == 10.0);
@@ -124,7 +124,7 @@ TEST_CASE("The evaluated radar is that named front, otherwise the first") {
   const TemporaryFolder folder;
   std::ofstream(folder.file("a.toml")) << kArs408;
   CHECK(paired_radar(load_configuration(folder.file("a.toml"))) == 1);
-  CHECK(paired_radar(RobotDrive(1).drive().configuration) == 0);
+  CHECK(paired_radar(robot_drive(1, folder).configuration) == 0);
 }
 
 TEST_CASE("A folder without drives, or with a broken one, is named") {
@@ -149,8 +149,8 @@ TEST_CASE("A folder without drives, or with a broken one, is named") {
 }
 
 TEST_CASE("The campus is a walk with tight turns among few targets") {
-  const RobotDrive robot(1);
-  const DrivePairs pairs = pair_drive(robot.drive(), "robot");
+  const TemporaryFolder folder;
+  const DrivePairs pairs = pair_drive(robot_drive(1, folder), "robot");
   CHECK(pairs.own.motions.size() > 1150);  // 120 s at 10 Hz.
   CHECK(pairs.own.left_out <= 5);
   double way_m = 0.0;

@@ -69,9 +69,8 @@ TEST_CASE("A pair without targets is left out of the figures, not counted as goo
   std::istringstream text("T,0,0.5,0,0,0.1\n");
   const auto pairs = read_registration_pairs(text);
   const auto results = solve_pairs(pairs, *profile("sim", true));
-  std::size_t left_out = 0;
-  const Credibility credibility = evaluate_pairs(pairs, results, 2, left_out);
-  CHECK(credibility.count() == 0);
-  CHECK(left_out == 1);
+  const PairsFigures figures = pairs_figures(results, 2);
+  CHECK(figures.credibility.count() == 0);
+  CHECK(figures.left_out == 1);
   CHECK_FALSE(results[0].registration.motion.allFinite());
 }

@@ -32,6 +32,7 @@ class Credibility {
   void add(const Eigen::Vector3d& estimate, const Eigen::Matrix3d& covariance,
            const Eigen::Vector3d& truth);
 
+  [[nodiscard]] int degrees_of_freedom() const { return degrees_of_freedom_; }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double rmse_m() const;
   [[nodiscard]] double rmse_deg() const;

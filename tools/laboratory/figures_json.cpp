@@ -18,15 +18,17 @@ Json to_json(const Figures& figures) {
   return {{"rmse_m", figures.rmse_m}, {"rmse_deg", figures.rmse_deg}, {"anees", figures.anees}};
 }
 
+Json to_json(const Interval& interval) { return Json::array({interval.low, interval.high}); }
+
 Json to_json(const TableRow& row) {
   return {{"problem", row.problem},
           {"method", row.method},
-          {"degrees_of_freedom", row.degrees_of_freedom},
-          {"n", row.count},
-          {"ours", to_json(row.ours)},
-          {"consistent_anees", Json::array({row.consistent.low, row.consistent.high})},
+          {"degrees_of_freedom", row.credibility.degrees_of_freedom()},
+          {"n", row.credibility.count()},
+          {"ours", to_json(figures_of(row.credibility))},
+          {"consistent_anees", to_json(consistent_anees(row.credibility))},
           {"iterations", row.iterations},
-          {"ms_pair", row.milliseconds},
+          {"ms_pair", 1e-3 * row.solve_us},
           {"left_out", row.left_out},
           {"ambiguous", row.ambiguous},
           {"no_convergence", row.no_convergence},
@@ -39,10 +41,10 @@ Json to_json(const RealRow& row) {
   return {{"problem", row.problem},
           {"method", row.method},
           {"is_simulated", row.problem == "Robot"},
-          {"n", row.count},
+          {"n", row.credibility.count()},
           {"left_out", row.left_out},
-          {"ours", to_json(row.ours)},
-          {"consistent_anees", Json::array({row.consistent.low, row.consistent.high})},
+          {"ours", to_json(figures_of(row.credibility))},
+          {"consistent_anees", to_json(consistent_anees(row.credibility))},
           {"paper", to_json(row.paper)},
           {"paper_trainval", to_json(row.paper_850)}};
 }
@@ -60,8 +62,8 @@ Json to_json(const RealTable::Odometry& row) {
 
 }  // namespace
 
-std::string pairs_json(const PairsFigures& figures) {
-  Json json{{"method", figures.method}};
+std::string pairs_json(const std::string& method, const PairsFigures& figures) {
+  Json json{{"method", method}};
   json.update(credibility_json(figures.credibility));
   json.update({{"iterations", figures.iterations},
                {"solve_us", figures.solve_us},

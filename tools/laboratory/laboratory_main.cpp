@@ -66,28 +66,14 @@ void plot_pairs(const std::vector<cremed::RegistrationPair>& pairs, const std::s
   cremed::draw_plot("plot_pairs", {counts}, picture);
 }
 
-cremed::PairsFigures figures_of(const std::vector<cremed::PairResult>& results,
-                                const cremed::Credibility& credibility, const std::string& method,
-                                std::size_t left_out) {
-  cremed::PairsFigures figures{method, credibility, 0.0, 0.0, 0, left_out};
-  const auto count = static_cast<double>(results.size());
-  for (const cremed::PairResult& result : results) {
-    figures.iterations += result.registration.iterations / count;
-    figures.solve_us += static_cast<double>(result.solve_us) / count;
-    figures.no_convergence +=
-        result.registration.status == cremed::RegistrationStatus::no_convergence ? 1U : 0U;
-  }
-  return figures;
-}
-
 void print_pairs(const PairsArguments& arguments, const cremed::PairsFigures& figures) {
   if (arguments.as_json) {
-    fmt::print("{}\n", cremed::pairs_json(figures));
+    fmt::print("{}\n", cremed::pairs_json(arguments.method, figures));
     return;
   }
   fmt::print("# method {} iterations solve_us no_convergence left_out\n",
              cremed::kCredibilityColumns);
-  fmt::print("{:<8} {} {:>10.2f} {:>8.0f} {:14} {:8}\n", figures.method,
+  fmt::print("{:<8} {} {:>10.2f} {:>8.0f} {:14} {:8}\n", arguments.method,
              cremed::to_line(figures.credibility), figures.iterations, figures.solve_us,
              figures.no_convergence, figures.left_out);
 }
@@ -101,10 +87,8 @@ int run_pairs(const PairsArguments& arguments) {
     throw std::runtime_error(arguments.file + ": no pairs");
   }
   const auto results = cremed::solve_pairs(pairs, *options, method.solve);
-  std::size_t left_out = 0;
-  const auto credibility = cremed::evaluate_pairs(
-      pairs, results, method.is_always_3dof ? 3 : options->degrees_of_freedom, left_out);
-  print_pairs(arguments, figures_of(results, credibility, arguments.method, left_out));
+  print_pairs(arguments, cremed::pairs_figures(
+                             results, method.is_always_3dof ? 3 : options->degrees_of_freedom));
   if (!arguments.output.empty()) {
     write_pairs(arguments.output, results);
   }

@@ -14,6 +14,24 @@ std::int64_t processor_us() {
   return time.tv_sec * 1000000 + (time.tv_nsec + 500) / 1000;
 }
 
+/// Sums of what becomes means.
+void add_result(const PairResult& result, int degrees_of_freedom, PairsFigures& figures) {
+  const RegistrationResult& r = result.registration;
+  figures.iterations += r.iterations;
+  figures.solve_us += static_cast<double>(result.solve_us);
+  if (!has_solution(r)) {
+    ++figures.left_out;
+    figures.ambiguous += r.status == RegistrationStatus::ambiguous ? 1U : 0U;
+    return;
+  }
+  const double nees =
+      normalised_error_squared(r.motion, r.covariance, result.truth, degrees_of_freedom);
+  figures.credibility.add(r.motion, r.covariance, result.truth);
+  figures.nees.add(nees);
+  figures.gross += nees > kGrossNees ? 1U : 0U;
+  figures.no_convergence += r.status == RegistrationStatus::no_convergence ? 1U : 0U;
+}
+
 }  // namespace
 
 bool has_solution(const RegistrationResult& result) {
@@ -32,7 +50,7 @@ PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& o
                       RegisterFunction method) {
   const TargetSet previous = to_targets(pair.previous, pair.vehicle_from_radar);
   const TargetSet current = to_targets(pair.current, pair.vehicle_from_radar);
-  PairResult result;
+  PairResult result{.truth = {pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad}};
   if (previous.size() > 0 && current.size() > 0) {
     const RegistrationContext context{options, pair.vehicle_from_radar, pair.dt_s};
     const std::int64_t begin_us = processor_us();
@@ -56,21 +74,15 @@ std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
   return results;
 }
 
-Credibility evaluate_pairs(const std::vector<RegistrationPair>& pairs,
-                           const std::vector<PairResult>& results, int degrees_of_freedom,
-                           std::size_t& left_out) {
-  Credibility credibility(degrees_of_freedom);
-  left_out = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const RegistrationResult& result = results[i].registration;
-    if (has_solution(result)) {
-      const Pose2& truth = pairs[i].truth;
-      credibility.add(result.motion, result.covariance, {truth.x_m, truth.y_m, truth.yaw_rad});
-    } else {
-      ++left_out;
-    }
+PairsFigures pairs_figures(const std::vector<PairResult>& results, int degrees_of_freedom) {
+  PairsFigures figures{.credibility = Credibility(degrees_of_freedom)};
+  for (const PairResult& result : results) {
+    add_result(result, degrees_of_freedom, figures);
   }
-  return credibility;
+  const auto pairs = static_cast<double>(results.size());
+  figures.iterations /= pairs;
+  figures.solve_us /= pairs;
+  return figures;
 }
 
 }  // namespace cremed

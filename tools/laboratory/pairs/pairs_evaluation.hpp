@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "cremed/estimator/registration/registration.hpp"
 #include "tools/eval/credibility.hpp"
@@ -14,7 +19,8 @@ namespace cremed {
 
 /// One pair's solution.
 struct PairResult {
-  RegistrationResult registration;
+  RegistrationResult registration{};
+  Eigen::Vector3d truth = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad).
   std::int64_t solve_us = 0;  ///< Processor time, independent of other programs.
 };
 
@@ -30,11 +36,40 @@ std::vector<PairResult> solve_pairs(const std::vector<RegistrationPair>& pairs,
                                     const RegistrationOptions& options,
                                     RegisterFunction method = register_msm);
 
-/// Compares the solutions with truth. Pairs without a covariance (degenerate, not finite) are
-/// omitted and counted in `left_out`.
-Credibility evaluate_pairs(const std::vector<RegistrationPair>& pairs,
-                           const std::vector<PairResult>& results, int degrees_of_freedom,
-                           std::size_t& left_out);
+/// Histogram of the normalised estimation error squared (NEES, not divided by the degrees of
+/// freedom) with kBins bins; the last one includes everything above.
+class NeesHistogram {
+ public:
+  static constexpr std::size_t kBins = 41;
+  static constexpr double kBinWidth = 0.5;
+
+  void add(double nees) {
+    const double bin = std::clamp(nees / kBinWidth, 0.0, static_cast<double>(kBins - 1));
+    ++counts_.at(static_cast<std::size_t>(bin));
+  }
+  [[nodiscard]] const std::array<std::size_t, kBins>& counts() const { return counts_; }
+
+ private:
+  std::array<std::size_t, kBins> counts_{};
+};
+
+/// A consistent estimate of 3 (2) DoF exceeds it with probability 2e-5 (4e-6).
+inline constexpr double kGrossNees = 25.0;
+
+/// Figures of many pairs.
+struct PairsFigures {
+  Credibility credibility{3};      ///< Of the solutions.
+  double iterations = 0.0;         ///< Mean per pair.
+  double solve_us = 0.0;           ///< Mean per pair, of one processor.
+  std::size_t left_out = 0;        ///< Pairs without a solution (degenerate, not finite).
+  std::size_t ambiguous = 0;       ///< Of these, pairs where another motion fits as well.
+  std::size_t no_convergence = 0;  ///< Solutions whose search did not converge.
+  std::size_t gross = 0;           ///< Solutions with NEES > kGrossNees.
+  NeesHistogram nees{};
+};
+
+/// Compares the solutions with truth.
+PairsFigures pairs_figures(const std::vector<PairResult>& results, int degrees_of_freedom);
 
 /// The targets of a scan in the vehicle frame.
 TargetSet to_targets(const std::vector<Detection>& detections, const Pose2& vehicle_from_radar);

@@ -8,7 +8,6 @@
 #include "tools/laboratory/made_in_parallel.hpp"
 #include "tools/laboratory/pairs/icp.hpp"
 #include "tools/laboratory/pairs/known_correspondences.hpp"
-#include "tools/laboratory/pairs/pairs_evaluation.hpp"
 #include "tools/laboratory/pairs/profile.hpp"
 #include "tools/laboratory/pairs/sum_approximation.hpp"
 
@@ -54,85 +53,33 @@ PairSource pair_source(SimulatedProblem problem, const PaperTableOptions& option
           options.runs == 0 ? paper.runs : options.runs};
 }
 
-struct Outcome {
-  PairResult result;
-  Eigen::Vector3d truth;
-};
-
 /// `solve`(pair) for every pair, in their order for any number of threads.
 template <typename Solve>
-std::vector<Outcome> run(const PairSource& source, unsigned threads, std::string_view name,
-                         const Solve& solve) {
+std::vector<PairResult> run(const PairSource& source, unsigned threads, std::string_view name,
+                            const Solve& solve) {
   const std::string label = std::string(settings(source.problem).name).append(" ").append(name);
-  return made_in_parallel(label, source.count(), threads, [&](std::size_t i) {
-    const RegistrationPair pair = source.pair(i);
-    return Outcome{solve(pair), {pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad}};
-  });
-}
-
-Figures to_figures(const Credibility& credibility) {
-  return {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
+  return made_in_parallel(label, source.count(), threads,
+                          [&](std::size_t i) { return solve(source.pair(i)); });
 }
 
 Figures run_bound(const PairSource& source, unsigned threads, const RegistrationOptions& options) {
-  const auto outcomes = run(source, threads, "bound", [&](const RegistrationPair& pair) {
-    return PairResult{register_known(pair, options), 0};
+  const auto results = run(source, threads, "bound", [&](const RegistrationPair& pair) {
+    return PairResult{register_known(pair, options),
+                      {pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad}};
   });
-  Credibility credibility(options.degrees_of_freedom);
-  for (const Outcome& outcome : outcomes) {
-    const RegistrationResult& r = outcome.result.registration;
-    if (has_solution(r)) {
-      credibility.add(r.motion, r.covariance, outcome.truth);
-    }
-  }
-  return to_figures(credibility);
-}
-
-void add_outcome(const Outcome& outcome, Credibility& credibility, TableRow& row) {
-  const RegistrationResult& r = outcome.result.registration;
-  row.iterations += r.iterations;
-  row.milliseconds += 1e-3 * static_cast<double>(outcome.result.solve_us);
-  if (!has_solution(r)) {
-    ++row.left_out;
-    row.ambiguous += r.status == RegistrationStatus::ambiguous ? 1U : 0U;
-    return;
-  }
-  const double nees =
-      normalised_error_squared(r.motion, r.covariance, outcome.truth, row.degrees_of_freedom);
-  credibility.add(r.motion, r.covariance, outcome.truth);
-  row.nees.add(nees);
-  row.gross += nees > kGrossNees ? 1U : 0U;
-  row.no_convergence += r.status == RegistrationStatus::no_convergence ? 1U : 0U;
-}
-
-void fill_in(const std::vector<Outcome>& outcomes, TableRow& row) {
-  Credibility credibility(row.degrees_of_freedom);
-  for (const Outcome& outcome : outcomes) {
-    add_outcome(outcome, credibility, row);
-  }
-  const auto pairs = static_cast<double>(outcomes.size());
-  row.iterations /= pairs;
-  row.milliseconds /= pairs;
-  row.count = credibility.count();
-  row.ours = to_figures(credibility);
-  row.consistent = anees_interval(row.count, row.degrees_of_freedom, 0.95);
+  return figures_of(pairs_figures(results, options.degrees_of_freedom).credibility);
 }
 
 TableRow run_method(const PairSource& source, unsigned threads, const TableMethod& method,
                     const Figures& bound) {
   const SimulatedProblemSettings& problem = settings(source.problem);
-  TableRow row;
-  row.problem = problem.name;
-  row.method = method.name;
-  row.paper = published_figures(problem.name, method.published);
-  row.bound = bound;
-  row.degrees_of_freedom = method.is_always_3dof ? 3 : problem.degrees_of_freedom;
   const RegistrationOptions options = *profile(problem.profile, method.doppler, method.likelihood);
   const auto solve = [&](const RegistrationPair& pair) {
     return solve_pair(pair, options, method.solve);
   };
-  fill_in(run(source, threads, method.name, solve), row);
-  return row;
+  return {pairs_figures(run(source, threads, method.name, solve),
+                        method.is_always_3dof ? 3 : problem.degrees_of_freedom),
+          problem.name, method.name, published_figures(problem.name, method.published), bound};
 }
 
 }  // namespace

@@ -37,6 +37,14 @@ constexpr std::array<PublishedRow, 16> kPublished{{
 
 }  // namespace
 
+Figures figures_of(const Credibility& credibility) {
+  return {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
+}
+
+Interval consistent_anees(const Credibility& credibility) {
+  return anees_interval(credibility.count(), credibility.degrees_of_freedom(), 0.95);
+}
+
 Figures published_figures(std::string_view problem, std::string_view method) {
   const auto* const row = std::ranges::find_if(kPublished, [&](const PublishedRow& r) {
     return r.problem == problem && r.method == method;

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "daemon/process/usage_error.hpp"
-#include "tools/eval/credibility.hpp"
 #include "tools/laboratory/made_in_parallel.hpp"
 #include "tools/laboratory/table/drive_pairs.hpp"
 #include "tools/laboratory/table/robot_drive.hpp"
@@ -30,23 +29,15 @@ constexpr std::array kMethods{RealMethod{"MSM(paper)", "MSM", &DrivePairs::paper
 
 RealRow row_of(std::string_view problem, const RealMethod& method,
                const std::vector<DrivePairs>& drives) {
-  constexpr int kDegreesOfFreedom = 2;
-  Credibility credibility(kDegreesOfFreedom);
-  RealRow row;
-  row.problem = problem;
-  row.method = method.name;
+  RealRow row{problem, method.name, published_figures(problem, method.published),
+              published_figures(std::string(problem) + "-850", method.published)};
   for (const DrivePairs& drive : drives) {
     const PairedMotions& paired = drive.*method.motions;
     row.left_out += paired.left_out;
     for (const PairedMotion& motion : paired.motions) {
-      credibility.add(motion.motion, motion.covariance, motion.truth);
+      row.credibility.add(motion.motion, motion.covariance, motion.truth);
     }
   }
-  row.count = credibility.count();
-  row.ours = {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
-  row.consistent = anees_interval(row.count, kDegreesOfFreedom, 0.95);
-  row.paper = published_figures(problem, method.published);
-  row.paper_850 = published_figures(std::string(problem) + "-850", method.published);
   return row;
 }
 
@@ -132,8 +123,8 @@ RealTable real_table(const RealTableOptions& options) {
   add("Robot",
       made_in_parallel("Robot (simulated)", kRobotDrives, options.threads,
                        [&](std::size_t i) {
-                         const RobotDrive robot(options.seed + i);
-                         return pair_drive(robot.drive(), "robot");
+                         const TemporaryFolder folder;
+                         return pair_drive(robot_drive(options.seed + i, folder), "robot");
                        }),
       table);
   return table;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/eval/chi_square.hpp"
+#include "tools/eval/credibility.hpp"
 #include "tools/eval/drive/trajectory_segments.hpp"
 #include "tools/eval/drive/truth_noise.hpp"
 #include "tools/laboratory/table/published_figures.hpp"
@@ -27,12 +27,10 @@ struct RealTableOptions {
 struct RealRow {
   std::string_view problem;  ///< "NuSc" or "Robot".
   std::string_view method;
-  std::size_t count = 0;  ///< Estimates.
-  std::size_t left_out = 0;
-  Figures ours;
-  Interval consistent;  ///< 95 % of consistent estimators have their ANEES in it.
-  Figures paper;        ///< Of NuSc: the ten scenes of mini.
-  Figures paper_850;    ///< Of NuSc: trainval.
+  Figures paper;      ///< Of NuSc: the ten scenes of mini.
+  Figures paper_850;  ///< Of NuSc: trainval.
+  Credibility credibility{2};
+  std::size_t left_out = 0;  ///< Pairs without an estimate.
 };
 
 struct RealTable {

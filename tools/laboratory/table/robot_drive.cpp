@@ -24,15 +24,16 @@ Configuration robot() {
 
 }  // namespace
 
-RobotDrive::RobotDrive(std::uint64_t seed)
-    : drive_{folder_.file("can.log"), folder_.file("truth.csv"), robot()} {
-  Simulation simulation(*find_scenario("campus"), drive_.configuration.radars, {.seed = seed});
-  LineStream truth(drive_.truth);
+DriveToPair robot_drive(std::uint64_t seed, const TemporaryFolder& folder) {
+  DriveToPair drive{folder.file("can.log"), folder.file("truth.csv"), robot()};
+  Simulation simulation(*find_scenario("campus"), drive.configuration.radars, {.seed = seed});
+  LineStream truth(drive.truth);
   simulation.write_truth(truth.stream());
   truth.finish();
-  LineStream log(drive_.log);
+  LineStream log(drive.log);
   simulation.write_log(log.stream());
   log.finish();
+  return drive;
 }
 
 }  // namespace cremed

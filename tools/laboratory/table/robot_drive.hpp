@@ -9,18 +9,8 @@
 
 namespace cremed {
 
-/// A simulated mobile robot with a Bosch GPR on a campus, as the paper's recording is not public.
-/// The destructor removes its files.
-class RobotDrive {
- public:
-  /// Throws std::runtime_error.
-  explicit RobotDrive(std::uint64_t seed);
-
-  [[nodiscard]] const DriveToPair& drive() const { return drive_; }
-
- private:
-  TemporaryFolder folder_;
-  DriveToPair drive_;
-};
+/// Simulates a mobile robot with a Bosch GPR on a campus, as the paper's recording is not public.
+/// Writes the drive's files into the folder. Throws std::runtime_error.
+DriveToPair robot_drive(std::uint64_t seed, const TemporaryFolder& folder);
 
 }  // namespace cremed

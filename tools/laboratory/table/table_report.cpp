@@ -41,18 +41,18 @@ std::string csv(const Figures& f) {
 }
 
 /// This run's, and the interval of the ANEES of consistent estimators.
-template <typename Row>
-std::string ours(const Row& row) {
-  return cell(row.ours.rmse_m, 8, 5) + cell(row.ours.rmse_deg, 8, 4) + cell(row.ours.anees, 8, 3) +
-         cell(row.consistent.low, 8, 3) + cell(row.consistent.high, 8, 3);
+std::string ours(const Credibility& of) {
+  const Interval consistent = consistent_anees(of);
+  return cell(of.rmse_m(), 8, 5) + cell(of.rmse_deg(), 8, 4) + cell(of.anees(), 8, 3) +
+         cell(consistent.low, 8, 3) + cell(consistent.high, 8, 3);
 }
 
 void print_row(std::FILE* stream, const TableRow& row) {
   fmt::print(stream, "{:<9} {:<12}", row.problem, row.method);
-  fmt::print(stream, " {:7}{} {:>6.1f} {:>7.3f} {:8} {:9} {:7} {:7} |{} |{}\n", row.count,
-             ours(row), row.iterations, row.milliseconds, row.left_out, row.ambiguous,
-             row.no_convergence, row.gross, figures(row.paper, 5, 3, 5, 2),
-             figures(row.bound, 7, 5, 6, 3));
+  fmt::print(stream, " {:7}{} {:>6.1f} {:>7.3f} {:8} {:9} {:7} {:7} |{} |{}\n",
+             row.credibility.count(), ours(row.credibility), row.iterations, 1e-3 * row.solve_us,
+             row.left_out, row.ambiguous, row.no_convergence, row.gross,
+             figures(row.paper, 5, 3, 5, 2), figures(row.bound, 7, 5, 6, 3));
 }
 
 constexpr const char* kRealNotes =
@@ -63,9 +63,9 @@ constexpr const char* kRealNotes =
     "# (cremed-simulate --scenario campus, Bosch GPR); the paper's recording is not public.\n";
 
 void print_row(std::FILE* stream, const RealRow& row) {
-  fmt::print(stream, "{:<9} {:<12} {:7}{} {:8} |{} |{}\n", row.problem, row.method, row.count,
-             ours(row), row.left_out, figures(row.paper, 6, 4, 6, 3),
-             figures(row.paper_850, 6, 4, 6, 3));
+  fmt::print(stream, "{:<9} {:<12} {:7}{} {:8} |{} |{}\n", row.problem, row.method,
+             row.credibility.count(), ours(row.credibility), row.left_out,
+             figures(row.paper, 6, 4, 6, 3), figures(row.paper_850, 6, 4, 6, 3));
 }
 
 void print_row(std::FILE* stream, const RealTable::Odometry& row) {
@@ -114,9 +114,11 @@ void write_table_csv(const std::string& path, const std::vector<TableRow>& rows)
       "problem,method,dof,pairs,rmse_m,rmse_deg,anees,anees_low,anees_high,paper_m,paper_deg,"
       "paper_anees,bound_m,bound_deg,bound_anees\n");
   for (const TableRow& row : rows) {
+    const Credibility& c = row.credibility;
+    const Interval consistent = consistent_anees(c);
     file.print("{},{},{},{},{},{:.5f},{:.5f},{},{}\n", row.problem, row.method,
-               row.degrees_of_freedom, row.count, csv(row.ours), row.consistent.low,
-               row.consistent.high, csv(row.paper), csv(row.bound));
+               c.degrees_of_freedom(), c.count(), csv(figures_of(c)), consistent.low,
+               consistent.high, csv(row.paper), csv(row.bound));
   }
   file.close();
 }
@@ -126,7 +128,8 @@ void write_nees_csv(const std::string& path, const std::vector<TableRow>& rows) 
   file.print("problem,method,dof,low,count\n");
   for (const TableRow& row : rows) {
     for (std::size_t bin = 0; bin < NeesHistogram::kBins; ++bin) {
-      file.print("{},{},{},{:.2f},{}\n", row.problem, row.method, row.degrees_of_freedom,
+      file.print("{},{},{},{:.2f},{}\n", row.problem, row.method,
+                 row.credibility.degrees_of_freedom(),
                  NeesHistogram::kBinWidth * static_cast<double>(bin), row.nees.counts()[bin]);
     }
   }

@@ -21,7 +21,8 @@ namespace {
 class RecordingSink final : public OdometrySink {
  public:
   explicit RecordingSink(const Configuration& configuration)
-      : configuration_(configuration), radars_(configuration.radars.size()) {}
+      : configuration_(configuration),
+        drive_{std::vector<RecordedRadar>(configuration.radars.size()), {}, {}} {}
 
   void on_scan(std::size_t radar, const RadarScan& scan) override {
     const EgoMotionOptions& options = configuration_.radars[radar].ego_motion;
@@ -30,14 +31,24 @@ class RecordingSink final : public OdometrySink {
     }
     targets_.assign(scan, {}, options.limits, counters_, options.correction);
     if (targets_.is_finite()) {
-      radars_[radar].scans.push_back(
+      drive_.radars[radar].scans.push_back(
           {scan.stamp_us, {targets_.begin(), targets_.end()}, told_yaw_rate_radps(radar, scan)});
     }
   }
 
   void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
     if (motion.has_estimate()) {
-      radars_[radar].motions.push_back(motion);
+      drive_.radars[radar].motions.push_back(motion);
+    } else if (motion.status != MotionStatus::no_reference) {
+      ++drive_.radars[radar].without_estimate;
+    }
+  }
+
+  void on_odometry(const Odometry& odometry) override { drive_.outputs.push_back(odometry); }
+
+  void on_fused(const EgoMotion& motion, std::int32_t) override {
+    if (motion.has_estimate()) {
+      drive_.fused.push_back(motion);
     }
   }
 
@@ -49,11 +60,11 @@ class RecordingSink final : public OdometrySink {
                : 0.0;
   }
 
-  std::vector<RecordedRadar> take() { return std::move(radars_); }
+  PlayedDrive take() { return std::move(drive_); }
 
  private:
   const Configuration& configuration_;
-  std::vector<RecordedRadar> radars_;
+  PlayedDrive drive_;
   TargetSet targets_;
   SelectionCounters counters_;
 };
@@ -68,8 +79,8 @@ void check_logs(const Replay& replay) {
 
 }  // namespace
 
-void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
-                const std::vector<OdometrySink*>& sinks) {
+PlayedDrive play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
+                       OdometrySink* other) {
   require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
   std::vector<std::unique_ptr<CandumpLog>> sources;
@@ -78,26 +89,27 @@ void play_drive(const Configuration& configuration, const std::vector<std::strin
     sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
   }
   Replay replay(std::move(sources), 0.0, &stop);
+  RecordingSink recording(configuration);
+  std::vector<OdometrySink*> sinks{&recording};
+  if (other != nullptr) {
+    sinks.push_back(other);
+  }
   Pipeline pipeline(configuration, replay, sinks, {});
   while (pipeline.take_next(replay)) {
   }
   pipeline.finish();
   check_logs(replay);
+  return recording.take();
 }
 
-std::vector<RecordedRadar> record_drive(const Configuration& configuration,
-                                        const std::vector<std::string>& logs,
-                                        std::vector<OdometrySink*> sinks) {
-  RecordingSink sink(configuration);
-  sinks.push_back(&sink);
-  play_drive(configuration, logs, sinks);
-  std::vector<RecordedRadar> radars = sink.take();
-  if (std::ranges::all_of(radars, [](const auto& r) { return r.scans.empty(); })) {
+PlayedDrive record_drive(const Configuration& configuration, const std::vector<std::string>& logs) {
+  PlayedDrive drive = play_drive(configuration, logs);
+  if (std::ranges::all_of(drive.radars, [](const auto& r) { return r.scans.empty(); })) {
     throw std::runtime_error(
         concat({logs.front(), ": no complete scan of any radar; `cremed-doctor --replay ",
                 in_shell(logs.front()), "` tells why"}));
   }
-  return radars;
+  return drive;
 }
 
 }  // namespace cremed

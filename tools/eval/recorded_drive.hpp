@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,20 +26,24 @@ struct RecordedScan {
 
 /// The pipeline's results for one radar.
 struct RecordedRadar {
-  std::vector<RecordedScan> scans;  ///< Complete ones.
-  std::vector<EgoMotion> motions;   ///< Estimates only.
+  std::vector<RecordedScan> scans;   ///< Complete ones.
+  std::vector<EgoMotion> motions;    ///< Estimates only.
+  std::size_t without_estimate = 0;  ///< Motions since another scan that are none.
 };
 
-/// Runs recorded drives through the pipeline with these sinks. Throws std::runtime_error if a log
-/// cannot be read.
-void play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
-                const std::vector<OdometrySink*>& sinks);
+/// The pipeline's results.
+struct PlayedDrive {
+  std::vector<RecordedRadar> radars;  ///< One per radar of the configuration.
+  std::vector<Odometry> outputs;      ///< Of the odometry.
+  std::vector<EgoMotion> fused;       ///< From output to output; estimates only.
+};
 
-/// Runs recorded drives through the pipeline: one RecordedRadar per radar of the configuration;
-/// other sinks receive the same. Throws std::runtime_error if a log cannot be read or no radar sent
-/// a scan.
-std::vector<RecordedRadar> record_drive(const Configuration& configuration,
-                                        const std::vector<std::string>& logs,
-                                        std::vector<OdometrySink*> sinks = {});
+/// Runs recorded drives through the pipeline; another sink, unless null, receives the same. Throws
+/// std::runtime_error if a log cannot be read.
+PlayedDrive play_drive(const Configuration& configuration, const std::vector<std::string>& logs,
+                       OdometrySink* other = nullptr);
+
+/// The same; throws std::runtime_error also if no radar sent a scan.
+PlayedDrive record_drive(const Configuration& configuration, const std::vector<std::string>& logs);
 
 }  // namespace cremed

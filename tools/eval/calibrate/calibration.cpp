@@ -184,7 +184,7 @@ Calibrator::Calibrator(const Configuration& configuration, const std::vector<std
       logs_(logs),
       has_truth_(truth != nullptr),
       errors_(errors),
-      recorded_(record_drive(without_motions(configuration), logs)),
+      recorded_(record_drive(without_motions(configuration), logs).radars),
       fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
            motion_prior(configuration)),
       radars_(configuration.radars.size()) {
@@ -303,7 +303,7 @@ void Calibrator::solve() {
 
 void Calibrator::refine() {
   if (round_ < kRegisteredRounds) {
-    registered_ = record_drive(trial(), logs_);
+    registered_ = record_drive(trial(), logs_).radars;
   }
   for (std::size_t i = 0; i < radars_.size(); ++i) {
     radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);

@@ -132,7 +132,7 @@ void add_baselines(const DriveFiles& files, const DriveReference& reference,
                    std::vector<SourceEvaluation>& sources) {
   if (!files.baselines.empty()) {
     const Configuration configuration = load_configuration(files.config);
-    const auto radars = record_drive(configuration, files.baselines);
+    const auto radars = record_drive(configuration, files.baselines).radars;
     for (const auto& odometry : baselines(configuration, radars)) {
       sources.push_back(evaluate_source(odometry, reference, sources.front().first_window_us));
     }

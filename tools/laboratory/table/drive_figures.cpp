@@ -6,12 +6,10 @@
 #include <filesystem>
 
 #include "cremed/estimator/scan/degrees.hpp"
-#include "tools/eval/credibility.hpp"
-#include "tools/eval/drive/against_wheels.hpp"
 #include "tools/eval/drive/baselines.hpp"
+#include "tools/eval/drive/drive_evaluation.hpp"
 #include "tools/eval/drive/pose_windows.hpp"
 #include "tools/eval/drive/recorded_states.hpp"
-#include "tools/eval/drive/trajectory_segments.hpp"
 #include "tools/eval/input_file.hpp"
 #include "tools/eval/recorded_drive.hpp"
 #include "tools/eval/temporary_folder.hpp"
@@ -28,20 +26,6 @@ TruthNoise nuscenes_truth_noise() {
                      {0.021, 0.0055, 0.00083, 0.3}});
 }
 
-/// Keeps what the odometry puts out.
-class OutputSink final : public OdometrySink {
- public:
-  void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
-  void on_fused(const EgoMotion& motion, std::int32_t) override {
-    if (motion.has_estimate()) {
-      fused.push_back(motion);
-    }
-  }
-
-  std::vector<Odometry> outputs;
-  std::vector<EgoMotion> fused;
-};
-
 std::vector<RecordedEstimate> recorded(const std::vector<EgoMotion>& motions) {
   std::vector<RecordedEstimate> result;
   result.reserve(motions.size());
@@ -51,51 +35,30 @@ std::vector<RecordedEstimate> recorded(const std::vector<EgoMotion>& motions) {
   return result;
 }
 
+SourceEvaluation evaluated(const RecordedOdometry& odometry, const DriveReference& reference) {
+  return evaluate_source(odometry, reference, first_window_us({odometry}, reference.truth));
+}
+
 std::vector<double> pose_figures(const SegmentErrors& errors) {
   return {kDegPerRad * errors.rmse.z(), errors.position_percent, errors.anees};
 }
 
-std::vector<SegmentErrors> segments_of(const RecordedOdometry& odometry,
-                                       const TrueTrajectory& truth) {
-  return trajectory_segments(odometry, truth, {}, first_window_us({odometry}, truth));
-}
-
-void add_odometry(const RecordedOdometry& odometry, const TrueTrajectory& truth,
-                  DriveFigures& figures) {
-  const auto segments = segments_of(odometry, truth);
-  for (const double time_s : {1.0, 5.0, 10.0, 30.0}) {
-    const SegmentErrors& errors = after_time(segments, time_s);
-    figures[to_text(errors.length)] = pose_figures(errors);
-  }
+std::vector<double> after_10_s(const SourceEvaluation& source) {
+  return pose_figures(after_time(source.segments, 10.0));
 }
 
 void add_front_alone(Configuration configuration, const std::string& log,
-                     const TrueTrajectory& truth, DriveFigures& figures) {
+                     const DriveReference& reference, DriveFigures& figures) {
   std::erase_if(configuration.radars, [](const auto& radar) { return radar.name != "front"; });
-  if (configuration.radars.empty()) {
-    return;
-  }
-  OutputSink sink;
-  play_drive(configuration, {log}, {&sink});
-  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
-  figures["front alone"] = pose_figures(after_time(segments_of(odometry, truth), 10.0));
-}
-
-/// On the windows of `odometry`.
-void add_baselines(const Configuration& configuration, const std::vector<RecordedRadar>& radars,
-                   const RecordedOdometry& odometry, const TrueTrajectory& truth,
-                   DriveFigures& figures) {
-  const std::int64_t first_us = first_window_us({odometry}, truth);
-  for (const RecordedOdometry& method : baselines(configuration, radars)) {
-    const auto segments = trajectory_segments(method, truth, {}, first_us);
-    figures[method.source] = pose_figures(after_time(segments, 10.0));
+  if (!configuration.radars.empty()) {
+    const PlayedDrive alone = play_drive(configuration, {log});
+    figures["front alone"] =
+        after_10_s(evaluated(recorded_states(alone.outputs).odometry, reference));
   }
 }
 
-std::vector<double> nees(const std::vector<RecordedEstimate>& estimates,
-                         const TrueTrajectory& truth, const WheelReference& wheels) {
-  const MotionsAgainstWheels result = against_wheels(estimates, truth, wheels);
-  return {result.x.nees, result.yaw.nees};
+std::vector<double> nees_by_wheels(const SourceEvaluation& source) {
+  return {source.wheels->x.nees, source.wheels->yaw.nees};
 }
 
 /// All estimates of the radars whose name begins so.
@@ -111,40 +74,44 @@ RecordedOdometry scans_of(const std::string& place, const Configuration& configu
   return result;
 }
 
-void add_scans(const RecordedOdometry& scans, const TrueTrajectory& truth, DriveFigures& figures) {
-  const TruthNoise noise = nuscenes_truth_noise();
-  Credibility credibility(degrees_of_freedom(scans));
-  for (const RecordedEstimate& estimate : scans.estimates) {
-    if (const auto motion = truth.motion(estimate.start_us, estimate.end_us)) {
-      const auto of_truth = noise.covariance(estimate.end_us - estimate.start_us);
-      credibility.add(estimate.motion, estimate.covariance + of_truth, *motion);
-    }
+/// `reference`: with wheels.
+void add_by_wheels(const Configuration& configuration, const PlayedDrive& played,
+                   const DriveReference& reference, DriveFigures& figures) {
+  for (const char* place : {"front", "rear"}) {
+    const SourceEvaluation scans =
+        evaluated(scans_of(place, configuration, played.radars), reference);
+    const Credibility& credibility = scans.credibility;
+    figures[scans.source] = {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
+    figures[scans.source + " by wheels"] = nees_by_wheels(scans);
   }
-  figures[scans.source] = {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
+  figures["outputs by wheels"] =
+      nees_by_wheels(evaluated({"fused", recorded(played.fused), 0}, reference));
 }
 
 }  // namespace
 
-DriveFigures drive_figures(const TabledDrive& drive) {
+DriveFigures drive_figures(const std::filesystem::path& folder,
+                           const std::string& configuration_file) {
   const TemporaryFolder unpacked;
-  const std::filesystem::path folder = drive.folder;
   const std::string log = unpacked_file(folder / "can.log", unpacked);
-  const auto truth = read_input<TrueTrajectory>(folder / "truth.csv");
-  const Configuration configuration = load_configuration(drive.configuration);
-  OutputSink sink;
-  const auto radars = record_drive(configuration, {log}, {&sink});
-  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
+  DriveReference reference{read_input<TrueTrajectory>(folder / "truth.csv"), {}, {}};
+  const Configuration configuration = load_configuration(configuration_file);
+  const PlayedDrive played = record_drive(configuration, {log});
+  const SourceEvaluation odometry = evaluated(recorded_states(played.outputs).odometry, reference);
   DriveFigures figures;
-  add_odometry(odometry, truth, figures);
-  add_front_alone(configuration, log, truth, figures);
-  add_baselines(configuration, radars, odometry, truth, figures);
+  for (const double time_s : {1.0, 5.0, 10.0, 30.0}) {
+    const SegmentErrors& errors = after_time(odometry.segments, time_s);
+    figures[to_text(errors.length)] = pose_figures(errors);
+  }
+  add_front_alone(configuration, log, reference, figures);
+  for (const RecordedOdometry& method : baselines(configuration, played.radars)) {
+    figures[method.source] =
+        after_10_s(evaluate_source(method, reference, odometry.first_window_us));
+  }
   if (exists(folder / "wheels.csv")) {
-    const auto wheels = read_input<WheelReference>(folder / "wheels.csv");
-    const RecordedOdometry front = scans_of("front", configuration, radars);
-    add_scans(front, truth, figures);
-    add_scans(scans_of("rear", configuration, radars), truth, figures);
-    figures["front by wheels"] = nees(front.estimates, truth, wheels);
-    figures["outputs by wheels"] = nees(recorded(sink.fused), truth, wheels);
+    reference.truth_noise = nuscenes_truth_noise();
+    reference.wheels = read_input<WheelReference>(folder / "wheels.csv");
+    add_by_wheels(configuration, played, reference, figures);
   }
   return figures;
 }

@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace cremed {
-
-/// A recorded drive.
-struct TabledDrive {
-  std::string name;
-  std::string folder;         ///< With can.log or can.log.xz, truth.csv; perhaps wheels.csv.
-  std::string configuration;  ///< File.
-};
 
 /// Some figures of a drive: those after a time over every window (trajectory_segments), truth's
 /// noise not considered.
@@ -25,12 +19,14 @@ struct TabledDrive {
 /// With wheels:
 /// "front", "rear": radars with such names from scan to scan: RMSE in metres and degrees, ANEES
 /// with truth's noise;
-/// "front by wheels", "outputs by wheels": NEES of x by the wheels and of yaw by the gyro, of that
-/// radar from scan to scan and of the odometry from output to output.
+/// "front by wheels", "rear by wheels", "outputs by wheels": NEES of x by the wheels and of yaw by
+/// the gyro, of those radars from scan to scan and of the odometry from output to output.
 using DriveFigures = std::map<std::string, std::vector<double>, std::less<>>;
 
-/// Runs the odometry, and the methods of others, on the drive. Throws std::runtime_error.
-DriveFigures drive_figures(const TabledDrive& drive);
+/// Runs the odometry, and the methods of others, on a recorded drive: its folder has can.log or
+/// can.log.xz, truth.csv and perhaps wheels.csv. Throws std::runtime_error.
+DriveFigures drive_figures(const std::filesystem::path& folder,
+                           const std::string& configuration_file);
 
 /// Means of the figures that all drives have.
 DriveFigures mean_figures(const std::vector<DriveFigures>& drives);

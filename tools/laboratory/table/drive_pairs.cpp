@@ -28,13 +28,11 @@ struct UsableScan {
   std::vector<Detection> detections;
 };
 
-/// Collects scans and motions of one radar, and the odometry.
-class PairingSink final : public OdometrySink {
+/// Collects the scans of the only radar.
+class ScanSink final : public OdometrySink {
  public:
-  explicit PairingSink(std::size_t radar) : radar_(radar) {}
-
-  void on_scan(std::size_t radar, const RadarScan& scan) override {
-    if (radar != radar_ || scan.status != ScanStatus::complete) {
+  void on_scan(std::size_t /*radar*/, const RadarScan& scan) override {
+    if (scan.status != ScanStatus::complete) {
       return;
     }
     UsableScan& usable = scans.emplace_back();
@@ -43,19 +41,8 @@ class PairingSink final : public OdometrySink {
                  std::back_inserter(usable.detections),
                  [](const Detection& d) { return d.validity == Validity::usable; });
   }
-  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t /*solve_us*/) override {
-    if (radar == radar_ && motion.status != MotionStatus::no_reference) {
-      motions.push_back(motion);
-    }
-  }
-  void on_odometry(const Odometry& odometry) override { outputs.push_back(odometry); }
 
   std::vector<UsableScan> scans;
-  std::vector<EgoMotion> motions;
-  std::vector<Odometry> outputs;
-
- private:
-  std::size_t radar_;
 };
 
 /// That radar alone, with default options: no correction, no limits, no odometry.
@@ -122,14 +109,11 @@ PairedMotions solved(const std::vector<RegistrationPair>& pairs, const Registrat
   return solved;
 }
 
-PairedMotions beside_truth(const std::vector<EgoMotion>& motions, const TrueTrajectory& truth,
+PairedMotions beside_truth(const RecordedRadar& radar, const TrueTrajectory& truth,
                            const TruthNoise& noise) {
-  PairedMotions paired;
-  for (const EgoMotion& motion : motions) {
-    const auto true_motion = truth.motion(motion.utime_start_us, motion.utime_us);
-    if (!motion.has_estimate()) {
-      ++paired.left_out;
-    } else if (true_motion) {
+  PairedMotions paired{{}, radar.without_estimate};
+  for (const EgoMotion& motion : radar.motions) {
+    if (const auto true_motion = truth.motion(motion.utime_start_us, motion.utime_us)) {
       const Eigen::Matrix3d of_truth = noise.covariance(motion.utime_us - motion.utime_start_us);
       paired.motions.push_back({motion.motion, motion.covariance + of_truth, *true_motion});
     }
@@ -140,8 +124,8 @@ PairedMotions beside_truth(const std::vector<EgoMotion>& motions, const TrueTraj
 void add_paper(const DriveToPair& drive, std::string_view profile_name, const TrueTrajectory& truth,
                DrivePairs& result) {
   const Configuration configuration = as_in_paper(drive.configuration);
-  PairingSink sink(0);
-  play_drive(configuration, {drive.log}, {&sink});
+  ScanSink sink;
+  play_drive(configuration, {drive.log}, &sink);
   if (configuration.radars[0].decoder.as<Ars408Options>() != nullptr) {
     take_codes_as_std(sink.scans);
   }
@@ -165,10 +149,10 @@ DrivePairs pair_drive(const DriveToPair& drive, std::string_view profile) {
   const auto truth = read_input<TrueTrajectory>(drive.truth);
   DrivePairs result;
   add_paper(drive, profile, truth, result);
-  PairingSink sink(paired_radar(drive.configuration));
-  play_drive(drive.configuration, {drive.log}, {&sink});
-  result.own = beside_truth(sink.motions, truth, drive.truth_noise);
-  const RecordedOdometry odometry = recorded_states(sink.outputs).odometry;
+  const PlayedDrive played = play_drive(drive.configuration, {drive.log});
+  result.own =
+      beside_truth(played.radars[paired_radar(drive.configuration)], truth, drive.truth_noise);
+  const RecordedOdometry odometry = recorded_states(played.outputs).odometry;
   result.odometry =
       trajectory_segments(odometry, truth, drive.truth_noise, first_window_us({odometry}, truth));
   if (result.own.motions.empty()) {

@@ -124,7 +124,8 @@ std::string cell(const DriveFigures& figures, const Column& column) {
   return text;
 }
 
-TabledDrive tabled(const KnownDrive& known, const DriveTableOptions& options) {
+/// The file, of a drive that is there.
+std::filesystem::path configuration_of(const KnownDrive& known, const DriveTableOptions& options) {
   const auto folder = std::filesystem::path(options.data) / known.folder;
   auto configuration = folder / known.configuration;
   if (!exists(configuration)) {
@@ -137,7 +138,7 @@ TabledDrive tabled(const KnownDrive& known, const DriveTableOptions& options) {
                        "project's folder");
     }
   }
-  return {std::string(known.name), folder, configuration};
+  return configuration;
 }
 
 struct NamedFigures {
@@ -147,21 +148,23 @@ struct NamedFigures {
 
 /// With the mean below those in it.
 std::vector<NamedFigures> all_figures(const DriveTableOptions& options) {
-  std::vector<TabledDrive> drives;
-  drives.reserve(kDrives.size());
+  std::vector<std::filesystem::path> configurations;
   for (const KnownDrive& known : kDrives) {
-    drives.push_back(tabled(known, options));
+    configurations.push_back(configuration_of(known, options));
   }
-  const auto figures = made_in_parallel("drives", drives.size(), options.threads,
-                                        [&](std::size_t i) { return drive_figures(drives[i]); });
+  const auto figures =
+      made_in_parallel("drives", kDrives.size(), options.threads, [&](std::size_t i) {
+        return drive_figures(std::filesystem::path(options.data) / kDrives[i].folder,
+                             configurations[i]);
+      });
   std::vector<NamedFigures> result;
   std::vector<DriveFigures> in_mean;
-  for (std::size_t i = 0; i < drives.size(); ++i) {
+  for (std::size_t i = 0; i < kDrives.size(); ++i) {
     if (!kDrives[i].is_in_mean && !in_mean.empty()) {
       result.push_back({std::string(kMeanName), mean_figures(in_mean)});
       in_mean.clear();
     }
-    result.push_back({drives[i].name, figures[i]});
+    result.push_back({std::string(kDrives[i].name), figures[i]});
     if (kDrives[i].is_in_mean) {
       in_mean.push_back(figures[i]);
     }

@@ -82,8 +82,9 @@ TEST_CASE("mounts that are two degrees off are found again, without truth") {
     radar.ego_motion.vehicle_from_radar.yaw_rad += sign * 2.0 * kRadPerDeg;
     sign = -sign;
   }
-  const auto calibrations = calibrate(wrong, {recorded.log}, nullptr).radars;
-  const Configuration found = calibrated(wrong, calibrations);
+  const Calibration calibration = calibrate(wrong, {recorded.log}, nullptr);
+  const auto& calibrations = calibration.radars;
+  const Configuration found = calibrated(wrong, calibration);
   for (std::size_t i = 0; i < found.radars.size(); ++i) {
     const double off_deg = degrees_off(found.radars[i], recorded.radars[i]);
     const double std_deg = calibrations[i].fit.std[kYaw] / kRadPerDeg;
@@ -106,8 +107,7 @@ TEST_CASE("each fault of a radar shows in what is found for it, and in nothing e
   left.ego_motion.correction.range_std_factor = 0.6;
   rear.ego_motion.correction.doppler_offset_mps = 0.6;
   rear.ego_motion.correction.doppler_std_factor = 0.5;
-  const auto calibrations = calibrate(wrong, {recorded.log}, nullptr).radars;
-  const Configuration found = calibrated(wrong, calibrations);
+  const Configuration found = calibrated(wrong, calibrate(wrong, {recorded.log}, nullptr));
 
   const auto correction = [&](std::size_t i) { return found.radars[i].ego_motion.correction; };
   CHECK(correction(0).azimuth_std_factor == Approx(1.0).margin(0.1));
@@ -253,8 +253,9 @@ TEST_CASE("with truth, lever arms come out as well") {
     radar.ego_motion.vehicle_from_radar.x_m += 0.25;
   }
   wrong.radars[0].ego_motion.vehicle_from_radar.y_m -= 0.2;
-  const auto calibrations = calibrate(wrong, {recorded.log}, recorded.truth.get()).radars;
-  const Configuration found = calibrated(wrong, calibrations);
+  const Calibration calibration = calibrate(wrong, {recorded.log}, recorded.truth.get());
+  const auto& calibrations = calibration.radars;
+  const Configuration found = calibrated(wrong, calibration);
   for (std::size_t i = 0; i < found.radars.size(); ++i) {
     const CalibrationVector& std = calibrations[i].fit.std;
     CAPTURE(found.radars[i].name, std[kX], std[kY]);
@@ -272,8 +273,9 @@ TEST_CASE("with truth, so does the clock that all radars share") {
   for (RadarConfiguration& radar : wrong.radars) {
     radar.stamp_offset_s = -0.04;
   }
-  const auto calibrations = calibrate(wrong, {recorded.log}, recorded.truth.get()).radars;
-  const Configuration found = calibrated(wrong, calibrations);
+  const Calibration calibration = calibrate(wrong, {recorded.log}, recorded.truth.get());
+  const auto& calibrations = calibration.radars;
+  const Configuration found = calibrated(wrong, calibration);
   for (const std::size_t i : {0U, 2U}) {  // A lateral radar sees no speed to compare.
     CAPTURE(found.radars[i].name, calibrations[i].fit.std[kStamp]);
     CHECK(found.radars[i].stamp_offset_s ==
@@ -321,7 +323,7 @@ TEST_CASE("a found yaw is written between -pi and pi") {
   const RecordedDrive recorded("bends", 4, 30.0);
   Configuration wrong = configuration_of(recorded.radars);
   wrong.radars[0].ego_motion.vehicle_from_radar.yaw_rad = 2.0 * std::numbers::pi - 0.03;
-  const Configuration found = calibrated(wrong, calibrate(wrong, {recorded.log}, nullptr).radars);
+  const Configuration found = calibrated(wrong, calibrate(wrong, {recorded.log}, nullptr));
   CHECK(found.radars[0].ego_motion.vehicle_from_radar.yaw_rad == Approx(0.02).margin(0.015));
 }
 

@@ -121,33 +121,264 @@ Configuration without_motions(Configuration configuration) {
   return configuration;
 }
 
+/// Throws if truth tells nothing of these scans.
+void check_overlap(const std::vector<RecordedRadar>& recorded, const TrueTrajectory& truth) {
+  for (const RecordedRadar& radar : recorded) {
+    if (std::ranges::any_of(radar.scans, [&](const RecordedScan& scan) {
+          return truth.at(scan.stamp_us).has_value();
+        })) {
+      return;
+    }
+  }
+  throw std::runtime_error(
+      concat({"truth: its time, ", told_time(truth.utime_us()),
+              ", has no scan of the logs in it; is it of this drive, in microseconds?"}));
+}
+
 /// State of one calibration.
 class Calibrator {
  public:
   Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
-             const TrueTrajectory* truth, const SystematicErrors& errors);
+             const TrueTrajectory* truth, const SystematicErrors& errors)
+      : configuration_(configuration),
+        logs_(logs),
+        has_truth_(truth != nullptr),
+        errors_(errors),
+        recorded_(record_drive(without_motions(configuration), logs).radars),
+        fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
+             motion_prior(configuration)),
+        radars_(configuration.radars.size()) {
+    fit_.set_truth(truth);
+    if (has_truth_) {
+      check_overlap(recorded_, *truth);
+    } else {
+      fit_.trust_yaws(mount_yaw_stds(configuration));
+    }
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      radars_[i].scans = recorded_[i].scans.size();
+    }
+    solve();
+    choose_changes();
+    is_started_ = true;
+  }
 
-  void refine();
-  void finish();
-  [[nodiscard]] Calibration result() const;
+  void refine() {
+    if (round_ < kRegisteredRounds) {
+      registered_ = record_drive(trial(), logs_).radars;
+    }
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);
+    }
+    solve();
+    choose_changes();
+    ++round_;
+  }
+
+  void finish() {
+    settle();
+    check();
+  }
+
+  [[nodiscard]] Calibration result() const {
+    Calibration result{
+        .radars = radars_, .vehicle = fit_.vehicle(), .has_truth = has_truth_, .check = check_};
+    result.vehicle.std[kSlip] = slip_std();
+    result.is_slip_refused = is_slip_refused_;
+    result.is_slip_changed = is_slip_checked_ && !is_slip_refused_ && is_slip_better();
+    return result;
+  }
 
  private:
-  [[nodiscard]] std::vector<VelocityMeasurement> velocities() const;
+  [[nodiscard]] std::vector<VelocityMeasurement> velocities() const {
+    std::vector<VelocityMeasurement> result;
+    for (std::size_t radar = 0; radar < recorded_.size(); ++radar) {
+      for (const RecordedScan& scan : recorded_[radar].scans) {
+        const auto state = state_of(radar, scan);
+        if (!state || state->head<2>().norm() < kSlowestMps) {
+          continue;
+        }
+        const RecordedScan fixed = static_part(scan, *state);
+        if (fixed.targets.empty()) {
+          continue;
+        }
+        result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
+      }
+    }
+    return result;
+  }
+
+  /// In the first round a scan's own targets must agree; later the fitted motion decides.
   [[nodiscard]] std::optional<DopplerState> state_of(std::size_t radar,
-                                                     const RecordedScan& scan) const;
-  [[nodiscard]] DopplerNoise noise(std::size_t radar) const;
-  [[nodiscard]] Configuration trial() const;
-  [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const;
-  [[nodiscard]] double yaw_std_rad(std::size_t radar) const;
-  [[nodiscard]] double configured_slip() const;
-  [[nodiscard]] double slip_std() const;
-  [[nodiscard]] bool is_slip_better() const;
-  void choose_changes();
-  void limit_kept();
-  bool drop_changes();
-  void settle();
-  void check();
-  void solve();
+                                                     const RecordedScan& scan) const {
+    return is_started_ ? fit_.expected(radar, scan.stamp_us) : agreed_velocity(scan.targets);
+  }
+
+  [[nodiscard]] DopplerNoise noise(std::size_t radar) const {
+    return {
+        radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
+        configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps,
+        kSharedVelocityStdMps};
+  }
+
+  /// Registers positions alone, in the frame of the rolling direction. Lateral motion is free in
+  /// the first round, because a wrong mount would otherwise turn into yaw; later it would only make
+  /// yaw less precise.
+  [[nodiscard]] Configuration trial() const {
+    Configuration result = calibrated(configuration_, {.radars = radars_});
+    for (std::size_t i = 0; i < result.radars.size(); ++i) {
+      EgoMotionOptions& options = result.radars[i].ego_motion;
+      options.registration.doppler.enabled = false;
+      if (round_ == 0) {
+        options.registration.degrees_of_freedom = 3;
+      }
+      options.vehicle_from_radar.yaw_rad -= fit_.vehicle().value[kRoll];
+      const DetectionCorrection& configured = configuration_.radars[i].ego_motion.correction;
+      options.correction.rotation_lead_s = configured.rotation_lead_s;
+      options.correction.azimuth_scale = configured.azimuth_scale;
+      result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::vector<YawRateMeasurement> yaw_rates() const {
+    std::vector<YawRateMeasurement> result;
+    for (std::size_t radar = 0; radar < registered_.size(); ++radar) {
+      std::vector<ScaledError> errors;
+      const std::size_t first = result.size();
+      for (const EgoMotion& motion : registered_[radar].motions) {
+        const double dt_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
+        const std::int64_t middle_us = motion.utime_start_us + std::llround(dt_s * 0.5e6);
+        const FittedRadar& fit = fit_.radars()[radar];
+        const auto expected = fit_.motion(radar, middle_us, fit.value[kPositionLead]);
+        if (!expected) {
+          continue;
+        }
+        result.push_back(
+            {radar, kTurn, middle_us, motion.motion.z() / dt_s,
+             std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
+        errors.push_back({middle_us,
+                          (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
+                          0.0});
+      }
+      // Some radars report too small standard deviations.
+      const double factor = std::max(noise_factor(errors).value, 1.0);
+      for (std::size_t i = first; i < result.size(); ++i) {
+        result[i].std_radps *= factor;
+      }
+      const auto turns =
+          matched_turns(recorded_[radar].scans, fit_, radar, radars_[radar].noise.azimuth.value);
+      result.insert(result.end(), turns.begin(), turns.end());
+    }
+    return result;
+  }
+
+  /// Without truth, the configured yaw that is to be improved on is that from the rolling
+  /// direction.
+  [[nodiscard]] double yaw_std_rad(std::size_t radar) const {
+    const auto& errors = configuration_.radars[radar].ego_motion.registration.shared_errors;
+    return std::hypot(errors.mount_yaw_std_rad,
+                      has_truth_ ? 0.0 : configuration_.odometry.filter.slip_std_rad);
+  }
+
+  [[nodiscard]] double configured_slip() const {
+    return configuration_.odometry.filter.slip_per_lateral_acceleration;
+  }
+
+  [[nodiscard]] double slip_std() const {
+    return std::hypot(fit_.vehicle().std[kSlip], errors_.slip);
+  }
+
+  [[nodiscard]] bool is_slip_better() const {
+    const double change = std::abs(fit_.vehicle().value[kSlip] - configured_slip());
+    return slip_std() <= kWorstSlipStd && change > kSignificant * slip_std();
+  }
+
+  void choose_changes() {
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      radars_[i].free = radars_[i].fit;
+      for (const CalibrationState state : kTold) {
+        radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i));
+      }
+    }
+  }
+
+  /// A value that is kept is known as well as by a tape measure.
+  void limit_kept() {
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      for (const CalibrationState state : kTold) {
+        if (!radars_[i].is_changed[state]) {
+          fit_.limit(i, state, kWorstStd[state]);
+        }
+      }
+    }
+  }
+
+  /// Keeps those configured values that the others, once kept, leave no better.
+  bool drop_changes() {
+    bool is_dropped = false;
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      for (const CalibrationState state : kTold) {
+        bool& is_changed = radars_[i].is_changed[state];
+        if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i))) {
+          is_changed = false;
+          is_dropped = true;
+        }
+      }
+    }
+    return is_dropped;
+  }
+
+  void settle() {
+    do {
+      limit_kept();
+      solve();
+    } while (drop_changes());
+  }
+
+  /// Refuses what fits no better in the parts of the drive where it was not found.
+  void check() {
+    std::vector<ChangedStates> changed;
+    is_slip_checked_ = is_slip_better();
+    bool is_any = is_slip_checked_;
+    for (const RadarCalibration& radar : radars_) {
+      changed.push_back(radar.is_changed);
+      is_any = is_any || std::ranges::any_of(changed.back(), [](bool is) { return is; });
+    }
+    if (!is_any) {
+      return;
+    }
+    check_ = check_held_out(fit_, changed,
+                            is_slip_checked_ ? std::optional(configured_slip()) : std::nullopt);
+    is_slip_refused_ = is_slip_checked_ && !(check_->is_better && check_->is_slip_better);
+    bool is_any_refused = false;
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      if (!check_->is_better || !check_->is_radar_better[i]) {
+        radars_[i].is_refused = std::ranges::any_of(changed[i], [](bool is) { return is; });
+        radars_[i].is_changed = {};
+        is_any_refused = is_any_refused || radars_[i].is_refused;
+      }
+    }
+    if (is_any_refused) {
+      settle();
+    }
+  }
+
+  void solve() {
+    const std::vector<VelocityMeasurement> measured = velocities();
+    if (measured.empty()) {
+      throw std::runtime_error(
+          concat({logs_.front(),
+                  ": the vehicle does not move; calibration needs two minutes of "
+                  "driving with bends, starts and stops"}));
+    }
+    fit_.set_measurements(measured, is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
+    fit_.solve();
+    for (std::size_t i = 0; i < radars_.size(); ++i) {
+      radars_[i].fit = fit_.radars()[i];
+      radars_[i].explained_scans =
+          static_cast<std::size_t>(std::ranges::count(measured, i, &VelocityMeasurement::radar));
+    }
+  }
 
   const Configuration& configuration_;
   const std::vector<std::string>& logs_;
@@ -163,257 +394,6 @@ class Calibrator {
   bool is_slip_checked_ = false;
   bool is_slip_refused_ = false;
 };
-
-/// Throws if truth tells nothing of these scans.
-void check_overlap(const std::vector<RecordedRadar>& recorded, const TrueTrajectory& truth) {
-  for (const RecordedRadar& radar : recorded) {
-    if (std::ranges::any_of(radar.scans, [&](const RecordedScan& scan) {
-          return truth.at(scan.stamp_us).has_value();
-        })) {
-      return;
-    }
-  }
-  throw std::runtime_error(
-      concat({"truth: its time, ", told_time(truth.utime_us()),
-              ", has no scan of the logs in it; is it of this drive, in microseconds?"}));
-}
-
-Calibrator::Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
-                       const TrueTrajectory* truth, const SystematicErrors& errors)
-    : configuration_(configuration),
-      logs_(logs),
-      has_truth_(truth != nullptr),
-      errors_(errors),
-      recorded_(record_drive(without_motions(configuration), logs).radars),
-      fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
-           motion_prior(configuration)),
-      radars_(configuration.radars.size()) {
-  fit_.set_truth(truth);
-  if (has_truth_) {
-    check_overlap(recorded_, *truth);
-  } else {
-    fit_.trust_yaws(mount_yaw_stds(configuration));
-  }
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].scans = recorded_[i].scans.size();
-  }
-  solve();
-  choose_changes();
-  is_started_ = true;
-}
-
-DopplerNoise Calibrator::noise(std::size_t radar) const {
-  return {radars_[radar].noise.doppler.value, radars_[radar].noise.azimuth.value,
-          configuration_.radars[radar].ego_motion.registration.shared_errors.doppler_offset_std_mps,
-          kSharedVelocityStdMps};
-}
-
-/// In the first round a scan's own targets must agree; later the fitted motion decides.
-std::optional<DopplerState> Calibrator::state_of(std::size_t radar,
-                                                 const RecordedScan& scan) const {
-  return is_started_ ? fit_.expected(radar, scan.stamp_us) : agreed_velocity(scan.targets);
-}
-
-std::vector<VelocityMeasurement> Calibrator::velocities() const {
-  std::vector<VelocityMeasurement> result;
-  for (std::size_t radar = 0; radar < recorded_.size(); ++radar) {
-    for (const RecordedScan& scan : recorded_[radar].scans) {
-      const auto state = state_of(radar, scan);
-      if (!state || state->head<2>().norm() < kSlowestMps) {
-        continue;
-      }
-      const RecordedScan fixed = static_part(scan, *state);
-      if (fixed.targets.empty()) {
-        continue;
-      }
-      result.push_back({radar, scan.stamp_us, doppler_equations(fixed, *state, noise(radar))});
-    }
-  }
-  return result;
-}
-
-/// Registers positions alone, in the frame of the rolling direction. Lateral motion is free in the
-/// first round, because a wrong mount would otherwise turn into yaw; later it would only make yaw
-/// less precise.
-Configuration Calibrator::trial() const {
-  Configuration result = calibrated(configuration_, radars_);
-  for (std::size_t i = 0; i < result.radars.size(); ++i) {
-    EgoMotionOptions& options = result.radars[i].ego_motion;
-    options.registration.doppler.enabled = false;
-    if (round_ == 0) {
-      options.registration.degrees_of_freedom = 3;
-    }
-    options.vehicle_from_radar.yaw_rad -= fit_.vehicle().value[kRoll];
-    const DetectionCorrection& configured = configuration_.radars[i].ego_motion.correction;
-    options.correction.rotation_lead_s = configured.rotation_lead_s;
-    options.correction.azimuth_scale = configured.azimuth_scale;
-    result.radars[i].stamp_offset_s = configuration_.radars[i].stamp_offset_s;
-  }
-  return result;
-}
-
-std::vector<YawRateMeasurement> Calibrator::yaw_rates() const {
-  std::vector<YawRateMeasurement> result;
-  for (std::size_t radar = 0; radar < registered_.size(); ++radar) {
-    std::vector<ScaledError> errors;
-    const std::size_t first = result.size();
-    for (const EgoMotion& motion : registered_[radar].motions) {
-      const double dt_s = static_cast<double>(motion.utime_us - motion.utime_start_us) * 1e-6;
-      const std::int64_t middle_us = motion.utime_start_us + std::llround(dt_s * 0.5e6);
-      const FittedRadar& fit = fit_.radars()[radar];
-      const auto expected = fit_.motion(radar, middle_us, fit.value[kPositionLead]);
-      if (!expected) {
-        continue;
-      }
-      result.push_back(
-          {radar, kTurn, middle_us, motion.motion.z() / dt_s,
-           std::hypot(std::sqrt(motion.covariance(2, 2)) / dt_s, kLeastYawRateStdRadps)});
-      errors.push_back({middle_us,
-                        (result.back().yaw_rate_radps - expected->y()) / result.back().std_radps,
-                        0.0});
-    }
-    // Some radars report too small standard deviations.
-    const double factor = std::max(noise_factor(errors).value, 1.0);
-    for (std::size_t i = first; i < result.size(); ++i) {
-      result[i].std_radps *= factor;
-    }
-    const auto turns =
-        matched_turns(recorded_[radar].scans, fit_, radar, radars_[radar].noise.azimuth.value);
-    result.insert(result.end(), turns.begin(), turns.end());
-  }
-  return result;
-}
-
-void Calibrator::solve() {
-  const std::vector<VelocityMeasurement> measured = velocities();
-  if (measured.empty()) {
-    throw std::runtime_error(
-        concat({logs_.front(),
-                ": the vehicle does not move; calibration needs two minutes of "
-                "driving with bends, starts and stops"}));
-  }
-  fit_.set_measurements(measured, is_started_ ? yaw_rates() : std::vector<YawRateMeasurement>{});
-  fit_.solve();
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].fit = fit_.radars()[i];
-    radars_[i].explained_scans =
-        static_cast<std::size_t>(std::ranges::count(measured, i, &VelocityMeasurement::radar));
-  }
-}
-
-void Calibrator::refine() {
-  if (round_ < kRegisteredRounds) {
-    registered_ = record_drive(trial(), logs_).radars;
-  }
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].noise = measured_noise(recorded_[i].scans, fit_, i, radars_[i].noise);
-  }
-  solve();
-  choose_changes();
-  ++round_;
-}
-
-/// Without truth, the configured yaw that is to be improved on is that from the rolling direction.
-double Calibrator::yaw_std_rad(std::size_t radar) const {
-  const auto& errors = configuration_.radars[radar].ego_motion.registration.shared_errors;
-  return std::hypot(errors.mount_yaw_std_rad,
-                    has_truth_ ? 0.0 : configuration_.odometry.filter.slip_std_rad);
-}
-
-void Calibrator::choose_changes() {
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    radars_[i].free = radars_[i].fit;
-    for (const CalibrationState state : kTold) {
-      radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i));
-    }
-  }
-}
-
-/// A value that is kept is known as well as by a tape measure.
-void Calibrator::limit_kept() {
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    for (const CalibrationState state : kTold) {
-      if (!radars_[i].is_changed[state]) {
-        fit_.limit(i, state, kWorstStd[state]);
-      }
-    }
-  }
-}
-
-/// Keeps those configured values that the others, once kept, leave no better.
-bool Calibrator::drop_changes() {
-  bool is_dropped = false;
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    for (const CalibrationState state : kTold) {
-      bool& is_changed = radars_[i].is_changed[state];
-      if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i))) {
-        is_changed = false;
-        is_dropped = true;
-      }
-    }
-  }
-  return is_dropped;
-}
-
-void Calibrator::settle() {
-  do {
-    limit_kept();
-    solve();
-  } while (drop_changes());
-}
-
-double Calibrator::configured_slip() const {
-  return configuration_.odometry.filter.slip_per_lateral_acceleration;
-}
-
-double Calibrator::slip_std() const { return std::hypot(fit_.vehicle().std[kSlip], errors_.slip); }
-
-bool Calibrator::is_slip_better() const {
-  const double change = std::abs(fit_.vehicle().value[kSlip] - configured_slip());
-  return slip_std() <= kWorstSlipStd && change > kSignificant * slip_std();
-}
-
-/// Refuses what fits no better in the parts of the drive where it was not found.
-void Calibrator::check() {
-  std::vector<ChangedStates> changed;
-  is_slip_checked_ = is_slip_better();
-  bool is_any = is_slip_checked_;
-  for (const RadarCalibration& radar : radars_) {
-    changed.push_back(radar.is_changed);
-    is_any = is_any || std::ranges::any_of(changed.back(), [](bool is) { return is; });
-  }
-  if (!is_any) {
-    return;
-  }
-  check_ = check_held_out(fit_, changed,
-                          is_slip_checked_ ? std::optional(configured_slip()) : std::nullopt);
-  is_slip_refused_ = is_slip_checked_ && !(check_->is_better && check_->is_slip_better);
-  bool is_any_refused = false;
-  for (std::size_t i = 0; i < radars_.size(); ++i) {
-    if (!check_->is_better || !check_->is_radar_better[i]) {
-      radars_[i].is_refused = std::ranges::any_of(changed[i], [](bool is) { return is; });
-      radars_[i].is_changed = {};
-      is_any_refused = is_any_refused || radars_[i].is_refused;
-    }
-  }
-  if (is_any_refused) {
-    settle();
-  }
-}
-
-void Calibrator::finish() {
-  settle();
-  check();
-}
-
-Calibration Calibrator::result() const {
-  Calibration result{
-      .radars = radars_, .vehicle = fit_.vehicle(), .has_truth = has_truth_, .check = check_};
-  result.vehicle.std[kSlip] = slip_std();
-  result.is_slip_refused = is_slip_refused_;
-  result.is_slip_changed = is_slip_checked_ && !is_slip_refused_ && is_slip_better();
-  return result;
-}
 
 }  // namespace
 
@@ -446,12 +426,14 @@ double key_value(const RadarConfiguration& configured, CalibrationState state, d
   }
 }
 
-Configuration calibrated(const Configuration& configuration,
-                         const std::vector<RadarCalibration>& calibrations) {
+Configuration calibrated(const Configuration& configuration, const Calibration& calibration) {
   Configuration result = configuration;
+  if (calibration.is_slip_changed) {
+    result.odometry.filter.slip_per_lateral_acceleration = calibration.vehicle.value[kSlip];
+  }
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     RadarConfiguration& radar = result.radars[i];
-    const RadarCalibration& found = calibrations[i];
+    const RadarCalibration& found = calibration.radars[i];
     CalibrationVector value{};
     for (std::size_t state = 0; state < kCalibrationStates; ++state) {
       value[state] =
@@ -471,14 +453,6 @@ Configuration calibrated(const Configuration& configuration,
     correction.range_std_factor *= above_one(found.noise.range);
     correction.azimuth_std_factor *= above_one(found.noise.azimuth);
     correction.doppler_std_factor *= above_one(found.noise.doppler);
-  }
-  return result;
-}
-
-Configuration calibrated(const Configuration& configuration, const Calibration& calibration) {
-  Configuration result = calibrated(configuration, calibration.radars);
-  if (calibration.is_slip_changed) {
-    result.odometry.filter.slip_per_lateral_acceleration = calibration.vehicle.value[kSlip];
   }
   return result;
 }

@@ -31,11 +31,11 @@ struct RadarCalibration {
 
 struct Calibration {
   std::vector<RadarCalibration> radars;
-  FittedVehicle vehicle;
+  FittedVehicle vehicle{};
   bool is_slip_changed = false;  ///< false: the configured one was kept.
   bool is_slip_refused = false;  ///< What was found fits other parts of the drive no better.
   bool has_truth = false;
-  std::optional<HeldOutCheck> check;  ///< Of what was found; nothing if that was nothing.
+  std::optional<HeldOutCheck> check{};  ///< Of what was found; nothing if that was nothing.
 };
 
 /// Errors that do not average over one drive: standard deviations, added to what the drive's blocks
@@ -64,7 +64,5 @@ double key_value(const RadarConfiguration& configured, CalibrationState state, d
 
 /// The configuration with the results.
 Configuration calibrated(const Configuration& configuration, const Calibration& calibration);
-Configuration calibrated(const Configuration& configuration,
-                         const std::vector<RadarCalibration>& calibrations);
 
 }  // namespace cremed

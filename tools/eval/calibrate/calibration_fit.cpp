@@ -33,12 +33,61 @@ constexpr std::int64_t kSlopeNodes = 5;  // To both sides.
 /// a factor of 1 on simulated drives, less than 0.5 % with this one).
 constexpr double kChangeFactor = 5.0;
 
-/// A group of rows for the covariance: one block of time, or a prior.
-struct Group {
-  int rows;
-  std::int64_t block;
-};
-constexpr std::int64_t kNoBlock = -1;
+constexpr std::int64_t kNoBlock = -1;  // Of a prior.
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+/// Rows of each block of time: the Jacobian with all others zero.
+std::map<std::int64_t, RowMatrix> parts_of(const RowMatrix& jacobian,
+                                           const std::vector<std::int64_t>& blocks) {
+  std::map<std::int64_t, std::vector<Eigen::Triplet<double>>> entries;
+  for (int row = 0; row < jacobian.rows(); ++row) {
+    const std::int64_t block = blocks[static_cast<std::size_t>(row)];
+    for (RowMatrix::InnerIterator at(jacobian, row); block != kNoBlock && at; ++at) {
+      entries[block].emplace_back(row, static_cast<int>(at.col()), at.value());
+    }
+  }
+  std::map<std::int64_t, RowMatrix> parts;
+  for (const auto& [block, triplets] : entries) {
+    RowMatrix& rows = parts.try_emplace(block, jacobian.rows(), jacobian.cols()).first->second;
+    rows.setFromTriplets(triplets.begin(), triplets.end());
+  }
+  return parts;
+}
+
+/// Jackknife variances of the last `wanted` unknowns: each block is left out in turn, and the new
+/// solution found by one Gauss-Newton step.
+Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& residuals,
+                          const std::vector<std::int64_t>& blocks, Eigen::Index wanted) {
+  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
+  const auto parts = parts_of(jacobian, blocks);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(wanted);
+  Factors rest;
+  rest.analyzePattern(information);  // Every rest has this pattern, with zeros in it.
+  for (const auto& [block, rows] : parts) {
+    const Eigen::SparseMatrix<double> own = rows.transpose() * rows;
+    rest.factorize(information - own);
+    const Eigen::VectorXd gradient = rows.transpose() * residuals;
+    const Eigen::VectorXd step = rest.solve(gradient);
+    squares += step.tail(wanted).cwiseAbs2();
+  }
+  const double count = std::max(static_cast<double>(parts.size()), kMinBlocks);
+  const double students_t = (count - 1.0) / (count - 3.0);
+  return squares * ((count - 1.0) / count) * students_t;
+}
+
+/// Contribution of the priors, which belong to no block; `effects` are the covariances of the rows
+/// with the wanted unknowns.
+Eigen::VectorXd by_priors(const Eigen::MatrixXd& effects, const std::vector<std::int64_t>& blocks) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(effects.cols());
+  for (std::size_t row = 0; row < blocks.size(); ++row) {
+    if (blocks[row] == kNoBlock) {
+      squares += effects.row(static_cast<Eigen::Index>(row)).cwiseAbs2().transpose();
+    }
+  }
+  return squares;
+}
 
 }  // namespace
 
@@ -46,206 +95,139 @@ constexpr std::int64_t kNoBlock = -1;
 struct CalibrationProblem {
   CalibrationFit& fit;
   LeastSquares squares;
-  std::vector<Group> groups;
+  std::vector<std::int64_t> blocks;  // Of time, for the covariance: of each row.
 
   explicit CalibrationProblem(CalibrationFit& of) : fit(of) { add_all(); }
 
-  void add_unknowns();
-  void add_all();
-  void add_velocity(const VelocityMeasurement& measurement);
-  void add_yaw_rate(const YawRateMeasurement& measurement);
-  void add_changes();
-  void add_truth();
-  void add_priors();
+  /// Nodes first, radars and the vehicle last.
+  void add_unknowns() {
+    for (const VelocityMeasurement& measurement : fit.velocities_) {
+      fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, 0.0));
+    }
+    for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
+      const double lead_s = fit.radars_[measurement.radar].value[kPositionLead];
+      fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, lead_s));
+    }
+    for (auto& [number, node] : fit.nodes_) {
+      squares.add_unknowns(node);
+    }
+    for (FittedRadar& radar : fit.radars_) {
+      squares.add_unknowns(radar.value);
+    }
+    squares.add_unknowns(fit.vehicle_.value);
+  }
+
+  void add_all() {
+    add_unknowns();
+    for (const VelocityMeasurement& measurement : fit.velocities_) {
+      add_velocity(measurement);
+    }
+    for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
+      add_yaw_rate(measurement);
+    }
+    add_changes();
+    if (fit.truth_ != nullptr) {
+      add_truth();
+    }
+    add_priors();
+  }
+
+  void add_velocity(const VelocityMeasurement& measurement) {
+    const auto at = fit.place(measurement.radar, measurement.stamp_us, 0.0);
+    squares.add<kDopplerStates>(VelocityResidual{measurement.equations, at},
+                                Loss{Loss::Kind::huber, kHuber}, fit.nodes_.at(at.node),
+                                fit.nodes_.at(at.node + 1), fit.vehicle_.value,
+                                fit.radars_[measurement.radar].value);
+    note(kDopplerStates, measurement.stamp_us);
+  }
+
+  void add_yaw_rate(const YawRateMeasurement& measurement) {
+    FittedRadar& radar = fit.radars_[measurement.radar];
+    const auto at = fit.place(measurement.radar, measurement.stamp_us, radar.value[kPositionLead]);
+    squares.add<1>(YawRateResidual{measurement, at}, Loss{Loss::Kind::huber, 1.0},
+                   fit.nodes_.at(at.node), fit.nodes_.at(at.node + 1), radar.value);
+    note(1, measurement.stamp_us);
+  }
+
+  void add_changes() {
+    const MotionNode std = {kPriorSpeedStdMps, kPriorYawRateStdRadps,
+                            fit.prior_.body_velocity_std_mps};
+    for (auto& [number, node] : fit.nodes_) {
+      add_prior<3>({}, std, node);
+      if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
+        squares.add<2>(
+            ChangeResidual{kChangeFactor * fit.prior_.acceleration_std_mps2 * kNodeS,
+                           kChangeFactor * fit.prior_.yaw_acceleration_std_radps2 * kNodeS},
+            Loss{}, node, next->second);
+        note_prior(2);
+      }
+    }
+  }
+
+  void add_truth() {
+    const double speed_std_mps = std::hypot(kTruthSpeedStdMps, fit.prior_.body_velocity_std_mps);
+    const MotionNode std = {speed_std_mps, kTruthYawRateStdRadps, kTruthSpeedStdMps};
+    for (auto& [number, node] : fit.nodes_) {
+      const std::int64_t stamp_us = number * kNodeUs;
+      if (const auto motion = fit.truth_->motion(stamp_us - kNodeUs, stamp_us + kNodeUs)) {
+        const Eigen::Vector2d way =
+            Eigen::Rotation2Dd(-0.5 * motion->z()) * Eigen::Vector2d(motion->head<2>());
+        const MotionNode mean = {way.x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
+                                 way.y() / (2 * kNodeS)};
+        squares.add<3>(TruthResidual{mean, std}, Loss{}, node, fit.vehicle_.value);
+        note(3, stamp_us);
+      }
+    }
+  }
+
+  void add_priors() {
+    add_prior(fit.vehicle_.prior, fit.vehicle_.prior_std, fit.vehicle_.value);
+    for (FittedRadar& radar : fit.radars_) {
+      add_prior(radar.prior, radar.prior_std, radar.value);
+    }
+    for (std::size_t i = 0; i < fit.yaw_std_rad_.size(); ++i) {
+      FittedRadar& radar = fit.radars_[i];
+      squares.add<1>(YawResidual{radar.prior[kYaw], std::max(fit.yaw_std_rad_[i], kHeldStd)},
+                     Loss{Loss::Kind::cauchy, 1.0}, radar.value);
+      note_prior(1);
+    }
+  }
+
   template <std::size_t N>
   void add_prior(const std::array<double, N>& prior, const std::array<double, N>& std,
                  std::array<double, N>& value) {
     squares.add<static_cast<int>(N)>(PriorResidual<N>{prior, std}, Loss{}, value);
-    groups.push_back({static_cast<int>(N), kNoBlock});
+    note_prior(N);
   }
-  void set_std();
 
-  void note(int rows, std::int64_t stamp_us) { groups.push_back({rows, stamp_us / kGroupUs}); }
-};
-
-/// Nodes first, radars and the vehicle last.
-void CalibrationProblem::add_unknowns() {
-  for (const VelocityMeasurement& measurement : fit.velocities_) {
-    fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, 0.0));
-  }
-  for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
-    const double lead_s = fit.radars_[measurement.radar].value[kPositionLead];
-    fit.make_nodes(fit.place(measurement.radar, measurement.stamp_us, lead_s));
-  }
-  for (auto& [number, node] : fit.nodes_) {
-    squares.add_unknowns(node);
-  }
-  for (FittedRadar& radar : fit.radars_) {
-    squares.add_unknowns(radar.value);
-  }
-  squares.add_unknowns(fit.vehicle_.value);
-}
-
-void CalibrationProblem::add_all() {
-  add_unknowns();
-  for (const VelocityMeasurement& measurement : fit.velocities_) {
-    add_velocity(measurement);
-  }
-  for (const YawRateMeasurement& measurement : fit.yaw_rates_) {
-    add_yaw_rate(measurement);
-  }
-  add_changes();
-  if (fit.truth_ != nullptr) {
-    add_truth();
-  }
-  add_priors();
-}
-
-void CalibrationProblem::add_velocity(const VelocityMeasurement& measurement) {
-  const auto at = fit.place(measurement.radar, measurement.stamp_us, 0.0);
-  squares.add<kDopplerStates>(VelocityResidual{measurement.equations, at},
-                              Loss{Loss::Kind::huber, kHuber}, fit.nodes_.at(at.node),
-                              fit.nodes_.at(at.node + 1), fit.vehicle_.value,
-                              fit.radars_[measurement.radar].value);
-  note(kDopplerStates, measurement.stamp_us);
-}
-
-void CalibrationProblem::add_yaw_rate(const YawRateMeasurement& measurement) {
-  FittedRadar& radar = fit.radars_[measurement.radar];
-  const auto at = fit.place(measurement.radar, measurement.stamp_us, radar.value[kPositionLead]);
-  squares.add<1>(YawRateResidual{measurement, at}, Loss{Loss::Kind::huber, 1.0},
-                 fit.nodes_.at(at.node), fit.nodes_.at(at.node + 1), radar.value);
-  note(1, measurement.stamp_us);
-}
-
-void CalibrationProblem::add_changes() {
-  const MotionNode std = {kPriorSpeedStdMps, kPriorYawRateStdRadps,
-                          fit.prior_.body_velocity_std_mps};
-  for (auto& [number, node] : fit.nodes_) {
-    add_prior<3>({}, std, node);
-    if (const auto next = fit.nodes_.find(number + 1); next != fit.nodes_.end()) {
-      squares.add<2>(
-          ChangeResidual{kChangeFactor * fit.prior_.acceleration_std_mps2 * kNodeS,
-                         kChangeFactor * fit.prior_.yaw_acceleration_std_radps2 * kNodeS},
-          Loss{}, node, next->second);
-      groups.push_back({2, kNoBlock});
-    }
-  }
-}
-
-void CalibrationProblem::add_truth() {
-  const double speed_std_mps = std::hypot(kTruthSpeedStdMps, fit.prior_.body_velocity_std_mps);
-  const MotionNode std = {speed_std_mps, kTruthYawRateStdRadps, kTruthSpeedStdMps};
-  for (auto& [number, node] : fit.nodes_) {
-    const std::int64_t stamp_us = number * kNodeUs;
-    if (const auto motion = fit.truth_->motion(stamp_us - kNodeUs, stamp_us + kNodeUs)) {
-      const Eigen::Vector2d way =
-          Eigen::Rotation2Dd(-0.5 * motion->z()) * Eigen::Vector2d(motion->head<2>());
-      const MotionNode mean = {way.x() / (2 * kNodeS), motion->z() / (2 * kNodeS),
-                               way.y() / (2 * kNodeS)};
-      squares.add<3>(TruthResidual{mean, std}, Loss{}, node, fit.vehicle_.value);
-      note(3, stamp_us);
-    }
-  }
-}
-
-void CalibrationProblem::add_priors() {
-  add_prior(fit.vehicle_.prior, fit.vehicle_.prior_std, fit.vehicle_.value);
-  for (FittedRadar& radar : fit.radars_) {
-    add_prior(radar.prior, radar.prior_std, radar.value);
-  }
-  for (std::size_t i = 0; i < fit.yaw_std_rad_.size(); ++i) {
-    FittedRadar& radar = fit.radars_[i];
-    squares.add<1>(YawResidual{radar.prior[kYaw], std::max(fit.yaw_std_rad_[i], kHeldStd)},
-                   Loss{Loss::Kind::cauchy, 1.0}, radar.value);
-    groups.push_back({1, kNoBlock});
-  }
-}
-
-namespace {
-
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
-
-/// Rows of each block of time: the Jacobian with all others zero.
-std::map<std::int64_t, RowMatrix> blocks_of(const RowMatrix& jacobian,
-                                            const std::vector<Group>& groups) {
-  std::map<std::int64_t, std::vector<Eigen::Triplet<double>>> entries;
-  int row = 0;
-  for (const Group& group : groups) {
-    for (int i = 0; i < group.rows; ++i, ++row) {
-      for (RowMatrix::InnerIterator at(jacobian, row); group.block != kNoBlock && at; ++at) {
-        entries[group.block].emplace_back(row, static_cast<int>(at.col()), at.value());
+  void set_std() {
+    const auto [jacobian, errors, cost] = squares.linearise();
+    const Eigen::Index all = jacobian.cols();
+    const auto wanted =
+        static_cast<Eigen::Index>(fit.radars_.size() * kCalibrationStates + kRollingStates);
+    const Factors factors(Eigen::SparseMatrix<double>(jacobian.transpose() * jacobian));
+    Eigen::MatrixXd units = Eigen::MatrixXd::Zero(all, wanted);
+    units.bottomRows(wanted).setIdentity();
+    const Eigen::MatrixXd columns = factors.solve(units);
+    const Eigen::VectorXd variances =
+        jackknife(jacobian, errors, blocks, wanted) + by_priors(jacobian * columns, blocks);
+    const Eigen::VectorXd std = variances.cwiseSqrt();
+    Eigen::Index at = 0;
+    for (FittedRadar& radar : fit.radars_) {
+      for (double& value : radar.std) {
+        value = std[at++];
       }
     }
-  }
-  std::map<std::int64_t, RowMatrix> blocks;
-  for (const auto& [block, triplets] : entries) {
-    RowMatrix& rows = blocks.try_emplace(block, jacobian.rows(), jacobian.cols()).first->second;
-    rows.setFromTriplets(triplets.begin(), triplets.end());
-  }
-  return blocks;
-}
-
-/// Jackknife variances of the last `wanted` unknowns: each block is left out in turn, and the new
-/// solution found by one Gauss-Newton step.
-Eigen::VectorXd jackknife(const RowMatrix& jacobian, const Eigen::VectorXd& residuals,
-                          const std::vector<Group>& groups, Eigen::Index wanted) {
-  const Eigen::SparseMatrix<double> information = jacobian.transpose() * jacobian;
-  const auto blocks = blocks_of(jacobian, groups);
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(wanted);
-  Factors rest;
-  rest.analyzePattern(information);  // Every rest has this pattern, with zeros in it.
-  for (const auto& [block, rows] : blocks) {
-    const Eigen::SparseMatrix<double> own = rows.transpose() * rows;
-    rest.factorize(information - own);
-    const Eigen::VectorXd gradient = rows.transpose() * residuals;
-    const Eigen::VectorXd step = rest.solve(gradient);
-    squares += step.tail(wanted).cwiseAbs2();
-  }
-  const double count = std::max(static_cast<double>(blocks.size()), kMinBlocks);
-  const double students_t = (count - 1.0) / (count - 3.0);
-  return squares * ((count - 1.0) / count) * students_t;
-}
-
-/// Contribution of the priors, which belong to no block; `effects` are the covariances of the rows
-/// with the wanted unknowns.
-Eigen::VectorXd by_priors(const Eigen::MatrixXd& effects, const std::vector<Group>& groups) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(effects.cols());
-  Eigen::Index row = 0;
-  for (const Group& group : groups) {
-    if (group.block == kNoBlock) {
-      squares += effects.middleRows(row, group.rows).colwise().squaredNorm().transpose();
-    }
-    row += group.rows;
-  }
-  return squares;
-}
-
-}  // namespace
-
-void CalibrationProblem::set_std() {
-  const auto [jacobian, errors, cost] = squares.linearise();
-  const Eigen::Index all = jacobian.cols();
-  const auto wanted =
-      static_cast<Eigen::Index>(fit.radars_.size() * kCalibrationStates + kRollingStates);
-  const Factors factors(Eigen::SparseMatrix<double>(jacobian.transpose() * jacobian));
-  Eigen::MatrixXd units = Eigen::MatrixXd::Zero(all, wanted);
-  units.bottomRows(wanted).setIdentity();
-  const Eigen::MatrixXd columns = factors.solve(units);
-  const Eigen::VectorXd variances =
-      jackknife(jacobian, errors, groups, wanted) + by_priors(jacobian * columns, groups);
-  const Eigen::VectorXd std = variances.cwiseSqrt();
-  Eigen::Index at = 0;
-  for (FittedRadar& radar : fit.radars_) {
-    for (double& value : radar.std) {
+    for (double& value : fit.vehicle_.std) {
       value = std[at++];
     }
   }
-  for (double& value : fit.vehicle_.std) {
-    value = std[at++];
+
+  void note(std::size_t rows, std::int64_t stamp_us) {
+    blocks.insert(blocks.end(), rows, stamp_us / kGroupUs);
   }
-}
+  void note_prior(std::size_t rows) { blocks.insert(blocks.end(), rows, kNoBlock); }
+};
 
 CalibrationFit::CalibrationFit(std::vector<FittedRadar> radars, const FittedVehicle& vehicle,
                                const MotionPrior& prior)

@@ -10,25 +10,17 @@
 namespace cremed {
 namespace {
 
-/// How much better values are in each part.
-class Gain {
- public:
-  void add(double gain) { gains_.push_back(gain); }
-
-  /// Errors within a part are correlated, those of parts are not: more than the standard deviation
-  /// of the sum, by the scatter of its terms.
-  [[nodiscard]] bool is_significant() const {
-    const auto count = static_cast<double>(gains_.size());
-    const double sum = std::accumulate(gains_.begin(), gains_.end(), 0.0);
-    const double squares =
-        std::inner_product(gains_.begin(), gains_.end(), gains_.begin(), 0.0) - sum * sum / count;
-    const double std = std::sqrt(std::max(squares, 0.0) * count / std::max(count - 1.0, 1.0));
-    return sum > std;
-  }
-
- private:
-  std::vector<double> gains_;
-};
+/// Whether values are better, by how much they are in each part: errors within a part are
+/// correlated, those of parts are not. More than the standard deviation of the sum, by the scatter
+/// of its terms.
+bool is_significant(const std::vector<double>& gains) {
+  const auto count = static_cast<double>(gains.size());
+  const double sum = std::accumulate(gains.begin(), gains.end(), 0.0);
+  const double squares =
+      std::inner_product(gains.begin(), gains.end(), gains.begin(), 0.0) - sum * sum / count;
+  const double std = std::sqrt(std::max(squares, 0.0) * count / std::max(count - 1.0, 1.0));
+  return sum > std;
+}
 
 /// The fitted values; those that are to be changed as configured where `is_configured` says so.
 std::vector<CalibrationVector> values_of(const CalibrationFit& fit,
@@ -53,9 +45,9 @@ std::vector<CalibrationVector> values_of(const CalibrationFit& fit,
 HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<ChangedStates>& changed,
                             const std::optional<double>& configured_slip) {
   HeldOutCheck check;
-  Gain gain;
-  Gain slip_gain;
-  std::vector<Gain> gains(changed.size());
+  std::vector<double> gains;
+  std::vector<double> slip_gains;
+  std::vector<std::vector<double>> radar_gains(changed.size());
   for (std::size_t part = 0; part < kHeldOutParts; ++part) {
     CalibrationFit others = fit.part(part, kHeldOutParts, false);
     others.minimise();
@@ -67,20 +59,20 @@ HeldOutCheck check_held_out(const CalibrationFit& fit, const std::vector<Changed
     const double found = own.misfit(all_found, slip);
     check.configured += configured;
     check.found += found;
-    gain.add(configured - found);
+    gains.push_back(configured - found);
     if (configured_slip) {
-      slip_gain.add(own.misfit(all_found, configured_slip) - found);
+      slip_gains.push_back(own.misfit(all_found, configured_slip) - found);
     }
     for (std::size_t radar = 0; radar < changed.size(); ++radar) {
       const auto is_own = [radar](std::size_t other) { return other == radar; };
-      gains[radar].add(own.misfit(values_of(others, changed, is_own), slip) - found);
+      radar_gains[radar].push_back(own.misfit(values_of(others, changed, is_own), slip) - found);
     }
   }
-  check.is_better = gain.is_significant();
-  check.is_slip_better = !configured_slip || slip_gain.is_significant();
+  check.is_better = is_significant(gains);
+  check.is_slip_better = !configured_slip || is_significant(slip_gains);
   for (std::size_t radar = 0; radar < changed.size(); ++radar) {
     const bool is_changed = std::ranges::count(changed[radar], true) != 0;
-    check.is_radar_better.push_back(!is_changed || gains[radar].is_significant());
+    check.is_radar_better.push_back(!is_changed || is_significant(radar_gains[radar]));
   }
   return check;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "tools/eval/calibrate/matched_targets.hpp"
+#include "tools/eval/drive/true_trajectory.hpp"
 
 namespace cremed {
 namespace {
@@ -41,9 +42,7 @@ std::optional<Pose2> motion_to(const std::vector<RecordedScan>& scans, const Cal
     if (!step) {
       return std::nullopt;
     }
-    const Eigen::Vector2d way =
-        Eigen::Rotation2Dd(motion.yaw_rad) * Eigen::Vector2d(step->x_m, step->y_m);
-    motion = {motion.x_m + way.x(), motion.y_m + way.y(), motion.yaw_rad + step->yaw_rad};
+    motion = moved(motion, {step->x_m, step->y_m, step->yaw_rad});
   }
   return motion;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 
 #include "daemon/configuration/toml.hpp"
@@ -34,21 +35,113 @@ std::string dotted(const CalibratedValue& value) {
 /// Collects the edits of one text without byte order mark; toml++ gives the positions of its nodes.
 class ConfigurationEditor {
  public:
-  ConfigurationEditor(std::string_view text, const toml::table& document);
+  ConfigurationEditor(std::string_view text, const toml::table& document)
+      : text_(text), document_(document) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\n') {
+        starts_.push_back(i + 1);
+      }
+    }
+    starts_.push_back(text.size());
+  }
 
-  void set(std::size_t radar, const CalibratedValue& value);
-  void set(const CalibratedValue& value);
-  [[nodiscard]] std::string result() const;
+  void set(std::size_t radar, const CalibratedValue& value) {
+    const toml::table& table = *document_["radar"][radar].as_table();
+    const std::string name = table["name"].value_or(std::string());
+    if (!set_where(document_["calibrated"][name], table[value.key->table], value)) {
+      add_table(table, value);
+    }
+  }
+
+  void set(const CalibratedValue& value) {
+    if (!set_where(document_["calibrated"], document_[value.key->table], value)) {
+      const std::size_t end = starts_.size() - 2;
+      add_line_after(line(end).empty() ? end - 1 : end,
+                     concat({"[", value.key->table, "]\n", assignment(value)}));
+    }
+  }
+
+  [[nodiscard]] std::string result() const {
+    std::vector<Edit> edits = edits_;
+    std::ranges::stable_sort(edits, std::ranges::greater{}, &Edit::begin);
+    std::string text(text_);
+    for (const Edit& edit : edits) {
+      text.replace(edit.begin, edit.length, edit.replacement);
+    }
+    return text;
+  }
 
  private:
   using TableView = toml::node_view<const toml::node>;
-  bool set_where(TableView overriding, TableView own, const CalibratedValue& value);
-  void replace_number(const toml::node& node, const CalibratedValue& value);
-  void add_to_table(const toml::table& table, const CalibratedValue& value);
-  void add_to_inline(const toml::table& table, const std::string& assigned);
-  void add_to_section(std::size_t header, const CalibratedValue& value);
-  void add_table(const toml::table& radar, const CalibratedValue& value);
-  void add_line_after(std::size_t line, const std::string& added);
+
+  /// In the table that overrides, if it has the key, else in its own table; false if that is
+  /// absent.
+  bool set_where(TableView overriding, TableView own, const CalibratedValue& value) {
+    const toml::node* node = overriding[value.key->key].node();
+    node = node != nullptr ? node : own[value.key->key].node();
+    const toml::table* const table = own.as_table();
+    if (node != nullptr) {
+      replace_number(*node, value);
+    } else if (table != nullptr) {
+      add_to_table(*table, value);
+    }
+    return node != nullptr || table != nullptr;
+  }
+
+  void replace_number(const toml::node& node, const CalibratedValue& value) {
+    const std::size_t begin = offset_of(node.source().begin);
+    const std::size_t end = std::min(text_.find_first_of(" \t\r\n,}#", begin), text_.size());
+    edits_.push_back({begin, end - begin, value.text});
+  }
+
+  /// A table of dotted keys begins at its first key.
+  void add_to_table(const toml::table& table, const CalibratedValue& value) {
+    if (table.is_inline()) {
+      add_to_inline(table, assignment(value));
+      return;
+    }
+    const std::size_t header = table.source().begin.line - 1;
+    if (is_header(header)) {
+      add_to_section(header, value);
+    } else {
+      add_line_after(table.begin()->second.source().begin.line - 1, dotted(value));
+    }
+  }
+
+  /// Later edits at one position are placed before earlier ones.
+  void add_to_inline(const toml::table& table, const std::string& assigned) {
+    const std::size_t inside = offset_of(table.source().begin) + 1;
+    const bool is_first =
+        table.empty() && std::ranges::none_of(edits_, [&](auto& e) { return e.begin == inside; });
+    edits_.push_back({inside, 0, " " + assigned + (is_first ? " " : ",")});
+  }
+
+  void add_to_section(std::size_t header, const CalibratedValue& value) {
+    for (std::size_t i = header + 1; i + 1 < starts_.size() && !is_header(i); ++i) {
+      if (auto edit = uncommented(i, value)) {
+        edits_.push_back(*edit);
+        return;
+      }
+    }
+    add_line_after(header, assignment(value));
+  }
+
+  /// Dotted keys may stand among the radar's own keys.
+  void add_table(const toml::table& radar, const CalibratedValue& value) {
+    if (radar.is_inline()) {
+      add_to_inline(radar, dotted(value));
+      return;
+    }
+    const toml::table* mount = radar["mount"].as_table();
+    const toml::table& above = mount != nullptr && mount->is_inline() ? *mount : radar;
+    add_line_after(above.source().begin.line - 1, dotted(value));
+  }
+
+  void add_line_after(std::size_t index, const std::string& added) {
+    const bool has_end = line(index).ends_with('\n');
+    const std::string end = line(index).ends_with("\r\n") ? "\r\n" : "\n";
+    edits_.push_back({starts_[index + 1], 0, has_end ? added + end : end + added});
+  }
 
   [[nodiscard]] std::size_t offset_of(const toml::source_position& at) const {
     return starts_[at.line - 1] + at.column - 1;
@@ -56,147 +149,32 @@ class ConfigurationEditor {
   [[nodiscard]] std::string_view line(std::size_t index) const {
     return text_.substr(starts_[index], starts_[index + 1] - starts_[index]);
   }
-  [[nodiscard]] bool is_header(std::size_t index) const;
+
+  [[nodiscard]] bool is_header(std::size_t index) const {
+    const std::string_view content = line(index);
+    const std::size_t first = content.find_first_not_of(kBlank);
+    return first != std::string_view::npos && content[first] == '[';
+  }
+
+  /// Replaces "#key = default" by "key = value".
   [[nodiscard]] std::optional<Edit> uncommented(std::size_t index,
-                                                const CalibratedValue& value) const;
+                                                const CalibratedValue& value) const {
+    const std::regex commented("[ \\t]*(#[ \\t]*" + std::string(value.key->key) +
+                               "[ \\t]*=[ \\t]*[^ \\t\\r\\n#]*)");
+    const std::string content(line(index));
+    std::smatch found;
+    if (!std::regex_search(content, found, commented, std::regex_constants::match_continuous)) {
+      return std::nullopt;
+    }
+    return Edit{starts_[index] + static_cast<std::size_t>(found.position(1)),
+                static_cast<std::size_t>(found.length(1)), assignment(value)};
+  }
 
   std::string_view text_;
   const toml::table& document_;
   std::vector<std::size_t> starts_ = {0};  // Of lines, and the end.
   std::vector<Edit> edits_;
 };
-
-ConfigurationEditor::ConfigurationEditor(std::string_view text, const toml::table& document)
-    : text_(text), document_(document) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\n') {
-      starts_.push_back(i + 1);
-    }
-  }
-  starts_.push_back(text.size());
-}
-
-bool ConfigurationEditor::is_header(std::size_t index) const {
-  const std::string_view content = line(index);
-  const std::size_t first = content.find_first_not_of(kBlank);
-  return first != std::string_view::npos && content[first] == '[';
-}
-
-/// In the table that overrides, if it has the key, else in its own table; false if that is absent.
-bool ConfigurationEditor::set_where(TableView overriding, TableView own,
-                                    const CalibratedValue& value) {
-  const toml::node* node = overriding[value.key->key].node();
-  node = node != nullptr ? node : own[value.key->key].node();
-  const toml::table* const table = own.as_table();
-  if (node != nullptr) {
-    replace_number(*node, value);
-  } else if (table != nullptr) {
-    add_to_table(*table, value);
-  }
-  return node != nullptr || table != nullptr;
-}
-
-void ConfigurationEditor::set(std::size_t radar, const CalibratedValue& value) {
-  const toml::table& table = *document_["radar"][radar].as_table();
-  const std::string name = table["name"].value_or(std::string());
-  if (!set_where(document_["calibrated"][name], table[value.key->table], value)) {
-    add_table(table, value);
-  }
-}
-
-void ConfigurationEditor::set(const CalibratedValue& value) {
-  if (!set_where(document_["calibrated"], document_[value.key->table], value)) {
-    const std::size_t end = starts_.size() - 2;
-    add_line_after(line(end).empty() ? end - 1 : end,
-                   concat({"[", value.key->table, "]\n", assignment(value)}));
-  }
-}
-
-void ConfigurationEditor::replace_number(const toml::node& node, const CalibratedValue& value) {
-  const std::size_t begin = offset_of(node.source().begin);
-  const std::size_t end = std::min(text_.find_first_of(" \t\r\n,}#", begin), text_.size());
-  edits_.push_back({begin, end - begin, value.text});
-}
-
-/// A table of dotted keys begins at its first key.
-void ConfigurationEditor::add_to_table(const toml::table& table, const CalibratedValue& value) {
-  if (table.is_inline()) {
-    add_to_inline(table, assignment(value));
-    return;
-  }
-  const std::size_t header = table.source().begin.line - 1;
-  if (is_header(header)) {
-    add_to_section(header, value);
-  } else {
-    add_line_after(table.begin()->second.source().begin.line - 1, dotted(value));
-  }
-}
-
-/// Later edits at one position are placed before earlier ones.
-void ConfigurationEditor::add_to_inline(const toml::table& table, const std::string& assigned) {
-  const std::size_t inside = offset_of(table.source().begin) + 1;
-  const bool is_first =
-      table.empty() && std::ranges::none_of(edits_, [&](auto& e) { return e.begin == inside; });
-  edits_.push_back({inside, 0, " " + assigned + (is_first ? " " : ",")});
-}
-
-void ConfigurationEditor::add_to_section(std::size_t header, const CalibratedValue& value) {
-  for (std::size_t i = header + 1; i + 1 < starts_.size() && !is_header(i); ++i) {
-    if (auto edit = uncommented(i, value)) {
-      edits_.push_back(*edit);
-      return;
-    }
-  }
-  add_line_after(header, assignment(value));
-}
-
-/// Replaces "#key = default" by "key = value".
-std::optional<Edit> ConfigurationEditor::uncommented(std::size_t index,
-                                                     const CalibratedValue& value) const {
-  const std::string_view content = line(index);
-  const std::size_t sign = content.find_first_not_of(kBlank);
-  if (sign == std::string_view::npos || content[sign] != '#') {
-    return std::nullopt;
-  }
-  const std::size_t key = content.find_first_not_of(kBlank, sign + 1);
-  if (key == std::string_view::npos || !content.substr(key).starts_with(value.key->key)) {
-    return std::nullopt;
-  }
-  const std::size_t equals = content.find_first_not_of(kBlank, key + value.key->key.size());
-  if (equals == std::string_view::npos || content[equals] != '=') {
-    return std::nullopt;
-  }
-  const std::size_t begin = std::min(content.find_first_not_of(kBlank, equals + 1), content.size());
-  const std::size_t end = std::min(content.find_first_of(" \t\r\n#", begin), content.size());
-  return Edit{starts_[index] + sign, end - sign, assignment(value)};
-}
-
-/// Dotted keys may stand among the radar's own keys.
-void ConfigurationEditor::add_table(const toml::table& radar, const CalibratedValue& value) {
-  if (radar.is_inline()) {
-    add_to_inline(radar, dotted(value));
-    return;
-  }
-  const toml::table* mount = radar["mount"].as_table();
-  const toml::table& above = mount != nullptr && mount->is_inline() ? *mount : radar;
-  add_line_after(above.source().begin.line - 1, dotted(value));
-}
-
-void ConfigurationEditor::add_line_after(std::size_t index, const std::string& added) {
-  const bool has_end = line(index).ends_with('\n');
-  const std::string end = line(index).ends_with("\r\n") ? "\r\n" : "\n";
-  edits_.push_back({starts_[index + 1], 0, has_end ? added + end : end + added});
-}
-
-std::string ConfigurationEditor::result() const {
-  std::vector<Edit> edits = edits_;
-  std::ranges::stable_sort(edits, std::ranges::greater{}, &Edit::begin);
-  std::string text(text_);
-  for (const Edit& edit : edits) {
-    text.replace(edit.begin, edit.length, edit.replacement);
-  }
-  return text;
-}
 
 bool reads_as(std::string_view edited, std::string_view text,
               const std::vector<std::vector<CalibratedValue>>& radars,

@@ -63,10 +63,12 @@ void print_axis(std::FILE* file, const std::string& source, const char* name,
 }
 
 void print_twist(std::FILE* file, const std::string& source, const TwistAgainstWheels& twist) {
-  fmt::print(file, "# {:<15} {:<10} {:6} {:>9.3f} {:>39} {:>9.4f}\n", source, "vx m/s", twist.count,
-             twist.nees_speed, "", twist.rms_speed_mps);
-  fmt::print(file, "# {:<15} {:<10} {:6} {:>9.3f} {:>39} {:>9.4f}\n", source, "w deg/s",
-             twist.count, twist.nees_yaw_rate, "", kDegPerRad * twist.rms_yaw_rate_radps);
+  const auto row = [&](const char* name, double nees, double rms) {
+    fmt::print(file, "# {:<15} {:<10} {:6} {:>9.3f} {:>39} {:>9.4f}\n", source, name, twist.count,
+               nees, "", rms);
+  };
+  row("vx m/s", twist.nees_speed, twist.rms_speed_mps);
+  row("w deg/s", twist.nees_yaw_rate, kDegPerRad * twist.rms_yaw_rate_radps);
 }
 
 void print_truth(std::FILE* file, const std::vector<TruthAgainstWheels>& truth) {

@@ -98,25 +98,16 @@ std::int64_t NdtMap::key(int grid, const Eigen::Vector2d& point_m) const {
          grid;
 }
 
-void NdtMap::add(const UncertainPoint& point) {
+void NdtMap::add(const UncertainPoint& point, int count) {
   for (int grid = 0; grid < kGrids; ++grid) {
-    Cell& cell = cells_[key(grid, point.position_m)];
-    ++cell.points;
-    cell.sum_m += point.position_m;
-    cell.squares_m2 += point.position_m * point.position_m.transpose() + point.covariance_m2;
-  }
-}
-
-void NdtMap::remove(const UncertainPoint& point) {
-  for (int grid = 0; grid < kGrids; ++grid) {
-    const auto cell = cells_.find(key(grid, point.position_m));
-    if (--cell->second.points == 0) {
+    const auto cell = cells_.try_emplace(key(grid, point.position_m)).first;
+    cell->second.points += count;
+    cell->second.sum_m += count * point.position_m;
+    cell->second.squares_m2 +=
+        count * (point.position_m * point.position_m.transpose() + point.covariance_m2);
+    if (cell->second.points == 0) {
       cells_.erase(cell);
-      continue;
     }
-    cell->second.sum_m -= point.position_m;
-    cell->second.squares_m2 -=
-        point.position_m * point.position_m.transpose() + point.covariance_m2;
   }
 }
 
@@ -149,7 +140,7 @@ void SubmapOdometry::add_to_map(const std::vector<UncertainPoint>& placed_points
   sweeps_.push_back(placed_points);
   if (sweeps_.size() > options_.sweeps) {
     for (const UncertainPoint& point : sweeps_.front()) {
-      map_.remove(point);
+      map_.add(point, -1);
     }
     sweeps_.pop_front();
   }

@@ -29,9 +29,8 @@ class NdtMap {
  public:
   explicit NdtMap(double cell_m) : cell_m_(cell_m) {}
 
-  void add(const UncertainPoint& point);
-  /// Undoes add().
-  void remove(const UncertainPoint& point);
+  /// `count` -1 takes it out again.
+  void add(const UncertainPoint& point, int count = 1);
 
   /// Normal equations of a small motion (x, y, yaw) of the points about `centre`, each weighted by
   /// its likelihood.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -55,18 +54,11 @@ std::vector<Case> prepare(const BenchProblem& problem) {
   return cases;
 }
 
-/// Processor time, independent of other programs.
-double thread_us() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
 double solve_us(Case& pair) {
-  const double begin_us = thread_us();
+  const double begin_us = processor_us();
   pair.registration->set_previous(pair.previous);
   const RegistrationResult result = pair.registration->solve(pair.current, pair.dt_s);
-  const double taken_us = thread_us() - begin_us;
+  const double taken_us = processor_us() - begin_us;
   pair.evaluations = result.component_evaluations;
   pair.least_us = std::min(pair.least_us, taken_us);
   return taken_us;

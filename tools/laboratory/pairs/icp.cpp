@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "cremed/estimator/cost/normal_equations.hpp"
 #include "tools/eval/plane_motion.hpp"
-#include "tools/laboratory/pairs/free_states.hpp"
 
 namespace cremed {
 namespace {
@@ -102,7 +102,7 @@ std::optional<Eigen::Matrix3d> icp_covariance(const TargetSet& previous, const T
         by_q * covariance_matrix(partner) * by_q.transpose();
   }
   hessian.bottomLeftCorner<1, 2>() = hessian.topRightCorner<2, 1>().transpose();
-  const auto inverse = invert_free(hessian, 3);
+  const auto inverse = invert_information(hessian, 3);
   if (!inverse) {
     return std::nullopt;
   }

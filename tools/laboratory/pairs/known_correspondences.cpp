@@ -8,9 +8,9 @@
 #include <Eigen/Dense>
 
 #include "cremed/estimator/cost/doppler.hpp"
+#include "cremed/estimator/cost/normal_equations.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 #include "tools/eval/plane_motion.hpp"
-#include "tools/laboratory/pairs/free_states.hpp"
 #include "tools/laboratory/pairs/pairs_evaluation.hpp"
 
 namespace cremed {
@@ -47,10 +47,7 @@ void add_match(const Target& previous, const Target& current, const Eigen::Vecto
   const Eigen::Matrix2d weight =
       (covariance_matrix(previous) + rotation * covariance_matrix(current) * rotation.transpose())
           .inverse();
-  Eigen::Matrix<double, 2, 3> jacobian;
-  jacobian << 1.0, 0.0, -rotated.y(), 0.0, 1.0, rotated.x();
-  equations.information += jacobian.transpose() * weight * jacobian;
-  equations.gradient += jacobian.transpose() * weight * error;
+  equations.add_point({weight(0, 0), weight(0, 1), weight(1, 1)}, weight * error, rotated);
   equations.cost += 0.5 * error.dot(weight * error);
 }
 
@@ -82,7 +79,7 @@ RegistrationResult register_known(const RegistrationPair& pair,
   result.status = RegistrationStatus::no_convergence;
   for (; result.iterations < kMaxSteps; ++result.iterations) {
     const NormalEquations equations = linearise(problem, pair, doppler, result.motion);
-    const auto inverse = invert_free(equations.information, options.degrees_of_freedom);
+    const auto inverse = invert_information(equations.information, options.degrees_of_freedom);
     if (!inverse) {
       result.status = RegistrationStatus::degenerate;
       break;

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/laboratory/pairs/pairs_evaluation.hpp"
 
+#include <cmath>
 #include <ctime>
 #include <limits>
 
 namespace cremed {
 namespace {
-
-std::int64_t processor_us() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return time.tv_sec * 1000000 + (time.tv_nsec + 500) / 1000;
-}
 
 /// Sums of what becomes means.
 void add_result(const PairResult& result, int degrees_of_freedom, PairsFigures& figures) {
@@ -34,6 +29,12 @@ void add_result(const PairResult& result, int degrees_of_freedom, PairsFigures& 
 
 }  // namespace
 
+double processor_us() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
 bool has_solution(const RegistrationResult& result) {
   return result.has_motion() && result.covariance(0, 0) > 0.0;
 }
@@ -53,9 +54,9 @@ PairResult solve_pair(const RegistrationPair& pair, const RegistrationOptions& o
   PairResult result{.truth = {pair.truth.x_m, pair.truth.y_m, pair.truth.yaw_rad}};
   if (previous.size() > 0 && current.size() > 0) {
     const RegistrationContext context{options, pair.vehicle_from_radar, pair.dt_s};
-    const std::int64_t begin_us = processor_us();
+    const double begin_us = processor_us();
     result.registration = method(previous, current, context);
-    result.solve_us = processor_us() - begin_us;
+    result.solve_us = std::llround(processor_us() - begin_us);
   }
   if (!has_solution(result.registration)) {
     result.registration.motion.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -17,11 +17,14 @@
 
 namespace cremed {
 
+/// Processor time of this thread, independent of other programs.
+double processor_us();
+
 /// One pair's solution.
 struct PairResult {
   RegistrationResult registration{};
   Eigen::Vector3d truth = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad).
-  std::int64_t solve_us = 0;  ///< Processor time, independent of other programs.
+  std::int64_t solve_us = 0;                        ///< Processor time.
 };
 
 /// Whether there is a motion with a covariance, converged or not.

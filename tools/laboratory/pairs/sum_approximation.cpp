@@ -12,8 +12,8 @@
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 
+#include "cremed/estimator/cost/normal_equations.hpp"
 #include "cremed/estimator/registration/registration.hpp"
-#include "tools/laboratory/pairs/free_states.hpp"
 
 namespace cremed {
 namespace {
@@ -152,6 +152,12 @@ using Function = ceres::AutoDiffFirstOrderFunction<Cost<kStates>, kStates>;
 template <int kStates>
 using States = Eigen::Matrix<double, kStates, 1>;
 
+/// Indices of the estimated states: (x, yaw) in 2 DoF, (x, y, yaw) in 3.
+template <int kStates>
+std::vector<Eigen::Index> free_states() {
+  return kStates == 2 ? std::vector<Eigen::Index>{0, 2} : std::vector<Eigen::Index>{0, 1, 2};
+}
+
 template <int kStates>
 Eigen::Matrix3d hessian(const Function<kStates>& function, const States<kStates>& at) {
   Eigen::Matrix<double, kStates, kStates> block;
@@ -165,7 +171,7 @@ Eigen::Matrix3d hessian(const Function<kStates>& function, const States<kStates>
     block.col(k) = (above - below) / (2.0 * kHessianStep);
   }
   Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
-  const auto& states = free_states(kStates);
+  const auto states = free_states<kStates>();
   result(states, states) = 0.5 * (block + block.transpose());
   return result;
 }
@@ -208,10 +214,10 @@ RegistrationResult solve(const TargetSet& previous, const TargetSet& current,
   if (summary.termination_type == ceres::FAILURE || !states.allFinite()) {
     return result;  // non_finite
   }
-  result.motion(free_states(kStates)) = states;
+  result.motion(free_states<kStates>()) = states;
   result.cost = summary.final_cost;
   const Function<kStates> function(cost(1.0, 1.0).release());
-  const auto covariance = invert_free(hessian<kStates>(function, states), kStates);
+  const auto covariance = invert_information(hessian<kStates>(function, states), kStates);
   if (!covariance) {
     result.status = RegistrationStatus::degenerate;
     return result;

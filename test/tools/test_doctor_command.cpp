@@ -10,7 +10,7 @@
 #include "daemon/process/plain_text.hpp"
 #include "test/tools/own_network.hpp"
 #include "test/tools/tool_run.hpp"
-#include "tools/doctor/can_interfaces.hpp"
+#include "tools/doctor/live_observation.hpp"
 
 using namespace cremed;
 using namespace cremed::test;

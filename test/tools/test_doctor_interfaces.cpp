@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "daemon/source/link_watch.hpp"
-#include "tools/doctor/can_interfaces.hpp"
+#include "tools/doctor/live_observation.hpp"
 
 using namespace cremed;
 

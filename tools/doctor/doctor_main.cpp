@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <csignal>
-#include <cstring>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <net/if.h>
 
 #include "daemon/command_line.hpp"
 #include "daemon/configuration/configuration.hpp"
@@ -24,7 +23,6 @@
 #include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
-#include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/diagnosis.hpp"
 #include "tools/doctor/interface_search.hpp"
 #include "tools/doctor/live_observation.hpp"
@@ -240,23 +238,18 @@ std::vector<Ars408FilterState> filters_of(const Arguments& arguments) {
   return filters;
 }
 
-/// Opens the interface; throws with the reason if that fails.
-bool open_bus(const std::string& interface, CanSocket& socket) {
+/// Null if it is not up and open; prints the reason.
+std::unique_ptr<CanSocket> socket_on(const std::string& interface) {
   Observation observation;
   observation.is_live = true;
   BusObservation bus;
   bus.interface = interface;
-  bus.state = state_of(interface);
+  std::unique_ptr<CanSocket> socket = open_bus({}, bus);
   if (bus.state == InterfaceState::up) {
-    const CanOpenResult result = socket.open(::if_nametoindex(interface.c_str()), {}, {});
-    if (result.status == CanOpenStatus::open) {
-      return true;
-    }
-    bus.state = InterfaceState::failed;
-    bus.error = std::strerror(result.error);
+    return socket;
   }
   print(bus_findings(bus, observation).front());
-  return false;
+  return nullptr;
 }
 
 /// Searches for that radar only.
@@ -282,11 +275,11 @@ int run_talk(const Arguments& arguments) {
   }
   const Configuration& configuration = located.configuration;
   const RadarConfiguration& radar = ars408_named(name, configuration);
-  CanSocket socket;
-  if (!open_bus(radar.interface, socket)) {
+  const std::unique_ptr<CanSocket> socket = socket_on(radar.interface);
+  if (socket == nullptr) {
     return failure;
   }
-  const Ars408Talk talk{configuration, radar, arguments.talk, socket, std::cout};
+  const Ars408Talk talk{configuration, radar, arguments.talk, *socket, std::cout};
   const TalkResult result = arguments.ars408.empty() ? talk_about_filters(talk, filters)
                                                      : set_up_ars408(talk, arguments.setup);
   return result == TalkResult::took ? good : failure;

@@ -3,6 +3,7 @@
 #include "tools/doctor/live_observation.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -11,15 +12,16 @@
 #include <string>
 #include <vector>
 
+#include <linux/can.h>
 #include <net/if.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/clocks.hpp"
+#include "daemon/process/descriptor.hpp"
 #include "daemon/radar_channel.hpp"
-#include "daemon/source/can_socket.hpp"
 #include "daemon/source/link_watch.hpp"
-#include "tools/doctor/can_interfaces.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
@@ -41,28 +43,10 @@ std::set<std::string> interfaces_to_hear(const Configuration& configuration) {
   return names;
 }
 
-/// Notes the kernel's state of the interface; opens it if possible.
-std::unique_ptr<CanSocket> open(const CanSocketOptions& options, BusObservation& bus) {
-  bus.state = state_of(bus.interface);
-  // A bus-off interface may recover meanwhile.
-  if (bus.state != InterfaceState::up && bus.state != InterfaceState::bus_off) {
-    return nullptr;
-  }
-  auto socket = std::make_unique<CanSocket>();
-  const CanOpenResult result = socket->open(::if_nametoindex(bus.interface.c_str()), {}, options);
-  if (result.status != CanOpenStatus::open) {
-    bus.state = InterfaceState::failed;
-    bus.error = std::strerror(result.error);
-    return nullptr;
-  }
-  bus.status.receive_buffer_bytes = result.receive_buffer_bytes;
-  return socket;
-}
-
 std::vector<Ear> open_all(const Configuration& configuration, Observer& observer) {
   std::vector<Ear> ears;
   for (const std::string& name : interfaces_to_hear(configuration)) {
-    if (auto socket = open(configuration.live.socket, observer.bus(name))) {
+    if (auto socket = open_bus(configuration.live.socket, observer.bus(name))) {
       ears.push_back({name, std::move(socket)});
     }
   }
@@ -99,6 +83,41 @@ void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
 }
 
 }  // namespace
+
+bool kernel_has_can() {
+  const Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
+  return socket.is_open() || (errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT);
+}
+
+InterfaceState state_of(const std::string& interface) {
+  const Link link = LinkWatch().link(interface);
+  if (link.index == 0) {
+    return InterfaceState::absent;
+  }
+  if (!link.is_can) {
+    return InterfaceState::not_can;
+  }
+  if (!link.is_up) {
+    return InterfaceState::down;
+  }
+  return link.has_carrier ? InterfaceState::up : InterfaceState::bus_off;
+}
+
+std::unique_ptr<CanSocket> open_bus(const CanSocketOptions& options, BusObservation& bus) {
+  bus.state = state_of(bus.interface);
+  if (bus.state != InterfaceState::up && bus.state != InterfaceState::bus_off) {
+    return nullptr;
+  }
+  auto socket = std::make_unique<CanSocket>();
+  const CanOpenResult result = socket->open(::if_nametoindex(bus.interface.c_str()), {}, options);
+  if (result.status != CanOpenStatus::open) {
+    bus.state = InterfaceState::failed;
+    bus.error = std::strerror(result.error);
+    return nullptr;
+  }
+  bus.status.receive_buffer_bytes = result.receive_buffer_bytes;
+  return socket;
+}
 
 Observation observe_live(const Configuration& configuration, double seconds,
                          const volatile std::sig_atomic_t* stop) {

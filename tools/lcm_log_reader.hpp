@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,18 @@ struct LoggedMessage {
   std::string channel;
   std::vector<std::uint8_t> data;
 };
+
+/// A message of LCM's generated types; nothing if these bytes are not exactly one.
+template <typename Message>
+std::optional<Message> decoded(const void* data, std::size_t bytes) {
+  Message message;
+  try {
+    const auto size = static_cast<int>(bytes);
+    return message.decode(data, 0, size) == size ? std::optional(message) : std::nullopt;
+  } catch (const std::exception&) {  // The generated code turns a string length of 0 into -1.
+    return std::nullopt;
+  }
+}
 
 /// Reads the messages of an LCM log. LCM's own reader trusts the lengths that a log states, and
 /// crashes on damaged ones.

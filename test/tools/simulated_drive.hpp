@@ -86,10 +86,8 @@ inline Drive drive(const Scenario& scenario, const std::vector<RadarConfiguratio
     result.frames.push_back(*frame);
   }
   result.interfaces = simulation.interfaces();
-  std::ostringstream csv;
-  simulation.write_truth(csv);
   result.mounts = simulation.mounts();
-  result.truth_csv = csv.str();
+  result.truth_csv = simulation.truth_csv();
   return result;
 }
 

@@ -77,9 +77,10 @@ struct Converted {
 };
 
 Converted convert(const std::string& path) {
-  std::ostringstream csv;
+  LineFile csv(path + ".csv");
   const LcmLogCounters counters = lcm_to_csv(path, csv);
-  return {counters, csv.str()};
+  csv.finish();
+  return {counters, content(path + ".csv")};
 }
 
 }  // namespace

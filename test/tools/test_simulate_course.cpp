@@ -66,9 +66,7 @@ CarLimits limits_of(std::string_view name) {
 
 std::string truth_csv(const std::string& name) {
   cremed::Simulation simulation(cremed::test::scenario(name), cremed::default_radars(), {});
-  std::ostringstream text;
-  simulation.write_truth(text);
-  return text.str();
+  return simulation.truth_csv();
 }
 
 }  // namespace
@@ -201,9 +199,7 @@ TEST_CASE("a line between two rows of the truth is off by what accelerations mak
   CAPTURE(std::string(scenario.name));
   const cremed::SimulationOptions options;
   cremed::Simulation simulation(scenario, cremed::default_radars(), options);
-  std::ostringstream text;
-  simulation.write_truth(text);
-  const TruthTable truth(text.str());
+  const TruthTable truth(simulation.truth_csv());
   double worst_m = 0.0;
   double worst_rad = 0.0;
   for (int moment = 0; 0.0033 * moment < scenario.duration_s; ++moment) {

@@ -3,9 +3,6 @@
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <ostream>
-#include <stdexcept>
 #include <string_view>
 
 #include <cremed/ego_motion_t.hpp>
@@ -35,20 +32,6 @@ bool is_good(const ego_motion_t& message) {
 
 bool is_good(const odometry_t& message) {
   return message.status >= 0 && message.status < static_cast<int>(kOdometryStatusCount);
-}
-
-template <typename Message>
-std::optional<Message> decode(const LoggedMessage& logged) {
-  Message message;
-  try {
-    const int size = static_cast<int>(logged.data.size());
-    if (message.decode(logged.data.data(), 0, size) != size) {
-      return std::nullopt;
-    }
-  } catch (const std::length_error&) {  // The generated code turns a string length of 0 into -1.
-    return std::nullopt;
-  }
-  return is_good(message) ? std::optional(message) : std::nullopt;
 }
 
 Eigen::Matrix3d matrix(const double (&row_major)[9]) {
@@ -87,10 +70,11 @@ Odometry odometry(const odometry_t& message) {
 
 /// Writes the message as the row that `to_row` makes; counts it, or counts it as bad.
 template <typename Message, typename ToRow>
-void convert(const LoggedMessage& logged, const ToRow& to_row, std::ostream& csv,
-             std::uint64_t& count, std::uint64_t& bad) {
-  if (const std::optional<Message> message = decode<Message>(logged)) {
-    csv << to_row(*message).view();
+void convert(const LoggedMessage& logged, const ToRow& to_row, LineFile& csv, std::uint64_t& count,
+             std::uint64_t& bad) {
+  const auto message = decoded<Message>(logged.data.data(), logged.data.size());
+  if (message && is_good(*message)) {
+    csv.write(to_row(*message).view());
     ++count;
   } else {
     ++bad;
@@ -99,12 +83,11 @@ void convert(const LoggedMessage& logged, const ToRow& to_row, std::ostream& csv
 
 }  // namespace
 
-LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv,
-                          std::ostream* odometry_csv) {
+LcmLogCounters lcm_to_csv(const std::string& log_path, LineFile& csv, LineFile* odometry_csv) {
   LcmLogReader log(log_path);
-  csv << kMotionCsvHeader;
+  csv.write(kMotionCsvHeader);
   if (odometry_csv != nullptr) {
-    *odometry_csv << kOdometryCsvHeader;
+    odometry_csv->write(kOdometryCsvHeader);
   }
   const auto motion_row = [](const ego_motion_t& m) {
     return motion_csv_row(m.source, ego_motion(m), m.solve_us);

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <string>
+
+#include "tools/line_file.hpp"
 
 namespace cremed {
 
@@ -21,7 +22,7 @@ struct LcmLogCounters {
 /// Writes each CREMED_EGO_MOTION of the log as a row of `cremed --output-csv` and, unless
 /// `odometry_csv` is null, each CREMED_ODOMETRY as a row of `--output-odometry`. Throws
 /// std::runtime_error if the log cannot be read.
-LcmLogCounters lcm_to_csv(const std::string& log_path, std::ostream& csv,
-                          std::ostream* odometry_csv = nullptr);
+LcmLogCounters lcm_to_csv(const std::string& log_path, LineFile& csv,
+                          LineFile* odometry_csv = nullptr);
 
 }  // namespace cremed

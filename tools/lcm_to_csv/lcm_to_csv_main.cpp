@@ -10,7 +10,7 @@
 
 #include "daemon/process/file_aliases.hpp"
 #include "tools/lcm_to_csv/lcm_to_csv.hpp"
-#include "tools/line_stream.hpp"
+#include "tools/line_file.hpp"
 #include "tools/program.hpp"
 
 namespace {
@@ -25,13 +25,13 @@ cremed::LcmLogCounters convert(const Arguments& arguments) {
   if (!std::ifstream(arguments.log)) {  // Checked before an output is truncated.
     throw std::runtime_error("cannot read " + arguments.log);
   }
-  cremed::LineStream motions(arguments.output);
-  std::optional<cremed::LineStream> odometries;
+  cremed::LineFile motions(arguments.output);
+  std::optional<cremed::LineFile> odometries;
   if (!arguments.odometry.empty()) {
     odometries.emplace(arguments.odometry);
   }
-  cremed::LcmLogCounters counters = cremed::lcm_to_csv(
-      arguments.log, motions.stream(), odometries ? &odometries->stream() : nullptr);
+  cremed::LcmLogCounters counters =
+      cremed::lcm_to_csv(arguments.log, motions, odometries ? &*odometries : nullptr);
   motions.finish();
   if (odometries) {
     odometries->finish();

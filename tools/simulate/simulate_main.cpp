@@ -12,7 +12,7 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/usage_error.hpp"
-#include "tools/line_stream.hpp"
+#include "tools/line_file.hpp"
 #include "tools/program.hpp"
 #include "tools/simulate/scenario.hpp"
 #include "tools/simulate/simulation.hpp"
@@ -83,8 +83,8 @@ const Scenario& asked_scenario(const std::string& name) {
 }
 
 void write_truth(const Simulation& simulation, const std::string& path) {
-  LineStream file(path);
-  simulation.write_truth(file.stream());
+  LineFile file(path);
+  file.write(simulation.truth_csv());
   file.finish();
 }
 
@@ -110,8 +110,8 @@ void simulate(Arguments& arguments) {
   arguments.options.is_told_motion = !arguments.is_not_told;
   Simulation simulation(scenario, configuration.radars, arguments.options);
   if (!arguments.truth.empty()) write_truth(simulation, arguments.truth);
-  LineStream log(arguments.output);
-  simulation.write_log(log.stream());
+  LineFile log(arguments.output);
+  simulation.write_log(log);
   log.finish();
 }
 

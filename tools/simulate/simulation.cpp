@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <ostream>
 #include <stdexcept>
 
 #include <spdlog/fmt/fmt.h>
@@ -27,6 +26,10 @@ constexpr std::uint64_t kMountStream = 512;
 constexpr std::uint64_t kDopplerScaleStream = 768;
 /// Random streams of the vehicle's sensors as the daemon hears them.
 constexpr std::uint64_t kVehicleStream = 1024;
+/// Constant errors of what the vehicle sends, beside those of VehicleBus: as large as wheels and
+/// gyro of two cars have against their map-based poses (nuScenes).
+constexpr double kVehicleScaleStd = 0.003;
+constexpr double kVehicleYawRateBiasStdRadps = 0.0004;
 constexpr double kArs408CycleUs = 72'000.0;
 constexpr double kGprBusShare = 0.24;
 constexpr std::int64_t kStatePeriodUs = 1'000'000;
@@ -183,9 +186,9 @@ void Simulation::attach_gpr(const BoschGprOptions& options, const SenderSetup& s
 
 void Simulation::attach_vehicle(const SimulationOptions& options) {
   Random random(options.seed, kVehicleStream + 2);
-  const VehicleErrors errors{1.0 + constant_error(random, options.vehicle_scale_std),
-                             1.0 + constant_error(random, options.vehicle_scale_std),
-                             constant_error(random, options.vehicle_yaw_rate_bias_std_radps)};
+  const VehicleErrors errors{1.0 + constant_error(random, kVehicleScaleStd),
+                             1.0 + constant_error(random, kVehicleScaleStd),
+                             constant_error(random, kVehicleYawRateBiasStdRadps)};
   bus_of(options.vehicle.interface)
       .attach(std::make_unique<VehicleSender>(vehicle_bus_, errors, options.vehicle,
                                               scene_.start_us(), scene_.end_us()));
@@ -210,22 +213,23 @@ std::optional<CanFrame> Simulation::next() {
   }
 }
 
-void Simulation::write_log(std::ostream& output) {
+void Simulation::write_log(LineFile& log) {
   while (const auto frame = next()) {
-    if (!(output << candump_line(*frame, interfaces()[frame->interface]))) return;
+    if (!log.write(candump_line(*frame, interfaces()[frame->interface]))) return;
   }
 }
 
-void Simulation::write_truth(std::ostream& output) const {
-  output << "utime,x_m,y_m,yaw_rad\n";
+std::string Simulation::truth_csv() const {
+  std::string csv = "utime,x_m,y_m,yaw_rad\n";
   const std::int64_t step_us = std::llround(VehicleCourse::kStepS * 1e6);
   std::int64_t stamp_us = scene_.start_us();
   for (const VehicleState& state : scene_.course().steps()) {
-    output << fmt::format("{},{:.9f},{:.9f},{:.12f}\n", stamp_us, state.pose.x_m, state.pose.y_m,
-                          state.pose.yaw_rad);
-    if (stamp_us >= scene_.end_us()) return;
+    csv += fmt::format("{},{:.9f},{:.9f},{:.12f}\n", stamp_us, state.pose.x_m, state.pose.y_m,
+                       state.pose.yaw_rad);
+    if (stamp_us >= scene_.end_us()) break;
     stamp_us += step_us;
   }
+  return csv;
 }
 
 }  // namespace cremed

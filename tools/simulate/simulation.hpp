@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "cremed/can_decoders/bosch_gpr.hpp"
 #include "cremed/can_decoders/can_frame.hpp"
 #include "daemon/configuration/configuration.hpp"
+#include "tools/line_file.hpp"
 #include "tools/simulate/can_bus.hpp"
 #include "tools/simulate/radar_sender.hpp"
 #include "tools/simulate/random.hpp"
@@ -44,10 +44,6 @@ struct SimulationOptions {
 
   /// Its bus sends them for the daemon too, if it has an interface: [vehicle] of the configuration.
   VehicleConfiguration vehicle{};
-  /// Constant errors of what it sends, beside those of VehicleBus: as large as wheels and gyro of
-  /// two cars have against their map-based poses (nuScenes).
-  double vehicle_scale_std = 0.003;
-  double vehicle_yaw_rate_bias_std_radps = 0.0004;
 };
 
 /// Radars of config/demo.toml: an ARS408 in front on can0, a Bosch GPR facing backwards on can1.
@@ -71,10 +67,10 @@ class Simulation {
   /// True mount of each radar.
   [[nodiscard]] const std::vector<Pose2>& mounts() const { return mounts_; }
 
-  /// All frames that are left, as `candump -L` writes them; fewer if the stream fails.
-  void write_log(std::ostream& output);
+  /// All frames that are left, as `candump -L` writes them; fewer if the file fails.
+  void write_log(LineFile& log);
   /// Pose of the rear axle every 10 ms as CSV: utime,x_m,y_m,yaw_rad.
-  void write_truth(std::ostream& output) const;
+  [[nodiscard]] std::string truth_csv() const;
 
  private:
   void attach(const std::vector<RadarConfiguration>& radars, const SenderSetup& setup);

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -70,15 +69,11 @@ double speed_of(const std::string& url) {
 template <typename Message>
 void LcmListener::hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* listener) {
   auto& self = *static_cast<LcmListener*>(listener);
-  Message message;
-  try {
-    const auto size = static_cast<int>(buffer->data_size);
-    if ((!std::is_same_v<Message, radar_scan_t> || announces_what_it_has(*buffer)) &&
-        message.decode(buffer->data, 0, size) == size) {
-      self.state_.take(message);
+  if (!std::is_same_v<Message, radar_scan_t> || announces_what_it_has(*buffer)) {
+    if (const auto message = decoded<Message>(buffer->data, buffer->data_size)) {
+      self.state_.take(*message);
       return;
     }
-  } catch (const std::exception&) {  // A length of 0 is taken for -1.
   }
   ++self.other_versions_[Message::getTypeName()];
 }

@@ -3,7 +3,7 @@
 #include "tools/laboratory/table/robot_drive.hpp"
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "tools/line_stream.hpp"
+#include "tools/line_file.hpp"
 #include "tools/simulate/simulation.hpp"
 
 namespace cremed {
@@ -27,11 +27,11 @@ Configuration robot() {
 DriveToPair robot_drive(std::uint64_t seed, const TemporaryFolder& folder) {
   DriveToPair drive{folder.file("can.log"), folder.file("truth.csv"), robot()};
   Simulation simulation(*find_scenario("campus"), drive.configuration.radars, {.seed = seed});
-  LineStream truth(drive.truth);
-  simulation.write_truth(truth.stream());
+  LineFile truth(drive.truth);
+  truth.write(simulation.truth_csv());
   truth.finish();
-  LineStream log(drive.log);
-  simulation.write_log(log.stream());
+  LineFile log(drive.log);
+  simulation.write_log(log);
   log.finish();
   return drive;
 }

@@ -35,23 +35,16 @@ void BusConnection::add_ids(const std::vector<std::uint32_t>& ids) {
 }
 
 void BusConnection::open(const Link& link) {
-  const CanOpenResult result = link.error != 0 ? CanOpenResult{CanOpenStatus::failed, link.error}
-                                               : socket_.open(link.index, ids_, options_);
+  const CanOpenResult result =
+      link.error != 0 ? CanOpenResult{link.error} : socket_.open(link.index, ids_, options_);
   status_.error = result.error;
-  switch (result.status) {
-    case CanOpenStatus::open:
-      status_.receive_buffer_bytes = result.receive_buffer_bytes;
-      status_.bus = BusState::error_active;
-      status_.link = link.is_up ? LinkState::up : LinkState::down;
-      return;
-    case CanOpenStatus::no_interface:
-      status_.link = LinkState::absent;
-      return;
-    case CanOpenStatus::no_can:
-    case CanOpenStatus::failed:
-      status_.link = LinkState::failed;
-      return;
+  if (result.error != 0) {
+    status_.link = is_interface_gone(result.error) ? LinkState::absent : LinkState::failed;
+    return;
   }
+  status_.receive_buffer_bytes = result.receive_buffer_bytes;
+  status_.bus = BusState::error_active;
+  status_.link = link.is_up ? LinkState::up : LinkState::down;
 }
 
 void BusConnection::look(const Link& link) {
@@ -68,7 +61,7 @@ void BusConnection::look(const Link& link) {
   }
 }
 
-/// After network_down the same socket works again; after device_gone it never does. The controller
+/// After LinkState::down the same socket works again; after others it never does. The controller
 /// starts again as error active, and sends no error frame that says so.
 void BusConnection::lose(LinkState link) {
   status_.interruptions += status_.link == LinkState::up ? 1 : 0;
@@ -84,20 +77,13 @@ CanReceiveResult BusConnection::receive() {
     return {};  // Closed since poll().
   }
   const CanReceiveResult result = socket_.receive();
-  switch (result.status) {
-    case CanReceiveStatus::network_down:
-      lose(LinkState::down);
-      break;
-    case CanReceiveStatus::device_gone:
-      lose(LinkState::absent);
-      break;
-    case CanReceiveStatus::failed:
-      status_.error = result.error;
-      lose(LinkState::failed);
-      break;
-    case CanReceiveStatus::frames:
-    case CanReceiveStatus::empty:
-      break;
+  if (result.error == ENETDOWN) {
+    lose(LinkState::down);
+  } else if (is_interface_gone(result.error)) {
+    lose(LinkState::absent);
+  } else if (result.error != 0) {
+    status_.error = result.error;
+    lose(LinkState::failed);
   }
   return result;
 }

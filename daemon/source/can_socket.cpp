@@ -84,22 +84,9 @@ void fill(const canfd_frame& raw, std::size_t size, CanFrame& frame) {
   std::copy_n(raw.data, frame.length, frame.data.begin());
 }
 
-CanReceiveStatus status_of(int error) {
-  switch (error) {
-    case EAGAIN:
-    case EINTR:
-      return CanReceiveStatus::empty;
-    case ENETDOWN:
-      return CanReceiveStatus::network_down;
-    case ENODEV:
-    case ENXIO:
-      return CanReceiveStatus::device_gone;
-    default:
-      return CanReceiveStatus::failed;
-  }
-}
-
 }  // namespace
+
+bool is_interface_gone(int error) { return error == ENODEV || error == ENXIO; }
 
 struct CanSocket::Control {
   bool is_from_bus = false;  ///< Only such frames must have a hardware stamp.
@@ -142,8 +129,7 @@ void CanSocket::close() {
 CanOpenResult CanSocket::fail() {
   const int error = errno;
   close();
-  const bool gone = error == ENODEV || error == ENXIO;
-  return {gone ? CanOpenStatus::no_interface : CanOpenStatus::failed, error};
+  return {error};
 }
 
 CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
@@ -151,8 +137,7 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   close();
   descriptor_ = Descriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   if (!is_open()) {
-    const bool no_can = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
-    return {no_can ? CanOpenStatus::no_can : CanOpenStatus::failed, errno};
+    return fail();
   }
   interface_index_ = interface_index;
   if (interface_index == 0) {
@@ -168,8 +153,7 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
     return fail();
   }
   const CanOpenResult result = configure(options);
-  return result.status == CanOpenStatus::open && !bind_to(descriptor(), interface_index_) ? fail()
-                                                                                          : result;
+  return result.error == 0 && !bind_to(descriptor(), interface_index_) ? fail() : result;
 }
 
 bool CanSocket::set_ids(std::span<const std::uint32_t> ids) {
@@ -196,7 +180,7 @@ CanOpenResult CanSocket::configure(const CanSocketOptions& options) {
       !set_option(descriptor(), SOL_SOCKET, SO_RXQ_OVFL, kOn)) {
     return fail();
   }
-  return {CanOpenStatus::open, 0, granted_buffer_bytes(descriptor(), options.receive_buffer_bytes)};
+  return {0, granted_buffer_bytes(descriptor(), options.receive_buffer_bytes)};
 }
 
 CanReceiveResult CanSocket::receive() {
@@ -220,7 +204,7 @@ CanReceiveResult CanSocket::receive() {
   const int count =
       ::recvmmsg(descriptor(), headers.data(), kBatchFrames, MSG_DONTWAIT, /*timeout=*/nullptr);
   if (count < 0) {
-    return {status_of(errno), errno, {}};
+    return {errno == EAGAIN || errno == EINTR ? 0 : errno, {}};
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -236,8 +220,7 @@ CanReceiveResult CanSocket::receive() {
     batch_[kept].lost_before = lost_before(said);
     ++kept;
   }
-  return {kept == 0 ? CanReceiveStatus::empty : CanReceiveStatus::frames, 0,
-          std::span(batch_).first(kept)};
+  return {0, std::span(batch_).first(kept)};
 }
 
 std::int64_t CanSocket::stamp_us(const Control& control) {

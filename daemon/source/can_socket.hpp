@@ -14,32 +14,20 @@
 
 namespace cremed {
 
-enum class CanOpenStatus : std::uint8_t {
-  open,
-  no_interface,  ///< No CAN interface of this name.
-  no_can,        ///< The kernel has no raw CAN sockets.
-  failed,        ///< See error.
-};
-
 struct CanOpenResult {
-  CanOpenStatus status = CanOpenStatus::failed;
-  int error = 0;                 ///< errno, if not open.
+  int error = 0;                 ///< errno; 0: open.
   int receive_buffer_bytes = 0;  ///< Granted by the kernel; limited by rmem_max.
 };
 
-enum class CanReceiveStatus : std::uint8_t {
-  frames,
-  empty,         ///< Nothing to read now.
-  network_down,  ///< Reported once when the interface goes down; the socket survives.
-  device_gone,   ///< The interface was removed: this socket never receives again.
-  failed,
-};
-
 struct CanReceiveResult {
-  CanReceiveStatus status = CanReceiveStatus::empty;
+  /// errno; 0: none. ENETDOWN is reported once when the interface goes down; the socket survives.
   int error = 0;
   std::span<const ReceivedFrame> frames;  ///< Valid until the next call.
 };
+
+/// Whether a socket got this error because there is no such interface, or no longer: then it never
+/// receives again.
+bool is_interface_gone(int error);
 
 /// A raw socket on one CAN interface. It receives frames with given identifiers and all error
 /// frames, classic and FD, with stamps, and sends only by send(). Source: Linux,

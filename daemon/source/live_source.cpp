@@ -197,9 +197,7 @@ int LiveSource::poll_all(int timeout_ms) {
 SourceEvent LiveSource::read_all(CanFrame& frame) {
   while (next_to_read_ < interfaces_.size()) {
     const std::size_t interface = next_to_read_++;
-    const CanReceiveStatus status =
-        merge_.has_frames(interface) ? CanReceiveStatus::frames : read(interface);
-    if (status != CanReceiveStatus::frames && status != CanReceiveStatus::empty) {
+    if (!merge_.has_frames(interface) && read(interface) != 0) {
       frame.interface = static_cast<std::uint8_t>(interface);
       return SourceEvent::dropped;
     }
@@ -208,7 +206,8 @@ SourceEvent LiveSource::read_all(CanFrame& frame) {
   return clock_watch_.was_set() ? step_clock() : SourceEvent::frame;
 }
 
-CanReceiveStatus LiveSource::read(std::size_t interface) {
+/// errno, or 0.
+int LiveSource::read(std::size_t interface) {
   const CanReceiveResult result =
       polled_[interface].revents != 0 ? interfaces_[interface]->receive() : CanReceiveResult{};
   for (const ReceivedFrame& received : result.frames) {
@@ -217,7 +216,7 @@ CanReceiveStatus LiveSource::read(std::size_t interface) {
   if (result.frames.size() < CanSocket::kBatchFrames) {
     merge_.set_read_until(interface, read_until_us());
   }
-  return result.status;
+  return result.error;
 }
 
 /// Frames stamped before this time have been read from every socket that was empty at polled_us_. A
@@ -237,7 +236,7 @@ SourceEvent LiveSource::step_clock() {
     for (int i = 0; i < kMaxDiscardedBatches && interface->descriptor() >= 0; ++i) {
       const CanReceiveResult result = interface->receive();
       interface->status().frames_discarded += result.frames.size();
-      if (result.status != CanReceiveStatus::frames) {
+      if (result.frames.empty()) {
         break;
       }
     }

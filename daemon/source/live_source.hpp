@@ -69,7 +69,7 @@ class LiveSource final : public FrameSource {
   void hold_back() const;
   int poll_all(int timeout_ms);
   SourceEvent read_all(CanFrame& frame);
-  CanReceiveStatus read(std::size_t interface);
+  int read(std::size_t interface);
   [[nodiscard]] std::int64_t read_until_us() const;
   SourceEvent step_clock();
 

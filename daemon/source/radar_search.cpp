@@ -52,7 +52,7 @@ void RadarSearch::follow(const LinkWatch& links) {
       continue;
     }
     auto socket = std::make_unique<CanSocket>();
-    if (socket->open(link.index, {}, configuration_.live.socket).status == CanOpenStatus::open) {
+    if (socket->open(link.index, {}, configuration_.live.socket).error == 0) {
       listeners_.push_back({link.index, std::move(socket)});
       buses_.emplace_back().interface = name;
     }
@@ -75,8 +75,8 @@ bool RadarSearch::receive(std::size_t listener) {
     for (const ReceivedFrame& received : result.frames) {
       buses_[listener].traffic.add(received.frame);
     }
-    if (result.status != CanReceiveStatus::frames) {
-      return result.status == CanReceiveStatus::empty;
+    if (result.frames.empty()) {
+      return result.error == 0;
     }
   }
   return true;

@@ -37,7 +37,7 @@ std::string frame_text(const std::string& interface, const CanFrame& frame) {
 /// Discards what came before, such as while the user was asked: it is no answer.
 void drain(CanSocket& socket) {
   constexpr int kMostBatches = 1000;  // More than a receive buffer holds.
-  for (int i = 0; i < kMostBatches && socket.receive().status == CanReceiveStatus::frames; ++i) {
+  for (int i = 0; i < kMostBatches && !socket.receive().frames.empty(); ++i) {
   }
 }
 
@@ -69,7 +69,7 @@ void listen(CanSocket& socket, std::int64_t duration_us,
         return;
       }
     }
-    if (result.status != CanReceiveStatus::frames && result.status != CanReceiveStatus::empty) {
+    if (result.error != 0) {
       return;
     }
   }

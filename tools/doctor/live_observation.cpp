@@ -62,7 +62,7 @@ bool receive(const Ear& ear, Observer& observer) {
     }
     observer.add(ear.interface, received.frame);
   }
-  return result.status == CanReceiveStatus::frames || result.status == CanReceiveStatus::empty;
+  return result.error == 0;
 }
 
 void listen(std::vector<Ear>& ears, std::int64_t deadline_us,
@@ -110,7 +110,7 @@ std::unique_ptr<CanSocket> open_bus(const CanSocketOptions& options, BusObservat
   }
   auto socket = std::make_unique<CanSocket>();
   const CanOpenResult result = socket->open(::if_nametoindex(bus.interface.c_str()), {}, options);
-  if (result.status != CanOpenStatus::open) {
+  if (result.error != 0) {
     bus.state = InterfaceState::failed;
     bus.error = std::strerror(result.error);
     return nullptr;

@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <streambuf>
 #include <string>
 #include <string_view>
 
+#include <ext/stdio_sync_filebuf.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -38,38 +38,15 @@ ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
   return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-/// A stream buffer that writes to a FILE of plain text, as std::cout does to stdout.
-class FileBuffer final : public std::streambuf {
- public:
-  explicit FileBuffer(int descriptor)
-      : output_{descriptor, {}},
-        file_(::fopencookie(&output_, "w", {nullptr, write_plain, nullptr, nullptr})) {}
-
-  [[nodiscard]] std::FILE* file() const { return file_; }
-
- protected:
-  int_type overflow(int_type c) override {
-    return c == traits_type::eof() ? 0 : std::fputc(c, file_);
-  }
-  std::streamsize xsputn(const char* text, std::streamsize size) override {
-    return static_cast<std::streamsize>(
-        std::fwrite(text, 1, static_cast<std::size_t>(size), file_));
-  }
-  int sync() override { return std::fflush(file_); }
-
- private:
-  PlainOutput output_;
-  std::FILE* file_;
-};
-
 /// Never destroyed: standard streams are flushed after all other objects.
 std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
-  auto* const buffer = new FileBuffer(descriptor);
-  if (buffer->file() != nullptr) {
-    std::setvbuf(buffer->file(), nullptr, buffering, BUFSIZ);
-    stream.rdbuf(buffer);
+  auto* const output = new PlainOutput{descriptor, {}};
+  std::FILE* const file = ::fopencookie(output, "w", {nullptr, write_plain, nullptr, nullptr});
+  if (file != nullptr) {
+    std::setvbuf(file, nullptr, buffering, BUFSIZ);
+    stream.rdbuf(new __gnu_cxx::stdio_sync_filebuf<char>(file));  // As std::cout has for stdout.
   }
-  return buffer->file();
+  return file;
 }
 
 /// Passes all output of std::cout, std::cerr, stdout and stderr through plain_text(), because

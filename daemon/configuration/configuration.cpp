@@ -144,9 +144,9 @@ std::vector<PlacedRadar> read_radars(TomlReader& reader, const EgoMotionOptions&
   return radars;
 }
 
-Configuration read_configuration(const toml::table& table, ReadContext& context,
+Configuration read_configuration(const toml::table& table, Diagnostics& diagnostics,
                                  RadarFamilies families) {
-  TomlReader reader(&table, "", 1, context);
+  TomlReader reader(&table, "", 1, diagnostics);
   Configuration configuration;
   EgoMotionOptions defaults;
   read_estimator(reader.table("estimator"), defaults);
@@ -165,8 +165,8 @@ Configuration read_configuration(const toml::table& table, ReadContext& context,
   read_logging(reader.table("logging"), configuration.logging);
   reader.finish();
   // A wrong value keeps its default, which would cause false clashes.
-  if (context.diagnostics.empty()) {
-    check_radars(radars, context.diagnostics);
+  if (diagnostics.empty()) {
+    check_radars(radars, diagnostics);
     check_vehicle(vehicle, configuration);
     check_output(output, configuration);
     check_live(live, configuration);
@@ -192,13 +192,13 @@ std::optional<std::size_t> tum_radar(const Configuration& configuration) {
 
 Configuration parse_configuration(std::string_view toml, const std::string& file_name,
                                   RadarFamilies families) {
-  ReadContext context{Diagnostics(file_name), nullptr};
+  Diagnostics diagnostics(file_name);
   Configuration configuration;
-  if (const auto table = parse_toml(toml, context.diagnostics)) {
-    configuration = read_configuration(*table, context, families);
+  if (const auto table = parse_toml(toml, diagnostics)) {
+    configuration = read_configuration(*table, diagnostics, families);
   }
-  if (!context.diagnostics.empty()) {
-    throw ConfigurationError(context.diagnostics.text());
+  if (!diagnostics.empty()) {
+    throw ConfigurationError(diagnostics.text());
   }
   return configuration;
 }
@@ -215,20 +215,6 @@ Configuration load_configuration(const std::string& path) {
         concat({path, ": cannot be read: ", why, "; must be a readable TOML file",
                 is_absent ? concat({": ", kWriteFirst}) : ""}));
   }
-}
-
-std::set<std::string> known_configuration_keys() {
-  std::set<std::string> keys;
-  ReadContext context{Diagnostics(""), &keys};
-  std::string radars;
-  for (const RadarFamily* family : radar_families()) {
-    radars += concat({"[[radar]]\nname = \"front\"\ntype = ", in_quotes(family->type), "\n"});
-  }
-  if (const auto table = parse_toml(radars, context.diagnostics)) {
-    read_configuration(*table, context,
-                       radar_families());  // Errors of this reading do not matter.
-  }
-  return keys;
 }
 
 }  // namespace cremed

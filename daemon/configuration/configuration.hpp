@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -127,9 +126,5 @@ Configuration parse_configuration(std::string_view toml, const std::string& file
 
 /// Reads and parses a file. Throws ConfigurationError, also if the file is unreadable.
 Configuration load_configuration(const std::string& path);
-
-/// Every key of the file as "table.key", for the test that the manual documents all of them. Keys
-/// of [radar.estimator] are listed under "radar.estimator" too.
-std::set<std::string> known_configuration_keys();
 
 }  // namespace cremed

@@ -47,7 +47,7 @@ std::vector<const RadarFamily*> by_type(RadarFamilies families) {
 
 /// The keys that the family reads.
 std::vector<std::string_view> keys_of(const RadarFamily& family) {
-  ReadContext scratch{Diagnostics(""), nullptr};
+  Diagnostics scratch("");
   TomlReader reader(nullptr, "", 0, scratch);
   family.read(reader);
   return reader.known();

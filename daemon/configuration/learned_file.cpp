@@ -84,15 +84,14 @@ LearnedFile::LearnedFile(std::string path, const Configuration& configuration)
 }
 
 LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
-  ReadContext context{Diagnostics(path_), nullptr};
+  Diagnostics diagnostics(path_);
   Content content;
   content.radars.resize(radars_.size());
-  const auto table = parse_toml(toml, context.diagnostics);
-  if (table) {
-    TomlReader reader(table.get(), "", 1, context);
+  if (const auto table = parse_toml(toml, diagnostics)) {
+    TomlReader reader(table.get(), "", 1, diagnostics);
     std::int64_t version = 0;
     reader.integer("version", version, kVersion, kVersion);
-    if (version == 0 && context.diagnostics.empty()) {
+    if (version == 0 && diagnostics.empty()) {
       reader.report("version", "is missing; must be 1");
     }
     for (TomlReader& radar : reader.tables("radar")) {
@@ -100,9 +99,9 @@ LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
     }
     reader.finish();
   }
-  if (!context.diagnostics.empty()) {
+  if (!diagnostics.empty()) {
     content.radars.assign(radars_.size(), std::nullopt);
-    content.problem = context.diagnostics.text();
+    content.problem = diagnostics.text();
     content.is_foreign = !may_be_own(toml);
   }
   return content;

@@ -39,18 +39,10 @@ std::string describe(const toml::node& node) {
   }
 }
 
-/// A number may be written as an integer; an integer may not be written as a float.
-std::optional<double> number_in(const toml::node& node) {
-  if (node.is_integer()) {
-    return static_cast<double>(node.as_integer()->get());
-  }
-  return node.is_floating_point() ? std::optional(node.as_floating_point()->get()) : std::nullopt;
-}
-
+/// An integer may not be written as a float.
 std::optional<std::int64_t> integer_in(const toml::node& node, std::int64_t min, std::int64_t max) {
-  const auto* integer = node.as_integer();
-  const bool within = integer != nullptr && integer->get() >= min && integer->get() <= max;
-  return within ? std::optional(integer->get()) : std::nullopt;
+  const auto integer = node.value_exact<std::int64_t>();
+  return integer && *integer >= min && *integer <= max ? integer : std::nullopt;
 }
 
 /// A hint for an angle that would be valid in degrees.
@@ -75,13 +67,24 @@ bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
 }  // namespace
 
 TomlReader::TomlReader(const toml::table* table, std::string path, std::size_t line,
-                       ReadContext& context)
-    : table_(table), path_(std::move(path)), line_(line), context_(&context) {}
+                       Diagnostics& diagnostics)
+    : table_(table), path_(std::move(path)), line_(line), diagnostics_(&diagnostics) {}
+
+template <typename Read>
+auto TomlReader::value_of(std::string_view key, Presence presence, std::string_view wanted,
+                          const Read& read) {
+  const toml::node* const node = take(key, presence, wanted);
+  const auto value = node == nullptr ? std::nullopt : read(*node);
+  if (node != nullptr && !value) {
+    report_wrong(key, *node, wanted);
+  }
+  return value;
+}
 
 void TomlReader::number(std::string_view key, double& value, Range range, Presence presence) {
   const std::string wanted = range_text("a number", digits(range.min), digits(range.max));
-  if (const toml::node* node = take_leaf(key, presence, wanted)) {
-    const std::optional<double> read = number_in(*node);
+  if (const toml::node* node = take(key, presence, wanted)) {
+    const auto read = node->value<double>();                 // May be written as an integer.
     if (read && *read >= range.min && *read <= range.max) {  // false for NaN
       value = *read;
     } else {
@@ -92,18 +95,13 @@ void TomlReader::number(std::string_view key, double& value, Range range, Presen
 
 std::optional<std::int64_t> TomlReader::integer_within(std::string_view key, std::int64_t min,
                                                        std::int64_t max) {
-  const std::string wanted = range_text("an integer", digits(min), digits(max));
-  const toml::node* node = take_leaf(key, Presence::optional, wanted);
-  const auto read = node == nullptr ? std::nullopt : integer_in(*node, min, max);
-  if (node != nullptr && !read) {
-    report_wrong(key, *node, wanted);
-  }
-  return read;
+  return value_of(key, Presence::optional, range_text("an integer", digits(min), digits(max)),
+                  [&](const toml::node& node) { return integer_in(node, min, max); });
 }
 
 void TomlReader::identifier(std::string_view key, std::uint32_t& value, std::uint32_t max) {
   const std::string wanted = range_text("a CAN identifier", hexadecimal(0), hexadecimal(max));
-  if (const toml::node* node = take_leaf(key, Presence::optional, wanted)) {
+  if (const toml::node* node = take(key, Presence::optional, wanted)) {
     if (const auto read = integer_in(*node, 0, max)) {
       value = static_cast<std::uint32_t>(*read);
     } else if (const auto number = integer_in(*node, 0, std::numeric_limits<std::int64_t>::max())) {
@@ -116,48 +114,34 @@ void TomlReader::identifier(std::string_view key, std::uint32_t& value, std::uin
 }
 
 void TomlReader::boolean(std::string_view key, bool& value) {
-  constexpr std::string_view kWanted = "true or false";
-  if (const toml::node* node = take_leaf(key, Presence::optional, kWanted)) {
-    if (node->is_boolean()) {
-      value = node->as_boolean()->get();
-    } else {
-      report_wrong(key, *node, kWanted);
-    }
-  }
+  const auto read = [](const toml::node& node) { return node.value_exact<bool>(); };
+  value = value_of(key, Presence::optional, "true or false", read).value_or(value);
 }
 
 void TomlReader::text(std::string_view key, std::string& value, const TextRule& rule,
                       Presence presence) {
-  if (const toml::node* node = take_leaf(key, presence, rule.wanted)) {
-    const auto* read = node->as_string();
-    if (read != nullptr && !has_control_character(read->get()) && rule.accepts(read->get())) {
-      value = read->get();
-    } else {
-      report_wrong(key, *node, rule.wanted);
-    }
-  }
+  const auto accepted = [&](const toml::node& node) {
+    const auto text = node.value_exact<std::string>();
+    return text && !has_control_character(*text) && rule.accepts(*text) ? text : std::nullopt;
+  };
+  value = value_of(key, presence, rule.wanted, accepted).value_or(value);
 }
 
 std::optional<std::size_t> TomlReader::choice(std::string_view key,
                                               std::span<const std::string_view> names,
                                               Presence presence) {
-  const std::string wanted = list_text(names);
-  if (const toml::node* node = take_leaf(key, presence, wanted)) {
-    const auto* read = node->as_string();
-    for (std::size_t i = 0; read != nullptr && i < names.size(); ++i) {
-      if (read->get() == names[i]) {
-        return i;
-      }
-    }
-    report_wrong(key, *node, wanted);
-  }
-  return std::nullopt;
+  const auto index = [&](const toml::node& node) {
+    const auto name = node.value_exact<std::string_view>();
+    const auto found = name ? std::ranges::find(names, *name) : names.end();
+    return found == names.end() ? std::nullopt : std::optional<std::size_t>(found - names.begin());
+  };
+  return value_of(key, presence, list_text(names), index);
 }
 
 void TomlReader::bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) {
   const std::string wanted =
       range_text("a list of one or more integers", digits(std::int64_t{0}), digits(max_code));
-  const toml::node* node = take_leaf(key, Presence::optional, wanted);
+  const toml::node* node = take(key, Presence::optional, wanted);
   if (node == nullptr) {
     return;
   }
@@ -187,7 +171,7 @@ TomlReader TomlReader::table(std::string_view key) {
   }
   const toml::table* table = node == nullptr ? nullptr : node->as_table();
   const std::size_t line = table == nullptr ? line_ : std::size_t{table->source().begin.line};
-  return {table, path_of(key), line, *context_};
+  return {table, path_of(key), line, *diagnostics_};
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key, std::string_view if_missing) {
@@ -202,7 +186,8 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key, std::string_vie
     return readers;
   }
   for (const toml::node& element : *node->as_array()) {
-    readers.emplace_back(element.as_table(), path_of(key), element.source().begin.line, *context_);
+    readers.emplace_back(element.as_table(), path_of(key), element.source().begin.line,
+                         *diagnostics_);
   }
   return readers;
 }
@@ -246,7 +231,7 @@ void TomlReader::finish() {
 
 void TomlReader::report(std::string_view key, std::string_view problem) {
   clean_ = false;
-  context_->diagnostics.add(line_of(key), path_of(key), problem);
+  diagnostics_->add(line_of(key), path_of(key), problem);
 }
 
 void TomlReader::report_wrong(std::string_view key, const toml::node& node,
@@ -276,14 +261,6 @@ const toml::node* TomlReader::take(std::string_view key, Presence presence,
     report(key, concat({"is missing; must be ", wanted}));
   }
   return nullptr;
-}
-
-const toml::node* TomlReader::take_leaf(std::string_view key, Presence presence,
-                                        std::string_view wanted) {
-  if (context_->known_keys != nullptr) {
-    context_->known_keys->insert(path_of(key));
-  }
-  return take(key, presence, wanted);
 }
 
 }  // namespace cremed

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,21 +29,16 @@ struct TextRule {
   std::string_view wanted;
 };
 
-/// State shared by the readers of one file.
-struct ReadContext {
-  Diagnostics diagnostics;                      ///< Errors: the file is refused.
-  std::set<std::string>* known_keys = nullptr;  ///< Collects "table.key" of all keys read.
-};
-
-/// Reads one table key by key: checks type and range, reports errors and notes the known keys. An
-/// absent key leaves the value unchanged. Usage:
+/// Reads one table key by key: checks type and range, and reports errors. An absent key leaves the
+/// value unchanged. Usage:
 ///
 ///     reader.number("max_gap_s", options.max_gap_s, {0.01, 10.0});
 /// Every key not read is unknown.
 class TomlReader final : public OptionReader {
  public:
   /// `table` may be null if the file lacks it; `line` is then where it would be.
-  TomlReader(const toml::table* table, std::string path, std::size_t line, ReadContext& context);
+  TomlReader(const toml::table* table, std::string path, std::size_t line,
+             Diagnostics& diagnostics);
 
   void number(std::string_view key, double& value, Range range) override {
     number(key, value, range, Presence::optional);
@@ -82,7 +76,9 @@ class TomlReader final : public OptionReader {
 
  private:
   const toml::node* take(std::string_view key, Presence presence, std::string_view wanted);
-  const toml::node* take_leaf(std::string_view key, Presence presence, std::string_view wanted);
+  /// What `read` makes of the key's node; reports the node if that is nothing.
+  template <typename Read>
+  auto value_of(std::string_view key, Presence presence, std::string_view wanted, const Read& read);
   std::optional<std::int64_t> integer_within(std::string_view key, std::int64_t min,
                                              std::int64_t max) override;
   void report_wrong(std::string_view key, const toml::node& node, std::string_view wanted);
@@ -91,7 +87,7 @@ class TomlReader final : public OptionReader {
   const toml::table* table_;
   std::string path_;
   std::size_t line_;
-  ReadContext* context_;
+  Diagnostics* diagnostics_;
   std::vector<std::string_view> known_;
   std::vector<std::string_view> refused_;
   bool clean_ = true;

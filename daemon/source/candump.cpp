@@ -84,42 +84,12 @@ class Cursor {
   std::string_view rest_;
 };
 
-/// Of at most 18 digits.
-std::uint64_t decimal(std::string_view digits) {
-  std::uint64_t value = 0;
-  for (const char digit : digits) {
-    value = 10 * value + static_cast<std::uint64_t>(digit - '0');
-  }
-  return value;
-}
-
-constexpr std::array<std::int8_t, 256> make_nibbles() {
-  std::array<std::int8_t, 256> nibbles{};
-  nibbles.fill(-1);
-  constexpr std::string_view kLower = "0123456789abcdef";
-  constexpr std::string_view kUpper = "0123456789ABCDEF";
-  for (std::size_t i = 0; i < kLower.size(); ++i) {
-    nibbles[static_cast<unsigned char>(kLower[i])] = static_cast<std::int8_t>(i);
-    nibbles[static_cast<unsigned char>(kUpper[i])] = static_cast<std::int8_t>(i);
-  }
-  return nibbles;
-}
-
-constexpr auto kNibbles = make_nibbles();
-
 /// -1: not a hex digit.
-constexpr int hex_nibble(char c) { return kNibbles[static_cast<unsigned char>(c)]; }
-
-/// Of at most 8 hex digits; false if one is not.
-bool parse_hex(std::string_view digits, std::uint32_t& value) {
-  value = 0;
-  int any = 0;  // Negative if one of them is.
-  for (const char digit : digits) {
-    const int nibble = hex_nibble(digit);
-    value = 16 * value + static_cast<std::uint32_t>(nibble);
-    any |= nibble;
-  }
-  return any >= 0;
+constexpr int hex_nibble(char c) {
+  return is_digit(c)            ? c - '0'
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                : -1;
 }
 
 constexpr bool is_fd_length(std::size_t length) {
@@ -141,8 +111,8 @@ Error parse_stamp(Cursor& cursor, CandumpLine& line) {
   if (decimals.size() != 6 && decimals.size() != 9) {
     return kDecimals;
   }
-  const std::uint64_t micros = decimal(decimals.substr(0, 6));  // 9 decimals: rounded down.
-  line.frame.stamp_us = static_cast<std::int64_t>(decimal(seconds) * 1000000 + micros);
+  const auto micros = whole_number<std::int64_t>(decimals.substr(0, 6));  // 9: rounded down.
+  line.frame.stamp_us = *whole_number<std::int64_t>(seconds) * 1'000'000 + *micros;
   return {};
 }
 
@@ -168,11 +138,12 @@ Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
 }
 
 Error parse_identifier(std::string_view digits, CanFrame& frame) {
-  std::uint32_t id = 0;
-  if ((digits.size() != 3 && digits.size() != 8) || !parse_hex(digits, id)) {
+  constexpr int kHexadecimal = 16;
+  const auto id = whole_number<std::uint32_t>(digits, kHexadecimal);
+  if ((digits.size() != 3 && digits.size() != 8) || !id) {
     return kIdDigits;
   }
-  return digits.size() == 3 ? parse_standard_id(id, frame) : parse_extended_id(id, frame);
+  return digits.size() == 3 ? parse_standard_id(*id, frame) : parse_extended_id(*id, frame);
 }
 
 /// Pairs of hex digits, optionally separated by '.'.

@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 
+#include <spdlog/fmt/fmt.h>
+
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -13,48 +15,47 @@ namespace {
 
 using namespace std::string_view_literals;
 
-enum class Way : std::uint8_t {
-  unpack,   // A command writes the log to standard output.
-  convert,  // python-can writes a file.
-  asc,
-  odometry,
-  results,
-  record,  // Nothing at hand converts it.
-};
+/// With {} for the file.
+using Remedy = const char*;
+constexpr Remedy kConvert = "`python3 -m can.logconvert {} drive.log` (python3-can)";
+constexpr Remedy kRecord =
+    "frames are read from candump logs: record the bus with `candump -l any`";
+constexpr Remedy kEvaluate =
+    "give it to `cremed-eval drive`, and to --replay the frames it was made of";
 
 struct Format {
   std::string_view magic;
   std::string_view name;
-  Way way;
-  std::string_view command;
+  Remedy remedy;
 };
 
 constexpr std::array kFormats = {
-    Format{"\x1F\x8B"sv, "compressed by gzip", Way::unpack, "zcat"},
+    Format{"\x1F\x8B"sv, "compressed by gzip", "`zcat {} >drive.log`"},
     Format{"\xFD"
            "7zXZ\0"sv,
-           "compressed by xz", Way::unpack, "xzcat"},
-    Format{"\x28\xB5\x2F\xFD"sv, "compressed by zstd", Way::unpack, "zstdcat"},
-    Format{"BZh"sv, "compressed by bzip2", Way::unpack, "bzcat"},
-    Format{"\x04\x22\x4D\x18"sv, "compressed by lz4", Way::unpack, "lz4cat"},
-    Format{"PK\x03\x04"sv, "a zip archive", Way::unpack, "unzip -p"},
-    Format{"LOGG"sv, "a BLF log", Way::convert, ""},
-    Format{";$FILEVERSION"sv, "a PCAN trace", Way::convert, ""},
-    Format{";####"sv, "a PCAN trace 1.0", Way::convert, ""},
-    Format{"date "sv, "an ASC log", Way::asc, ""},
-    Format{"\xED\xA1\xDA\x01"sv, "an LCM log", Way::results, ""},
-    Format{"\xFF\xFE"sv, "UTF-16 text", Way::unpack, "iconv -f UTF-16 -t UTF-8"},
-    Format{"\xD4\xC3\xB2\xA1"sv, "a pcap capture", Way::record, ""},
-    Format{"\xA1\xB2\xC3\xD4"sv, "a pcap capture", Way::record, ""},
-    Format{"\x4D\x3C\xB2\xA1"sv, "a pcap capture", Way::record, ""},
-    Format{"\xA1\xB2\x3C\x4D"sv, "a pcap capture", Way::record, ""},
-    Format{"\x0A\x0D\x0D\x0A"sv, "a pcapng capture", Way::record, ""},
-    Format{"MDF     "sv, "an MDF (MF4) log", Way::record, ""},
-    Format{"#ROSBAG"sv, "a rosbag", Way::record, ""},
-    Format{"SQLite format 3"sv, "an SQLite database (db3)", Way::record, ""},
-    Format{"\x89MCAP0"sv, "an MCAP file", Way::record, ""},
-    Format{"utime_start,utime,source,"sv, "cremed's own odometry", Way::odometry, ""},
-    Format{"utime,utime_anchor,"sv, "cremed's own odometry", Way::odometry, ""},
+           "compressed by xz", "`xzcat {} >drive.log`"},
+    Format{"\x28\xB5\x2F\xFD"sv, "compressed by zstd", "`zstdcat {} >drive.log`"},
+    Format{"BZh"sv, "compressed by bzip2", "`bzcat {} >drive.log`"},
+    Format{"\x04\x22\x4D\x18"sv, "compressed by lz4", "`lz4cat {} >drive.log`"},
+    Format{"PK\x03\x04"sv, "a zip archive", "`unzip -p {} >drive.log`"},
+    Format{"LOGG"sv, "a BLF log", kConvert},
+    Format{";$FILEVERSION"sv, "a PCAN trace", kConvert},
+    Format{";####"sv, "a PCAN trace 1.0", kConvert},
+    Format{"date "sv, "an ASC log", "`asc2log -I {} -O drive.log` (can-utils)"},
+    Format{"\xED\xA1\xDA\x01"sv, "an LCM log",
+           "it has messages, not CAN frames: `cremed-lcm-to-csv {}`"},
+    Format{"\xFF\xFE"sv, "UTF-16 text", "`iconv -f UTF-16 -t UTF-8 {} >drive.log`"},
+    Format{"\xD4\xC3\xB2\xA1"sv, "a pcap capture", kRecord},
+    Format{"\xA1\xB2\xC3\xD4"sv, "a pcap capture", kRecord},
+    Format{"\x4D\x3C\xB2\xA1"sv, "a pcap capture", kRecord},
+    Format{"\xA1\xB2\x3C\x4D"sv, "a pcap capture", kRecord},
+    Format{"\x0A\x0D\x0D\x0A"sv, "a pcapng capture", kRecord},
+    Format{"MDF     "sv, "an MDF (MF4) log", kRecord},
+    Format{"#ROSBAG"sv, "a rosbag", kRecord},
+    Format{"SQLite format 3"sv, "an SQLite database (db3)", kRecord},
+    Format{"\x89MCAP0"sv, "an MCAP file", kRecord},
+    Format{"utime_start,utime,source,"sv, "cremed's own odometry", kEvaluate},
+    Format{"utime,utime_anchor,"sv, "cremed's own odometry", kEvaluate},
 };
 
 /// What python-can writes, and reads.
@@ -64,25 +65,10 @@ constexpr long kMinCommas = 3;
 
 /// In every line of `candump -c` and `-ca`; with the sequences that begin so the rest is a log.
 constexpr std::string_view kColour = "\x1B[";
-constexpr std::string_view kWithoutColours = "sed 's/\\x1B\\[[0-9;]*m//g'";
+constexpr Remedy kUncolour = "`sed 's/\\x1B\\[[0-9;]*m//g' {} >drive.log`";
 
-std::string remedy(Way way, std::string_view command, const std::string& path) {
-  const std::string file = path == "-" ? "LOG" : in_shell(path);
-  switch (way) {
-    case Way::unpack:
-      return concat({"`", command, " ", file, " >drive.log`"});
-    case Way::convert:
-      return concat({"`python3 -m can.logconvert ", file, " drive.log` (python3-can)"});
-    case Way::asc:
-      return concat({"`asc2log -I ", file, " -O drive.log` (can-utils)"});
-    case Way::results:
-      return concat({"it has messages, not CAN frames: `cremed-lcm-to-csv ", file, "`"});
-    case Way::record:
-      return "frames are read from candump logs: record the bus with `candump -l any`";
-    case Way::odometry:
-      return concat({"give it to `cremed-eval drive`, and to --replay the frames it was made of"});
-  }
-  return {};
+std::string remedy_text(Remedy remedy, const std::string& path) {
+  return fmt::format(fmt::runtime(remedy), path == "-" ? "LOG" : in_shell(path));
 }
 
 bool is_csv(std::string_view line) {
@@ -92,9 +78,9 @@ bool is_csv(std::string_view line) {
 
 std::string csv_text(std::string_view header, const std::string& path) {
   return header.starts_with(kCsvFrame)
-             ? concat({"CSV; ", remedy(Way::convert, "", path)})
+             ? concat({"CSV; ", remedy_text(kConvert, path)})
              : concat({"CSV without the columns of frames, which are ", in_quotes(kCsvColumns),
-                       " as python3-can writes them; ", remedy(Way::record, "", path)});
+                       " as python3-can writes them; ", kRecord});
 }
 
 }  // namespace
@@ -104,12 +90,11 @@ std::string foreign_format(std::string_view begin, const std::string& path) {
   const auto* const found = std::ranges::find_if(
       kFormats, [&](const Format& format) { return begin.starts_with(format.magic); });
   if (found != kFormats.end()) {
-    return concat({what, found->name, "; ", remedy(found->way, found->command, path)});
+    return concat({what, found->name, "; ", remedy_text(found->remedy, path)});
   }
   const std::string_view line = begin.substr(0, begin.find('\n'));
   if (line.find(kColour) != std::string_view::npos) {
-    return concat({what, "text in the colours of `candump -c`; ",
-                   remedy(Way::unpack, kWithoutColours, path)});
+    return concat({what, "text in the colours of `candump -c`; ", remedy_text(kUncolour, path)});
   }
   return is_csv(line) ? concat({what, csv_text(line, path)}) : std::string();
 }

@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include "daemon/output/counter_rows.hpp"
 #include "daemon/output/multicast_route.hpp"
 #include "daemon/process/file_aliases.hpp"
 #include "daemon/process/message_text.hpp"
@@ -118,42 +119,11 @@ void fill_odometry(const RadarReport& report, status_t& m) {
   set(S::COUNTER_ODOMETRY_TARGETS_MOVING, report.targets.moving, m);
 }
 
-void fill_decoder(const DecoderCounters& decoder, status_t& m) {
-  set(S::COUNTER_FRAMES_OF_THIS_RADAR, decoder.frames, m);
-  set(S::COUNTER_FRAMES_STATE, decoder.state_frames, m);
-  set(S::COUNTER_FRAMES_WRONG_LENGTH, decoder.wrong_length, m);
-  set(S::COUNTER_FRAMES_WRONG_KIND, decoder.wrong_kind, m);
-  set(S::COUNTER_FRAMES_WRONG_MODE, decoder.wrong_mode, m);
-  set(S::COUNTER_FRAMES_WRONG_SLOT, decoder.wrong_slot, m);
-  set(S::COUNTER_CRC_ERRORS, decoder.crc_errors, m);
-  set(S::COUNTER_COUNTER_ERRORS, decoder.counter_errors, m);
-}
-
-void fill_assembler(const AssemblerCounters& assembler, status_t& m) {
-  set(S::COUNTER_SCANS, assembler.scans, m);
-  set(S::COUNTER_SCANS_INCOMPLETE, assembler.incomplete_scans, m);
-  set(S::COUNTER_SCANS_WITHOUT_HEADER, assembler.headerless_scans, m);
-  set(S::COUNTER_SCANS_EMPTY, assembler.empty_scans, m);
-  set(S::COUNTER_SCANS_TIMED_OUT, assembler.timeouts, m);
-  set(S::COUNTER_SCANS_REPEATED, assembler.repeated_scans, m);
-  set(S::COUNTER_SCANS_MISSED, assembler.missed_scans, m);
-  set(S::COUNTER_PARTS_MISSING, assembler.missing_parts, m);
-  set(S::COUNTER_PARTS_DUPLICATE, assembler.duplicate_parts, m);
-  set(S::COUNTER_PARTS_CONFLICTING, assembler.conflicting_parts, m);
-  set(S::COUNTER_PARTS_REORDERED, assembler.reordered_parts, m);
-  set(S::COUNTER_PARTS_EXCESS, assembler.excess_parts, m);
-  set(S::COUNTER_PARTS_ORPHAN, assembler.orphan_parts, m);
-  set(S::COUNTER_STAMPS_BACKWARDS, assembler.stamps_backwards, m);
-}
-
-void fill_selection(const SelectionCounters& selection, status_t& m) {
-  set(S::COUNTER_DETECTIONS_USED, selection.used, m);
-  set(S::COUNTER_DETECTIONS_NO_NOISE, selection.no_noise, m);
-  set(S::COUNTER_DETECTIONS_INVALID_STATE, selection.invalid_state, m);
-  set(S::COUNTER_DETECTIONS_MOVING, selection.moving, m);
-  set(S::COUNTER_DETECTIONS_LOW_EXISTENCE, selection.low_existence, m);
-  set(S::COUNTER_DETECTIONS_NO_POSITION, selection.no_position, m);
-  set(S::COUNTER_DETECTIONS_OUTSIDE_LIMITS, selection.outside_limits, m);
+template <typename Rows, typename Counters>
+void fill_counters(const Rows& rows, const Counters& counters, status_t& m) {
+  for (const auto& row : rows) {
+    set(row.place, counters.*row.counter, m);
+  }
 }
 
 void fill(const RadarStatus& status, status_t& m) {
@@ -166,9 +136,9 @@ void fill(const RadarStatus& status, status_t& m) {
   fill_source(status.source, m);
   fill_bus(status.bus, m);
   fill_health(status.health, m);
-  fill_decoder(status.decoder, m);
-  fill_assembler(status.assembler, m);
-  fill_selection(status.selection, m);
+  fill_counters(kDecoderRows, status.decoder, m);
+  fill_counters(kScanRows, status.assembler, m);
+  fill_counters(kSelectionRows, status.selection, m);
   fill_belief(status.belief, m);
   fill_odometry(status.odometry, m);
   set(S::COUNTER_SCANS_IN_ODOMETRY, status.scans_in_odometry, m);

@@ -9,11 +9,13 @@
 #include <initializer_list>
 #include <numbers>
 #include <string_view>
-#include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 #include "cremed/can_decoders/radar_family.hpp"
 #include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
+#include "daemon/output/counter_rows.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -25,49 +27,16 @@ std::uint64_t count_of(const RadarStatus& status, MotionStatus motion) {
   return status.motions_by_status[static_cast<std::size_t>(motion)];
 }
 
-/// "label n" for each counter that is not zero.
-std::string counter_text(
-    std::initializer_list<std::pair<std::string_view, std::uint64_t>> counters) {
+/// "name n" for each fault that was counted.
+template <typename Rows, typename Counters>
+std::string faults_text(const Rows& rows, const Counters& counters) {
   std::string text;
-  for (const auto& [label, value] : counters) {
-    if (value != 0) {
-      text += concat({text.empty() ? "" : ", ", label, " ", number(value)});
+  for (const auto& row : rows) {
+    if (const std::uint64_t count = counters.*row.counter; count != 0 && !row.name.empty()) {
+      text += concat({text.empty() ? "" : ", ", row.name, " ", std::to_string(count)});
     }
   }
   return text;
-}
-
-std::string bad_frames(const DecoderCounters& c) {
-  return counter_text({{"wrong length", c.wrong_length},
-                       {"remote or FD", c.wrong_kind},
-                       {"wrong mode", c.wrong_mode},
-                       {"wrong slot", c.wrong_slot},
-                       {"CRC errors", c.crc_errors},
-                       {"counter errors", c.counter_errors}});
-}
-
-std::string scan_faults(const AssemblerCounters& c) {
-  return counter_text({{"incomplete", c.incomplete_scans},
-                       {"without header", c.headerless_scans},
-                       {"timed out", c.timeouts},
-                       {"missed", c.missed_scans},
-                       {"repeated", c.repeated_scans},
-                       {"missing parts", c.missing_parts},
-                       {"duplicate parts", c.duplicate_parts},
-                       {"conflicting parts", c.conflicting_parts},
-                       {"reordered parts", c.reordered_parts},
-                       {"excess parts", c.excess_parts},
-                       {"orphan parts", c.orphan_parts},
-                       {"stamps backwards", c.stamps_backwards}});
-}
-
-std::string rejected_detections(const SelectionCounters& c) {
-  return counter_text({{"no noise", c.no_noise},
-                       {"invalid state", c.invalid_state},
-                       {"moving", c.moving},
-                       {"low existence", c.low_existence},
-                       {"no position", c.no_position},
-                       {"outside limits", c.outside_limits}});
 }
 
 const Ars408Options* ars408_options(const RadarConfiguration& radar) {
@@ -140,9 +109,10 @@ void add_no_detection(const RadarConfiguration& radar, const RadarStatus& status
          {c.low_existence, "lower min_existence_code or min_existence"},
          {c.no_position, "all targets are at range 0: is this radar of the configured type?"},
          {c.outside_limits, "widen [radar.limits]"}});
-    findings.push_back({Severity::error,
-                        "complete scans, but no usable detection: " + rejected_detections(c),
-                        std::string(remedy)});
+    findings.push_back(
+        {Severity::error,
+         "complete scans, but no usable detection: " + faults_text(kSelectionRows, c),
+         std::string(remedy)});
   }
 }
 
@@ -420,19 +390,19 @@ std::uint64_t estimates(const RadarStatus& status) {
 
 std::string summary(const RadarStatus& status) {
   std::string text =
-      concat({number(status.assembler.scans), " scans, ", number(estimates(status)), " estimates"});
+      fmt::format("{} scans, {} estimates", status.assembler.scans, estimates(status));
   for (std::size_t i = 1; i < kMotionStatusCount; ++i) {
     if (status.motions_by_status[i] != 0) {
-      text += concat({", ", to_string(static_cast<MotionStatus>(i)), " ",
-                      number(status.motions_by_status[i])});
+      text += fmt::format(", {} {}", to_string(static_cast<MotionStatus>(i)),
+                          status.motions_by_status[i]);
     }
   }
   return text;
 }
 
 std::string irregularities(const RadarStatus& status) {
-  const std::string frames = bad_frames(status.decoder);
-  const std::string scans = scan_faults(status.assembler);
+  const std::string frames = faults_text(kDecoderRows, status.decoder);
+  const std::string scans = faults_text(kScanRows, status.assembler);
   return concat({frames.empty() ? "" : "frames: ", frames,
                  frames.empty() || scans.empty() ? "" : "; ",
                  scans.empty() ? "" : "scans: ", scans});

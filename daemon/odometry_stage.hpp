@@ -12,11 +12,18 @@
 #include "daemon/bus_clocks.hpp"
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/output/odometry_sink.hpp"
-#include "daemon/pipeline_clock.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/scan_queue.hpp"
 
 namespace cremed {
+
+/// Clock for durations; one that stands still, if it is not set, measures none.
+struct PipelineClock {
+  std::int64_t (*now_us)() = [] { return std::int64_t{0}; };
+  /// true: `now_us` is the clock of the stamps, and latency counts from the stamp of a scan's last
+  /// frame; false: from the call of on_frame().
+  bool is_stamp_clock = false;
+};
 
 /// From the scans of all radars to the odometry: the filter takes them in the order of their
 /// stamps. A complete scan waits in a queue for open scans that began earlier, on buses whose

@@ -13,7 +13,6 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/odometry_stage.hpp"
 #include "daemon/output/odometry_sink.hpp"
-#include "daemon/pipeline_clock.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/report/status_timer.hpp"
 #include "daemon/report/vehicle_findings.hpp"

@@ -17,11 +17,12 @@ constexpr std::int64_t kLongestPauseUs = 100'000;
 }  // namespace
 
 MotionFeedback::MotionFeedback(const Configuration& configuration, LiveSource& bus) : bus_(bus) {
+  const Interfaces interfaces = interfaces_of(configuration);
   for (const RadarConfiguration& radar : configuration.radars) {
     Sensor sensor;
     if (const auto* options = radar.decoder.as<Ars408Options>()) {
-      sensor = {options->motion_feedback, interface_index(configuration, sensors_.size()),
-                options->sensor_id, options->invert_azimuth};
+      sensor = {options->motion_feedback, interfaces.of_radars[sensors_.size()], options->sensor_id,
+                options->invert_azimuth};
     }
     sensors_.push_back(sensor);
   }

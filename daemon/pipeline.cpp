@@ -18,9 +18,10 @@ Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source
       clock_(clock),
       vehicle_(configuration),
       odometry_(configuration, learned, radars_, clocks_, sinks_, clock) {
+  const Interfaces interfaces = interfaces_of(configuration);
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    radars_.push_back(std::make_unique<RadarChannel>(configuration.radars[i], i,
-                                                     interface_index(configuration, i)));
+    radars_.push_back(
+        std::make_unique<RadarChannel>(configuration.radars[i], i, interfaces.of_radars[i]));
   }
 }
 

@@ -7,7 +7,7 @@
 namespace cremed {
 
 VehicleListener::VehicleListener(const Configuration& configuration)
-    : interface_(vehicle_interface_index(configuration)) {
+    : interface_(interfaces_of(configuration).of_vehicle) {
   if (!configuration.vehicle.interface.empty()) {
     ids_ = configuration.vehicle.ids;
   }

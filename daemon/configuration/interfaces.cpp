@@ -7,14 +7,6 @@
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
-namespace {
-
-/// The distinct names, and the index of each radar's and of the vehicle's.
-struct Interfaces {
-  std::vector<std::string> names;
-  std::vector<std::uint8_t> of_radars;
-  std::uint8_t of_vehicle = 0;
-};
 
 Interfaces interfaces_of(const Configuration& configuration) {
   Interfaces interfaces;
@@ -35,8 +27,6 @@ Interfaces interfaces_of(const Configuration& configuration) {
   return interfaces;
 }
 
-}  // namespace
-
 bool is_auto(const RadarConfiguration& radar) { return radar.interface == kAutoInterface; }
 
 bool has_interface_names(const Configuration& configuration) {
@@ -45,14 +35,6 @@ bool has_interface_names(const Configuration& configuration) {
 
 std::vector<std::string> interface_names(const Configuration& configuration) {
   return interfaces_of(configuration).names;
-}
-
-std::uint8_t interface_index(const Configuration& configuration, std::size_t radar) {
-  return interfaces_of(configuration).of_radars[radar];
-}
-
-std::uint8_t vehicle_interface_index(const Configuration& configuration) {
-  return interfaces_of(configuration).of_vehicle;
 }
 
 void require_interface_names(const Configuration& configuration) {

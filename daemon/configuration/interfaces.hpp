@@ -20,15 +20,18 @@ bool is_auto(const RadarConfiguration& radar);
 /// Whether every interface is given by name.
 bool has_interface_names(const Configuration& configuration);
 
-/// Distinct names of the radars' interfaces, in order of first use, and then [vehicle]'s if it is
-/// another. Each "auto" has an entry of its own.
+struct Interfaces {
+  /// Distinct names of the radars' interfaces, in order of first use, and then [vehicle]'s if it is
+  /// another. Each "auto" has an entry of its own.
+  std::vector<std::string> names;
+  std::vector<std::uint8_t> of_radars;  ///< CanFrame::interface, by radar: index in `names`.
+  std::uint8_t of_vehicle = 0;          ///< The same of [vehicle]'s, if it has one.
+};
+
+Interfaces interfaces_of(const Configuration& configuration);
+
+/// Their names.
 std::vector<std::string> interface_names(const Configuration& configuration);
-
-/// CanFrame::interface of a radar: index of its interface in that list.
-std::uint8_t interface_index(const Configuration& configuration, std::size_t radar);
-
-/// The same of [vehicle]'s interface, if it has one.
-std::uint8_t vehicle_interface_index(const Configuration& configuration);
 
 /// Throws ConfigurationError if a radar has interface "auto", which a log cannot resolve.
 void require_interface_names(const Configuration& configuration);

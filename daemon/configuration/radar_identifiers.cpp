@@ -24,25 +24,19 @@ IdSet used_ids(const RadarConfiguration& radar) {
   return radar.decoder.sent_ids() | radar.decoder.obeyed_ids();
 }
 
-std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& configuration) {
+IdSet ids_on(std::size_t interface, const Configuration& configuration) {
+  const Interfaces interfaces = interfaces_of(configuration);
   IdSet ids;
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    const bool is_there = interface_index(configuration, i) == interface;
-    ids |= is_there ? heard_ids(configuration.radars[i]) : IdSet{};
+    ids |= interfaces.of_radars[i] == interface ? heard_ids(configuration.radars[i]) : IdSet{};
   }
   const VehicleConfiguration& vehicle = configuration.vehicle;
-  if (!vehicle.interface.empty() && vehicle_interface_index(configuration) == interface) {
+  if (!vehicle.interface.empty() && interfaces.of_vehicle == interface) {
     for (const std::optional<std::uint32_t> id : vehicle.ids) {
       ids |= id ? IdSet().set(*id) : IdSet{};
     }
   }
-  std::vector<std::uint32_t> list;
-  for (std::uint32_t id = 0; id < ids.size(); ++id) {
-    if (ids[id]) {
-      list.push_back(id);
-    }
-  }
-  return list;
+  return ids;
 }
 
 }  // namespace cremed

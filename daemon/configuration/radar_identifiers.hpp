@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "daemon/configuration/configuration.hpp"
 
@@ -16,8 +14,8 @@ bool has_motion_feedback(const RadarConfiguration& radar);
 /// What the radar sends or obeys.
 IdSet used_ids(const RadarConfiguration& radar);
 
-/// What the radars on an interface and [vehicle] send, and with motion_feedback what a radar obeys,
-/// in ascending order; `interface` is that of interface_index().
-std::vector<std::uint32_t> ids_on(std::size_t interface, const Configuration& configuration);
+/// What the radars on an interface and [vehicle] send, and with motion_feedback what a radar obeys;
+/// `interface` is the index in Interfaces::names.
+IdSet ids_on(std::size_t interface, const Configuration& configuration);
 
 }  // namespace cremed

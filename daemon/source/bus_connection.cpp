@@ -7,9 +7,8 @@
 
 namespace cremed {
 
-BusConnection::BusConnection(std::string name, std::vector<std::uint32_t> ids,
-                             const CanSocketOptions& options)
-    : name_(std::move(name)), ids_(std::move(ids)), options_(options) {
+BusConnection::BusConnection(std::string name, const IdSet& ids, const CanSocketOptions& options)
+    : name_(std::move(name)), ids_(ids), options_(options) {
   status_.link = LinkState::absent;
 }
 
@@ -27,8 +26,8 @@ void BusConnection::adopt(int descriptor) {
   status_.link = LinkState::up;
 }
 
-void BusConnection::add_ids(const std::vector<std::uint32_t>& ids) {
-  ids_.insert(ids_.end(), ids.begin(), ids.end());
+void BusConnection::add_ids(const IdSet& ids) {
+  ids_ |= ids;
   if (socket_.is_open() && !socket_.set_ids(ids_)) {
     lose(LinkState::failed);
   }

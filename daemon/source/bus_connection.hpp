@@ -18,7 +18,7 @@ namespace cremed {
 /// Reception resumes automatically.
 class BusConnection {
  public:
-  BusConnection(std::string name, std::vector<std::uint32_t> ids, const CanSocketOptions& options);
+  BusConnection(std::string name, const IdSet& ids, const CanSocketOptions& options);
 
   /// Opens and closes the socket as needed; call a few times a second. `link`: present state of the
   /// interface.
@@ -35,10 +35,10 @@ class BusConnection {
   /// Changes the interface.
   void set_name(std::string name) { name_ = std::move(name); }
   /// Also receives frames with these identifiers.
-  void add_ids(const std::vector<std::uint32_t>& ids);
+  void add_ids(const IdSet& ids);
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return ids_; }
+  [[nodiscard]] const IdSet& ids() const { return ids_; }
   [[nodiscard]] int descriptor() const { return socket_.descriptor(); }
   [[nodiscard]] BusStatus& status() { return status_; }
   [[nodiscard]] const BusStatus& status() const { return status_; }
@@ -49,7 +49,7 @@ class BusConnection {
   void lose(LinkState link);
 
   std::string name_;
-  std::vector<std::uint32_t> ids_;
+  IdSet ids_;
   CanSocketOptions options_;
   CanSocket socket_;
   BusStatus status_;

@@ -32,22 +32,22 @@ bool set_option(int descriptor, int level, int name, const Value& value) {
 }
 
 /// Filters for one exact identifier each. The flags in the mask exclude extended and remote frames.
-std::vector<can_filter> filters_of(std::span<const std::uint32_t> ids) {
+std::vector<can_filter> filters_of(const IdSet& ids) {
   constexpr canid_t kMask = CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK;
-  if (ids.empty()) {
+  if (ids.none()) {
     return {{0, 0}};
   }
-  if (ids.size() > CAN_RAW_FILTER_MAX) {
+  if (ids.count() > CAN_RAW_FILTER_MAX) {
     return {{0, CAN_EFF_FLAG | CAN_RTR_FLAG}};
   }
   std::vector<can_filter> filters;
-  for (const std::uint32_t id : ids) {
-    filters.push_back({id, kMask});
+  for (std::size_t id = ids._Find_first(); id < ids.size(); id = ids._Find_next(id)) {
+    filters.push_back({static_cast<canid_t>(id), kMask});
   }
   return filters;
 }
 
-bool set_filters(int descriptor, std::span<const std::uint32_t> ids) {
+bool set_filters(int descriptor, const IdSet& ids) {
   const std::vector<can_filter> filters = filters_of(ids);
   return ::setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                       static_cast<socklen_t>(filters.size() * sizeof(can_filter))) == 0;
@@ -132,7 +132,7 @@ CanOpenResult CanSocket::fail() {
   return {error};
 }
 
-CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uint32_t> ids,
+CanOpenResult CanSocket::open(unsigned interface_index, const IdSet& ids,
                               const CanSocketOptions& options) {
   close();
   descriptor_ = Descriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
@@ -156,9 +156,7 @@ CanOpenResult CanSocket::open(unsigned interface_index, std::span<const std::uin
   return result.error == 0 && !bind_to(descriptor(), interface_index_) ? fail() : result;
 }
 
-bool CanSocket::set_ids(std::span<const std::uint32_t> ids) {
-  return set_filters(descriptor(), ids);
-}
+bool CanSocket::set_ids(const IdSet& ids) { return set_filters(descriptor(), ids); }
 
 CanOpenResult CanSocket::adopt(int descriptor, const CanSocketOptions& options) {
   close();

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "cremed/can_decoders/can_frame.hpp"
+#include "cremed/can_decoders/id_set.hpp"
 #include "daemon/configuration/bus_options.hpp"
 #include "daemon/process/descriptor.hpp"
 #include "daemon/source/received_frame.hpp"
@@ -36,12 +37,11 @@ class CanSocket {
  public:
   static constexpr std::size_t kBatchFrames = 64;
 
-  /// `interface_index`: the kernel's; 0: no such interface. `ids`: standard identifiers to receive,
-  /// without remote frames; none: everything.
-  CanOpenResult open(unsigned interface_index, std::span<const std::uint32_t> ids,
-                     const CanSocketOptions& options);
+  /// `interface_index`: the kernel's; 0: no such interface. `ids`: those to receive, without remote
+  /// frames; none: everything.
+  CanOpenResult open(unsigned interface_index, const IdSet& ids, const CanSocketOptions& options);
   /// Replaces the filter; false: unchanged, see errno.
-  bool set_ids(std::span<const std::uint32_t> ids);
+  bool set_ids(const IdSet& ids);
   /// For tests without CAN: uses a datagram socket that delivers `can_frame`s.
   CanOpenResult adopt(int descriptor, const CanSocketOptions& options);
   void close();

@@ -20,7 +20,7 @@ constexpr Link kRecreated{1'000'000, true, 0};
 struct ConnectionBench {
   ConnectionBench() { bus.adopt(pair.receiver()); }
   DatagramPair pair;
-  BusConnection bus{"absent", {1}, {}};
+  BusConnection bus{"absent", IdSet().set(1), {}};
 };
 
 }  // namespace
@@ -67,7 +67,7 @@ TEST_CASE("A failed question about the interface changes an open bus in nothing"
   ConnectionBench bench;
   bench.bus.maintain({0, false, ENOBUFS});
   CHECK(bench.bus.status().link == LinkState::up);
-  BusConnection closed("absent", {1}, {});
+  BusConnection closed("absent", IdSet().set(1), {});
   closed.maintain({0, false, ENOBUFS});
   CHECK(closed.status().link == LinkState::failed);
   CHECK(closed.status().error == ENOBUFS);

@@ -18,10 +18,6 @@ Configuration parse_vehicle(const std::string& vehicle) {
   return parse_configuration(kArs408 + vehicle, "test.toml");
 }
 
-bool contains(const std::vector<std::uint32_t>& ids, std::uint32_t id) {
-  return std::ranges::find(ids, id) != ids.end();
-}
-
 TEST_CASE("the vehicle's bus is off unless it has an interface") {
   for (const char* text :
        {"", "[vehicle]\n", "[vehicle]\ninterface = \"off\"\n", "[vehicle]\nspeed = \"0x310\"\n"}) {
@@ -29,7 +25,7 @@ TEST_CASE("the vehicle's bus is off unless it has an interface") {
     CHECK(configuration.vehicle.interface.empty());
     CHECK_FALSE(configuration.odometry.filter.vehicle.is_used());
     CHECK(interface_names(configuration) == std::vector<std::string>{"can0"});
-    CHECK_FALSE(contains(ids_on(0, configuration), 0x300));
+    CHECK_FALSE(ids_on(0, configuration)[0x300]);
     CHECK(configuration_summary(configuration).find("vehicle") == std::string::npos);
   }
 }
@@ -39,10 +35,10 @@ TEST_CASE("on a radar's bus its identifiers are received beside the radar's") {
   CHECK(configuration.odometry.filter.vehicle.speed.is_used);
   CHECK(configuration.odometry.filter.vehicle.yaw_rate.is_used);
   CHECK(interface_names(configuration) == std::vector<std::string>{"can0"});
-  CHECK(vehicle_interface_index(configuration) == 0);
-  CHECK(contains(ids_on(0, configuration), 0x300));
-  CHECK(contains(ids_on(0, configuration), 0x301));
-  CHECK(contains(ids_on(0, configuration), 0x60A));
+  CHECK(interfaces_of(configuration).of_vehicle == 0);
+  CHECK(ids_on(0, configuration)[0x300]);
+  CHECK(ids_on(0, configuration)[0x301]);
+  CHECK(ids_on(0, configuration)[0x60A]);
   CHECK_THAT(configuration_summary(configuration),
              Catch::Contains("vehicle bus: speed (0x300), yaw rate (0x301) on can0\n"));
 }
@@ -57,9 +53,9 @@ TEST_CASE("a bus of its own comes after the radars'") {
   CHECK(options.yaw_rate.delay_s == 0.05);
   CHECK(options.yaw_rate_bias_std_radps == 0.01);
   CHECK(interface_names(configuration) == std::vector<std::string>{"can0", "can7"});
-  CHECK(vehicle_interface_index(configuration) == 1);
-  CHECK(ids_on(1, configuration) == std::vector<std::uint32_t>{0x321});
-  CHECK_FALSE(contains(ids_on(0, configuration), 0x321));
+  CHECK(interfaces_of(configuration).of_vehicle == 1);
+  CHECK(ids_on(1, configuration) == IdSet().set(0x321));
+  CHECK_FALSE(ids_on(0, configuration)[0x321]);
 }
 
 TEST_CASE("what cannot work is refused, our own feedback above all") {

@@ -64,9 +64,7 @@ TEST_CASE("Radars that share a bus share its list; others do not matter") {
   Configuration configuration;
   configuration.radars = {ars408(0, Ars408Output::clusters), gpr(),
                           ars408(1, Ars408Output::clusters)};
-  const auto ids = ids_on(0, configuration);
-  CHECK(ids.size() == 2 * kArs408Messages.size());
-  CHECK(std::ranges::is_sorted(ids));
-  CHECK(ids_on(1, configuration).size() == kGprTargetIds + 1);
-  CHECK(ids_on(2, configuration).empty());
+  CHECK(ids_on(0, configuration).count() == 2 * kArs408Messages.size());
+  CHECK(ids_on(1, configuration).count() == kGprTargetIds + 1);
+  CHECK(ids_on(2, configuration).none());
 }

@@ -106,11 +106,11 @@ TEST_CASE("A radar whose interface is to be found has an entry of its own") {
        radar("c", "auto", Ars408Options{.sensor_id = 2}),
        radar("d", "can0", Ars408Options{.sensor_id = 3})});
   CHECK(interface_names(configuration) == std::vector<std::string>{"auto", "can0", "auto"});
-  CHECK(interface_index(configuration, 0) == 0);
-  CHECK(interface_index(configuration, 2) == 2);
-  CHECK(interface_index(configuration, 3) == 1);
-  CHECK(ids_on(0, configuration).size() == kArs408Messages.size());
-  CHECK(ids_on(1, configuration).size() == 2 * kArs408Messages.size());
+  CHECK(interfaces_of(configuration).of_radars[0] == 0);
+  CHECK(interfaces_of(configuration).of_radars[2] == 2);
+  CHECK(interfaces_of(configuration).of_radars[3] == 1);
+  CHECK(ids_on(0, configuration).count() == kArs408Messages.size());
+  CHECK(ids_on(1, configuration).count() == 2 * kArs408Messages.size());
   CHECK_THROWS_WITH(
       require_interface_names(configuration),
       Catch::StartsWith("radar \"a\": interface = \"auto\" is for live buses; must be "

@@ -243,7 +243,7 @@ TEST_CASE("--check-config shows it, and its identifiers are let through") {
       Catch::Contains("front           fan       can3               0.000    0.000     0.00  "
                       "0x504-0x505\n"));
   CHECK(configuration.radars[0].decoder.label() == "Fan");
-  CHECK(ids_on(0, configuration) == std::vector<std::uint32_t>{0x504, 0x505});
+  CHECK(ids_on(0, configuration) == IdSet().set(0x504).set(0x505));
 }
 
 TEST_CASE("Of its keys only those are advised that it has") {

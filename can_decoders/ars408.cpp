@@ -156,46 +156,35 @@ const Ars408MessageRow* Ars408Decoder::find(const CanFrame& frame) const {
   return row == kArs408Messages.end() ? nullptr : row;
 }
 
-bool Ars408Decoder::accept(const CanFrame& frame, const Ars408MessageRow& row) {
+ScanPart Ars408Decoder::decode(const CanFrame& frame) {
   const auto other_subject =
       options_.output == Ars408Output::clusters ? Ars408Subject::objects : Ars408Subject::clusters;
-  ++counters_.frames;
-  if (frame.remote || frame.fd) {
-    ++counters_.wrong_kind;
-  } else if (frame.length < row.length) {
-    ++counters_.wrong_length;
-  } else if (row.subject == other_subject) {
-    ++counters_.wrong_mode;
-  } else {
-    return true;
-  }
-  return false;
-}
-
-ScanPart Ars408Decoder::decode(const CanFrame& frame) {
   const Ars408MessageRow* row = find(frame);
-  if (row == nullptr || !accept(frame, *row)) {
+  if (row == nullptr || !accept(frame, row->length)) {
+    return {};
+  }
+  if (row->subject == other_subject) {
+    ++counters_.wrong_mode;
     return {};
   }
   const auto bytes = std::span(frame.data).first(std::min<std::size_t>(frame.length, 8));
   ScanPart part = scan_part(*row, bytes);
   part.stamp_us = frame.stamp_us;
-  if (part.kind == ScanPart::Kind::none) {
-    note_state(row->message, frame, bytes);
+  counters_.state_frames += part.kind == ScanPart::Kind::none ? 1 : 0;
+  if (row->message == Ars408Message::radar_state) {
+    note_state(frame, bytes);
   }
   return part;
 }
 
-void Ars408Decoder::note_state(Ars408Message message, const CanFrame& frame, Ars408Bytes bytes) {
-  ++counters_.state_frames;
-  if (message == Ars408Message::version) {
-    version_ = decode_ars408_version(bytes);
-  } else if (message == Ars408Message::radar_state) {
-    const auto state = decode_ars408_radar_state(bytes);
-    const bool is_own = state_watch_.is_own(options_.sensor_id, state, frame.stamp_us);
-    radar_state_ = is_own ? state : std::nullopt;
-    counters_.wrong_slot += is_own ? 0 : 1;
-  }
+void Ars408Decoder::note_state(const CanFrame& frame, Ars408Bytes bytes) {
+  const auto state = decode_ars408_radar_state(bytes);
+  const std::int64_t gap_us = frame.stamp_us - last_state_us_.value_or(frame.stamp_us);
+  const bool is_own = state->sensor_id == options_.sensor_id &&
+                      (gap_us <= 0 || gap_us >= kArs408ShortestStateGapUs);
+  last_state_us_ = frame.stamp_us;
+  radar_state_ = is_own ? state : std::nullopt;
+  counters_.wrong_slot += is_own ? 0 : 1;
 }
 
 RadarHealth Ars408Decoder::health() const {

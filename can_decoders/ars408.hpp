@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "cremed/can_decoders/ars408_messages.hpp"
-#include "cremed/can_decoders/ars408_state_watch.hpp"
 #include "cremed/can_decoders/radar_decoder.hpp"
 #include "cremed/can_decoders/radar_settings.hpp"
 
@@ -29,6 +28,9 @@ enum class Ars408Output : std::uint8_t { clusters, objects };
 /// static targets: 0.0413 +- 0.0002 s (front), 0.0380 and 0.0388 +- 0.0003 s (rear). Not used for
 /// objects: no measurement.
 inline constexpr double kArs408RotationLeadS = 0.040;
+
+/// Less than the period of 0x201, one second.
+inline constexpr std::int64_t kArs408ShortestStateGapUs = 400'000;
 
 /// keep_dyn_props that leaves nothing out.
 inline constexpr std::uint8_t kEveryDynProp = 0xFF;
@@ -57,7 +59,8 @@ const RadarFamily& family_of(const Ars408Options& options);
 /// and frames of another sensor are ignored and not counted.
 ///
 /// A 0x201 that names another sensor, or that comes more often than once a second, is from another
-/// device with this identifier (a GPR); the state is then unknown.
+/// device with this identifier (a GPR); the state is then unknown. Frames with equal stamps do not
+/// come too often.
 ///
 /// The validity of a detection is the first that applies of: no_position, no_noise, invalid_state,
 /// moving, low_existence. An object that the sensor has deleted is invalid_state. Four rms codes of
@@ -72,21 +75,18 @@ class Ars408Decoder final : public RadarDecoder {
   [[nodiscard]] ScanFraming framing() const override { return {true, 65536, 256, 2}; }
   [[nodiscard]] RadarHealth health() const override;
 
-  /// The latest 0x201 and 0x700, for a status report.
+  /// The latest 0x201.
   [[nodiscard]] const std::optional<Ars408RadarState>& radar_state() const { return radar_state_; }
-  [[nodiscard]] const std::optional<Ars408Version>& version() const { return version_; }
 
  private:
   [[nodiscard]] const Ars408MessageRow* find(const CanFrame& frame) const;
-  bool accept(const CanFrame& frame, const Ars408MessageRow& row);
-  void note_state(Ars408Message message, const CanFrame& frame, Ars408Bytes bytes);
+  void note_state(const CanFrame& frame, Ars408Bytes bytes);
   [[nodiscard]] Detection cluster(const TargetPayload& target) const;
   [[nodiscard]] Detection object(const TargetPayload& target) const;
 
   Ars408Options options_;
   std::optional<Ars408RadarState> radar_state_;
-  Ars408StateWatch state_watch_;
-  std::optional<Ars408Version> version_;
+  std::optional<std::int64_t> last_state_us_;
 };
 
 }  // namespace cremed

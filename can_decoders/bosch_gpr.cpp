@@ -103,19 +103,6 @@ void BoschGprDecoder::check_counter(std::uint8_t counter, std::size_t index) {
   last_counters_[index] = counter;
 }
 
-bool BoschGprDecoder::accept(const CanFrame& frame) {
-  ++counters_.frames;
-  if (frame.remote || frame.fd) {
-    ++counters_.wrong_kind;
-    return false;
-  }
-  if (frame.length < kLength) {
-    ++counters_.wrong_length;
-    return false;
-  }
-  return true;
-}
-
 bool BoschGprDecoder::trust(const Payload& payload, std::size_t index) {
   const bool trusted =
       check_crc(payload, index) && (index == kInfoIndex || check_slot(payload, index));
@@ -127,7 +114,7 @@ bool BoschGprDecoder::trust(const Payload& payload, std::size_t index) {
 
 ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
   const std::size_t index = index_of(frame);
-  if (index == kForeign || !accept(frame)) {
+  if (index == kForeign || !accept(frame, kLength)) {
     return {};
   }
   const Payload payload = payload_of(frame);

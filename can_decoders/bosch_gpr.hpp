@@ -71,11 +71,6 @@ struct BoschGprInfo {
   std::uint8_t trouble_order = 0;
   bool not_safe = false;
   std::uint8_t counter = 0;
-
-  [[nodiscard]] constexpr bool healthy() const {
-    return !blind && !software_failure && !hardware_failure && !can_failure &&
-           !configuration_failure && !not_safe && trouble_code == 0;
-  }
 };
 
 /// Each returns nothing if there are fewer than eight bytes. Flag, id and checksum are not checked.
@@ -116,7 +111,6 @@ class BoschGprDecoder final : public RadarDecoder {
   static constexpr std::uint8_t kAnyCounter = 0xFF;
 
   [[nodiscard]] std::size_t index_of(const CanFrame& frame) const;
-  bool accept(const CanFrame& frame);
   bool trust(const Payload& payload, std::size_t index);
   bool check_crc(const Payload& payload, std::size_t index);
   bool check_slot(const Payload& payload, std::size_t index);

@@ -151,18 +151,14 @@ TEST_CASE("Reports and details of objects are state, not parts of a scan") {
   CHECK(decoder.counters().state_frames == frames.size());
 }
 
-TEST_CASE("The latest state and version are kept") {
+TEST_CASE("The latest state is kept") {
   Ars408Decoder decoder({});
   CHECK_FALSE(decoder.radar_state().has_value());
-  CHECK_FALSE(decoder.version().has_value());
   decoder.decode(hex_frame("201#4019000010F40000"));
-  decoder.decode(hex_frame("700#041E0202"));
   REQUIRE(decoder.radar_state().has_value());
   CHECK(decoder.radar_state()->output_code == 1);
   CHECK(decoder.radar_state()->sends_quality);
   CHECK(decoder.radar_state()->speed_missing);
-  CHECK(decoder.version().value().minor_release == 30);
-  CHECK(decoder.version().value().extended_range);
 
   SECTION("a newer one replaces it") {
     decoder.decode(hex_frame("201#C01F400000080004"));

@@ -142,18 +142,6 @@ TEST_CASE("The info message holds the sensor's health") {
   }
 }
 
-TEST_CASE("Any fault makes the sensor unhealthy, diagnosis does not") {
-  CHECK(BoschGprInfo{}.healthy());
-  CHECK(BoschGprInfo{.diagnostic_mode = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.blind = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.software_failure = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.hardware_failure = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.can_failure = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.configuration_failure = true}.healthy());
-  CHECK_FALSE(BoschGprInfo{.trouble_code = 1}.healthy());
-  CHECK_FALSE(BoschGprInfo{.not_safe = true}.healthy());
-}
-
 TargetPayload target(const char* a, const char* b) {
   TargetPayload target;
   const CanFrame frame_a = hex_frame(a);

@@ -43,19 +43,6 @@ bool may_be_own(std::string_view text) {
   return known.starts_with(begin) || begin.find_first_not_of('\0') == std::string_view::npos;
 }
 
-struct Entry {
-  std::string name;
-  Pose2 mount;
-  LearnedErrors errors;
-};
-
-void read_error(TomlReader& reader, std::string_view key, std::string_view std_key,
-                double least_std, double most_std, LearnedError& error) {
-  const double most = kMaxStds * most_std;
-  reader.number(key, error.value, {-most, most}, Presence::required);
-  reader.number(std_key, error.std, {least_std, most_std}, Presence::required);
-}
-
 bool is_same(const Pose2& a, const Pose2& b) {
   return std::abs(a.x_m - b.x_m) <= kTolerance && std::abs(a.y_m - b.y_m) <= kTolerance &&
          std::abs(a.yaw_rad - b.yaw_rad) <= kTolerance;
@@ -109,7 +96,7 @@ LearnedFile::Content LearnedFile::parse(std::string_view toml) const {
 
 /// A radar that is not configured is ignored, but its table must be well-formed.
 void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
-  Entry entry;
+  Radar entry;
   reader.text("name", entry.name, {[](std::string_view) { return true; }, "a radar's name"},
               Presence::required);
   reader.number("mount_x_m", entry.mount.x_m, kMountRangeM, Presence::required);
@@ -118,12 +105,15 @@ void LearnedFile::read_radar(TomlReader& reader, Content& content) const {
   const auto found = std::ranges::find(radars_, entry.name, &Radar::name);
   const bool is_here = found != radars_.end() && is_same(found->mount, entry.mount);
   const LearnedErrors any{{0.0, kMountYawRangeRad.max}, {0.0, kMountYawRangeRad.max}};
-  const LearnedErrors& most = is_here ? found->unlearned : any;
+  const LearnedErrors& most = is_here ? found->errors : any;
   const double least_share = is_here ? kLeastShare : 0.0;
   const auto read = [&](std::string_view key, std::string_view std_key,
                         LearnedError LearnedErrors::*which) {
-    read_error(reader, key, std_key, least_share * (most.*which).std, (most.*which).std,
-               entry.errors.*which);
+    LearnedError& error = entry.errors.*which;
+    const double most_std = (most.*which).std;
+    const double most_value = kMaxStds * most_std;
+    reader.number(key, error.value, {-most_value, most_value}, Presence::required);
+    reader.number(std_key, error.std, {least_share * most_std, most_std}, Presence::required);
   };
   read("mount_yaw_error_rad", "mount_yaw_error_std_rad", &LearnedErrors::mount_yaw_rad);
   read("doppler_scale_error", "doppler_scale_error_std", &LearnedErrors::doppler_scale);
@@ -190,12 +180,12 @@ std::optional<std::string> LearnedFile::text(
   bool is_empty = true;
   for (std::size_t i = 0; i < std::min(radars_.size(), learned.size()); ++i) {
     const Radar& radar = radars_[i];
-    if (!learned[i] || !is_plausible(learned[i]->mount_yaw_rad, radar.unlearned.mount_yaw_rad) ||
-        !is_plausible(learned[i]->doppler_scale, radar.unlearned.doppler_scale)) {
+    if (!learned[i] || !is_plausible(learned[i]->mount_yaw_rad, radar.errors.mount_yaw_rad) ||
+        !is_plausible(learned[i]->doppler_scale, radar.errors.doppler_scale)) {
       continue;
     }
-    const LearnedError yaw = clipped(learned[i]->mount_yaw_rad, radar.unlearned.mount_yaw_rad);
-    const LearnedError scale = clipped(learned[i]->doppler_scale, radar.unlearned.doppler_scale);
+    const LearnedError yaw = clipped(learned[i]->mount_yaw_rad, radar.errors.mount_yaw_rad);
+    const LearnedError scale = clipped(learned[i]->doppler_scale, radar.errors.doppler_scale);
     text += concat({"\n[[radar]]\nname = ", in_quotes(radar.name), "\n"});
     text += line("mount_x_m", radar.mount.x_m) + line("mount_y_m", radar.mount.y_m) +
             line("mount_yaw_rad", radar.mount.yaw_rad) + line("mount_yaw_error_rad", yaw.value) +

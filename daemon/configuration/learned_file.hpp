@@ -61,7 +61,7 @@ class LearnedFile {
   struct Radar {
     std::string name;
     Pose2 mount;
-    LearnedErrors unlearned;
+    LearnedErrors errors;  ///< Of radars_: before anything is learned.
   };
 
   std::string path_;

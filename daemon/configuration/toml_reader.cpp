@@ -25,7 +25,7 @@ std::string describe(const toml::node& node) {
     case toml::node_type::string:
       return in_quotes(node.as_string()->get());
     case toml::node_type::integer:
-      return digits(node.as_integer()->get());
+      return std::to_string(node.as_integer()->get());
     case toml::node_type::floating_point:
       return float_text(node.as_floating_point()->get());
     case toml::node_type::boolean:
@@ -95,7 +95,8 @@ void TomlReader::number(std::string_view key, double& value, Range range, Presen
 
 std::optional<std::int64_t> TomlReader::integer_within(std::string_view key, std::int64_t min,
                                                        std::int64_t max) {
-  return value_of(key, Presence::optional, range_text("an integer", digits(min), digits(max)),
+  return value_of(key, Presence::optional,
+                  range_text("an integer", std::to_string(min), std::to_string(max)),
                   [&](const toml::node& node) { return integer_in(node, min, max); });
 }
 
@@ -140,7 +141,7 @@ std::optional<std::size_t> TomlReader::choice(std::string_view key,
 
 void TomlReader::bits(std::string_view key, std::uint32_t& mask, std::int64_t max_code) {
   const std::string wanted =
-      range_text("a list of one or more integers", digits(std::int64_t{0}), digits(max_code));
+      range_text("a list of one or more integers", "0", std::to_string(max_code));
   const toml::node* node = take(key, Presence::optional, wanted);
   if (node == nullptr) {
     return;

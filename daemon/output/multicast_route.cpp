@@ -26,13 +26,11 @@ std::string route_problem(const sockaddr_in& address, const std::string& group) 
   if (!descriptor.is_open()) {
     return std::strerror(errno);
   }
-  sockaddr generic{};
-  static_assert(sizeof(generic) == sizeof(address));
-  std::memcpy(&generic, &address, sizeof(generic));
-  const int error = ::connect(descriptor.number(), &generic, sizeof(address)) == 0 ? 0 : errno;
-  return error == 0 ? std::string()
-                    : concat({std::strerror(error), ". Give multicast a route, e.g. `ip route add ",
-                              group, "/32 dev lo`, or use --lcm-url none"});
+  const auto* const generic = reinterpret_cast<const sockaddr*>(&address);
+  return ::connect(descriptor.number(), generic, sizeof(address)) == 0
+             ? std::string()
+             : concat({std::strerror(errno), ". Give multicast a route, e.g. `ip route add ", group,
+                       "/32 dev lo`, or use --lcm-url none"});
 }
 
 }  // namespace

@@ -18,8 +18,6 @@ constexpr std::size_t kMaxPrintable = 60;
 constexpr std::string_view kUnquoted =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+,:@%";
 
-bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
 std::string one_line(std::string_view text) {
   std::string line = plain_text(text);
   std::ranges::replace_if(
@@ -27,17 +25,14 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-bool needs_no_quotes(char c) { return kUnquoted.find(c) != std::string_view::npos; }
-
 }  // namespace
 
 std::string printable(std::string_view text) {
-  std::size_t size = std::min(text.size(), kMaxPrintable);
-  while (size < text.size() && size > 0 && continues_utf8(text[size])) {
-    --size;
+  if (text.size() <= kMaxPrintable) {
+    return one_line(text);
   }
-  const std::string shown = one_line(text.substr(0, size));
-  return size < text.size() ? shown + "..." : shown;
+  const std::string_view begin = text.substr(0, kMaxPrintable);
+  return one_line(begin.substr(0, begin.size() - unfinished_bytes(begin))) + "...";
 }
 
 std::string concat(std::initializer_list<std::string_view> parts) {
@@ -54,8 +49,6 @@ std::string digits(double value) {
   return {text.data(), result.ptr};
 }
 
-std::string digits(std::int64_t value) { return std::to_string(value); }
-
 std::string tenths(double value) { return fmt::format("{:.1f}", value); }
 
 std::string number(std::uint64_t count) { return std::to_string(count); }
@@ -68,7 +61,7 @@ std::string in_quotes(std::string_view text) { return concat({"\"", printable(te
 
 std::string in_shell(std::string_view path) {
   std::string text = one_line(path);
-  if (!text.empty() && std::ranges::all_of(text, needs_no_quotes)) {
+  if (!text.empty() && text.find_first_not_of(kUnquoted) == std::string::npos) {
     return text;
   }
   std::string quoted = "'";

@@ -20,7 +20,6 @@ std::string concat(std::initializer_list<std::string_view> parts);
 
 /// Shortest digits that reproduce the number.
 std::string digits(double value);
-std::string digits(std::int64_t value);
 
 std::string number(std::uint64_t count);
 

@@ -210,32 +210,29 @@ Detection Ars408Decoder::detection(const TargetPayload& target) const {
 }
 
 Detection Ars408Decoder::cluster(const TargetPayload& target) const {
-  const auto general = decode_ars408_cluster_general(target[0]);
   const auto quality = decode_ars408_cluster_quality(target[1]);
-  Detection detection = polar(options_.invert_azimuth ? upright(*general) : *general, quality->rms);
-  if (detection.validity != Validity::usable) {
-    return detection;
-  }
-  if (!keeps(options_.keep_invalid_states, quality->invalid_state)) {
-    detection.validity = Validity::invalid_state;
-  } else if (!keeps(options_.keep_dyn_props, general->dyn_prop)) {
-    detection.validity = Validity::moving;
-  }
-  return detection;
+  return judged(*decode_ars408_cluster_general(target[0]), quality->rms,
+                keeps(options_.keep_invalid_states, quality->invalid_state), true);
 }
 
 Detection Ars408Decoder::object(const TargetPayload& target) const {
-  const auto general = decode_ars408_object_general(target[0]);
   const auto quality = decode_ars408_object_quality(target[1]);
-  Detection detection = polar(options_.invert_azimuth ? upright(*general) : *general, quality->rms);
+  return judged(*decode_ars408_object_general(target[0]), quality->rms,
+                !is_deleted(quality->measurement_state),
+                quality->existence_code >= options_.min_existence_code);
+}
+
+Detection Ars408Decoder::judged(const Ars408General& target, const Ars408RmsCodes& rms,
+                                bool is_valid, bool exists) const {
+  Detection detection = polar(options_.invert_azimuth ? upright(target) : target, rms);
   if (detection.validity != Validity::usable) {
     return detection;
   }
-  if (is_deleted(quality->measurement_state)) {
+  if (!is_valid) {
     detection.validity = Validity::invalid_state;
-  } else if (!keeps(options_.keep_dyn_props, general->dyn_prop)) {
+  } else if (!keeps(options_.keep_dyn_props, target.dyn_prop)) {
     detection.validity = Validity::moving;
-  } else if (quality->existence_code < options_.min_existence_code) {
+  } else if (!exists) {
     detection.validity = Validity::low_existence;
   }
   return detection;

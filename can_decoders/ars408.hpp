@@ -83,6 +83,8 @@ class Ars408Decoder final : public RadarDecoder {
   void note_state(const CanFrame& frame, Ars408Bytes bytes);
   [[nodiscard]] Detection cluster(const TargetPayload& target) const;
   [[nodiscard]] Detection object(const TargetPayload& target) const;
+  [[nodiscard]] Detection judged(const Ars408General& target, const Ars408RmsCodes& rms,
+                                 bool is_valid, bool exists) const;
 
   Ars408Options options_;
   std::optional<Ars408RadarState> radar_state_;

@@ -113,7 +113,8 @@ std::vector<RadarSettings> recognise(const BusTraffic& bus, IdSet& unexplained) 
 }
 
 template <Ars408Model model>
-constexpr RadarFamily row(std::string_view type) {
+constexpr RadarFamily row(std::string_view type, const RadarFamily* sends_like = nullptr,
+                          double max_range_m = 0.0) {
   return {.type = type,
           .read = read<model>,
           .make_decoder = kOfSettings<make_decoder>,
@@ -121,23 +122,16 @@ constexpr RadarFamily row(std::string_view type) {
           .label = kOfSettings<label<model>>,
           .describe = kOfSettings<describe<model>>,
           .key = kOfSettings<key>,
+          .recognise = sends_like == nullptr ? recognise : nullptr,
+          .sends_like = sends_like,
+          .max_range_m = max_range_m,
           .obeyed_ids = kOfSettings<obeyed_ids>,
           .rotation_lead_s = kOfSettings<rotation_lead_s>,
           .azimuth_sign_key = kInvertAzimuth};
 }
 
-constexpr RadarFamily kArs408 = [] {
-  RadarFamily family = row<Ars408Model::ars408_21>("ars408");
-  family.recognise = recognise;
-  return family;
-}();
-
-constexpr RadarFamily kArs404 = [] {
-  RadarFamily family = row<Ars408Model::ars404_21>("ars404");
-  family.sends_like = &kArs408;
-  family.max_range_m = kArs404MaxRangeM;
-  return family;
-}();
+constexpr RadarFamily kArs408 = row<Ars408Model::ars408_21>("ars408");
+constexpr RadarFamily kArs404 = row<Ars408Model::ars404_21>("ars404", &kArs408, kArs404MaxRangeM);
 
 }  // namespace
 

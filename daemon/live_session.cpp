@@ -101,12 +101,11 @@ void LiveSession::report_saving() {
 }
 
 void LiveSession::look_for_radars(std::int64_t monotonic_us) {
-  for (const Sighting& sighting : search_.listen(source_.links(), monotonic_us)) {
-    const RadarPlace& place = sighting.place;
+  for (const RadarPlace& place : search_.listen(source_.links(), monotonic_us)) {
     if (place.status == PlaceStatus::found) {
-      use(sighting);
+      use(place);
     } else {
-      log_.update(configuration_.radars[sighting.radar].name, static_cast<int>(place.status), [&] {
+      log_.update(configuration_.radars[place.radar].name, static_cast<int>(place.status), [&] {
         return concat({place.problem, "; waiting: ", place.remedy});
       });
     }
@@ -114,8 +113,8 @@ void LiveSession::look_for_radars(std::int64_t monotonic_us) {
 }
 
 /// The radar is used as if the interface had been configured by name.
-void LiveSession::use(const Sighting& sighting) {
-  const auto& [radar, place] = sighting;
+void LiveSession::use(const RadarPlace& place) {
+  const std::size_t radar = place.radar;
   const std::uint8_t interface =
       source_.attach(pipeline_.radars()[radar]->interface, place.interface);
   pipeline_.set_interface(radar, interface);

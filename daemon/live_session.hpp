@@ -42,7 +42,7 @@ class LiveSession {
   std::vector<OdometrySink*> sinks();
   void connect(std::int64_t monotonic_us);
   void look_for_radars(std::int64_t monotonic_us);
-  void use(const Sighting& sighting);
+  void use(const RadarPlace& place);
   void save_learned();
   void report_saving();
 

@@ -28,13 +28,6 @@ std::string heard_text(const std::vector<HeardBus>& buses, const RadarSettings& 
   return buses.empty() ? "no CAN interface is up" : joined(buses, text, "; ");
 }
 
-RadarPlace not_there(const RadarConfiguration& radar, const std::vector<HeardBus>& buses) {
-  return {PlaceStatus::absent, "",
-          concat({"no CAN interface shows ", radar.decoder.describe(), " (",
-                  heard_text(buses, radar.decoder), ")"}),
-          "check its power and cable, and that its interface is up"};
-}
-
 /// Checks a known interface for clashes with other radars.
 RadarPlace checked(std::size_t radar, const Configuration& configuration,
                    const std::string& interface) {
@@ -43,14 +36,14 @@ RadarPlace checked(std::size_t radar, const Configuration& configuration,
     const RadarConfiguration& other = configuration.radars[i];
     const IdSet shared = used_ids(wanted) & used_ids(other);
     if (i != radar && other.interface == interface && shared.any()) {
-      return {PlaceStatus::clash, "",
+      return {radar, PlaceStatus::clash, "",
               concat({wanted.decoder.describe(), " is on ", interface, ", where radar ",
                       in_quotes(other.name), " uses CAN identifier ",
                       hexadecimal(shared._Find_first()), " as well"}),
               "give one of them another bus, or other identifiers"};
     }
   }
-  return {PlaceStatus::found, interface, "", ""};
+  return {radar, PlaceStatus::found, interface, "", ""};
 }
 
 RadarPlace place_of(std::size_t radar, const Configuration& configuration,
@@ -63,10 +56,13 @@ RadarPlace place_of(std::size_t radar, const Configuration& configuration,
     }
   }
   if (names.empty()) {
-    return not_there(wanted, buses);
+    return {radar, PlaceStatus::absent, "",
+            concat({"no CAN interface shows ", wanted.decoder.describe(), " (",
+                    heard_text(buses, wanted.decoder), ")"}),
+            "check its power and cable, and that its interface is up"};
   }
   if (names.size() > 1) {
-    return {PlaceStatus::ambiguous, "",
+    return {radar, PlaceStatus::ambiguous, "",
             concat({wanted.decoder.describe(), " is on ", joined(names, printable, " and on ")}),
             concat({"set interface to one of them for radar ", in_quotes(wanted.name)})};
   }
@@ -75,18 +71,17 @@ RadarPlace place_of(std::size_t radar, const Configuration& configuration,
 
 }  // namespace
 
-std::vector<Sighting> find_interfaces(const std::vector<HeardBus>& buses,
-                                      Configuration& configuration) {
-  std::vector<Sighting> sightings;
+std::vector<RadarPlace> find_interfaces(const std::vector<HeardBus>& buses,
+                                        Configuration& configuration) {
+  std::vector<RadarPlace> places;
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     RadarConfiguration& radar = configuration.radars[i];
     if (is_auto(radar)) {
-      sightings.push_back({i, place_of(i, configuration, buses)});
-      const RadarPlace& place = sightings.back().place;
+      const RadarPlace& place = places.emplace_back(place_of(i, configuration, buses));
       radar.interface = place.status == PlaceStatus::found ? place.interface : radar.interface;
     }
   }
-  return sightings;
+  return places;
 }
 
 }  // namespace cremed

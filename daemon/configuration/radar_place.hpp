@@ -29,21 +29,16 @@ enum class PlaceStatus : std::uint8_t {
 
 /// Result of the search for one radar's interface.
 struct RadarPlace {
+  std::size_t radar = 0;  ///< Index in the configuration.
   PlaceStatus status = PlaceStatus::absent;
   std::string interface;  ///< If found.
   std::string problem;    ///< If not.
   std::string remedy;
 };
 
-/// By the radar's index in the configuration.
-struct Sighting {
-  std::size_t radar = 0;
-  RadarPlace place;
-};
-
 /// Finds the interfaces of the radars with "auto" from the traffic, and writes them into the
 /// configuration.
-std::vector<Sighting> find_interfaces(const std::vector<HeardBus>& buses,
-                                      Configuration& configuration);
+std::vector<RadarPlace> find_interfaces(const std::vector<HeardBus>& buses,
+                                        Configuration& configuration);
 
 }  // namespace cremed

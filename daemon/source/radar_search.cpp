@@ -25,7 +25,7 @@ constexpr std::size_t kMaxListeners = 64;
 RadarSearch::RadarSearch(const Configuration& configuration)
     : configuration_(configuration), is_over_(has_interface_names(configuration)) {}
 
-std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t monotonic_us) {
+std::vector<RadarPlace> RadarSearch::listen(const LinkWatch& links, std::int64_t monotonic_us) {
   if (monotonic_us < next_listen_us_) {
     return {};
   }
@@ -35,12 +35,12 @@ std::vector<Sighting> RadarSearch::listen(const LinkWatch& links, std::int64_t m
     return {};
   }
   const bool is_first = round_end_us_ == 0;
-  std::vector<Sighting> sightings = is_first ? std::vector<Sighting>() : end_round();
+  std::vector<RadarPlace> places = is_first ? std::vector<RadarPlace>() : end_round();
   round_end_us_ = monotonic_us + kRoundUs;
   if (!is_over_) {
     follow(links);
   }
-  return sightings;
+  return places;
 }
 
 /// Opens sockets on interfaces that came up since the last round; others have closed themselves.
@@ -82,8 +82,8 @@ bool RadarSearch::receive(std::size_t listener) {
   return true;
 }
 
-std::vector<Sighting> RadarSearch::end_round() {
-  std::vector<Sighting> sightings = find_interfaces(buses_, configuration_);
+std::vector<RadarPlace> RadarSearch::end_round() {
+  std::vector<RadarPlace> places = find_interfaces(buses_, configuration_);
   for (HeardBus& bus : buses_) {
     bus.traffic = {};
   }
@@ -91,7 +91,7 @@ std::vector<Sighting> RadarSearch::end_round() {
   if (is_over_) {
     listeners_.clear();
   }
-  return sightings;
+  return places;
 }
 
 }  // namespace cremed

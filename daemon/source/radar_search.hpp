@@ -22,7 +22,7 @@ class RadarSearch {
 
   /// Call about fifty times a second. At the end of a round: the place of each radar still searched
   /// for; otherwise empty. A found radar is not searched for again.
-  std::vector<Sighting> listen(const LinkWatch& links, std::int64_t monotonic_us);
+  std::vector<RadarPlace> listen(const LinkWatch& links, std::int64_t monotonic_us);
 
   /// All radars are found.
   [[nodiscard]] bool is_over() const { return is_over_; }
@@ -38,7 +38,7 @@ class RadarSearch {
   void follow(const LinkWatch& links);
   void receive_all();
   bool receive(std::size_t listener);
-  std::vector<Sighting> end_round();
+  std::vector<RadarPlace> end_round();
 
   Configuration configuration_;
   bool is_over_;

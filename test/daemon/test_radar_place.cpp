@@ -57,33 +57,33 @@ TEST_CASE("Swapped adapters do not matter: each radar is where it shows itself")
                                        with_ars408("can1", 0)};
   Configuration configuration = configuration_of(
       {radar("front", "auto", Ars408Options{}), radar("rear", "auto", BoschGprOptions{})});
-  const auto sightings = find_interfaces(buses, configuration);
-  REQUIRE(sightings.size() == 2);
-  CHECK(sightings[0].place.status == PlaceStatus::found);
+  const auto places = find_interfaces(buses, configuration);
+  REQUIRE(places.size() == 2);
+  CHECK(places[0].status == PlaceStatus::found);
   CHECK(configuration.radars[0].interface == "can1");
-  CHECK(sightings[1].place.interface == "can0");
+  CHECK(places[1].interface == "can0");
   CHECK(configuration.radars[1].interface == "can0");
   CHECK(find_interfaces(buses, configuration).empty());
 }
 
 TEST_CASE("A radar that is nowhere is waited for, and what is there is told") {
   Configuration configuration = configuration_of({radar("front", "auto", Ars408Options{})});
-  const auto sightings = find_interfaces({with_ars408("can0", 3), silent("can1")}, configuration);
-  REQUIRE(sightings.size() == 1);
-  CHECK(sightings[0].place.status == PlaceStatus::absent);
+  const auto places = find_interfaces({with_ars408("can0", 3), silent("can1")}, configuration);
+  REQUIRE(places.size() == 1);
+  CHECK(places[0].status == PlaceStatus::absent);
   CHECK(
-      sightings[0].place.problem ==
+      places[0].problem ==
       "no CAN interface shows an ARS408 with sensor id 0 (can0: an ARS408 with sensor id 3; can1: "
       "no radar)");
   CHECK(configuration.radars[0].interface == "auto");
-  CHECK_THAT(find_interfaces({}, configuration).at(0).place.problem,
+  CHECK_THAT(find_interfaces({}, configuration).at(0).problem,
              Catch::Contains("(no CAN interface is up)"));
 }
 
 TEST_CASE("Two interfaces that show one radar are refused") {
   Configuration configuration = configuration_of({radar("front", "auto", Ars408Options{})});
   const auto place =
-      find_interfaces({with_ars408("can0", 0), with_ars408("can1", 0)}, configuration).at(0).place;
+      find_interfaces({with_ars408("can0", 0), with_ars408("can1", 0)}, configuration).at(0);
   CHECK(place.status == PlaceStatus::ambiguous);
   CHECK(place.problem == "an ARS408 with sensor id 0 is on can0 and on can1");
   CHECK(place.remedy == "set interface to one of them for radar \"front\"");
@@ -93,7 +93,7 @@ TEST_CASE("Two interfaces that show one radar are refused") {
 TEST_CASE("A radar is not put where another uses its identifiers") {
   Configuration configuration = configuration_of(
       {radar("rear", "can0", BoschGprOptions{}), radar("front", "auto", Ars408Options{})});
-  const auto place = find_interfaces({with_ars408("can0", 0)}, configuration).at(0).place;
+  const auto place = find_interfaces({with_ars408("can0", 0)}, configuration).at(0);
   CHECK(place.status == PlaceStatus::clash);
   CHECK(place.problem ==
         "an ARS408 with sensor id 0 is on can0, where radar \"rear\" uses CAN identifier 0x200 as "

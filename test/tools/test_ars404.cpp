@@ -67,12 +67,12 @@ TEST_CASE("It shares identifiers with an ARS408, and a search cannot distinguish
 
 TEST_CASE("interface = \"auto\" finds it by what an ARS408 sends") {
   Configuration configuration = parse_ars404(radar_text("front", "ars404", "auto"));
-  CHECK(find_interfaces({with_clusters("can0", 1)}, configuration).at(0).place.problem ==
+  CHECK(find_interfaces({with_clusters("can0", 1)}, configuration).at(0).problem ==
         "no CAN interface shows an ARS404 with sensor id 0 (can0: an ARS404 with sensor id 1)");
-  const auto sightings =
+  const auto places =
       find_interfaces({with_clusters("can0", 1), with_clusters("can1", 0)}, configuration);
-  REQUIRE(sightings.size() == 1);
-  CHECK(sightings[0].place.status == PlaceStatus::found);
+  REQUIRE(places.size() == 1);
+  CHECK(places[0].status == PlaceStatus::found);
   CHECK(configuration.radars[0].interface == "can1");
 }
 

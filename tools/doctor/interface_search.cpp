@@ -19,24 +19,23 @@ namespace {
 /// Two rounds of the search: the second sees every radar that is present.
 constexpr std::int64_t kListenUs = 3'000'000;
 
-Finding finding_of(const RadarConfiguration& radar, const std::vector<Sighting>& sightings,
+Finding finding_of(const RadarConfiguration& radar, const std::vector<RadarPlace>& places,
                    std::size_t index) {
-  const auto sighting = std::ranges::find(sightings, index, &Sighting::radar);
-  return sighting == sightings.end()
+  const auto place = std::ranges::find(places, index, &RadarPlace::radar);
+  return place == places.end()
              ? Finding{Severity::error,
                        concat({radar.name, ": its interface was not searched for"}),
                        "do not interrupt the doctor"}
-             : Finding{Severity::error, concat({radar.name, ": ", sighting->place.problem}),
-                       sighting->place.remedy};
+             : Finding{Severity::error, concat({radar.name, ": ", place->problem}), place->remedy};
 }
 
 /// `found`: the configuration with the interfaces found.
-LocatedRadars located(const Configuration& found, const std::vector<Sighting>& sightings) {
+LocatedRadars located(const Configuration& found, const std::vector<RadarPlace>& places) {
   LocatedRadars result{found, {}};
   std::vector<RadarConfiguration>& radars = result.configuration.radars;
   for (std::size_t i = 0; i < radars.size(); ++i) {
     if (is_auto(radars[i])) {
-      result.findings.push_back(finding_of(radars[i], sightings, i));
+      result.findings.push_back(finding_of(radars[i], places, i));
     }
   }
   std::erase_if(radars, is_auto);
@@ -67,17 +66,17 @@ LocatedRadars locate_live(const Configuration& configuration,
   constexpr timespec kPause{0, 10'000'000};
   RadarSearch search(configuration);
   LinkWatch links;
-  std::vector<Sighting> sightings;
+  std::vector<RadarPlace> places;
   const std::int64_t end_us = monotonic_us() + kListenUs;
   while (!search.is_over() && *stop == 0 && monotonic_us() < end_us) {
     links.update();
-    for (const Sighting& sighting : search.listen(links, monotonic_us())) {
-      std::erase_if(sightings, [&](const Sighting& old) { return old.radar == sighting.radar; });
-      sightings.push_back(sighting);
+    for (const RadarPlace& place : search.listen(links, monotonic_us())) {
+      std::erase_if(places, [&](const RadarPlace& old) { return old.radar == place.radar; });
+      places.push_back(place);
     }
     ::nanosleep(&kPause, nullptr);
   }
-  return located(search.configuration(), sightings);
+  return located(search.configuration(), places);
 }
 
 LocatedRadars locate_in_log(const Configuration& configuration, const std::string& path) {
@@ -88,8 +87,8 @@ LocatedRadars locate_in_log(const Configuration& configuration, const std::strin
     require_interface_names(configuration);
   }
   Configuration found = configuration;
-  const std::vector<Sighting> sightings = find_interfaces(heard_in(path), found);
-  return located(found, sightings);
+  const std::vector<RadarPlace> places = find_interfaces(heard_in(path), found);
+  return located(found, places);
 }
 
 }  // namespace cremed

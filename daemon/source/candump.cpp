@@ -277,10 +277,7 @@ CandumpLine parse_frame(std::string_view text) {
   CandumpLine line;
   for (const auto step : {parse_stamp, parse_interface, parse_content, parse_tail}) {
     if (const Error error = step(cursor, line); !error.empty()) {
-      CandumpLine malformed;
-      malformed.status = CandumpStatus::malformed;
-      malformed.error = error;
-      return malformed;
+      return {.status = CandumpStatus::malformed, .error = error};
     }
   }
   line.status = CandumpStatus::frame;
@@ -305,17 +302,14 @@ CandumpLine parse_drop_count(std::string_view text) {
 
 /// Neither comment nor empty: to be reported to the user.
 CandumpLine parse_other(std::string_view text) {
-  CandumpLine line;
   if (text.empty() || text.starts_with('#') || text.starts_with("DROPCOUNT")) {
-    return line;
+    return {};
   }
   Cursor cursor(text);
   CandumpLine console;
   const bool is_console =
       parse_interface(cursor, console).empty() && parse_content(cursor, console).empty();
-  line.status = CandumpStatus::malformed;
-  line.error = is_console ? kNoStamp : kNoFrame;
-  return line;
+  return {.status = CandumpStatus::malformed, .error = is_console ? kNoStamp : kNoFrame};
 }
 
 std::string_view without_line_end(std::string_view text) {

@@ -27,10 +27,10 @@ inline constexpr std::string_view kAllInterfaces = "any";
 
 struct CandumpLine {
   CandumpStatus status = CandumpStatus::skipped;
-  CanFrame frame;                   ///< `interface` stays 0: the caller maps names.
-  std::string_view interface_name;  ///< Points into the parsed line.
+  CanFrame frame{};                   ///< `interface` stays 0: the caller maps names.
+  std::string_view interface_name{};  ///< Points into the parsed line.
   std::uint64_t dropped_frames = 0;
-  std::string_view error;  ///< Static text.
+  std::string_view error{};  ///< Static text.
 };
 
 /// Parses one line (with or without its line end) of `candump -l` / `-L` text:

@@ -27,11 +27,6 @@ void fill(const Eigen::Matrix3d& x_y_yaw, double (&row_major)[36]) {
   covariance(kXYYaw, kXYYaw) = x_y_yaw;
 }
 
-bool is_usable(OdometryStatus status) {
-  return status == OdometryStatus::ok || status == OdometryStatus::standing_still ||
-         status == OdometryStatus::predicted;
-}
-
 }  // namespace
 
 NavMsgsOdometry::NavMsgsOdometry() : message_{} {
@@ -42,7 +37,7 @@ NavMsgsOdometry::NavMsgsOdometry() : message_{} {
 }
 
 bool NavMsgsOdometry::update(const Odometry& odometry) {
-  if (!is_usable(odometry.status)) {
+  if (!odometry.is_usable() && odometry.status != OdometryStatus::predicted) {
     return false;
   }
   message_.header.seq = next_seq_++;

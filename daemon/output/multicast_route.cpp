@@ -19,20 +19,6 @@ constexpr std::string_view kScheme = "udpm://";
 constexpr const char* kDefaultGroup = "239.255.76.67";
 constexpr std::uint16_t kDefaultPort = 7667;
 
-/// Looks up the route without sending. Returns why it cannot be used, with a remedy; empty if it
-/// can.
-std::string route_problem(const sockaddr_in& address, const std::string& group) {
-  const Descriptor descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (!descriptor.is_open()) {
-    return std::strerror(errno);
-  }
-  const auto* const generic = reinterpret_cast<const sockaddr*>(&address);
-  return ::connect(descriptor.number(), generic, sizeof(address)) == 0
-             ? std::string()
-             : concat({std::strerror(errno), ". Give multicast a route, e.g. `ip route add ", group,
-                       "/32 dev lo`, or use --lcm-url none"});
-}
-
 }  // namespace
 
 std::string multicast_problem(const std::string& url) {
@@ -46,7 +32,16 @@ std::string multicast_problem(const std::string& url) {
   address.sin_family = AF_INET;
   address.sin_port = htons(kDefaultPort);
   ::inet_pton(AF_INET, group.c_str(), &address.sin_addr);  // is_lcm_url() has checked it.
-  return route_problem(address, group);
+  // Looks up the route without sending.
+  const Descriptor descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (!descriptor.is_open()) {
+    return std::strerror(errno);
+  }
+  const auto* const generic = reinterpret_cast<const sockaddr*>(&address);
+  return ::connect(descriptor.number(), generic, sizeof(address)) == 0
+             ? std::string()
+             : concat({std::strerror(errno), ". Give multicast a route, e.g. `ip route add ", group,
+                       "/32 dev lo`, or use --lcm-url none"});
 }
 
 std::string lcm_create_problem(int error) {

@@ -67,7 +67,7 @@ void MotionFeedback::on_motion(std::size_t radar, const EgoMotion& motion,
 }
 
 void MotionFeedback::send(std::uint8_t interface, const CanFrame& frame) {
-  failures_ += bus_.send(interface, frame) == 0 ? 0 : 1;
+  failures_ += bus_.interfaces()[interface]->send(frame) == 0 ? 0 : 1;
 }
 
 }  // namespace cremed

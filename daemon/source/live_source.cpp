@@ -73,10 +73,6 @@ std::uint8_t LiveSource::attach(std::uint8_t interface, const std::string& name)
   return static_cast<std::uint8_t>(known - interfaces_.begin());
 }
 
-int LiveSource::send(std::uint8_t interface, const CanFrame& frame) {
-  return interfaces_[interface]->send(frame);
-}
-
 SourceEvent LiveSource::next(CanFrame& frame) {
   while (*stop_ == 0) {
     const bool is_reading = next_to_read_ < interfaces_.size();

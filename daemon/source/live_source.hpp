@@ -33,7 +33,7 @@ namespace cremed {
 ///
 /// A frame older than live.max_latency_s when it would be handed out is dropped and counted.
 ///
-/// Sends only by send(); allocates only in the constructor.
+/// Sends only by BusConnection::send(); allocates only in the constructor.
 class LiveSource final : public FrameSource {
  public:
   /// `stop`: next() returns `end` when it is set.
@@ -51,9 +51,6 @@ class LiveSource final : public FrameSource {
   std::uint8_t attach(std::uint8_t interface, const std::string& name);
 
   [[nodiscard]] const LinkWatch& links() const { return links_; }
-
-  /// errno, or 0.
-  int send(std::uint8_t interface, const CanFrame& frame);
 
   [[nodiscard]] const std::vector<std::unique_ptr<BusConnection>>& interfaces() const {
     return interfaces_;

@@ -168,6 +168,6 @@ TEST_CASE("An interface that is absent is told so, and nothing can be sent on it
   volatile std::sig_atomic_t stop = 0;
   LiveSource source(absent_radars(1), &stop);
   CHECK((source.bus(0).link == LinkState::absent || source.bus(0).link == LinkState::failed));
-  CHECK(source.send(0, CanFrame{}) == ENODEV);
+  CHECK(source.interfaces()[0]->send(CanFrame{}) == ENODEV);
   CHECK(source.bus(0).send_failures == 1);
 }

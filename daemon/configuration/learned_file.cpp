@@ -33,6 +33,10 @@ constexpr double kTolerance = 1e-9;
 constexpr const char* kHeader =
     "# Written by cremed: errors of the radars learned while driving, the prior of the next "
     "drive.\n# Delete it after work on the radars' mounts.\n";
+constexpr const char* kRadarText =
+    "\n[[radar]]\nname = {}\nmount_x_m = {:.17e}\nmount_y_m = {:.17e}\nmount_yaw_rad = {:.17e}\n"
+    "mount_yaw_error_rad = {:.17e}\nmount_yaw_error_std_rad = {:.17e}\n"
+    "doppler_scale_error = {:.17e}\ndoppler_scale_error_std = {:.17e}\n";
 /// "# Written by cremed", by which a damaged file is known.
 constexpr std::size_t kFirstWords = 19;
 
@@ -54,10 +58,6 @@ bool is_plausible(const LearnedError& error, const LearnedError& unlearned) {
 
 LearnedError clipped(const LearnedError& error, const LearnedError& unlearned) {
   return {error.value, std::clamp(error.std, kLeastShare * unlearned.std, unlearned.std)};
-}
-
-std::string line(std::string_view key, double value) {
-  return concat({key, " = ", fmt::format("{:.17e}", value), "\n"});
 }
 
 }  // namespace
@@ -186,11 +186,8 @@ std::optional<std::string> LearnedFile::text(
     }
     const LearnedError yaw = clipped(learned[i]->mount_yaw_rad, radar.errors.mount_yaw_rad);
     const LearnedError scale = clipped(learned[i]->doppler_scale, radar.errors.doppler_scale);
-    text += concat({"\n[[radar]]\nname = ", in_quotes(radar.name), "\n"});
-    text += line("mount_x_m", radar.mount.x_m) + line("mount_y_m", radar.mount.y_m) +
-            line("mount_yaw_rad", radar.mount.yaw_rad) + line("mount_yaw_error_rad", yaw.value) +
-            line("mount_yaw_error_std_rad", yaw.std) + line("doppler_scale_error", scale.value) +
-            line("doppler_scale_error_std", scale.std);
+    text += fmt::format(kRadarText, in_quotes(radar.name), radar.mount.x_m, radar.mount.y_m,
+                        radar.mount.yaw_rad, yaw.value, yaw.std, scale.value, scale.std);
     is_empty = false;
   }
   return is_empty ? std::nullopt : std::optional(text);

@@ -53,11 +53,9 @@ struct OdometryConfiguration {
 /// Speed and yaw rate that another node sends, in the layout of 0x300 and 0x301.
 struct VehicleConfiguration {
   std::string interface;  ///< CAN interface; empty: off.
+  /// By VehicleSignal.
   std::array<std::optional<std::uint32_t>, kVehicleSignals> ids{0x300, 0x301};
 
-  [[nodiscard]] std::optional<std::uint32_t>& id(VehicleSignal signal) {
-    return ids[static_cast<std::size_t>(signal)];
-  }
   [[nodiscard]] std::optional<std::uint32_t> id(VehicleSignal signal) const {
     return ids[static_cast<std::size_t>(signal)];
   }

@@ -124,26 +124,21 @@ Error parse_interface(Cursor& cursor, CandumpLine& line) {
   return cursor.take_blanks() ? Error{} : kFrameShape;
 }
 
-Error parse_standard_id(std::uint32_t id, CanFrame& frame) {
-  frame.id = id;
-  return id <= kMaxStandardId ? Error{} : kStandardRange;
-}
-
 /// Error frames are written as extended frames with a flag beyond the identifier's bits.
-Error parse_extended_id(std::uint32_t id, CanFrame& frame) {
-  frame.id = id & kMaxExtendedId;
-  frame.error = (id & ~kMaxExtendedId) == kCandumpErrorFlag;
-  frame.extended = !frame.error;
-  return frame.error || id <= kMaxExtendedId ? Error{} : kExtendedRange;
-}
-
 Error parse_identifier(std::string_view digits, CanFrame& frame) {
   constexpr int kHexadecimal = 16;
   const auto id = whole_number<std::uint32_t>(digits, kHexadecimal);
-  if ((digits.size() != 3 && digits.size() != 8) || !id) {
+  const bool is_standard = digits.size() == 3;
+  if ((!is_standard && digits.size() != 8) || !id) {
     return kIdDigits;
   }
-  return digits.size() == 3 ? parse_standard_id(*id, frame) : parse_extended_id(*id, frame);
+  frame.id = *id & kMaxExtendedId;
+  frame.error = (*id & ~kMaxExtendedId) == kCandumpErrorFlag;
+  frame.extended = !is_standard && !frame.error;
+  if (is_standard) {
+    return *id <= kMaxStandardId ? Error{} : kStandardRange;
+  }
+  return frame.error || *id <= kMaxExtendedId ? Error{} : kExtendedRange;
 }
 
 /// Pairs of hex digits, optionally separated by '.'.

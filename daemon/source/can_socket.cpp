@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <linux/can.h>
@@ -92,8 +94,7 @@ struct CanSocket::Control {
   bool is_from_bus = false;  ///< Only such frames must have a hardware stamp.
   std::int64_t kernel_ns = 0;
   std::int64_t hardware_ns = 0;
-  std::uint32_t drops = 0;
-  bool has_drops = false;
+  std::optional<std::uint32_t> drops;
 
   /// The driver makes error frames; frames sent on this computer never were in the controller.
   Control(msghdr& header, canid_t id)
@@ -115,8 +116,7 @@ struct CanSocket::Control {
       std::memcpy(&times, CMSG_DATA(&c), sizeof(times));
       hardware_ns = ns_of(times.ts[2]);
     } else if (c.cmsg_type == SO_RXQ_OVFL) {
-      std::memcpy(&drops, CMSG_DATA(&c), sizeof(drops));
-      has_drops = true;
+      std::memcpy(&drops.emplace(), CMSG_DATA(&c), sizeof(*drops));
     }
   }
 };
@@ -222,10 +222,8 @@ CanReceiveResult CanSocket::receive() {
 }
 
 std::int64_t CanSocket::stamp_us(const Control& control) {
-  if (!hardware_stamps_ || !hardware_stamps_work_) {
-    return control.kernel_ns / 1000;
-  }
-  if (control.hardware_ns == 0 && !control.is_from_bus) {
+  const bool may_lack_it = control.hardware_ns == 0 && !control.is_from_bus;
+  if (!hardware_stamps_ || !hardware_stamps_work_ || may_lack_it) {
     return control.kernel_ns / 1000;
   }
   const std::int64_t difference_ns = control.hardware_ns - control.kernel_ns;
@@ -237,12 +235,7 @@ std::int64_t CanSocket::stamp_us(const Control& control) {
 }
 
 std::uint32_t CanSocket::lost_before(const Control& control) {
-  if (!control.has_drops) {
-    return 0;
-  }
-  const std::uint32_t lost = control.drops - kernel_drops_;
-  kernel_drops_ = control.drops;
-  return lost;
+  return control.drops ? *control.drops - std::exchange(kernel_drops_, *control.drops) : 0;
 }
 
 int CanSocket::send(const CanFrame& frame) {

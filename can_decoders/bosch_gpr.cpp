@@ -18,12 +18,6 @@ double at_least_half_step(double std, LinearScale scale) {
   return std::max(std, 0.5 / scale.steps_per_unit);
 }
 
-Payload payload_of(const CanFrame& frame) {
-  Payload payload;
-  std::copy_n(frame.data.begin(), payload.size(), payload.begin());
-  return payload;
-}
-
 template <typename Content>
 std::optional<Content> decoded(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kLength) {
@@ -117,7 +111,8 @@ ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
   if (index == kForeign || !accept(frame, kLength)) {
     return {};
   }
-  const Payload payload = payload_of(frame);
+  Payload payload;
+  std::copy_n(frame.data.begin(), payload.size(), payload.begin());
   if (!trust(payload, index)) {
     return {};
   }

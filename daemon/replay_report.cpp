@@ -43,11 +43,10 @@ void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
 bool report_logs(const Replay& replay) {
   bool good = true;
   for (const auto& log : replay.logs()) {
-    if (const std::string malformed = log->reader().malformed(); !malformed.empty()) {
-      spdlog::warn("{}", malformed);
-    }
-    if (const std::string cut_off = log->reader().cut_off(); !cut_off.empty()) {
-      spdlog::warn("{}", cut_off);
+    for (const std::string& fault : {log->reader().malformed(), log->reader().cut_off()}) {
+      if (!fault.empty()) {
+        spdlog::warn("{}", fault);
+      }
     }
     if (const std::string problem = log->reader().problem(); !problem.empty()) {
       spdlog::error("{}", problem);

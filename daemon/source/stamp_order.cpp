@@ -19,18 +19,15 @@ constexpr std::int64_t kLongestDriveUs = 1'000'000'000'000;
 }  // namespace
 
 void StampOrder::add(std::string_view interface, std::int64_t stamp_us) {
-  auto* const end = interfaces_.begin() + count_;
-  auto* known = std::find_if(interfaces_.begin(), end,
-                             [&](const Interface& one) { return one.name == interface; });
-  if (known == end) {
-    if (count_ == kMostInterfaces) {
+  auto known = std::ranges::find(interfaces_, interface, &Interface::name);
+  if (known == interfaces_.end()) {
+    if (interfaces_.size() == kMostInterfaces) {
       return;
     }
-    ++count_;
-    known->name = interface;
+    known = interfaces_.insert(known, {std::string(interface), stamp_us});
     is_joined_ = is_joined_ || stamp_us < latest_us_ - kLongestDisorderUs;
   } else {
-    is_joined_ = is_joined_ && known + 1 == end;
+    is_joined_ = is_joined_ && known + 1 == interfaces_.end();
     ++steps_;
     steps_still_ += stamp_us == known->last_us ? 1 : 0;
     steps_back_ += stamp_us < known->last_us ? 1 : 0;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cremed {
 
@@ -31,8 +31,7 @@ class StampOrder {
   };
   static constexpr std::size_t kMostInterfaces = 32;  // Further ones are not looked at.
 
-  std::array<Interface, kMostInterfaces> interfaces_;
-  std::size_t count_ = 0;
+  std::vector<Interface> interfaces_;
   bool is_joined_ = false;  ///< One interface ended before an earlier stamp of the next.
   std::uint64_t steps_ = 0;
   std::uint64_t steps_still_ = 0;

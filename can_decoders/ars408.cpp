@@ -180,7 +180,7 @@ ScanPart Ars408Decoder::decode(const CanFrame& frame) {
 void Ars408Decoder::note_state(const CanFrame& frame, Ars408Bytes bytes) {
   const auto state = decode_ars408_radar_state(bytes);
   const std::int64_t gap_us = frame.stamp_us - last_state_us_.value_or(frame.stamp_us);
-  const bool is_own = state->sensor_id == options_.sensor_id &&
+  const bool is_own = state && state->sensor_id == options_.sensor_id &&
                       (gap_us <= 0 || gap_us >= kArs408ShortestStateGapUs);
   last_state_us_ = frame.stamp_us;
   radar_state_ = is_own ? state : std::nullopt;

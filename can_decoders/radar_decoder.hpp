@@ -83,12 +83,16 @@ class RadarDecoder {
 
   /// Counts a frame of this radar; false if it is no data frame of CAN 2.0 with so many bytes.
   bool accept(const CanFrame& frame, std::size_t least_length) {
-    const bool is_wrong_kind = frame.remote || frame.fd;
-    const bool is_short = !is_wrong_kind && frame.length < least_length;
     ++counters_.frames;
-    counters_.wrong_kind += is_wrong_kind ? 1 : 0;
-    counters_.wrong_length += is_short ? 1 : 0;
-    return !is_wrong_kind && !is_short;
+    if (frame.remote || frame.fd) {
+      ++counters_.wrong_kind;
+      return false;
+    }
+    if (frame.length < least_length) {
+      ++counters_.wrong_length;
+      return false;
+    }
+    return true;
   }
 
   DecoderCounters counters_;

@@ -59,8 +59,8 @@ void read_vehicle(TomlReader& reader, VehicleConfiguration& vehicle, VehicleOpti
   std::string interface(kOff);
   reader.text("interface", interface, kBusName);
   vehicle.interface = interface == kOff ? "" : interface;
-  read_id(reader, "speed", vehicle.ids[0]);
-  read_id(reader, "yaw_rate", vehicle.ids[1]);
+  read_id(reader, "speed", vehicle.ids[static_cast<std::size_t>(VehicleSignal::speed)]);
+  read_id(reader, "yaw_rate", vehicle.ids[static_cast<std::size_t>(VehicleSignal::yaw_rate)]);
   reader.number("speed_delay_s", options.speed.delay_s, kDelayS);
   reader.number("speed_scale_std", options.speed.scale_std, kScale);
   reader.number("yaw_rate_delay_s", options.yaw_rate.delay_s, kDelayS);

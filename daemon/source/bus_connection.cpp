@@ -38,7 +38,8 @@ void BusConnection::open(const Link& link) {
       link.error != 0 ? CanOpenResult{link.error} : socket_.open(link.index, ids_, options_);
   status_.error = result.error;
   if (result.error != 0) {
-    status_.link = is_interface_gone(result.error) ? LinkState::absent : LinkState::failed;
+    const bool is_absent = link.error == 0 && is_interface_gone(result.error);
+    status_.link = is_absent ? LinkState::absent : LinkState::failed;
     return;
   }
   status_.receive_buffer_bytes = result.receive_buffer_bytes;

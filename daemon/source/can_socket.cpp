@@ -116,7 +116,9 @@ struct CanSocket::Control {
       std::memcpy(&times, CMSG_DATA(&c), sizeof(times));
       hardware_ns = ns_of(times.ts[2]);
     } else if (c.cmsg_type == SO_RXQ_OVFL) {
-      std::memcpy(&drops.emplace(), CMSG_DATA(&c), sizeof(*drops));
+      std::uint32_t count = 0;
+      std::memcpy(&count, CMSG_DATA(&c), sizeof(count));
+      drops = count;
     }
   }
 };
@@ -235,7 +237,9 @@ std::int64_t CanSocket::stamp_us(const Control& control) {
 }
 
 std::uint32_t CanSocket::lost_before(const Control& control) {
-  return control.drops ? *control.drops - std::exchange(kernel_drops_, *control.drops) : 0;
+  const std::uint32_t before = kernel_drops_;
+  kernel_drops_ = control.drops.value_or(before);
+  return kernel_drops_ - before;
 }
 
 int CanSocket::send(const CanFrame& frame) {

@@ -16,7 +16,7 @@
 namespace cremed {
 
 struct CanOpenResult {
-  int error = 0;                 ///< errno; 0: open.
+  int error = ENODEV;            ///< errno; 0: open.
   int receive_buffer_bytes = 0;  ///< Granted by the kernel; limited by rmem_max.
 };
 

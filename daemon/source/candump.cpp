@@ -3,7 +3,6 @@
 #include "daemon/source/candump.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <string_view>
 

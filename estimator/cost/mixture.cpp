@@ -13,9 +13,10 @@ namespace {
 /// Keeps the radicand of the second residual positive (RA-L 2021; value of the reference).
 constexpr double kDamping = 10.0;
 
-/// A component whose squared distance exceeds the least by this is left out: 2e-22 of the nearest,
-/// times the ratio of weight / sqrt(det C), which is 1e4 between a target and the ray.
-constexpr double kNegligible = 100.0;
+/// A component whose squared distance exceeds the least by this is left out: its exponential is
+/// 4e-44 of the nearest one's, and 1 / sqrt(det C) makes up for 1e12 of it with targets of 1e-6 m
+/// beside a ray of metres.
+constexpr double kNegligible = 200.0;
 
 /// L with L'L = C^-1, upper triangular.
 Eigen::Matrix2d whitening_of(const Symmetric2& c) {
@@ -50,7 +51,7 @@ void Mixture::assign(const TargetSet& targets, const OutlierRay& ray) {
   log_damped_size_ = std::log(static_cast<double>(size_) + kDamping);
 }
 
-/// Without branches and by columns, so that it is vectorised.
+/// Without branches and by columns, so that a release build vectorises it.
 void Mixture::find_distances(const Eigen::Vector2d& point_m, const Symmetric2& covariance_m2) {
   const double x_m = point_m.x();
   const double y_m = point_m.y();

@@ -201,6 +201,7 @@ TEST_CASE("the manual loads as it is and holds the defaults") {
 std::set<std::string> listed_by(const std::string& message) {
   const std::regex shape(R"(test\.toml:\d+: (.*)unknown_unknown_unknown: unknown key; (.*))");
   std::smatch parts;
+  CAPTURE(message);
   REQUIRE(std::regex_match(message, parts, shape));
   const std::string list = parts[2];
   const std::regex quoted("\"([^\"]*)\"");
@@ -221,6 +222,13 @@ std::set<std::string> known_keys() {
   }
   for (const char* table : {"", ".outlier_ray", ".doppler", ".shared_errors"}) {
     lines.push_back(std::string("[radar.estimator") + table + "]");
+  }
+  for (const RadarFamily* family : radar_families()) {
+    const std::string type(family->type);
+    tables.insert("calibrated.a_" + type);
+    lines.insert(lines.end(), {"[[radar]]", "name = \"a_" + type + "\"", "type = \"" + type + "\"",
+                               "interface = \"bus_" + type + "\"", "[radar.mount]", "x_m = 2.0",
+                               "y_m = 0.0", "yaw_rad = 0.0"});
   }
   std::set<std::string> keys;
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <vector>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -79,6 +78,7 @@ struct Definition {
   long double sum = 0.0L;
   long double best_scale = 0.0L;  // s of the best component
   long double best_q = -1.0L;
+  long double best_squared_distance = 0.0L;
 
   void add(long double weight, const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance) {
     using Matrix = Eigen::Matrix<long double, 2, 2>;
@@ -86,11 +86,13 @@ struct Definition {
     const Matrix wide = covariance.cast<long double>();
     const Vector e = error.cast<long double>();
     const long double scale = weight / std::sqrt(wide.determinant());
-    const long double q = scale * std::exp(-0.5L * e.dot(wide.inverse() * e));
+    const long double squared_distance = e.dot(wide.inverse() * e);
+    const long double q = scale * std::exp(-0.5L * squared_distance);
     sum += q;
     if (q > best_q) {
       best_q = q;
       best_scale = scale;
+      best_squared_distance = squared_distance;
     }
   }
 };
@@ -158,6 +160,8 @@ TEST_CASE("the residuals are those of the best component and of the rest of the 
           return;
         }
         const MixtureResidual actual = problem.mixture->evaluate(point, own);
+        CHECK(actual.residual.head<2>().squaredNorm() ==
+              Approx(static_cast<double>(definition.best_squared_distance)).margin(1e-9));
         const auto damping = static_cast<long double>(kDamping);
         const auto components = static_cast<long double>(problem.mixture->size());
         const long double expected = -std::log(definition.sum) + std::log(definition.best_scale) +
@@ -266,7 +270,9 @@ TEST_CASE("a ray of small weight explains only points far from all targets") {
     const Definition definition = define(problem, point, own);
     const MixtureResidual actual = problem.mixture->evaluate(point, own);
     const double cost = static_cast<double>(-std::log(definition.sum));
-    wrong += std::abs(actual.cost - cost) > 1e-6 ? 1 : 0;
+    const double distance_error = actual.residual.head<2>().squaredNorm() -
+                                  static_cast<double>(definition.best_squared_distance);
+    wrong += std::abs(distance_error) > 1e-6 || std::abs(actual.cost - cost) > 1e-6 ? 1 : 0;
   }
   CHECK(wrong == 0);
 }
@@ -301,6 +307,8 @@ TEST_CASE("the cost is exact for wide, sharp and far components") {
     const Definition definition = define(problem, point, own);
     const MixtureResidual actual = problem.mixture->evaluate(point, own);
     CAPTURE(c.name, i);
+    CHECK(actual.residual.head<2>().squaredNorm() ==
+          Approx(static_cast<double>(definition.best_squared_distance)).epsilon(1e-6).margin(1e-9));
     CHECK(actual.cost ==
           Approx(static_cast<double>(-std::log(definition.sum))).epsilon(1e-9).margin(1e-9));
   }

@@ -33,6 +33,19 @@ TEST_CASE("Poses between the steps' ends are interpolated") {
   CHECK_FALSE(poses.motion(-1, 1'000'000));
 }
 
+TEST_CASE("A step that ends no later than the last is left out, and is no gap") {
+  const Circle circle{10.0, 0.1};
+  const auto steps = exact_steps(circle, 75'000, 100);
+  auto repeated = steps;
+  repeated.insert(repeated.begin() + 40, steps[39]);
+  RecordedEstimate standing = steps[60];
+  standing.end_us = standing.start_us;
+  repeated.insert(repeated.begin() + 61, standing);
+  const TrueTrajectory poses = chained_poses(repeated);
+  CHECK(poses.gaps().empty());
+  CHECK(*poses.motion(0, 7'500'000) == *chained_poses(steps).motion(0, 7'500'000));
+}
+
 TEST_CASE("Windows begin one step after both have begun, half a second apart, to the end of both") {
   const Circle circle;
   const auto truth = exact_truth(circle, 100);

@@ -70,9 +70,12 @@ template <typename Message>
 void LcmListener::hear(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* listener) {
   auto& self = *static_cast<LcmListener*>(listener);
   if (!std::is_same_v<Message, radar_scan_t> || announces_what_it_has(*buffer)) {
-    if (const auto message = decoded<Message>(buffer->data, buffer->data_size)) {
-      self.state_.take(*message);
-      return;
+    try {  // Beyond are the C frames of lcm_handle().
+      if (const auto message = decoded<Message>(buffer->data, buffer->data_size)) {
+        self.state_.take(*message);
+        return;
+      }
+    } catch (const std::exception&) {  // Counted as what cannot be read.
     }
   }
   ++self.other_versions_[Message::getTypeName()];

@@ -91,13 +91,17 @@ void LeastSquares::solve() {
   Linearised now = linearise();
   double damping = kFirstDamping;
   double increase = kFirstIncrease;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   for (int i = 0; i < kMaxSteps; ++i) {
     const Eigen::SparseMatrix<double> information = now.jacobian.transpose() * now.jacobian;
     const Eigen::VectorXd gradient = now.jacobian.transpose() * now.residuals;
     Eigen::SparseMatrix<double> damped = information;
     damped.diagonal() *= 1.0 + damping;
-    const Eigen::VectorXd step =
-        Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(damped).solve(-gradient);
+    if (i == 0) {
+      solver.analyzePattern(damped);
+    }
+    solver.factorize(damped);
+    const Eigen::VectorXd step = solver.solve(-gradient);
     const Eigen::VectorXd before = values();
     set_values(before + step);
     Linearised next = linearise();

@@ -59,6 +59,9 @@ TrueTrajectory chained_poses(const std::vector<RecordedEstimate>& steps) {
   };
   Pose2 pose;
   for (const RecordedEstimate& step : steps) {
+    if (!utime_us.empty() && step.end_us <= utime_us.back()) {
+      continue;
+    }
     if (utime_us.empty() || !is_same_stamp(step.start_us, utime_us.back())) {
       is_broken = !utime_us.empty();
       add(step.start_us, pose);

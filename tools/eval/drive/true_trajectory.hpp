@@ -35,7 +35,7 @@ class TrueTrajectory {
   /// The same; nothing across a gap either.
   [[nodiscard]] std::optional<Eigen::Vector3d> unbroken_motion(std::int64_t start_us,
                                                                std::int64_t end_us) const;
-  /// Where poses are missing: neighbours that are farther apart than longest_step_us.
+  /// Where poses are missing: as given, or neighbours farther apart than longest_step_us.
   [[nodiscard]] const std::vector<TimeSpan>& gaps() const { return gaps_; }
   /// Whether a gap is between these times, in part or all.
   [[nodiscard]] bool touches_gap(std::int64_t start_us, std::int64_t end_us) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -19,7 +18,7 @@ namespace {
 constexpr int kFloorPoints = 200;
 constexpr int kRepetitions = 150;
 
-/// Components in a row, a metre apart.
+/// The sum of components in a row, a metre apart, with the same covariance.
 double evaluate(double x_m, std::vector<double>& terms) {
   constexpr double kXx = 0.2;
   constexpr double kXy = 0.01;

@@ -14,6 +14,7 @@ void add_result(const PairResult& result, int degrees_of_freedom, PairsFigures& 
   const RegistrationResult& r = result.registration;
   figures.iterations += r.iterations;
   figures.solve_us += static_cast<double>(result.solve_us);
+  figures.no_convergence += r.status == RegistrationStatus::no_convergence ? 1U : 0U;
   if (!has_solution(r)) {
     ++figures.left_out;
     figures.ambiguous += r.status == RegistrationStatus::ambiguous ? 1U : 0U;
@@ -24,7 +25,6 @@ void add_result(const PairResult& result, int degrees_of_freedom, PairsFigures& 
   figures.credibility.add(r.motion, r.covariance, result.truth);
   figures.nees.add(nees);
   figures.gross += nees > kGrossNees ? 1U : 0U;
-  figures.no_convergence += r.status == RegistrationStatus::no_convergence ? 1U : 0U;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -47,8 +48,10 @@ class NeesHistogram {
   static constexpr double kBinWidth = 0.5;
 
   void add(double nees) {
-    const double bin = std::clamp(nees / kBinWidth, 0.0, static_cast<double>(kBins - 1));
-    ++counts_.at(static_cast<std::size_t>(bin));
+    if (!std::isnan(nees)) {
+      const double bin = std::clamp(nees / kBinWidth, 0.0, static_cast<double>(kBins - 1));
+      ++counts_.at(static_cast<std::size_t>(bin));
+    }
   }
   [[nodiscard]] const std::array<std::size_t, kBins>& counts() const { return counts_; }
 
@@ -66,7 +69,7 @@ struct PairsFigures {
   double solve_us = 0.0;           ///< Mean per pair, of one processor.
   std::size_t left_out = 0;        ///< Pairs without a solution (degenerate, not finite).
   std::size_t ambiguous = 0;       ///< Of these, pairs where another motion fits as well.
-  std::size_t no_convergence = 0;  ///< Solutions whose search did not converge.
+  std::size_t no_convergence = 0;  ///< Pairs whose search did not converge, with a solution or not.
   std::size_t gross = 0;           ///< Solutions with NEES > kGrossNees.
   NeesHistogram nees{};
 };

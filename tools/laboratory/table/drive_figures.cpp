@@ -82,7 +82,9 @@ void add_by_wheels(const Configuration& configuration, const PlayedDrive& played
         evaluated(scans_of(place, configuration, played.radars), reference);
     const Credibility& credibility = scans.credibility;
     figures[scans.source] = {credibility.rmse_m(), credibility.rmse_deg(), credibility.anees()};
-    figures[scans.source + " by wheels"] = nees_by_wheels(scans);
+    if (scans.source == "front") {
+      figures["front by wheels"] = nees_by_wheels(scans);
+    }
   }
   figures["outputs by wheels"] =
       nees_by_wheels(evaluated({"fused", recorded(played.fused), 0}, reference));

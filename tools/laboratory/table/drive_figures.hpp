@@ -19,8 +19,8 @@ namespace cremed {
 /// With wheels:
 /// "front", "rear": radars with such names from scan to scan: RMSE in metres and degrees, ANEES
 /// with truth's noise;
-/// "front by wheels", "rear by wheels", "outputs by wheels": NEES of x by the wheels and of yaw by
-/// the gyro, of those radars from scan to scan and of the odometry from output to output.
+/// "front by wheels", "outputs by wheels": NEES of x by the wheels and of yaw by the gyro, of those
+/// radars from scan to scan and of the odometry from output to output.
 using DriveFigures = std::map<std::string, std::vector<double>, std::less<>>;
 
 /// Runs the odometry, and the methods of others, on a recorded drive: its folder has can.log or

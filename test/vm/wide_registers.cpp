@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 
 #include <dlfcn.h>
@@ -13,24 +15,28 @@
 /// For LD_PRELOAD of user-mode-linux. Its kernel 6.1 sets the vector registers of a process from a
 /// buffer of the size that processors had before AMX; newer kernels refuse a buffer that does not
 /// hold all registers (EFAULT), and the guest panics at its first process. Such a buffer is
-/// completed with the present content of the registers that it lacks.
+/// completed with registers that are not in use.
 extern "C" long ptrace(int request, pid_t process, void* address, void* data) {
   using Ptrace = long (*)(int, ...);
   static Ptrace next = nullptr;
+  static std::array<char, 65536> registers;  // 11 KiB with AMX.
+  static std::size_t size = 0;               // Of all of them; 0: buffers are not too small.
   if (next == nullptr) {
     next = reinterpret_cast<Ptrace>(::dlsym(RTLD_NEXT, "ptrace"));
   }
-  const long result = next(request, process, address, data);
-  if (result == 0 || errno != EFAULT || request != PTRACE_SETREGSET ||
-      address != reinterpret_cast<void*>(NT_X86_XSTATE)) {
-    return result;
+  if (request != PTRACE_SETREGSET || address != reinterpret_cast<void*>(NT_X86_XSTATE)) {
+    return next(request, process, address, data);
   }
-  static std::array<char, 65536> registers;  // 11 KiB with AMX.
-  const iovec& some = *static_cast<const iovec*>(data);
   iovec all{registers.data(), registers.size()};
-  if (next(PTRACE_GETREGSET, process, address, &all) != 0 || some.iov_len > all.iov_len) {
-    return -1;
+  if (size == 0) {
+    const long result = next(request, process, address, data);
+    if (result == 0 || errno != EFAULT || next(PTRACE_GETREGSET, process, address, &all) != 0) {
+      return result;
+    }
+    size = all.iov_len;
   }
-  std::memcpy(registers.data(), some.iov_base, some.iov_len);
-  return next(PTRACE_SETREGSET, process, address, &all);
+  const iovec& some = *static_cast<const iovec*>(data);
+  std::memcpy(registers.data(), some.iov_base, std::min(some.iov_len, size));
+  all.iov_len = size;
+  return next(request, process, address, &all);
 }

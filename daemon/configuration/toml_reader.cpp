@@ -74,7 +74,7 @@ template <typename Read>
 auto TomlReader::value_of(std::string_view key, Presence presence, std::string_view wanted,
                           const Read& read) {
   const toml::node* const node = take(key, presence, wanted);
-  const auto value = node == nullptr ? std::nullopt : read(*node);
+  auto value = node == nullptr ? std::nullopt : read(*node);
   if (node != nullptr && !value) {
     report_wrong(key, *node, wanted);
   }

@@ -38,10 +38,8 @@ ssize_t write_plain(void* cookie, const char* data, std::size_t size) {
   return write_all(output.descriptor, plain_text(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-/// Never destroyed: standard streams are flushed after all other objects.
-std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
-  auto* const output = new PlainOutput{descriptor, {}};
-  std::FILE* const file = ::fopencookie(output, "w", {nullptr, write_plain, nullptr, nullptr});
+std::FILE* open_plain(PlainOutput& output, int buffering, std::ostream& stream) {
+  std::FILE* const file = ::fopencookie(&output, "w", {nullptr, write_plain, nullptr, nullptr});
   if (file != nullptr) {
     std::setvbuf(file, nullptr, buffering, BUFSIZ);
     stream.rdbuf(new __gnu_cxx::stdio_sync_filebuf<char>(file));  // As std::cout has for stdout.
@@ -52,13 +50,16 @@ std::FILE* open_plain(int descriptor, int buffering, std::ostream& stream) {
 /// Passes all output of std::cout, std::cerr, stdout and stderr through plain_text(), because
 /// programs print what they read. To be called before anything is printed.
 void make_standard_streams_plain() {
+  // Never destroyed: standard streams are flushed after all other objects.
+  static auto& output = *new PlainOutput{STDOUT_FILENO, {}};
+  static auto& errors = *new PlainOutput{STDERR_FILENO, {}};
   std::cout.flush();
   std::fflush(stdout);
   const int buffering = ::isatty(STDOUT_FILENO) == 1 ? _IOLBF : _IOFBF;
-  if (std::FILE* const file = open_plain(STDOUT_FILENO, buffering, std::cout)) {
+  if (std::FILE* const file = open_plain(output, buffering, std::cout)) {
     stdout = file;
   }
-  if (std::FILE* const file = open_plain(STDERR_FILENO, _IONBF, std::cerr)) {
+  if (std::FILE* const file = open_plain(errors, _IONBF, std::cerr)) {
     stderr = file;
   }
 }

@@ -29,8 +29,8 @@ constexpr int kRoundsPerStep = 8;
 /// And their tolerance: a fiftieth of a target's weight.
 constexpr double kToleranceOfStep = 0.02;
 
-/// Work to evaluate a pair, in evaluations of a mixture component, which are vectorised: about,
-/// since the limit of work is a count, not a time.
+/// Work to evaluate a pair, in evaluations of a mixture component. An estimate: the limit of the
+/// work is a count, not a time.
 constexpr std::int64_t kPairWork = 4;
 
 /// 2 pi N(e; C), given C^-1.

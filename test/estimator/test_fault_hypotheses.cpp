@@ -348,6 +348,15 @@ TEST_CASE("of two radars the late one is at fault: none is early") {
   CHECK(comparison.faults().cause(guilty).kind == FaultKind::late);
 }
 
+TEST_CASE("of two radars the one that is upside down is at fault, though both contradict") {
+  const Pose2 rear = GENERATE(kRearLeft, kRearRight);
+  Comparison comparison({kFront, rear});
+  comparison.drive(20.0, turned_over(0));
+  CHECK(comparison.faults().at_fault() == 1U);
+  CHECK(comparison.faults().cause(0).kind == FaultKind::upside_down);
+  CHECK_FALSE(comparison.faults().is_unknown());
+}
+
 TEST_CASE("two radars that look aside with each other's mounts are at fault") {
   Comparison comparison(kFive);
   comparison.drive(5.0, [](std::size_t radar, Comparison::Measured& measured) {

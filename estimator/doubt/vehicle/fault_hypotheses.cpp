@@ -25,12 +25,12 @@ constexpr double kMinGain = 25.0;
 /// still among those with which the others are compared.
 constexpr double kMaxChiSquareOfEpoch = 32.0;
 
-/// Least decrease with two radars, where no third one decides: healthy ones with 0.45 of their
-/// targets have 35.3 (105, unflagged), one that is 0.3 s late 39 to 43.
-constexpr double kMinGainOfTwo = 37.5;
-/// Of two radars one is late if its delay stays the same for a second. If another fault looks like
-/// a delay, that changes by a second in this time.
-constexpr std::size_t kEpochsOfLateness = 7;
+/// Least decrease by lateness of one of two radars, where no third one decides: healthy ones with
+/// 0.45 of their targets have 35.3 (105, unflagged), one that is 0.3 s late 39 to 43.
+constexpr double kMinGainOfLateness = 37.5;
+/// Of two radars one is at fault if the finding stays the same for a second. If another fault looks
+/// like a delay, that changes by a second in this time.
+constexpr std::size_t kEpochsOfTwo = 7;
 constexpr double kMaxChangeOfDelayS = 0.05;
 
 /// Radars whose speeds differ by less than this share have the same speed. A larger error of scale
@@ -166,6 +166,7 @@ void FaultHypotheses::judge() {
   const bool is_known = judged() == 0 || (best.radars != 0 && best.rivals == 0);
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
+    for_each(evidence_.present(), [&](std::size_t i) { begin_search(i); });
     allow_for_scale();
     return;
   }
@@ -176,6 +177,8 @@ void FaultHypotheses::judge() {
   if (is_known) {
     convict_by_cause(search_causes(best.radars & ~at_fault()));
     convict_late_others();
+  } else if (std::popcount(evidence_.present()) == 2 && at_fault() == 0) {
+    convict_by_cause(search_causes(evidence_.present()));
   }
 }
 
@@ -293,7 +296,8 @@ void FaultHypotheses::begin_search(std::size_t radar) {
 RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   RadarSet compared = 0;
   believed &= evidence_.present();
-  if (evidence_.sum(believed).chi_square() > kMaxChiSquareOfEpoch) {
+  if (std::popcount(evidence_.present()) > 2 &&
+      evidence_.sum(believed).chi_square() > kMaxChiSquareOfEpoch) {
     return compared;
   }
   for (std::size_t i = 0; i < causes_.size(); ++i) {
@@ -311,15 +315,20 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   return compared;
 }
 
-/// Of two radars one may be too fast or the other too slow, but if one seems late, the other is not
-/// early: a frame is not received before it was measured. The delay must last: after a change of
-/// scale a radar seems to be late by more and more.
-void FaultHypotheses::note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding) {
-  const double change_s = std::abs(finding.cause.value - lateness_.delay_s);
-  const bool is_late =
-      finding.is_clear && finding.cause.kind == FaultKind::late && finding.gain > kMinGainOfTwo;
-  const bool is_same = is_late && radar == lateness_.radar && change_s < kMaxChangeOfDelayS;
-  lateness_ = {radar, finding.cause.value, is_same ? lateness_.epochs + 1 : 0};
+/// Of two radars one may be too fast or the other too slow. But if one seems late, the other is not
+/// early: a frame is not received before it was measured. And if one seems upside down, the other
+/// does not, since they are mirrored about other axes: pairs of healthy ones have 9.3 at most (0103
+/// backwards). The finding must last: after a change of scale a radar seems to be late by more and
+/// more.
+void FaultHypotheses::note_finding_of_two(std::size_t radar,
+                                          const FaultCauseSearch::Finding& finding) {
+  const FaultCause& cause = finding.cause;
+  const bool is_decisive =
+      finding.is_clear && ((cause.kind == FaultKind::late && finding.gain > kMinGainOfLateness) ||
+                           (cause.kind == FaultKind::upside_down && finding.gain > kMinGain));
+  const bool is_same = is_decisive && radar == of_two_.radar && cause.kind == of_two_.cause.kind &&
+                       std::abs(cause.value - of_two_.cause.value) < kMaxChangeOfDelayS;
+  of_two_ = {radar, cause, is_same ? of_two_.epochs + 1 : 0};
 }
 
 /// Two of three radars that are late alike convict the third when the vehicle brakes. Against them
@@ -362,9 +371,9 @@ void FaultHypotheses::convict_by_cause(RadarSet compared) {
     }
   });
   const bool is_found = best.gain > 2.0 * next && is_grave(best.cause);
-  note_lateness(guilty, is_found ? best : FaultCauseSearch::Finding());
-  if (is_found && (std::popcount(evidence_.present() & ~at_fault()) > 2 ||
-                   lateness_.epochs >= kEpochsOfLateness)) {
+  note_finding_of_two(guilty, is_found ? best : FaultCauseSearch::Finding());
+  if (is_found &&
+      (std::popcount(evidence_.present() & ~at_fault()) > 2 || of_two_.epochs >= kEpochsOfTwo)) {
     convictions_.convict(guilty, evidence_.time_us());
   }
   const RadarSet aside = evidence_.witnesses();

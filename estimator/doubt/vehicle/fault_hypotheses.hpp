@@ -130,7 +130,7 @@ class FaultHypotheses {
   RadarSet search_causes(RadarSet believed);
   void convict_by_cause(RadarSet compared);
   void convict_late_others();
-  void note_lateness(std::size_t radar, const FaultCauseSearch::Finding& finding);
+  void note_finding_of_two(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;
   MotionEvidence evidence_;
@@ -138,13 +138,13 @@ class FaultHypotheses {
   std::vector<FaultCauseSearch> causes_;
   std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By own checks, by radar.
   RadarSet speed_open_ = 0;                                    // Likewise.
-  /// The radar that seems to be late, its delay, and for how many epochs that has been the same.
-  struct Lateness {
+  /// Which of two radars seems to be at fault, and for how many epochs that has been the same.
+  struct OfTwo {
     std::size_t radar = 0;
-    double delay_s = 0.0;
+    FaultCause cause;
     std::size_t epochs = 0;
   };
-  Lateness lateness_;
+  OfTwo of_two_;
   std::size_t unknown_epochs_ = 0;
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;

@@ -121,6 +121,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Real drives: a mount whose yaw was only estimated gets it, but no Doppler offset") {
+  Configuration configuration = configuration_of({"nuscenes-singapore.toml", {}});
+  for (RadarConfiguration& radar : configuration.radars) {
+    double& yaw_rad = radar.ego_motion.vehicle_from_radar.yaw_rad;
+    yaw_rad = std::round(yaw_rad / (90.0 * kRadPerDeg)) * 90.0 * kRadPerDeg;
+    radar.ego_motion.correction = DetectionCorrection();
+  }
+  const TemporaryFolder folder;
+  const std::string log = folder.file("can.log");
+  std::ofstream(log) << read_shared("data/nuscenes/scene-0061/can.log.xz");
+  const Calibration found = calibrate(configuration, {log}, nullptr);
+  for (const RadarCalibration& radar : found.radars) {
+    CHECK_FALSE(radar.is_changed[kOffset]);
+  }
+  CHECK(found.radars[3].is_changed[kYaw]);
+  CHECK(found.radars[4].is_changed[kYaw]);
+}
+
 TEST_CASE("Real drives: another sensor family needs no azimuth scale, and its car slips in bends") {
   const std::string drive = "data/radarscenes/sequence-105";
   const Calibration found =

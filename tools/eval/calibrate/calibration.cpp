@@ -96,13 +96,18 @@ std::vector<double> mount_yaw_stds(const Configuration& configuration) {
   return result;
 }
 
+double std_with(const SystematicErrors& errors, std::size_t state, double std) {
+  return state == kOffset ? std::hypot(std, errors.doppler_offset) : std;
+}
+
 /// Odometry depends most on the mount's yaw: an estimate replaces it as soon as its standard
 /// deviation reaches `yaw_std_rad`, that of the configured one.
-bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad) {
+bool is_better(const FittedRadar& radar, CalibrationState state, double yaw_std_rad,
+               const SystematicErrors& errors) {
   const double change = std::abs(radar.value[state] - radar.prior[state]);
   const bool is_good_yaw = state == kYaw && radar.std[kYaw] <= yaw_std_rad;
   return radar.prior_std[state] > 0.0 && radar.std[state] <= kWorstStd[state] &&
-         (is_good_yaw || change > kSignificant * radar.std[state]);
+         (is_good_yaw || change > kSignificant * std_with(errors, state, radar.std[state]));
 }
 
 /// A factor below one is ignored: a few large errors matter more than many small ones, and
@@ -182,6 +187,11 @@ class Calibrator {
   [[nodiscard]] Calibration result() const {
     Calibration result{
         .radars = radars_, .vehicle = fit_.vehicle(), .has_truth = has_truth_, .check = check_};
+    for (RadarCalibration& radar : result.radars) {
+      for (FittedRadar* fitted : {&radar.free, &radar.fit}) {
+        fitted->std[kOffset] = std_with(errors_, kOffset, fitted->std[kOffset]);
+      }
+    }
     result.vehicle.std[kSlip] = slip_std();
     result.is_slip_refused = is_slip_refused_;
     result.is_slip_changed = is_slip_checked_ && !is_slip_refused_ && is_slip_better();
@@ -297,7 +307,7 @@ class Calibrator {
     for (std::size_t i = 0; i < radars_.size(); ++i) {
       radars_[i].free = radars_[i].fit;
       for (const CalibrationState state : kTold) {
-        radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i));
+        radars_[i].is_changed[state] = is_better(radars_[i].free, state, yaw_std_rad(i), errors_);
       }
     }
   }
@@ -319,7 +329,7 @@ class Calibrator {
     for (std::size_t i = 0; i < radars_.size(); ++i) {
       for (const CalibrationState state : kTold) {
         bool& is_changed = radars_[i].is_changed[state];
-        if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i))) {
+        if (is_changed && !is_better(radars_[i].fit, state, yaw_std_rad(i), errors_)) {
           is_changed = false;
           is_dropped = true;
         }

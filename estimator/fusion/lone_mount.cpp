@@ -172,6 +172,13 @@ bool LoneMount::is_too_far(std::size_t radar) const {
                                      may_be_upside_down(radar, error_rad(radar)));
 }
 
+bool LoneMount::moves_sideways(std::size_t radar) const {
+  const Eigen::Vector2d velocity_mps = state_.radar_velocity(radar);
+  const double std_mps = std::abs(state_.mount(radar).x_m) * state_.gaussian.std(kYawRate);
+  return judges(radar) && std::abs(velocity_mps.y()) - kGateSigmas * std_mps >
+                              std::abs(velocity_mps.x()) + kMinDrivingMps;
+}
+
 FaultCause LoneMount::cause(std::size_t radar) const {
   const bool is_turned = state_.is_turned(radar);
   const double value_rad = is_turned ? error_rad(radar) : before_restart_rad_[radar];

@@ -62,7 +62,10 @@ class LoneMount {
   /// Turned so far that the linear model of the error does not hold, or upside down: the velocity
   /// is not known.
   [[nodiscard]] bool is_too_far(std::size_t radar) const;
-  /// Whether it is or was so when the odometry last started.
+  /// The radar moves sideways as only a vehicle does that turns about itself: its mount is turned by
+  /// more than is learned.
+  [[nodiscard]] bool moves_sideways(std::size_t radar) const;
+  /// Whether it is, or was when the odometry last started, too far off.
   [[nodiscard]] bool is_left_out(std::size_t radar) const {
     return is_too_far(radar) || before_restart_rad_[radar] != 0.0;
   }

@@ -94,6 +94,9 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     } else if (is_used && !state_.is_witness(radar) && !state_.is_alone_ahead(radar)) {
       lone_mount_.join();
     }
+    if (is_sideways(radar)) {
+      condition_.unsettle();
+    }
   }
   // 6. The output. Its condition is set before the anchor is renewed, which ends a segment that may
   // have the error of a wrong radar.
@@ -209,6 +212,11 @@ bool OdometryFilter::is_alone(std::size_t radar) const {
          state_.is_alone_ahead(radar) && lone_mount_.judges(radar);
 }
 
+/// A radar, the only one or one of those that look sideways, that moves as no vehicle does.
+bool OdometryFilter::is_sideways(std::size_t radar) const {
+  return state_.is_alone_ahead(radar) && lone_mount_.moves_sideways(radar);
+}
+
 /// The mount of the lone radar turned: the pose and the slip may have that error.
 bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
   const auto turn = lone_mount_.take_turn(radar);
@@ -307,7 +315,7 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
 std::uint32_t OdometryFilter::left_out() const {
   std::uint32_t turned = 0;
   for (std::size_t i = 0; i < state_.radars(); ++i) {
-    turned |= lone_mount_.is_left_out(i) ? set_of(i) : 0U;
+    turned |= lone_mount_.is_left_out(i) || is_sideways(i) ? set_of(i) : 0U;
   }
   return turned | consensus_.at_fault() |
          (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());

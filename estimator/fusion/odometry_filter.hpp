@@ -116,6 +116,7 @@ class OdometryFilter {
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
   [[nodiscard]] bool is_alone(std::size_t radar) const;
+  [[nodiscard]] bool is_sideways(std::size_t radar) const;
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);

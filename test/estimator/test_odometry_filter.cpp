@@ -375,6 +375,16 @@ TEST_CASE("a lone radar that turns too far to be learned is left out until it tu
   CHECK(drive.filter().report(0).cause.kind == FaultKind::unknown);
 }
 
+TEST_CASE("a radar that looks ahead, but not by its mount, does not turn the vehicle about itself") {
+  const double side = GENERATE(1.0, -1.0);
+  CAPTURE(side);
+  OdometryDrive drive({{kFront.x_m, 0.0, side * 1.56}}, 25);
+  drive.radar(0).mount.yaw_rad = 0.0;
+  drive.set_motion(2.0, 0.1);
+  CHECK(judge(drive, 8.0).usable_share == 0.0);
+  CHECK(drive.filter().report(0).is_left_out);
+}
+
 TEST_CASE("radars that join a lone one whose mount was learned agree with it, or judge it") {
   OdometryDrive drive({kFront, kRearLeft, kRearRight}, 25);
   const double turned_deg = GENERATE(6.0, 20.0);

@@ -62,8 +62,8 @@ class LoneMount {
   /// Turned so far that the linear model of the error does not hold, or upside down: the velocity
   /// is not known.
   [[nodiscard]] bool is_too_far(std::size_t radar) const;
-  /// The radar moves sideways as only a vehicle does that turns about itself: its mount is turned by
-  /// more than is learned.
+  /// The radar moves sideways as only a vehicle does that turns about itself: its mount is turned
+  /// by more than is learned.
   [[nodiscard]] bool moves_sideways(std::size_t radar) const;
   /// Whether it is, or was when the odometry last started, too far off.
   [[nodiscard]] bool is_left_out(std::size_t radar) const {

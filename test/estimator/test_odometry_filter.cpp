@@ -375,7 +375,7 @@ TEST_CASE("a lone radar that turns too far to be learned is left out until it tu
   CHECK(drive.filter().report(0).cause.kind == FaultKind::unknown);
 }
 
-TEST_CASE("a radar that looks ahead, but not by its mount, does not turn the vehicle about itself") {
+TEST_CASE("a radar whose mount says that it looks aside does not turn the vehicle about itself") {
   const double side = GENERATE(1.0, -1.0);
   CAPTURE(side);
   OdometryDrive drive({{kFront.x_m, 0.0, side * 1.56}}, 25);

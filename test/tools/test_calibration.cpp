@@ -96,6 +96,38 @@ TEST_CASE("mounts that are two degrees off are found again, without truth") {
   }
 }
 
+TEST_CASE("a yaw by which a radar moves sideways or backwards is found from any other") {
+  const RecordedDrive recorded("bends", 2, 40.0, true);
+  Configuration wrong = configuration_of(recorded.radars);
+  SECTION("all are said to look ahead") {
+    for (RadarConfiguration& radar : wrong.radars) {
+      radar.ego_motion.vehicle_from_radar.yaw_rad = 0.0;
+    }
+  }
+  SECTION("the only one is said to look to the left") {
+    wrong.radars.resize(1);
+    wrong.radars[0].ego_motion.vehicle_from_radar.yaw_rad += 1.4;
+  }
+  const Calibration calibration = calibrate(wrong, {recorded.log}, nullptr);
+  const Configuration found = calibrated(wrong, calibration);
+  for (std::size_t i = 0; i < found.radars.size(); ++i) {
+    const double off_deg = degrees_off(found.radars[i], recorded.radars[i]);
+    CAPTURE(found.radars[i].name, off_deg);
+    CHECK(off_deg < 1.0);
+  }
+  if (found.radars.size() == 1) {
+    CHECK(calibration.radars[0].turned_rad == Approx(-1.4).margin(0.1));
+  }
+}
+
+TEST_CASE("a vehicle that reverses does not turn its radars") {
+  const RecordedDrive recorded("reversing", 6, 40.0);
+  const Configuration configuration = configuration_of(recorded.radars);
+  for (const RadarCalibration& radar : calibrate(configuration, {recorded.log}, nullptr).radars) {
+    CHECK(radar.turned_rad == 0.0);
+  }
+}
+
 TEST_CASE("each fault of a radar shows in what is found for it, and in nothing else") {
   const RecordedDrive recorded("bends", 5, 60.0);
   Configuration wrong = configuration_of(recorded.radars);

@@ -75,7 +75,7 @@ void print_state(const RadarConfiguration& configured, const RadarCalibration& r
   }
   std::fprintf(stderr, "%10.*f +- %.*f  %s %.*f\n", column.decimals, number(fit.value[state]),
                column.decimals, std * column.unit, verdict(radar, state), column.decimals,
-               number(fit.prior[state]));
+               number(fit.prior[state] - (state == kYaw ? radar.turned_rad : 0.0)));
 }
 
 /// The factor is relative to the configured one; `after` is what the key gets.

@@ -9,9 +9,11 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Dense>
 
+#include "cremed/estimator/scan/median.hpp"
 #include "daemon/process/message_text.hpp"
 #include "tools/eval/calibrate/matched_turns.hpp"
 #include "tools/eval/drive/missing_time.hpp"
@@ -48,6 +50,44 @@ CalibrationVector configured(const RadarConfiguration& radar) {
   state[kX] = mount.x_m;
   state[kY] = mount.y_m;
   return state;
+}
+
+/// The direction in which the radar moves, from the x axis of the vehicle by this yaw of its mount;
+/// 0 if it hardly moves. Most of a drive is straight: the median over the scans.
+double direction_rad(const RecordedRadar& recorded, double mount_yaw_rad) {
+  std::vector<double> directions_rad;
+  for (const RecordedScan& scan : recorded.scans) {
+    const auto state = agreed_velocity(scan.targets);
+    if (state && state->head<2>().norm() > kSlowestMps) {
+      directions_rad.push_back(std::remainder(mount_yaw_rad + std::atan2((*state)[1], (*state)[0]),
+                                              2.0 * std::numbers::pi));
+    }
+  }
+  return median_or(0.0, directions_rad.begin(), directions_rad.end());
+}
+
+/// A radar that by its mount moves sideways, as none on a vehicle does, or backwards as few of them
+/// do, gets the yaw with which it moves ahead. The fit would take that for a turn of the vehicle
+/// about itself. If half of them move backwards, the vehicle does.
+Configuration turned_ahead(Configuration configuration,
+                           const std::vector<RecordedRadar>& recorded) {
+  std::vector<double> off_rad;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    off_rad.push_back(
+        direction_rad(recorded[i], configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad));
+  }
+  const auto is_back = [](double off) { return std::abs(off) > 0.75 * std::numbers::pi; };
+  const bool drives_back =
+      2 * static_cast<std::size_t>(std::ranges::count_if(off_rad, is_back)) >= recorded.size();
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    const bool is_wrong =
+        is_back(off_rad[i]) ? !drives_back : std::abs(off_rad[i]) > 0.25 * std::numbers::pi;
+    if (is_wrong) {
+      double& yaw_rad = configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad;
+      yaw_rad = std::remainder(yaw_rad - off_rad[i], 2.0 * std::numbers::pi);
+    }
+  }
+  return configuration;
 }
 
 bool has_rotation_lead(const RadarConfiguration& radar) {
@@ -144,12 +184,13 @@ void check_overlap(const std::vector<RecordedRadar>& recorded, const TrueTraject
 class Calibrator {
  public:
   Calibrator(const Configuration& configuration, const std::vector<std::string>& logs,
-             const TrueTrajectory* truth, const SystematicErrors& errors)
+             std::vector<RecordedRadar> recorded, const TrueTrajectory* truth,
+             const SystematicErrors& errors)
       : configuration_(configuration),
         logs_(logs),
         has_truth_(truth != nullptr),
         errors_(errors),
-        recorded_(record_drive(without_motions(configuration), logs).radars),
+        recorded_(std::move(recorded)),
         fit_(start(configuration, has_truth_, errors), vehicle_start(configuration, has_truth_),
              motion_prior(configuration)),
         radars_(configuration.radars.size()) {
@@ -409,12 +450,21 @@ class Calibrator {
 
 Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
                       const TrueTrajectory* truth, const SystematicErrors& errors) {
-  Calibrator calibrator(configuration, logs, truth, errors);
+  std::vector<RecordedRadar> recorded = record_drive(without_motions(configuration), logs).radars;
+  const Configuration ahead = turned_ahead(configuration, recorded);
+  Calibrator calibrator(ahead, logs, std::move(recorded), truth, errors);
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
   }
   calibrator.finish();
-  return calibrator.result();
+  Calibration result = calibrator.result();
+  for (std::size_t i = 0; i < result.radars.size(); ++i) {
+    RadarCalibration& radar = result.radars[i];
+    radar.turned_rad = ahead.radars[i].ego_motion.vehicle_from_radar.yaw_rad -
+                       configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad;
+    radar.is_changed[kYaw] = radar.is_changed[kYaw] || radar.turned_rad != 0.0;
+  }
+  return result;
 }
 
 double key_value(const RadarConfiguration& configured, CalibrationState state, double found) {

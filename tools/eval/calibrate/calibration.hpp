@@ -27,6 +27,8 @@ struct RadarCalibration {
   std::size_t scans = 0;
   std::size_t explained_scans = 0;  ///< While driving, by the motion of all radars.
   bool is_refused = false;          ///< What was found fits other parts of the drive no better.
+  /// Yaw of the fit's prior minus the configured one, if by that the radar did not move ahead.
+  double turned_rad = 0.0;
 };
 
 struct Calibration {

@@ -51,7 +51,8 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
       "cremed"};
   app.footer(kFirstSteps);
   app.set_version_flag("--version", "cremed " CREMED_VERSION);
-  app.add_option("--config", c.config, "Configuration (default: /etc/cremed/cremed.toml)");
+  app.add_option("--config", c.config, "Configuration (default: /etc/cremed/cremed.toml)")
+      ->type_name("FILE");
   std::string checked;
   const auto* check_config =
       app.add_option("--check-config", checked,
@@ -59,18 +60,25 @@ CommandLineResult parse_command_line(int argc, const char* const* argv) {
           ->expected(0, 1)
           ->type_name("[FILE]");
   app.add_option("--replay", c.replay, "candump log to replay, - for standard input; may repeat")
+      ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--speed", speed, "Speed of the replay: max, or a factor of real time")
+      ->type_name("FACTOR")
       ->capture_default_str();
   app.add_option("--state-file", c.state_file,
                  "File of the learned errors: read at the start, written at the end; live it "
-                 "overrides odometry.state_file, which a replay does not use");
-  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output");
-  app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV");
-  app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format");
+                 "overrides odometry.state_file, which a replay does not use")
+      ->type_name("FILE");
+  app.add_option("--output-csv", c.output_csv, "Write ego-motions as CSV; - for standard output")
+      ->type_name("FILE");
+  app.add_option("--output-odometry", c.output_odometry, "Write the vehicle's state as CSV")
+      ->type_name("FILE");
+  app.add_option("--output-tum", c.output_tum, "Write the trajectory in TUM format")
+      ->type_name("FILE");
   app.add_option("--lcm-url", c.lcm_url,
-                 "LCM URL, or none; overrides the configuration. A replay publishes only with it");
+                 "LCM URL, or none; overrides the configuration. A replay publishes only with it")
+      ->type_name("URL");
   app.add_flag("--publish-scans", c.publish_scans,
                "Publish each scan too, as output.publish_scans = true does");
   app.add_flag("--timing", c.timing,

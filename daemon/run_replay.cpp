@@ -116,7 +116,9 @@ void take_all(Replay& replay, Pipeline& pipeline, bool prints) {
   }
   while (pipeline.take_next(replay)) {
     if (progress && replay.counters().frames % kFramesPerStep == 0) {
-      progress->show(replay.share_read(), fmt::format("{:.1f} s", replay.traffic_s()));
+      progress->show(
+          replay.share_read(),
+          fmt::format("{} frames, {:.1f} s", replay.counters().frames, replay.traffic_s()));
     }
   }
 }

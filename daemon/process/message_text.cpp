@@ -49,7 +49,10 @@ std::string digits(double value) {
   return {text.data(), result.ptr};
 }
 
-std::string tenths(double value) { return fmt::format("{:.1f}", value); }
+std::string tenths(double value) {
+  std::string text = fmt::format("{:.1f}", value);
+  return text == "-0.0" ? "0.0" : text;
+}
 
 std::string number(std::uint64_t count) { return std::to_string(count); }
 

@@ -10,6 +10,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
+#include "daemon/process/clocks.hpp"
+
 namespace cremed {
 namespace {
 
@@ -26,10 +28,19 @@ std::string bar(double share) {
   return fmt::format(" [{:{}}] {:3} %", done, kWidth, static_cast<int>(100.0 * share));
 }
 
+/// ", 12 s left", if the rest takes as long as what is done; empty before anything is.
+std::string rest(double share, std::int64_t begin_us) {
+  const double taken_s = static_cast<double>(monotonic_us() - begin_us) * 1e-6;
+  return share > 0.0 ? fmt::format(", {:.0f} s left", taken_s * (1.0 - share) / share) : "";
+}
+
 }  // namespace
 
 ProgressBar::ProgressBar(std::string label, std::size_t total)
-    : label_(std::move(label)), total_(total), is_shown_(is_terminal()) {}
+    : label_(std::move(label)),
+      total_(total),
+      begin_us_(monotonic_us()),
+      is_shown_(is_terminal()) {}
 
 ProgressBar::~ProgressBar() {
   if (is_shown_) {
@@ -47,8 +58,8 @@ void ProgressBar::advance() {
 
 void ProgressBar::show(std::optional<double> share, const std::string& text) const {
   if (is_shown_) {
-    ::dprintf(STDERR_FILENO, "\r%s%s %s\033[K", label_.c_str(), share ? bar(*share).c_str() : "",
-              text.c_str());
+    ::dprintf(STDERR_FILENO, "\r%s%s %s%s\033[K", label_.c_str(), share ? bar(*share).c_str() : "",
+              text.c_str(), share ? rest(*share, begin_us_).c_str() : "");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -20,12 +21,14 @@ class ProgressBar {
 
   /// Adds one; callable from any thread.
   void advance();
-  /// Shows this share, 0 to 1, and a text behind it; without a share the text only.
+  /// Shows this share, 0 to 1, a text behind it and an estimate of the time left; without a share
+  /// the text only.
   void show(std::optional<double> share, const std::string& text = {}) const;
 
  private:
   std::string label_;
   std::size_t total_;
+  std::int64_t begin_us_;
   bool is_shown_;
   std::atomic<std::size_t> done_{0};
 };

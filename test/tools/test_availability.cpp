@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tools/eval/drive/missing_time.hpp"
 #include "tools/eval/drive/recorded_odometry.hpp"
 
 using namespace cremed;
@@ -52,4 +53,8 @@ TEST_CASE("Rows that come once a second make no pauses") {
 TEST_CASE("Without a row nothing is available") {
   CHECK(availability({}, {0, 1'000'000}).percent == 0.0);
   CHECK(availability({}, {0, 1'000'000}).without.size() == 1);
+}
+
+TEST_CASE("What lacks from the begin on is told without a sign") {
+  CHECK(told_spans({{980'000, 1'600'000}}, 1'000'000) == ", nothing from 0.0 s to 0.6 s");
 }

@@ -453,4 +453,10 @@ TEST_CASE("A picture that cannot be drawn is a line that says why") {
   CHECK(without.status == 1);
   CHECK_THAT(without.error, Catch::Contains("matplotlib is missing: install python3-matplotlib"));
   CHECK_THAT(without.error, !Catch::Contains("Traceback"));
+
+  std::filesystem::create_directory(folder.file("bin"));
+  const std::string alone = folder.file("bin/cremed-eval");
+  std::filesystem::copy_file(std::string(CREMED_BINARY_DIR) + "/bin/cremed-eval", alone);
+  check(run_program(alone, folder, drive + " --plot " + folder.file("picture.png")),
+        {"", 1, "apt-get install cremed-laboratory"});
 }

@@ -28,15 +28,19 @@ struct ToolRun {
   std::string error;
 };
 
-/// Runs a program of the build; its output is stored in files of the folder.
-inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
-                        const std::string& arguments) {
-  const std::string command = std::string(CREMED_BINARY_DIR)
-                                  .append("/bin/" + name + " " + arguments)
-                                  .append(" >" + folder.file("stdout"))
-                                  .append(" 2>" + folder.file("stderr"));
+/// Runs the program at this path; its output is stored in files of the folder.
+inline ToolRun run_program(const std::string& path, const TemporaryFolder& folder,
+                           const std::string& arguments) {
+  const std::string command =
+      path + " " + arguments + " >" + folder.file("stdout") + " 2>" + folder.file("stderr");
   const int status = std::system(command.c_str());
   return {WEXITSTATUS(status), content(folder.file("stdout")), content(folder.file("stderr"))};
+}
+
+/// Runs a program of the build.
+inline ToolRun run_tool(const std::string& name, const TemporaryFolder& folder,
+                        const std::string& arguments) {
+  return run_program(std::string(CREMED_BINARY_DIR) + "/bin/" + name, folder, arguments);
 }
 
 /// Cells of a printed table without its comments and column separators ("|").

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Programs of others; the project's are recognised by name and path.
-OTHERS = {"apt-get", "candump", "cmake", "cp", "cpack", "ctest", "evo_ape", "install", "ip", "journalctl",
-          "lcm-logger", "systemctl", "systemd-analyze"}
+OTHERS = {"apt-get", "candump", "cmake", "cp", "cpack", "ctest", "evo_ape", "find", "install", "ip", "journalctl",
+          "lcm-logger", "sbatch", "systemctl", "systemd-analyze"}
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
 """An LCM log of cremed as MCAP."""
+import contextlib
 import json
 import math
 import re
 import sys
 
 import cremed
+from foxglove_messages import SCHEMAS, drawn
 from mcap_writer import McapWriter
 from replaced_file import replaced_file
+from scene import RadarFrames
 
 # Those of several sources become a topic a source.
 TOPICS = {cremed.odometry_t: "CREMED_ODOMETRY", cremed.ego_motion_t: "CREMED_EGO_MOTION",
@@ -16,16 +19,17 @@ TOPICS = {cremed.odometry_t: "CREMED_ODOMETRY", cremed.ego_motion_t: "CREMED_EGO
 LATEST_US = (1 << 63) // 1000  # MCAP counts nanoseconds.
 JSON_TYPES = {bool: "boolean", int: "integer", float: "number", str: "string"}
 STATUS_NAMES = {kind: cremed.names_of(kind, "STATUS_") for kind in TOPICS}
+# Fields with a value a target.
+OF_TARGETS = {kind: [name for name, value in cremed.fields_of(kind()).items() if value == []] for kind in TOPICS}
 
 
 def schema_of(kind):
     """A number that is NaN, "none", is left out of a message: JSON has no NaN."""
     properties = {}
     for name, value in cremed.fields_of(kind()).items():
-        if isinstance(value, list):
-            item = JSON_TYPES[type(value[0])] if value else "number"
-            properties[name] = {"type": "array", "items": {"type": item}}
-        else:
+        if isinstance(value, list) and value:
+            properties[name] = {"type": "array", "items": {"type": JSON_TYPES[type(value[0])]}}
+        elif name not in OF_TARGETS[kind]:
             properties[name] = {"type": JSON_TYPES[type(value)]}
     if STATUS_NAMES[kind]:
         properties["status_name"] = {"type": "string"}
@@ -37,12 +41,17 @@ def is_number(value):
     return not any(isinstance(one, float) and not math.isfinite(one) for one in values)
 
 
+def encoded(content):
+    return json.dumps(content, allow_nan=False).encode()
+
+
 def as_json(message):
+    """Without the targets, which are drawn as points."""
     values = cremed.fields_of(message)
     if STATUS_NAMES[type(message)]:
         values["status_name"] = STATUS_NAMES[type(message)].get(message.status, "unknown")
     return {name: list(value) if isinstance(value, tuple) else value
-            for name, value in values.items() if is_number(value)}
+            for name, value in values.items() if is_number(value) and name not in OF_TARGETS[type(message)]}
 
 
 def topic_of(message):
@@ -52,9 +61,12 @@ def topic_of(message):
 
 
 class JsonProfile:
-    """All fields of all messages: (topic, type, bytes) of a message."""
+    """All fields of all messages, and what Foxglove draws of them: (topic, type, bytes) of a message."""
     name, encoding, schema_encoding = "", "json", "jsonschema"
     missing = ""  # What is not in the log.
+
+    def __init__(self):
+        self.frames = RadarFrames()
 
     @staticmethod
     def left_out():
@@ -62,12 +74,14 @@ class JsonProfile:
 
     @staticmethod
     def schema(kind):
-        name, schema = schema_of(kind)
+        name, schema = (kind, SCHEMAS[kind]) if kind in SCHEMAS else schema_of(kind)
         return name, json.dumps(schema)
 
-    @staticmethod
-    def records(message):
-        return [(topic_of(message), type(message), json.dumps(as_json(message), allow_nan=False).encode())]
+    def records(self, message):
+        records = [(topic_of(message), type(message), encoded(as_json(message)))]
+        with contextlib.suppress(ValueError):  # Of a damaged log: a pose that is not finite is not drawn.
+            records += [(topic, kind, encoded(content)) for topic, kind, content in drawn(message, self.frames)]
+        return records
 
 
 def each_once(heard_messages):

@@ -7,12 +7,8 @@ import io
 import pathlib
 
 import cremed
-from lcm_to_mcap import STATUS_NAMES, each_once, topic_of
+from lcm_to_mcap import OF_TARGETS, STATUS_NAMES, each_once, topic_of
 from replaced_file import replaced_file
-
-
-def is_list_of_targets(value):
-    return isinstance(value, list) and not value
 
 
 def columns_of(kind):
@@ -21,7 +17,7 @@ def columns_of(kind):
     scalars = [(name, name, None) for name, value in fields if not isinstance(value, list)]
     arrays = [(f"{name}_{i}", name, i) for name, value in fields if isinstance(value, list)
               for i in range(len(value))]
-    return scalars + arrays, [name for name, value in fields if is_list_of_targets(value)]
+    return scalars + arrays, OF_TARGETS[kind]
 
 
 class Table:

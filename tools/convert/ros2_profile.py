@@ -1,14 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cremed authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""cremed's messages as those of ROS 2. Frames as REP 105 has them: odom, base_link (the centre of the
-rear axle), and one a radar."""
-import itertools
+"""cremed's messages as those of ROS 2."""
 import math
-import re
-import struct
 
 import cremed
 from cdr import Definitions
+from scene import BASE, ODOM, POINT, POINT_FIELDS, USABLE, RadarFrames, mount_of, points_of, pose_of
 
 DEFINITIONS = Definitions({
     "builtin_interfaces/Time": "int32 sec\nuint32 nanosec\n",
@@ -40,21 +37,14 @@ DEFINITIONS = Definitions({
 })
 OK, WARN, ERROR, STALE = range(4)
 SILENT_S = 1.0  # After that what was said last is no longer the state.
-ODOM, BASE = "odom", "base_link"
 # Variance of z, roll and pitch, which are not estimated; as cremed's own nav_msgs.Odometry.
 UNKNOWN_VARIANCE = 1e6
 LATEST_US = (1 << 31) * 1_000_000 - 1  # builtin_interfaces/Time has an int32 of seconds.
 X_Y_YAW = (0, 1, 5)  # Of x, y, z, roll, pitch, yaw.
-UINT8, UINT16, FLOAT32 = 2, 4, 7
-POINT = struct.Struct("<8fHBx")
-POINT_FIELDS = [("x", 0, FLOAT32), ("y", 4, FLOAT32), ("z", 8, FLOAT32), ("doppler_mps", 12, FLOAT32),
-                ("rcs_dbm2", 16, FLOAT32), ("range_std_m", 20, FLOAT32), ("azimuth_std_rad", 24, FLOAT32),
-                ("doppler_std_mps", 28, FLOAT32), ("id", 32, UINT16), ("validity", 34, UINT8)]
+NUMERIC_TYPES = {"B": 2, "H": 4, "f": 7}  # Of sensor_msgs/PointField.
 # odometry_t.STATUS_* that can be used; of the others a filter would take a guess for a measurement.
 LEVELS = {cremed.odometry_t.STATUS_OK: OK, cremed.odometry_t.STATUS_STANDING_STILL: OK,
           cremed.odometry_t.STATUS_PREDICTED: WARN, cremed.odometry_t.STATUS_INITIALISING: WARN}
-USABLE = (cremed.odometry_t.STATUS_OK, cremed.odometry_t.STATUS_STANDING_STILL,
-          cremed.odometry_t.STATUS_PREDICTED)
 
 
 def names_of(kind, prefix):
@@ -103,13 +93,9 @@ def transform(utime, frame, child, x, y, yaw):
 
 
 def cloud(scan, frame):
-    targets = zip(scan.range_m, scan.azimuth_rad, scan.doppler_mps, scan.rcs_dbm2, scan.range_std_m,
-                  scan.azimuth_std_rad, scan.doppler_std_mps, scan.id, scan.validity)
-    data = b"".join(POINT.pack(length * math.cos(azimuth), length * math.sin(azimuth), 0.0, *others[:-2],
-                               others[-2] & 0xFFFF, others[-1] & 0xFF)
-                    for length, azimuth, *others in targets)
+    data = points_of(scan)
     return {"header": header(scan.utime, frame), "height": 1, "width": scan.num_detections,
-            "fields": [{"name": name, "offset": offset, "datatype": kind, "count": 1}
+            "fields": [{"name": name, "offset": offset, "datatype": NUMERIC_TYPES[kind], "count": 1}
                        for name, offset, kind in POINT_FIELDS],
             "point_step": POINT.size, "row_step": len(data), "data": data, "is_dense": all(map(math.isfinite, (*scan.range_m, *scan.azimuth_rad)))}
 
@@ -146,7 +132,7 @@ class Ros2Profile:
     def __init__(self):
         self.status = self.status_us = None  # Of the odometry, and its time.
         self.too_late = self.damaged = 0  # Messages that are left out.
-        self.frames = {}    # By radar.
+        self.frames = RadarFrames()
         self.missing = ("has no scans, so there is no /radar_NAME/points: record with output.publish_scans = true, or "
                         "with `cremed --publish-scans`")
         self.take = {cremed.odometry_t: self.of_odometry, cremed.radar_scan_t: self.of_scan,
@@ -186,27 +172,16 @@ class Ros2Profile:
             found.append(("/diagnostics", "diagnostic_msgs/DiagnosticArray",
                           {"header": header(message.utime, ""), "status": [self.odometry_status(message.utime)]}))
         if message.status in USABLE:
-            pose = message.x_in_odom_frame_m, message.y_in_odom_frame_m, message.yaw_in_odom_frame_rad
             found.append(("/odom", "nav_msgs/Odometry", odometry(message)))
-            found.append(("/tf", "tf2_msgs/TFMessage", transform(message.utime, ODOM, BASE, *pose)))
+            found.append(("/tf", "tf2_msgs/TFMessage", transform(message.utime, ODOM, BASE, *pose_of(message))))
         return found
-
-    def frame_of(self, radar):
-        """Of what a topic of ROS may have; names that are the same in that get a number."""
-        if radar not in self.frames:
-            name = "radar_" + re.sub(r"\W", "_", radar.lower(), flags=re.ASCII)
-            numbered = (f"{name}_{number}" for number in itertools.count(2))
-            self.frames[radar] = next(one for one in itertools.chain([name], numbered) if one not in self.frames.values())
-        return self.frames[radar]
 
     def of_scan(self, message):
         """With its mount: /tf_static is lost on who joins late, where a player does not know that it must last."""
         self.missing = ""
-        mount = (message.mount_x_in_vehicle_frame_m, message.mount_y_in_vehicle_frame_m,
-                 message.mount_yaw_in_vehicle_frame_rad)
-        frame = self.frame_of(message.source)
+        frame = self.frames.of(message.source)
         return [(f"/{frame}/points", "sensor_msgs/PointCloud2", cloud(message, frame)),
-                ("/tf", "tf2_msgs/TFMessage", transform(message.utime, BASE, frame, *mount))]
+                ("/tf", "tf2_msgs/TFMessage", transform(message.utime, BASE, frame, *mount_of(message)))]
 
     def of_status(self, message):
         statuses = [radar_status(message)]

@@ -198,14 +198,20 @@ class Dump {
 int run(CLI::App& app, int argc, char** argv) {
   Arguments arguments;
   app.footer(
-      "Example, what a bus says now, as JSON:\n"
-      "  candump -L can0 | cremed-dump - --json");
+      "Examples:\n"
+      "  What a bus says now, as JSON.\n"
+      "    $ candump -L can0 | cremed-dump - --json\n"
+      "\n"
+      "Files:\n"
+      "  /etc/cremed/cremed.toml     Configuration of the service");
   app.add_option("LOG", arguments.log, "Log of `candump -L` or `-l`; - for standard input")
+      ->type_name("FILE")
       ->required();
   app.add_option("--config", arguments.config,
                  "Configuration (default: /etc/cremed/cremed.toml; if that names no radar, all "
-                 "that are recognised in the log)");
-  app.add_option("--radar", arguments.radar, "Only the radar of this name");
+                 "that are recognised in the log)")
+      ->type_name("FILE");
+  app.add_option("--radar", arguments.radar, "Only the radar of this name")->type_name("NAME");
   app.add_flag("--json", arguments.is_json, "One JSON object a line");
   app.add_flag("--no-targets", arguments.without_targets, "Scans without their targets");
   app.parse(argc, argv);

@@ -23,12 +23,22 @@ constexpr const char* kLaboratory = "cremed-laboratory";
 CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
   CLI::App* command = app.add_subcommand(
       "calibrate", "Mounts, offsets and noise of the radars from a recorded drive, as TOML");
-  command->add_option("LOG", arguments.logs, "Candump logs, merged by time")->required();
-  command->add_option("--config", arguments.config, "Configuration to start from")->required();
-  command->add_option("--truth", arguments.truth,
-                      "CSV: utime,x_m,y_m,yaw_rad; mounts are then in its frame");
+  command->add_option("LOG", arguments.logs, "Candump logs, merged by time")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--config", arguments.config, "Configuration to start from")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--truth", arguments.truth,
+                   "CSV: utime,x_m,y_m,yaw_rad; mounts are then in its frame")
+      ->type_name("FILE");
   command->add_flag("--write", arguments.write,
                     "Also change the configuration, where the drive gives better values");
+  command->footer(
+      "Examples:\n"
+      "  A configuration and what a drive would change in it; --write changes it.\n"
+      "    $ cremed-eval calibrate candump.log --config my.toml > calibrated.toml");
   return command;
 }
 

@@ -19,12 +19,16 @@
 namespace cremed {
 namespace {
 
-/// Of the laboratory, installed beside cremed-eval or in its source tree.
+/// As installed, and in a build.
 std::filesystem::path script_path(const std::string& script) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  auto installed = program.parent_path().parent_path() / "share/cremed" / script;
-  return std::filesystem::exists(installed) ? installed
-                                            : std::filesystem::path(CREMED_PLOT_SCRIPTS) / script;
+  auto path = program.parent_path().parent_path() / "share/cremed" / script;
+  if (!std::filesystem::exists(path)) {
+    throw std::runtime_error(
+        "what draws pictures is not installed: "
+        "apt-get install cremed-laboratory");
+  }
+  return path;
 }
 
 /// Holds SIGINT back, of which Python would tell with a traceback while it starts; plotting.py
@@ -53,8 +57,7 @@ void run_script(std::vector<std::string> command, const std::string& picture) {
   arguments.push_back(nullptr);
   pid_t child = 0;
   if (const int error = start_script(arguments, child); error != 0) {
-    throw std::runtime_error("cannot run " + command[0] +
-                             ", of cremed-laboratory: " + std::strerror(error));
+    throw std::runtime_error("cannot run " + command[0] + ": " + std::strerror(error));
   }
   int status = 0;
   if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {

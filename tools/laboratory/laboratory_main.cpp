@@ -101,17 +101,22 @@ int run_pairs(const PairsArguments& arguments) {
 CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
   cremed::PaperTableOptions& options = arguments.options;
   CLI::App* command = app.add_subcommand("table", "The paper's problems: its figures and ours");
+  command->footer(
+      "Examples:\n"
+      "  All problems, fewer times than in the paper.\n"
+      "    $ cremed-eval table --sets 10 --runs 100 --plot table.png");
   CLI::Option* real = command->add_option(
       "--real", arguments.real,
       "Folder with drives from cremed-convert nuscenes: the paper's real problems in place of the "
       "simulated ones, with a simulated mobile robot");
+  real->type_name("FOLDER");
   cremed::add_truth_std(*command, arguments.truth_noise)->needs(real);
   CLI::Option* drives =
       command->add_option("--drives", arguments.drives,
                           "Folder with the project's recorded drives: the tables of them in "
                           "tools/eval/README.md, from the odometry "
                           "with the configurations in config/; run in the project's folder");
-  drives->excludes(real);
+  drives->type_name("FOLDER")->excludes(real);
   command->add_flag("--write", arguments.write, "Write these tables there")->needs(drives);
   command->add_option("--sets", options.sets, "Sets of landmarks (as the paper: 100, Sim 50)")
       ->excludes(drives)
@@ -126,6 +131,7 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--plot", arguments.plot, "Draw figures, NEES and costs (PNG, SVG)")
+      ->type_name("FILE")
       ->check(cremed::picture_problem)
       ->excludes(drives)
       ->excludes(real);
@@ -135,24 +141,35 @@ CLI::App* add_table(CLI::App& app, TableArguments& arguments) {
 
 CLI::App* add_pairs(CLI::App& app, PairsArguments& arguments) {
   CLI::App* command = app.add_subcommand("pairs", "Register pairs of scans with known truth");
-  command->add_option("FILE", arguments.file, "Pairs as text, - for standard input")->required();
+  command->footer(
+      "Examples:\n"
+      "  With the paper's likelihood.\n"
+      "    $ cremed-eval pairs pairs.txt --profile psr --doppler --likelihood max_sum_mixture");
+  command->add_option("FILE", arguments.file, "Pairs as text, - for standard input")
+      ->type_name("")
+      ->required();
   command->add_option("--profile", arguments.profile, "Settings: psr, sim, nuscenes or robot")
+      ->type_name("NAME")
       ->required()
       ->check(CLI::IsMember({"psr", "sim", "nuscenes", "robot"}));
   command->add_flag("--doppler", arguments.doppler, "Use Doppler");
   command
       ->add_option("--method", arguments.method,
                    "msm (Max-Sum-Mixture), sa (summing approximation) or icp (without Doppler)")
+      ->type_name("NAME")
       ->check(CLI::IsMember({"msm", "sa", "icp"}));
   command
       ->add_option("--likelihood", arguments.likelihood,
                    "Of msm: exclusive (one partner per target) or max_sum_mixture (the paper's)")
+      ->type_name("NAME")
       ->check(CLI::IsMember({"exclusive", "max_sum_mixture"}))
       ->capture_default_str();
-  command->add_option("--output", arguments.output, "Write each pair's result as CSV");
+  command->add_option("--output", arguments.output, "Write each pair's result as CSV")
+      ->type_name("FILE");
   command
       ->add_option("--plot", arguments.plot,
                    "Draw the number of targets with a partner by the true motion (PNG, SVG)")
+      ->type_name("FILE")
       ->check(cremed::picture_problem);
   command->add_flag("--json", arguments.as_json, "Print the figures as JSON");
   return command;

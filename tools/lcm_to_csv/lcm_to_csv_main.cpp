@@ -61,11 +61,17 @@ bool report(const Arguments& arguments, const cremed::LcmLogCounters& counters) 
 }
 
 int run(CLI::App& app, int argc, char** argv) {
+  app.footer(
+      "Examples:\n"
+      "  Both tables of what lcm-logger recorded.\n"
+      "    $ cremed-lcm-to-csv heard.lcm --output motions.csv --odometry state.csv");
   Arguments arguments;
-  app.add_option("LOG", arguments.log, "Log of lcm-logger")->required();
+  app.add_option("LOG", arguments.log, "Log of lcm-logger")->type_name("FILE")->required();
   app.add_option("--output", arguments.output, "CSV file of the ego-motions; '-': standard output")
+      ->type_name("FILE")
       ->capture_default_str();
-  app.add_option("--odometry", arguments.odometry, "CSV file of the vehicle's state");
+  app.add_option("--odometry", arguments.odometry, "CSV file of the vehicle's state")
+      ->type_name("FILE");
   app.parse(argc, argv);
   cremed::refuse_aliases({{"LOG", arguments.log}},
                          {{"--output", arguments.output}, {"--odometry", arguments.odometry}});

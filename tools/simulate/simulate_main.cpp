@@ -32,15 +32,28 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
+  app.footer(
+      "Examples:\n"
+      "  Forty seconds of bends, and their odometry.\n"
+      "    $ CONFIG=/usr/share/cremed/config/demo.toml\n"
+      "    $ cremed-simulate --scenario bends --duration 40 --config $CONFIG --output bends.log\n"
+      "    $ cremed --config $CONFIG --replay bends.log --output-odometry state.csv\n"
+      "\n"
+      "Files:\n"
+      "  /usr/share/cremed/config/demo.toml  An ARS408 in front and a Bosch GPR at the rear");
   app.add_option("--scenario", arguments.scenario, "Drive to simulate; 'list' prints all")
+      ->type_name("NAME")
       ->required();
-  app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output");
-  app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV");
+  app.add_option("--output", arguments.output, "CAN frames as candump text; '-': standard output")
+      ->type_name("FILE");
+  app.add_option("--truth", arguments.truth, "True poses of the rear axle as CSV")
+      ->type_name("FILE");
   app.add_option(
-      "--config", arguments.config,
-      "Configuration of cremed with the radars to simulate, and the vehicle bus if it has "
-      "[vehicle]; default: an ARS408 in front on can0 and a Bosch GPR at the rear on "
-      "can1");
+         "--config", arguments.config,
+         "Configuration of cremed with the radars to simulate, and the vehicle bus if it has "
+         "[vehicle]; default: an ARS408 in front on can0 and a Bosch GPR at the rear on "
+         "can1")
+      ->type_name("FILE");
   app.add_option("--seed", arguments.options.seed, "Same seed, same bytes")->capture_default_str();
   app.add_option("--duration", arguments.options.duration_s,
                  "Seconds to drive; default: the scenario's")

@@ -86,6 +86,10 @@ int show(Hearing& hearing) {
 }
 
 int run(CLI::App& app, int argc, char** argv) {
+  app.footer(
+      "Examples:\n"
+      "  What lcm-logger recorded, once through.\n"
+      "    $ cremed-top --lcm-url file://heard.lcm");
   std::string url;
   bool is_once = false;
   cremed::add_lcm_url(app, url);

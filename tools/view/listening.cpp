@@ -26,7 +26,8 @@ void add_lcm_url(CLI::App& app, std::string& url) {
   url = named != nullptr ? named : OutputConfiguration{}.lcm_url;
   app.add_option("--lcm-url", url,
                  "Where to listen (default: $LCM_DEFAULT_URL, or LCM's default group); "
-                 "file://LOG plays a log of lcm-logger");
+                 "file://LOG plays a log of lcm-logger")
+      ->type_name("URL");
 }
 
 void require_audible(const std::string& url) {

@@ -66,10 +66,17 @@ int show(const Arguments& arguments) {
 }
 
 int run(CLI::App& app, int argc, char** argv) {
+  app.footer(
+      "Examples:\n"
+      "  Of a vehicle without a screen, for a browser on another computer.\n"
+      "    $ cremed-view --address 0.0.0.0\n"
+      "  What lcm-logger recorded.\n"
+      "    $ cremed-view --lcm-url file://heard.lcm");
   Arguments arguments;
   cremed::add_lcm_url(app, arguments.lcm_url);
   app.add_option("--address", arguments.address.host,
                  "Address to serve on; 0.0.0.0: whoever reaches this computer may look")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   app.add_option("--port", arguments.address.port, "Port to serve on; 0: any that is free")
       ->check(CLI::Range(0, kHighestPort))

@@ -5,6 +5,7 @@
 // checksums; prints what it found as JSON: read_mcap.mjs FILE
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { parse } from "@foxglove/rosmsg";
+import * as schemas from "@foxglove/schemas/jsonschema.js";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { readFile } from "node:fs/promises";
 
@@ -18,15 +19,32 @@ const messages = [];
 const decoders = new Map();
 const text = (data) => new TextDecoder().decode(data);
 
-function decoderOf({ encoding, data }) {
-  if (encoding === "jsonschema") return (bytes) => JSON.parse(text(bytes));
+// Of a schema with a name of Foxglove's: what differs from theirs, of which it has the required part at least.
+function difference(ours, theirs, path) {
+  for (const key of ["type", "title", "contentEncoding"])
+    if (ours[key] !== undefined && theirs[key] !== undefined && ours[key] !== theirs[key]) return `${path}: ${key}`;
+  if (theirs.contentEncoding !== ours.contentEncoding) return `${path}: contentEncoding`;
+  if (theirs.items) return difference(ours.items ?? {}, theirs.items, `${path}[]`);
+  for (const name of theirs.required ?? []) if (!ours.properties?.[name]) return `${path}: no ${name}`;
+  for (const [name, inner] of Object.entries(ours.properties ?? {})) {
+    const found = theirs.properties?.[name] ? difference(inner, theirs.properties[name], `${path}.${name}`) : `${path}: ${name}`;
+    if (found) return found;
+  }
+}
+
+function decoderOf({ name, encoding, data }) {
+  if (encoding === "jsonschema") {
+    const found = name.startsWith("foxglove.") && difference(JSON.parse(text(data)), schemas[name.slice(9)], name);
+    if (found) throw new Error(`not Foxglove's schema: ${found}`);
+    return (bytes) => JSON.parse(text(bytes));
+  }
   const ros2 = new MessageReader(parse(text(data), { ros2: true }));
   return (bytes) => ros2.readMessage(bytes);
 }
 
 // Typed arrays as arrays; times as they are named in ROS 2.
 const plain = (_, value) => ArrayBuffer.isView(value) ? [...value]
-  : value?.nsec !== undefined ? { sec: value.sec, nanosec: value.nsec } : value;
+  : profile === "ros2" && value?.nsec !== undefined ? { sec: value.sec, nanosec: value.nsec } : value;
 
 for await (const message of reader.readMessages()) {
   const channel = reader.channelsById.get(message.channelId);

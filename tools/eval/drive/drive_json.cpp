@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/eval/drive/trajectory_error.hpp"
+
 namespace cremed {
 namespace {
 
@@ -71,6 +73,10 @@ Json to_json(const RelativePoseStd& std) {
       {"x_m", std.x_m}, {"y_m", std.y_m}, {"yaw_rad", std.yaw_rad}, {"interval_s", std.interval_s}};
 }
 
+Json to_json(const TrajectoryError& error) {
+  return {{"from_begin_m", error.from_begin_m}, {"aligned_m", error.aligned_m}};
+}
+
 Json to_json(const SourceEvaluation& source);
 
 template <typename Row>
@@ -89,6 +95,7 @@ Json to_json(const SourceEvaluation& source) {
                {"without_estimate", source.without_estimate},
                {"outside_truth", source.outside_truth},
                {"gaps", source.path.empty() ? 0 : source.path.back().gaps},
+               {"trajectory_error", to_json(trajectory_error(source.path))},
                {"drift", rows_json(source.drift)},
                {"mean_drift", to_json(mean_drift(source.drift))},
                {"segments", rows_json(source.segments)}});

@@ -40,10 +40,11 @@ RelativePoseStd relative_pose_std(const std::string& text) {
 
 /// Options of the second reference and of the accuracy of both.
 void add_references(CLI::App& command, DriveFiles& files) {
-  command.add_option(
-      "--wheels", files.wheels,
-      "CSV: utime,speed_mps,yaw_rate_radps; compares x and yaw with it and splits NEES "
-      "into the errors of the estimate and of truth");
+  command
+      .add_option("--wheels", files.wheels,
+                  "CSV: utime,speed_mps,yaw_rate_radps; compares x and yaw with it and splits NEES "
+                  "into the errors of the estimate and of truth")
+      ->type_name("FILE");
   command
       .add_option_function<std::string>(
           "--wheels-std",
@@ -77,37 +78,55 @@ CLI::Option* add_truth_std(CLI::App& command, TruthNoise& noise) {
 
 void add_drive(CLI::App& app, DriveFiles& files) {
   CLI::App* command = app.add_subcommand("drive", "Compare the odometry of a drive with truth");
+  command->footer(
+      "Examples:\n"
+      "  The vehicle's state in a recorded drive against truth, as tables and as a picture.\n"
+      "    $ cremed --config my.toml --replay candump.log --output-odometry state.csv\n"
+      "    $ cremed-eval drive state.csv truth.csv --plot drive.png");
   command
       ->add_option("ODOMETRY", files.odometry,
                    "CSV that cremed wrote: motions (--output-csv) or the vehicle's state "
                    "(--output-odometry)")
+      ->type_name("FILE")
       ->required();
-  command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")->required();
+  command->add_option("TRUTH", files.truth, "CSV: utime,x_m,y_m,yaw_rad")
+      ->type_name("FILE")
+      ->required();
   add_references(*command, files);
   add_truth_std(*command, files.truth_noise);
   auto* logs = command->add_option("--baselines", files.baselines,
                                    "candump log of the drive, for other methods: Kellner's "
                                    "velocity by Doppler and a submap of scans matched by NDT "
                                    "(Kung et al.); may repeat");
-  auto* config = command->add_option("--config", files.config, "Configuration of its radars");
-  logs->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->needs(config);
+  auto* config = command->add_option("--config", files.config, "Configuration of its radars")
+                     ->type_name("FILE");
+  logs->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs(config);
   config->needs(logs);
   command
       ->add_option("--other", files.others,
                    "Trajectory of another system to compare: FILE in TUM format (x forward, y "
                    "left), or FILE,TIMES in KITTI's (a camera's axes), of the rear axle's centre; "
                    "may repeat")
+      ->type_name("FILE[,TIMES]")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--json", files.as_json, "Print one JSON object instead of the tables");
   command
       ->add_option("--plot", files.plot,
                    "Draw trajectories, drift, errors and NEES of each source (PNG, SVG)")
+      ->type_name("FILE")
       ->check(picture_problem);
-  command->add_option("--tables", files.tables,
-                      "Write what --plot draws as CSV files into this folder");
-  command->add_option("--truth-tum", files.truth_tum,
-                      "Write truth at the times of the estimates in TUM format, for evo");
+  command
+      ->add_option("--tables", files.tables,
+                   "Write what --plot draws as CSV files into this folder")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--truth-tum", files.truth_tum,
+                   "Write truth at the times of the estimates in TUM format, for evo")
+      ->type_name("FILE");
 }
 
 }  // namespace cremed

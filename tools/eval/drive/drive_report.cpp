@@ -9,6 +9,7 @@
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/output/tum_writer.hpp"
 #include "tools/eval/chi_square.hpp"
+#include "tools/eval/drive/trajectory_error.hpp"
 #include "tools/eval/report_file.hpp"
 
 namespace cremed {
@@ -110,6 +111,13 @@ void print_drive(std::FILE* file, const std::vector<SourceEvaluation>& sources,
   for (const SourceEvaluation& source : sources) {
     fmt::print(file, "# {:<15} a usable estimate for {} % of the drive\n", source.source,
                text(source.availability.percent, 1));
+  }
+  for (const SourceEvaluation& source : sources) {
+    const TrajectoryError error = trajectory_error(source.path);
+    fmt::print(file,
+               "# {:<15} distance of its path from truth, RMS: {} m where it begins at truth, {} m "
+               "aligned with all of it\n",
+               source.source, text(error.from_begin_m, 3), text(error.aligned_m, 3));
   }
   fmt::print(file, "# drift over segments of the true path, mean of all segments (KITTI)\n# {:<24}",
              "");

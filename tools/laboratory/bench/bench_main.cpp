@@ -46,14 +46,21 @@ void register_all(const Arguments& arguments) {
 }
 
 int run(CLI::App& app, int argc, char** argv) {
+  app.footer(
+      "Examples:\n"
+      "  Of a simulated pair only.\n"
+      "    $ cremed-bench --benchmark_filter=pair/PSR");
   app.allow_extras();
   Arguments arguments;
-  app.add_option("--pairs", arguments.pairs, "Recorded pairs to register too (several scans)");
+  app.add_option("--pairs", arguments.pairs, "Recorded pairs to register too (several scans)")
+      ->type_name("FILE");
   app.add_option("--profile", arguments.profile, "Their settings: psr, sim or nuscenes")
+      ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"psr", "sim", "nuscenes"}));
   app.add_option("--likelihood", arguments.likelihood,
                  "exclusive, or max_sum_mixture (the paper's)")
+      ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"exclusive", "max_sum_mixture"}));
   app.parse(argc, argv);

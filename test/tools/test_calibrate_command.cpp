@@ -80,7 +80,7 @@ TEST_CASE("cremed-eval calibrate shows the numbers that the keys get") {
   };
   const std::string wrong = configuration(
       "wrong.toml",
-      "calibration = { doppler_offset_mps = 0.5, rotation_lead_s = 0.1, azimuth_scale = 1.05, "
+      "calibration = { doppler_offset_mps = 0.7, rotation_lead_s = 0.1, azimuth_scale = 1.05, "
       "doppler_std_factor = 0.5, doppler_scale = 0.97 }\n");
   const std::string log = simulate_log(folder, configuration("right.toml", ""), 40);
   const ToolRun result = run_tool("cremed-eval", folder, "calibrate " + log + " --config " + wrong);
@@ -88,7 +88,7 @@ TEST_CASE("cremed-eval calibrate shows the numbers that the keys get") {
   REQUIRE(result.status == 0);
   const Configuration found = parse_configuration(content(wrong) + result.output, "calibrated");
   const DetectionCorrection& front = found.radars.at(0).ego_motion.correction;
-  CHECK(front.doppler_offset_mps != 0.5);
+  CHECK(front.doppler_offset_mps != 0.7);
   CHECK(in_table(result.error, "Doppler offset m/s") ==
         Approx(front.doppler_offset_mps).margin(6e-4));
   CHECK(front.rotation_lead_s != 0.1);

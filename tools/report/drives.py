@@ -7,12 +7,14 @@ import json
 import multiprocessing
 import os
 import pathlib
+import re
 import signal
 import sys
 from dataclasses import dataclass, field
 
 import main_program
 import findings
+import truth_findings
 from drive_report import DriveReport
 from heard_drive import HeardDrive
 from index_page import Row, index
@@ -23,6 +25,11 @@ from truth_report import truth_data
 from unconfigured import STANDARD, examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
+# One `candump` for each bus begins within that.
+AT_ONCE_S = 10
+ON_NO_BUS = "has no frame of interface"  # As cremed says.
+ONE_DRIVE = "several logs begin at the same time: are they the buses of one drive?"
+MERGE = "`--merge` takes all logs as one drive"
 # Of the time that a candump log takes.
 REPLAY_PART = 0.8
 
@@ -35,6 +42,7 @@ class Drive:
     truth_stds: list = field(default_factory=list)
     page: str = None  # Path; None: only the numbers are asked for.
     has_index: bool = False  # The page stands in a folder with one.
+    is_begun_with_others: bool = False
     json: str = None
     figures: dict = field(default_factory=dict)
     troubles: list = field(default_factory=list)  # The page lacks what they say.
@@ -46,7 +54,9 @@ def logs_in(folder):
     """[(log, name of its page)]: all below it that are named as candump and lcm-logger name them."""
     logs = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".log", ".lcm") and path.is_file())
     if not logs:
-        raise main_program.UsageError(f"{folder}: has no file *.log or *.lcm")
+        packed = next(pathlib.Path(folder).rglob("*.log.gz"), None)
+        raise main_program.UsageError(f"{folder}: has no file *.log or *.lcm" + (
+            f"; unpack those that are packed, as `gunzip --keep {packed}` does" if packed else ""))
     return [(str(log), "-".join(log.relative_to(folder).with_suffix("").parts)) for log in logs]
 
 
@@ -63,11 +73,31 @@ def drives_of(arguments):
     groups = [([log for log, _ in named], "")] if is_one else [([log], name) for log, name in named]
     truths = arguments.truth + [None] * (len(groups) - len(arguments.truth))
     drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for (logs, _), truth in zip(groups, truths)]
+    note_buses(drives)
+    if is_one and not arguments.output and not arguments.json:
+        arguments.output = f"{named[0][1]}.html"
     for drive, (_, name) in zip(drives if arguments.output else (), groups):
         drive.page, drive.has_index = arguments.output, not is_one
         if not is_one:
             drive.page = os.path.join(arguments.output, f"{name}.html")
     return drives
+
+
+def first_stamp_s(log):
+    """Of a candump log; None if its first line has none."""
+    try:
+        with open(log, "rb") as file:
+            found = re.match(rb"\s*\((\d+\.\d+)\)", file.readline(200))
+    except OSError:  # Told when it is replayed.
+        return None
+    return float(found[1]) if found else None
+
+
+def note_buses(drives):
+    begins = [[first_stamp_s(log) for log in drive.logs] for drive in drives]
+    for drive, (begin, *_) in zip(drives, begins):
+        alike = [other for other, *_ in begins if begin is not None and other is not None and abs(other - begin) < AT_ONCE_S]
+        drive.is_begun_with_others = len(drive.logs) == 1 and len(alike) > 1
 
 
 def measure(drive, programs, told):
@@ -77,8 +107,8 @@ def measure(drive, programs, told):
         is_candump, config = not is_lcm(drive.logs), drive.config
         if is_candump:
             begun = REPLAY_PART
-            if not config and len(drive.logs) == 1 and is_unwritten():
-                config, missing = examined_configuration(programs, drive.logs[0], folder)
+            if not config and is_unwritten():
+                config, missing = examined_configuration(programs, drive.logs, folder)
                 found.append(missing)
             lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, config, folder,
                                                        lambda part: told(REPLAY_PART * part))
@@ -90,17 +120,27 @@ def measure(drive, programs, told):
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)
         data["findings"] = findings_of(drive, programs, data, found, is_candump)
-        if drive.truth and data["breaks"]:
-            wrong = "there is no comparison with truth: the log does not go on as it began"
-            drive.troubles.append(f"{drive.logs[0]}: {wrong}")
-            data["findings"].append(findings.finding("note", wrong, "a log for each part, and truth in the same clock"))
-        elif drive.truth:
-            data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
-            if gaps := data["truth"]["gaps"]:
-                data["findings"].append(findings.finding("note", f"truth is missing {findings.told(gaps)}",
-                                                         "errors are those of the rest of the drive"))
+        if drive.truth:
+            of_truth = compare(drive, programs, data, heard, (lcm_log, folder))
+            data["findings"] = of_truth + data["findings"]
+        data["findings"] = findings.in_order(data["findings"])
         told(1.0)
         return data
+
+
+def compare(drive, programs, data, heard, places):
+    """Adds what truth tells to the page; returns its findings. Without it the page goes on."""
+    wrong, remedy, severity = "the log does not go on as it began", "a log for each part, and truth in the same clock", "note"
+    if not data["breaks"]:
+        try:
+            data["truth"] = truth_data(programs, places[0], drive, heard, places[1])
+            return truth_findings.of_truth(data["truth"], list(data["figures"]["radars"]))
+        except ValueError as error:
+            wrong, severity = str(error), "warning"
+            remedy = "the other findings tell why, or truth is not of this drive and clock, with the columns utime,x_m,y_m,yaw_rad"
+    wrong = f"there is no comparison with truth: {wrong}"
+    drive.troubles.append(f"{drive.logs[0]}: {wrong}")
+    return [findings.finding(severity, wrong, remedy)]
 
 
 def findings_of(drive, programs, data, found, is_candump):
@@ -108,19 +148,22 @@ def findings_of(drive, programs, data, found, is_candump):
     of_drive = findings.of_the_drive(data)
     if found:  # Without a configuration all else follows from that.
         return found
-    if is_candump and len(drive.logs) == 1 and data["warnings"]:
+    if is_candump and data["warnings"]:
         of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, drive.config)
         found += findings.without_what_is_told(of_doctor, of_drive)
-    if not any(one["severity"] == "error" for one in found):  # It does not see what several logs lack.
+    if not any(one["severity"] == "error" for one in found):
         found += [findings.finding("error", error) for error in errors_in(drive.troubles)]
+    if drive.is_begun_with_others and drive.troubles:
+        found.insert(0, findings.finding("error", ONE_DRIVE, MERGE))
     if not is_candump and of_drive:
         found.append(findings.of_messages())
-    return findings.in_order(found + of_drive)
+    return findings.joined(found, of_drive, data["figures"]["radars"])
 
 
 def heard_of(lcm_log, drive, told):
+    is_elsewhere = any(ON_NO_BUS in trouble for trouble in drive.troubles)  # The doctor tells where.
     try:
-        heard = HeardDrive(lcm_log, told)
+        heard = HeardDrive(lcm_log, told, is_elsewhere)
     except ValueError as error:  # Its cause comes first.
         raise ValueError("\n".join(drive.troubles) or error) from error
     drive.troubles = drive.troubles or [trouble.replace(str(lcm_log), drive.logs[0]) for trouble in heard.troubles()]
@@ -270,7 +313,10 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
     made = [result for result in results if isinstance(result, Drive)]
     for result in old + results:
         for trouble in result.troubles if isinstance(result, Drive) else [result]:
-            main_program.tell("cremed-report", trouble)
+            is_named = len(drives) == 1 or not isinstance(result, Drive) or trouble.startswith(result.logs[0])
+            main_program.tell("cremed-report", trouble if is_named else f"{result.logs[0]}: {trouble}")
+    if any(isinstance(result, Drive) and result.is_begun_with_others and result.troubles for result in old + results):
+        main_program.tell("cremed-report", f"{ONE_DRIVE} {MERGE}")
     if len(made) < len(new) and len(drives) > 1:
         main_program.tell("cremed-report", f"{len(new) - len(made)} of {len(drives)} drives have no report")
     if folder:

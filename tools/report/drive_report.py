@@ -86,10 +86,11 @@ class DriveReport:
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
         x, y = odometry["x"], odometry["y"]
-        length = sum(math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins)
+        steps = {i: math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins}
         return {"begin_utime": drive.begin_us or None,
                 "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
-                "path_length_m": round(length, 2),
+                "path_length_m": round(sum(steps.values()), 2),
+                "reversed_length_m": round(sum(step for i, step in steps.items() if odometry["vx"][i] < 0), 2),
                 "maximum_speed_mps": round(max(map(abs, odometry["vx"]), default=0), 3),
                 "odometry": self.odometry_figures(),
                 "sources": {source: {"motions": len(times),

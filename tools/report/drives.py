@@ -7,7 +7,6 @@ import json
 import multiprocessing
 import os
 import pathlib
-import re
 import signal
 import sys
 from dataclasses import dataclass, field
@@ -18,6 +17,7 @@ import truth_findings
 from drive_report import DriveReport
 from heard_drive import HeardDrive
 from index_page import Row, index
+from logs import begun_at_once, named_logs
 from page import data_of, page
 from programs import errors_in, is_lcm, replay
 from replaced_file import replaced_file
@@ -25,8 +25,6 @@ from truth_report import truth_data
 from unconfigured import STANDARD, examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
-# One `candump` for each bus begins within that.
-AT_ONCE_S = 10
 ON_NO_BUS = "has no frame of interface"  # As cremed says.
 ONE_DRIVE = "several logs begin at the same time: are they the buses of one drive?"
 MERGE = "`--merge` takes all logs as one drive"
@@ -50,30 +48,14 @@ class Drive:
     truth_figures: list = None
 
 
-def logs_in(folder):
-    """[(log, name of its page)]: all below it that are named as candump and lcm-logger name them."""
-    logs = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".log", ".lcm") and path.is_file())
-    if not logs:
-        packed = next(pathlib.Path(folder).rglob("*.log.gz"), None)
-        raise main_program.UsageError(f"{folder}: has no file *.log or *.lcm" + (
-            f"; unpack those that are packed, as `gunzip --keep {packed}` does" if packed else ""))
-    return [(str(log), "-".join(log.relative_to(folder).with_suffix("").parts)) for log in logs]
-
-
-def named_logs(paths):
-    for path in paths:
-        if path == "-":
-            raise main_program.UsageError("LOG: a page is made of a file, not of a pipe")
-        yield from logs_in(path) if os.path.isdir(path) else [(path, pathlib.Path(path).stem)]
-
-
 def drives_of(arguments):
     named = list(named_logs(arguments.logs))
     is_one = arguments.merge or (len(named) == 1 and not os.path.isdir(arguments.logs[0]))
     groups = [([log for log, _ in named], "")] if is_one else [([log], name) for log, name in named]
     truths = arguments.truth + [None] * (len(groups) - len(arguments.truth))
     drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for (logs, _), truth in zip(groups, truths)]
-    note_buses(drives)
+    for drive, begun in zip(drives, begun_at_once([log for log, _ in named])):
+        drive.is_begun_with_others = begun and not arguments.merge
     if is_one and not arguments.output and not arguments.json:
         arguments.output = f"{named[0][1]}.html"
     for drive, (_, name) in zip(drives if arguments.output else (), groups):
@@ -81,23 +63,6 @@ def drives_of(arguments):
         if not is_one:
             drive.page = os.path.join(arguments.output, f"{name}.html")
     return drives
-
-
-def first_stamp_s(log):
-    """Of a candump log; None if its first line has none."""
-    try:
-        with open(log, "rb") as file:
-            found = re.match(rb"\s*\((\d+\.\d+)\)", file.readline(200))
-    except OSError:  # Told when it is replayed.
-        return None
-    return float(found[1]) if found else None
-
-
-def note_buses(drives):
-    begins = [[first_stamp_s(log) for log in drive.logs] for drive in drives]
-    for drive, (begin, *_) in zip(drives, begins):
-        alike = [other for other, *_ in begins if begin is not None and other is not None and abs(other - begin) < AT_ONCE_S]
-        drive.is_begun_with_others = len(drive.logs) == 1 and len(alike) > 1
 
 
 def measure(drive, programs, told):
@@ -130,14 +95,16 @@ def measure(drive, programs, told):
 
 def compare(drive, programs, data, heard, places):
     """Adds what truth tells to the page; returns its findings. Without it the page goes on."""
-    wrong, remedy, severity = "the log does not go on as it began", "a log for each part, and truth in the same clock", "note"
+    wrong, severity = "the log does not go on as it began", "note"
+    remedy = "a log for each part, and truth in the same clock"
     if not data["breaks"]:
         try:
             data["truth"] = truth_data(programs, places[0], drive, heard, places[1])
             return truth_findings.of_truth(data["truth"], list(data["figures"]["radars"]))
         except ValueError as error:
             wrong, severity = str(error), "warning"
-            remedy = "the other findings tell why, or truth is not of this drive and clock, with the columns utime,x_m,y_m,yaw_rad"
+            remedy = ("the other findings tell why, or truth is not of this drive and clock, with the columns "
+                      "utime,x_m,y_m,yaw_rad")
     wrong = f"there is no comparison with truth: {wrong}"
     drive.troubles.append(f"{drive.logs[0]}: {wrong}")
     return [findings.finding(severity, wrong, remedy)]
@@ -155,6 +122,8 @@ def findings_of(drive, programs, data, found, is_candump):
         found += [findings.finding("error", error) for error in errors_in(drive.troubles)]
     if drive.is_begun_with_others and drive.troubles:
         found.insert(0, findings.finding("error", ONE_DRIVE, MERGE))
+    if not is_candump:  # Of which cremed and the doctor tell the same.
+        of_drive += findings.of_reverse(data["figures"])
     if not is_candump and of_drive:
         found.append(findings.of_messages())
     return findings.joined(found, of_drive, data["figures"]["radars"])

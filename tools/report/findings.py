@@ -16,8 +16,9 @@ REMEDIES = {"ambiguous": "most targets moved with the vehicle (a jam), or a moun
             "lost": "the scans at that time tell whether a radar saw too little, or none came",
             "predicted": "the scans at that time tell whether a radar saw too little, or none came"}
 STARTING = "a drive begins with a second of driving or of standing still"
-CONTRADICTED = ("compare its mount, its type and the keys that invert a sign with the vehicle; `cremed-eval calibrate LOG --config FILE` "
-                "finds errors of some degrees or percent")
+ANEW = "it began anew after it was lost or ambiguous: those seconds tell why"
+CONTRADICTED = ("compare its mount, its type and the keys that invert a sign with the vehicle; "
+                "`cremed-eval calibrate LOG --config FILE` finds errors of some degrees or percent")
 # The doctor's words on what the seconds in doubt are about.
 OF_DOUBTS = ("few scans give an estimate", "the odometry", "its covariance", "its Doppler", "positions of its targets")
 SAME_MOUNT = "have the same mount"
@@ -131,8 +132,19 @@ def of_the_odometry(changes, end):
                              + (f": it was {name}" if name else ""), REMEDIES.get(name, STARTING)))
     for name in sorted({name for time, name in changes if time > begin} - {*TOLD_APART}):
         times = spans([change for change in changes if change[0] >= begin], end, lambda other, name=name: other == name)
-        found.append(finding("warning", f"the odometry was {name} {told(times)}", REMEDIES.get(name, "it began anew after it was lost or ambiguous: those seconds tell why")))
+        found.append(finding("warning", f"the odometry was {name} {told(times)}", REMEDIES.get(name, ANEW)))
     return found
+
+
+def of_reverse(figures):
+    """A single radar that drives backwards for all of a drive, as reversed_odometry() of the daemon has it."""
+    driven, back, speed = (figures[name] for name in ("path_length_m", "reversed_length_m", "maximum_speed_mps"))
+    if len(figures["radars"]) != 1 or driven < 50 or back < 0.95 * driven or speed < 2:
+        return []
+    return [finding("note", f"the vehicle drove backwards for {100 * back / driven:.1f} % of {driven:.1f} m, at up to "
+                            f"{speed:.1f} m/s",
+                    "a single radar cannot tell that from a mount turned by pi: if it drove forwards, turn mount.yaw_rad by pi, "
+                    "or correct the sign of its Doppler")]
 
 
 def of_the_radar(radar, changes, figures, end):

@@ -8,7 +8,8 @@ from findings import finding, told
 
 STEP_US, LONGEST_US = 1_000_000, 3_000_000
 # Of the odometry against truth, in all and after 10 s: at most 2.5 on five recorded drives (by five radars, and by
-# the front one alone) and 21 simulated ones; 5.5 to 300 000 where the only radar was upside down or turned by pi.
+# the front one alone) and 21 simulated ones (the 22nd is a skid, which one radar with two degrees of freedom misses);
+# 5.5 to 300 000 where the only radar was upside down or turned by pi.
 MOST_ANEES = 10
 # On those drives the odometry goes at least 0.70 as far as truth and turns at least 0.66 as much; backwards it goes
 # -1.00 to -0.89 as far, mirrored it turns -1.01 to -0.65 as much.
@@ -71,7 +72,8 @@ def look(of_truth, radars):
     way, turn = of_truth["way"], of_truth["turn"]
     whose = f"of {radars[0]}" if len(radars) == 1 else "of the radars"
     if way is not None and way < OPPOSITE:
-        return "it drives backwards", f"turn mount.yaw_rad {whose} by pi, or correct the sign of Doppler, or turn truth's yaw by pi"
+        return ("it drives backwards",
+                f"turn mount.yaw_rad {whose} by pi, or correct the sign of Doppler, or turn truth's yaw by pi")
     if turn is not None and turn < OPPOSITE:
         return ("it is mirrored: it turns right where truth turns left",
                 f"change invert_azimuth {whose}, or the sign of truth's y and yaw (counter-clockwise is positive)")
@@ -79,8 +81,8 @@ def look(of_truth, radars):
     if way is not None and abs(way - 1) > MOST_SCALE and turns_alike and of_truth["likeness"] > ALIKE:
         return f"it goes {100 * abs(way - 1):.0f} % too {'far' if way > 1 else 'short'}", (
             f"check the unit of truth, and calibration.doppler_scale {whose}")
-    return "", ("check mount, type and the keys that invert a sign; and of truth its clock, its frame (the middle of the rear axle) and, "
-                "with --truth-std, how far it may be off")
+    return "", ("check mount, type and the keys that invert a sign; and of truth its clock, its frame (the middle of the "
+                "rear axle) and, with --truth-std, how far it may be off")
 
 
 def anees_of(truth):
@@ -92,9 +94,11 @@ def anees_of(truth):
 
 def of_truth(truth, radars):
     """An error where the drive is not the one that truth tells, and what truth lacks."""
-    gaps = [finding("note", f"truth is missing {told(truth['gaps'])}", "errors are those of the rest of the drive")] if truth["gaps"] else []
+    gaps = [finding("note", f"truth is missing {told(truth['gaps'])}",
+                    "errors are those of the rest of the drive")] if truth["gaps"] else []
     seen, anees = look(truth["comparison"], radars), anees_of(truth)
-    is_opposite = any(ratio is not None and ratio < OPPOSITE for ratio in (truth["comparison"][name] for name in ("way", "turn")))
+    ratios = (truth["comparison"][name] for name in ("way", "turn"))
+    is_opposite = any(ratio is not None and ratio < OPPOSITE for ratio in ratios)
     if anees <= MOST_ANEES and not is_opposite:
         return gaps
     how = f": {seen[0]}" if seen[0] else ""

@@ -87,7 +87,9 @@ def measure(drive, programs, told):
         data["findings"] = findings_of(drive, programs, data, found, is_candump)
         if drive.truth:
             of_truth = compare(drive, programs, data, heard, (lcm_log, folder))
-            data["findings"] = of_truth + data["findings"]
+            # What contradicts truth comes before all else; that nothing can be compared has a cause.
+            is_compared = "truth" in data
+            data["findings"] = of_truth + data["findings"] if is_compared else data["findings"] + of_truth
         data["findings"] = findings.in_order(data["findings"])
         told(1.0)
         return data

@@ -13,6 +13,7 @@
 
 #include "cremed/estimator/scan/stamps.hpp"
 #include "daemon/configuration/interfaces.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 #include "daemon/report/report.hpp"
 
@@ -93,18 +94,17 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
 }
 
 /// The command line that finds the cause, as for a shell.
-std::string doctor_command(const Replayed& replayed, std::size_t interface) {
-  const auto& logs = replayed.replay.logs();
-  const auto own =
-      std::ranges::find_if(logs, [&](const auto& log) { return log->has_frames(interface); });
-  return concat({"`cremed-doctor --config ", in_shell(replayed.configuration_path), " --replay ",
-                 in_shell((own != logs.end() ? *own : logs.front())->reader().path()), "`"});
+std::string doctor_command(const Replayed& replayed) {
+  const std::string logs = joined(
+      replayed.replay.logs(),
+      [](const auto& log) { return "--replay " + in_shell(log->reader().path()); }, " ");
+  return concat(
+      {"`cremed-doctor --config ", in_shell(replayed.configuration_path), " ", logs, "`"});
 }
 
 /// A radar that ended before the log: the numbers of scans do not show it. Where the clocks of the
 /// buses differ, the last frame does not tell when that was.
-void report_end(const Replayed& replayed, const std::string& name, std::size_t interface,
-                const RadarStatus& status) {
+void report_end(const Replayed& replayed, const std::string& name, const RadarStatus& status) {
   constexpr double kLeastMissingS = 3.0;
   const std::int64_t end_us = replayed.replay.last_stamp_us();
   const double missing_s = seconds_between(status.utime_last_estimate_us, end_us);
@@ -115,15 +115,14 @@ void report_end(const Replayed& replayed, const std::string& name, std::size_t i
   if (are_clocks_alike && estimates(status) != 0 && missing_s > kLeastMissingS &&
       missing_s < log_s) {
     spdlog::warn("{}: no estimate in the last {:.1f} of {:.1f} s; {} tells why", name, missing_s,
-                 log_s, doctor_command(replayed, interface));
+                 log_s, doctor_command(replayed));
   }
 }
 
 /// False if it had no scan.
 bool report_radar(const Replayed& replayed, std::size_t number) {
   const RadarConfiguration& radar = replayed.configuration.radars[number];
-  RadarChannel& channel = *replayed.pipeline.radars()[number];
-  const RadarStatus status = channel.status(0, replayed.replay);
+  const RadarStatus status = replayed.pipeline.radars()[number]->status(0, replayed.replay);
   spdlog::info("{}: {}", radar.name, summary(status));
   // Without a frame there is nothing to find in them.
   for (const Finding& finding : status.decoder.frames != 0
@@ -136,11 +135,10 @@ bool report_radar(const Replayed& replayed, std::size_t number) {
   }
   if (status.assembler.scans == 0) {
     spdlog::error("{}: no {} of this radar in the input; {} tells why", radar.name,
-                  status.decoder.frames == 0 ? "frame" : "scan",
-                  doctor_command(replayed, channel.interface));
+                  status.decoder.frames == 0 ? "frame" : "scan", doctor_command(replayed));
   }
   if (!replayed.is_stopped) {
-    report_end(replayed, radar.name, channel.interface, status);
+    report_end(replayed, radar.name, status);
   }
   return status.assembler.scans != 0;
 }
@@ -148,6 +146,7 @@ bool report_radar(const Replayed& replayed, std::size_t number) {
 /// False if one had no scan, or none an estimate.
 bool report_radars(const Replayed& replayed) {
   bool is_good = true;
+  bool is_in_doubt = false;
   std::uint64_t scans = 0;
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < replayed.configuration.radars.size(); ++i) {
@@ -155,16 +154,20 @@ bool report_radars(const Replayed& replayed) {
     const RadarStatus status = replayed.pipeline.radars()[i]->status(0, replayed.replay);
     scans += status.assembler.scans;
     count += estimates(status);
+    is_in_doubt = is_in_doubt || status.belief.doubts != 0;
+  }
+  if (const auto finding = common_mount(replayed.configuration.radars); finding && is_in_doubt) {
+    spdlog::error("{}", to_text(*finding));
   }
   if (scans != 0 && count == 0) {
     spdlog::error("no estimate from {}; {} tells why", counted(scans, "scan"),
-                  doctor_command(replayed, 0));
+                  doctor_command(replayed));
   }
   return is_good && count != 0;
 }
 
 /// How much of the drive has an odometry: a radar's own estimates do not tell.
-void log_odometry(const OdometryTally& tally) {
+void log_odometry(const OdometryTally& tally, std::size_t radars) {
   std::string text;
   for (std::size_t i = 0; i < kOdometryStatusCount; ++i) {
     const auto status = static_cast<OdometryStatus>(i);
@@ -177,8 +180,10 @@ void log_odometry(const OdometryTally& tally) {
       tally.count(OdometryStatus::ok) + tally.count(OdometryStatus::standing_still) != 0;
   spdlog::log(is_usable ? spdlog::level::info : spdlog::level::warn, "odometry: {}",
               is_usable ? text : concat({"never usable: ", text.empty() ? "no scan" : text}));
-  if (const auto finding = unusable_odometry(tally); finding && is_usable) {
-    spdlog::warn("{}", to_text(*finding));
+  for (const auto& finding : {unusable_odometry(tally, radars), reversed_odometry(tally, radars)}) {
+    if (finding && is_usable) {
+      spdlog::warn("{}", to_text(*finding));
+    }
   }
 }
 
@@ -205,7 +210,7 @@ bool report_replay(const Replayed& replayed) {
   report_clock(replayed.pipeline.forward_steps());
   const bool is_good = report_radars(replayed);
   if (replayed.configuration.odometry.enabled) {
-    log_odometry(replayed.odometry);
+    log_odometry(replayed.odometry, replayed.configuration.radars.size());
   }
   log_vehicle(replayed.configuration, replayed.pipeline);
   return is_good || replayed.is_stopped;

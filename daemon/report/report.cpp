@@ -16,6 +16,7 @@
 #include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "cremed/estimator/scan/degrees.hpp"
 #include "daemon/output/counter_rows.hpp"
+#include "daemon/process/joined.hpp"
 #include "daemon/process/message_text.hpp"
 
 namespace cremed {
@@ -130,8 +131,15 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
        {count_of(status, MotionStatus::implausible),
         "check type and the keys that invert a sign: no vehicle is faster than 70 m/s or 3 rad/s"},
        {count_of(status, MotionStatus::ambiguous),
-        "the surroundings hold too few fixed targets, or its noise is set too small: "
-        "`cremed-eval calibrate`"}});
+        "its mount or a sign is wrong, the surroundings hold too few fixed targets, or its noise "
+        "is "
+        "set too small: `cremed-eval calibrate LOG --config FILE`"}});
+}
+
+/// Most scans without an estimate had several explanations, as they have if the mount is wrong.
+bool is_mostly_ambiguous(const RadarStatus& status) {
+  return 2 * count_of(status, MotionStatus::ambiguous) >
+         status.assembler.scans - std::min(status.assembler.scans, estimates(status));
 }
 
 /// Usable detections, but few complete scans gave an estimate. A lateral radar that sees few
@@ -222,19 +230,21 @@ constexpr std::array<DoubtText, 3> kDoubts{{
     {registration_contradicts_doppler, &BeliefStatus::doppler_nis,
      "the positions of its targets contradict their Doppler",
      "check the mount's yaw, the sign of Doppler and azimuth, and whether its noise is set too "
-     "small: "
-     "`cremed-eval calibrate`"},
+     "small: `cremed-eval calibrate LOG --config FILE`"},
     {motions_contradict_each_other, &BeliefStatus::next_nis,
      "its motion jumps more than a vehicle's can",
-     "check mount and detections; `cremed-eval calibrate` estimates its noise"},
+     "check mount and detections; `cremed-eval calibrate LOG --config FILE` estimates its noise"},
     {covariance_too_large, &BeliefStatus::doppler_nis,
      "its errors are far smaller than its covariance",
-     "lower its noise ([radar.calibration]): `cremed-eval calibrate`"},
+     "lower its noise ([radar.calibration]): `cremed-eval calibrate LOG --config FILE`"},
 }};
 
-void add_doubts(const BeliefStatus& belief, Findings& findings) {
+/// That positions contradict Doppler follows from what explains it.
+void add_doubts(const BeliefStatus& belief, bool is_explained, Findings& findings) {
+  const std::uint32_t doubts =
+      belief.doubts & ~(is_explained ? registration_contradicts_doppler : 0U);
   for (const DoubtText& text : kDoubts) {
-    if ((belief.doubts & text.doubt) != 0) {
+    if ((doubts & text.doubt) != 0) {
       findings.push_back(
           {Severity::warning,
            concat({"its covariance is not credible: ", text.what,
@@ -268,7 +278,7 @@ void add_wrong_speed(const RadarConfiguration& radar, const BeliefStatus& belief
          concat({"its Doppler is ", decimal(std::abs(percent)), " % too ",
                  percent > 0.0 ? "large" : "small", " by the positions of its targets"}),
          "the sensor or the scale of its signal is wrong; if it is so on every drive, "
-         "`cremed-eval calibrate` finds calibration.doppler_scale"});
+         "`cremed-eval calibrate LOG --config FILE` finds calibration.doppler_scale"});
   } else if ((belief.doubts & positions_contradict_speed) != 0) {
     findings.push_back(
         {Severity::warning, "the positions of its targets give another speed than their Doppler",
@@ -352,9 +362,25 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
     case FaultKind::unknown:
       break;
   }
-  return {"it contradicts the other radars or its own positions",
+  return {all.size() == 1 ? "its Doppler contradicts its positions"
+                          : "it contradicts the other radars or its own positions",
           "its mount, the scale or sign of its Doppler, or its bus is wrong: compare them with the "
-          "vehicle; `cremed-eval calibrate` finds errors of some degrees or percent"};
+          "vehicle; `cremed-eval calibrate LOG --config FILE` finds errors of some degrees or "
+          "percent"};
+}
+
+/// The names of the others at its mount.
+std::string sharing_mount(const RadarConfiguration& radar,
+                          std::span<const RadarConfiguration> all) {
+  return joined_if(
+      all,
+      [&](const RadarConfiguration& other) {
+        const Pose2& theirs = other.ego_motion.vehicle_from_radar;
+        const Pose2& its = radar.ego_motion.vehicle_from_radar;
+        return other.name != radar.name && theirs.x_m == its.x_m && theirs.y_m == its.y_m &&
+               theirs.yaw_rad == its.yaw_rad;
+      },
+      &RadarConfiguration::name);
 }
 
 void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
@@ -363,6 +389,22 @@ void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
   if (is_left_out || status.odometry.cause.kind == FaultKind::mount_yaw) {
     findings.push_back(fault_finding(radar, status, all));
   }
+}
+
+/// What contradicts its Doppler or its mount, once: the odometry names scale and sign of Doppler by
+/// a value, and does not know all that its positions tell. Of a common mount common_mount() tells.
+Findings contradictions_of(const RadarConfiguration& radar, const RadarStatus& status,
+                           bool has_common_mount, std::span<const RadarConfiguration> all) {
+  const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
+  const FaultKind kind = status.odometry.cause.kind;
+  Findings findings;
+  if (!is_left_out || (kind != FaultKind::scale && kind != FaultKind::sign)) {
+    add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
+  }
+  if (!has_common_mount && (findings.empty() || kind != FaultKind::unknown)) {
+    add_fault(radar, status, all, findings);
+  }
+  return findings;
 }
 
 }  // namespace
@@ -382,6 +424,20 @@ Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status
                            "Doppler ",
                            decimal(status.odometry.doppler_nis), ", 1 expected)"});
   return {Severity::warning, text.what + effect, text.remedy};
+}
+
+std::optional<Finding> common_mount(std::span<const RadarConfiguration> radars) {
+  for (const RadarConfiguration& radar : radars) {
+    if (const std::string others = sharing_mount(radar, radars); !others.empty()) {
+      const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+      return Finding{Severity::error,
+                     fmt::format("{} and {} have the same mount (x {:g} m, y {:g} m, yaw {:g} rad)",
+                                 radar.name, others, mount.x_m, mount.y_m, mount.yaw_rad),
+                     "write where each radar is ([radar.mount]), from the middle of the rear axle; "
+                     "only radars one above the other share a mount"};
+    }
+  }
+  return std::nullopt;
 }
 
 std::uint64_t estimates(const RadarStatus& status) {
@@ -432,11 +488,15 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_no_detection(radar, status, findings);
   const Findings health = health_findings(radar, status);
   findings.insert(findings.end(), health.begin(), health.end());
-  add_few_estimates(status, findings);
-  add_doubts(status.belief, findings);
-  add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
+  const bool is_misplaced = status.belief.doubts != 0 && !sharing_mount(radar, all).empty();
+  const Findings contradictions = contradictions_of(radar, status, is_misplaced, all);
+  findings.insert(findings.end(), contradictions.begin(), contradictions.end());
+  const bool is_explained = !contradictions.empty() || is_misplaced;
+  if (!is_explained || !is_mostly_ambiguous(status)) {
+    add_few_estimates(status, findings);
+  }
+  add_doubts(status.belief, is_explained, findings);
   add_clock(status.belief, findings);
-  add_fault(radar, status, all, findings);
   return findings;
 }
 

@@ -31,6 +31,10 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
 Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status,
                       std::span<const RadarConfiguration> all);
 
+/// Radars that have one mount, as in a file that was not filled in: an error if any is in doubt.
+/// What follows from that radar_findings() leaves out.
+std::optional<Finding> common_mount(std::span<const RadarConfiguration> radars);
+
 /// What configures an ARS408 as expected, in backquotes.
 std::string configure_command(const RadarConfiguration& radar);
 

@@ -265,6 +265,44 @@ TEST_CASE("What is wrong with an excluded radar is named with the key that corre
   CHECK_THAT(findings[0].remedy, Catch::Contains(row.remedy));
 }
 
+TEST_CASE("What is explained is told once, by its cause") {
+  RadarStatus status = healthy();
+  no_estimate_but(status, MotionStatus::ambiguous);
+  status.belief.doubts = registration_contradicts_doppler;
+  const std::array all{front()};
+  CHECK(radar_findings(front(), status, all).size() == 2);
+  status.odometry.cause = {FaultKind::mount_yaw, 0.35};
+  const auto findings = radar_findings(front(), status, all);
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what, Catch::Contains("20.0 degrees further left"));
+  no_estimate_but(status, MotionStatus::gap_too_long);  // Which no mount explains.
+  CHECK(radar_findings(front(), status, all).size() == 2);
+}
+
+TEST_CASE("An only radar is not told that others contradict it") {
+  RadarStatus status = healthy();
+  status.odometry.is_left_out = true;
+  CHECK_THAT(fault_finding(front(), status, std::array{front()}).what,
+             Catch::StartsWith("its Doppler contradicts its positions; excluded"));
+}
+
+TEST_CASE("Radars that have one mount are told once, and not what follows from it") {
+  RadarConfiguration left = front();
+  left.name = "left";
+  RadarStatus status = healthy();
+  no_estimate_but(status, MotionStatus::ambiguous);
+  status.belief.doubts = other_radars_contradict;
+  const std::array same{front(), left};
+  CHECK(radar_findings(front(), status, same).empty());
+  const auto finding = common_mount(same);
+  REQUIRE(finding);
+  CHECK(finding->severity == Severity::error);
+  CHECK_THAT(finding->what, Catch::StartsWith("front and left have the same mount (x "));
+  left.ego_motion.vehicle_from_radar.yaw_rad += 0.1;
+  CHECK_FALSE(common_mount(std::array{front(), left}));
+  CHECK(radar_findings(front(), status, std::array{front(), left}).size() == 1);
+}
+
 TEST_CASE("A mount that the odometry has learned is named with its value") {
   RadarStatus status = healthy();
   status.odometry.cause = {FaultKind::mount_yaw, 0.1};

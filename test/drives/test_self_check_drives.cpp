@@ -82,7 +82,7 @@ struct Fault {
   std::size_t radar;
   std::function<void(RadarConfiguration&)> configure;
   std::uint32_t doubts;
-  std::vector<std::string> causes;  ///< Named in the report.
+  std::string cause;  ///< In the report; its only line if the odometry names it.
   /// RMSE of the fused motion over that of the other radar alone, after the doubt. The radar
   /// assumes y = 0, which improves its yaw in a simulation without slip; a radar with few estimates
   /// takes longer to be doubted.
@@ -103,38 +103,25 @@ void scale_noise(RadarConfiguration& radar, double factor) {
 
 std::vector<Fault> faults() {
   constexpr std::uint32_t kWrong = registration_contradicts_doppler | other_radars_contradict;
-  const auto by_both = [](const std::string& cause) {
-    return std::vector<std::string>{"positions of its targets contradict their Doppler", cause};
-  };
   return {
       {"sign of Doppler", kRear,
        [](RadarConfiguration& radar) {
          radar.decoder.as<BoschGprOptions>()->invert_doppler = true;
        },
-       kWrong | positions_contradict_speed, by_both("wrong sign")},
+       kWrong | positions_contradict_speed, "wrong sign"},
       // The odometry has learned the mount by then and agrees with the radar.
       {"front yaw", kFront, [](RadarConfiguration& radar) { turn(radar, 0.1); }, kWrong,
-       by_both("degrees further right")},
+       "degrees further right"},
       {"rear yaw", kRear, [](RadarConfiguration& radar) { turn(radar, -0.1); }, kWrong,
-       by_both("degrees further left"), 1.6, 50.0},
+       "degrees further left", 1.6, 50.0},
       {"front reversed", kFront, [](RadarConfiguration& radar) { turn(radar, std::numbers::pi); },
-       kWrong, by_both("looks the other way")},
-      {"front noise / 3",
-       kFront,
-       [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
-       motions_contradict_each_other,
-       {"covariance is not credible"}},
-      {"rear noise / 3",
-       kRear,
-       [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
-       motions_contradict_each_other,
-       {"covariance is not credible"}},
-      {"front noise * 5",
-       kFront,
-       [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
-       covariance_too_large,
-       {"lower its noise"},
-       1.4}};
+       kWrong, "looks the other way"},
+      {"front noise / 3", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
+       motions_contradict_each_other, "covariance is not credible"},
+      {"rear noise / 3", kRear, [](RadarConfiguration& radar) { scale_noise(radar, 1.0 / 3); },
+       motions_contradict_each_other, "covariance is not credible"},
+      {"front noise * 5", kFront, [](RadarConfiguration& radar) { scale_noise(radar, 5.0); },
+       covariance_too_large, "lower its noise", 1.4}};
 }
 
 void check_fused(const RecordingSink& sink, const Fault& fault, const Drive& drive) {
@@ -197,9 +184,8 @@ TEST_CASE("Self-check: each fault shows within a minute, and the fused motion st
             sink.statuses[fault.radar].back().odometry.doppler_nis);
     CHECK(belief.doubts == fault.doubts);
     CHECK(last_belief(sink, 1 - fault.radar).doubts == 0);
-    for (const std::string& cause : fault.causes) {
-      CHECK_THAT(text, Catch::Contains(cause));
-    }
+    CHECK_THAT(text, Catch::Contains(fault.cause));
+    if ((fault.doubts & other_radars_contradict) != 0) CHECK(std::ranges::count(text, '\n') == 1);
     check_fused(sink, fault, healthy);
   }
 }

@@ -91,6 +91,30 @@ TEST_CASE("cremed-doctor: a log shows the interfaces that are to be found") {
   CHECK_THAT(absent.output, Catch::Contains("\nrear: 10."));
 }
 
+TEST_CASE("cremed-doctor: a log of each bus is as one of all") {
+  const TemporaryFolder folder;
+  for (const std::string bus : {"can0", "can1"}) {
+    const std::string own = "grep ' " + bus + " ' " + kData + "bends.log >" + folder.file(bus);
+    REQUIRE(std::system(own.c_str()) == 0);
+  }
+  const std::string both =
+      "--replay " + folder.file("can1") + " --replay " + folder.file("can0") + " ";
+  for (const std::string& what :
+       {"--json --config " + kData + "bends.toml", std::string("--suggest-config")}) {
+    const ToolRun whole = doctor(folder, what + " --replay " + kData + "bends.log");
+    const ToolRun merged = doctor(folder, both + what);
+    CHECK(merged.status == 0);
+    CHECK(merged.output == whole.output);
+  }
+  std::ofstream(folder.file("empty"));
+  CHECK(doctor(folder,
+               both + "--replay " + folder.file("empty") + " --config " + kData + "bends.toml")
+            .status == 0);
+  check(doctor(folder, "--replay " + folder.file("empty") + " --replay " + folder.file("none") +
+                           " --config " + kData + "bends.toml"),
+        {"", 1, folder.file("none")});
+}
+
 TEST_CASE("cremed-doctor: lost frames that the log itself reports") {
   const TemporaryFolder folder;
   const ToolRun result = doctor_of_filtered(

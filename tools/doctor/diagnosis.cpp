@@ -87,6 +87,25 @@ void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observa
   }
 }
 
+void add_common_mount(const Configuration& configuration, const Observation& observation,
+                      Findings& findings) {
+  const bool is_in_doubt = std::ranges::any_of(
+      observation.radars,
+      [](const RadarObservation& radar) { return radar.status.belief.doubts != 0; });
+  const auto finding = common_mount(configuration.radars);
+  if (configuration.odometry.enabled && is_in_doubt && finding) {
+    findings.insert(findings.begin(), *finding);
+  }
+}
+
+void add_odometry(std::size_t radars, const OdometryTally& tally, Findings& findings) {
+  for (const auto& finding : {unusable_odometry(tally, radars), reversed_odometry(tally, radars)}) {
+    if (finding) {
+      findings.push_back(*finding);
+    }
+  }
+}
+
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Finding& finding) {
@@ -120,12 +139,11 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
       add_radar(configuration, observation, i, findings);
     }
+    add_common_mount(configuration, observation, findings);
     add_buses(configuration, observation, findings);
     add_clock(observation, findings);
     add_vehicle(configuration.vehicle, observation, findings);
-    if (const auto finding = unusable_odometry(observation.odometry)) {
-      findings.push_back(*finding);
-    }
+    add_odometry(configuration.radars.size(), observation.odometry, findings);
   }
   if (!observation.malformed_lines.empty()) {
     findings.push_back({Severity::warning, observation.malformed_lines,

@@ -44,7 +44,7 @@ struct Arguments {
   std::string suggested_from;
   bool is_json = false;
   double seconds = 3.0;
-  std::string replay;
+  std::vector<std::string> replay;
   std::optional<std::string> lcm_url;
   std::string ars408;
   std::string filtered;
@@ -58,8 +58,12 @@ void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--seconds", arguments.seconds, "How long to listen")
       ->check(number_in(0.1, 3600.0))
       ->capture_default_str();
-  app.add_option("--replay", arguments.replay,
-                 "Diagnose a candump log instead of the live bus; - for standard input");
+  app.add_option(
+         "--replay", arguments.replay,
+         "Diagnose a candump log instead of the live bus; - for standard input; may repeat: "
+         "the logs of one drive, merged by stamp")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--lcm-url", arguments.lcm_url,
                  "LCM URL to check, or none; overrides the configuration. With a log LCM is "
                  "checked only if this is given");
@@ -129,8 +133,10 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
                     const volatile std::sig_atomic_t* stop) {
   Observation observation = arguments.replay.empty()
                                 ? observe_live(configuration, arguments.seconds, stop)
-                                : observe_log(configuration, arguments.replay);
-  if (finds_radars(arguments)) {
+                                : observe_logs(configuration, arguments.replay);
+  // What the filter says of a mount that is turned by pi would lead to another wrong one.
+  if (finds_radars(arguments) ||
+      reversed_odometry(observation.odometry, configuration.radars.size())) {
     drop_doubts_of_mounts(observation);
   }
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
@@ -141,16 +147,16 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   return observation;
 }
 
-/// Whatever is on the buses (empty `log`), or in the log.
-Observation observe_anything(const std::string& log, double seconds,
+/// Whatever is on the buses (no `logs`), or in the logs.
+Observation observe_anything(const std::vector<std::string>& logs, double seconds,
                              const volatile std::sig_atomic_t* stop) {
-  return log.empty() ? observe_live(without_radars(), seconds, stop)
-                     : observe_log(without_radars(), log);
+  return logs.empty() ? observe_live(without_radars(), seconds, stop)
+                      : observe_logs(without_radars(), logs);
 }
 
 LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_t* stop) {
   if (finds_radars(arguments)) {
-    if (is_pipe(arguments.replay)) {
+    if (std::ranges::any_of(arguments.replay, is_pipe)) {
       throw UsageError(
           "--replay: a pipe cannot be read twice, first for its radars; name a file, or "
           "the radars by --config FILE");
@@ -158,7 +164,7 @@ LocatedRadars locate(const Arguments& arguments, const volatile std::sig_atomic_
     return found_radars(observe_anything(arguments.replay, arguments.seconds, stop));
   }
   const Configuration asked = load_configuration(configuration_path(arguments.config));
-  return stop != nullptr ? locate_live(asked, stop) : locate_in_log(asked, arguments.replay);
+  return stop != nullptr ? locate_live(asked, stop) : locate_in_logs(asked, arguments.replay);
 }
 
 int run_diagnosis(const Arguments& arguments) {
@@ -186,20 +192,20 @@ int run_diagnosis(const Arguments& arguments) {
 }
 
 /// Of either option; empty: live.
-std::string suggested_log(const Arguments& arguments) {
+std::vector<std::string> suggested_logs(const Arguments& arguments) {
   if (arguments.suggested_from == kLive) {
     return arguments.replay;
   }
   if (!arguments.replay.empty()) {
     throw UsageError("--suggest-config and --replay name a log each: leave one out");
   }
-  return arguments.suggested_from;
+  return {arguments.suggested_from};
 }
 
 int run_suggestion(const Arguments& arguments) {
-  const std::string log = suggested_log(arguments);
+  const std::vector<std::string> logs = suggested_logs(arguments);
   const Observation observation =
-      observe_anything(log, arguments.seconds, log.empty() ? handle_stop_signals() : nullptr);
+      observe_anything(logs, arguments.seconds, logs.empty() ? handle_stop_signals() : nullptr);
   const std::string suggestion = suggested_configuration(observation);
   if (suggestion.empty()) {
     std::cerr << "cremed-doctor: " << no_suggestion(observation) << '\n';

@@ -8,8 +8,8 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/process/clocks.hpp"
 #include "daemon/process/message_text.hpp"
-#include "daemon/source/candump_reader.hpp"
 #include "daemon/source/radar_search.hpp"
+#include "tools/doctor/merged_logs.hpp"
 #include "tools/doctor/observer.hpp"
 #include "tools/doctor/unconfigured.hpp"
 
@@ -43,12 +43,12 @@ LocatedRadars located(const Configuration& found, const std::vector<RadarPlace>&
   return result;
 }
 
-std::vector<HeardBus> heard_in(const std::string& path) {
+std::vector<HeardBus> heard_in(const std::vector<std::string>& paths) {
   Observer observer(without_radars());
-  CandumpReader log(path);
-  for (CandumpLine line; log.next(line);) {
-    if (line.status == CandumpStatus::frame) {
-      observer.add(line.interface_name, line.frame);
+  MergedLogs logs(paths);
+  while (const CandumpLine* line = logs.next()) {
+    if (line->status == CandumpStatus::frame) {
+      observer.add(line->interface_name, line->frame);
     }
   }
   std::vector<HeardBus> buses;
@@ -79,15 +79,16 @@ LocatedRadars locate_live(const Configuration& configuration,
   return located(search.configuration(), places);
 }
 
-LocatedRadars locate_in_log(const Configuration& configuration, const std::string& path) {
+LocatedRadars locate_in_logs(const Configuration& configuration,
+                             const std::vector<std::string>& paths) {
   if (has_interface_names(configuration)) {
     return {configuration, {}};
   }
-  if (path == "-") {
+  if (std::ranges::count(paths, "-") != 0) {
     require_interface_names(configuration);
   }
   Configuration found = configuration;
-  const std::vector<RadarPlace> places = find_interfaces(heard_in(path), found);
+  const std::vector<RadarPlace> places = find_interfaces(heard_in(paths), found);
   return located(found, places);
 }
 

@@ -21,8 +21,9 @@ struct LocatedRadars {
 LocatedRadars locate_live(const Configuration& configuration,
                           const volatile std::sig_atomic_t* stop);
 
-/// The same for a candump log, which is read an extra time and so must not be standard input.
-/// Throws std::runtime_error.
-LocatedRadars locate_in_log(const Configuration& configuration, const std::string& path);
+/// The same for the candump logs of one drive, which are read an extra time and so must not be
+/// standard input. Throws std::runtime_error.
+LocatedRadars locate_in_logs(const Configuration& configuration,
+                             const std::vector<std::string>& paths);
 
 }  // namespace cremed

@@ -4,23 +4,27 @@
 
 #include <stdexcept>
 
-#include "daemon/source/candump_reader.hpp"
+#include "daemon/process/joined.hpp"
+#include "tools/doctor/merged_logs.hpp"
 #include "tools/doctor/observer.hpp"
 
 namespace cremed {
 
-Observation observe_log(const Configuration& configuration, const std::string& path) {
+Observation observe_logs(const Configuration& configuration,
+                         const std::vector<std::string>& paths) {
   Observer observer(configuration);
-  CandumpReader log(path);
-  for (CandumpLine line; log.next(line);) {
-    if (line.status == CandumpStatus::frame) {
-      observer.add(line.interface_name, line.frame);
-    } else if (line.status == CandumpStatus::dropped) {
-      observer.add_lost(line.interface_name, line.dropped_frames);
+  MergedLogs logs(paths);
+  while (const CandumpLine* line = logs.next()) {
+    if (line->status == CandumpStatus::frame) {
+      observer.add(line->interface_name, line->frame);
+    } else {
+      observer.add_lost(line->interface_name, line->dropped_frames);
     }
   }
-  if (const std::string problem = log.problem(); !problem.empty()) {
-    throw std::runtime_error(problem);
+  for (const CandumpReader& log : logs.readers()) {
+    if (const std::string problem = log.problem(); !problem.empty()) {
+      throw std::runtime_error(problem);
+    }
   }
   Observation observation = observer.finish();
   bool is_empty = true;
@@ -31,9 +35,11 @@ Observation observe_log(const Configuration& configuration, const std::string& p
     is_empty = is_empty && bus.state == InterfaceState::absent;
   }
   if (is_empty) {
-    throw std::runtime_error(log.no_frame());
+    throw std::runtime_error(joined(logs.readers(), &CandumpReader::no_frame, "; "));
   }
-  observation.malformed_lines = log.malformed();
+  observation.malformed_lines = joined_if(
+      logs.readers(), [](const CandumpReader& log) { return log.malformed_lines() != 0; },
+      &CandumpReader::malformed);
   return observation;
 }
 

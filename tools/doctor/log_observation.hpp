@@ -3,14 +3,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "daemon/configuration/configuration.hpp"
 #include "tools/doctor/observation.hpp"
 
 namespace cremed {
 
-/// Observes all buses of a candump log; "-" is standard input. Throws std::runtime_error if it
-/// cannot be read or holds no frame.
-Observation observe_log(const Configuration& configuration, const std::string& path);
+/// Observes all buses of candump logs, which are those of one drive; "-" is standard input. Throws
+/// std::runtime_error if one cannot be read or none holds a frame.
+Observation observe_logs(const Configuration& configuration, const std::vector<std::string>& paths);
 
 }  // namespace cremed

@@ -278,7 +278,7 @@ void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
     findings.push_back(
         {Severity::error, "it reports its state but sends no targets",
          is_ars408 ? configure_command(radar) : "see its data sheet for what makes it send them"});
-  } else if (estimates(status) == 0) {
+  } else if (estimates(status) == 0 && status.belief.doubts == 0) {
     findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
                         is_live ? "listen longer, `--seconds 10`" : "record 10 s or more"});
   }

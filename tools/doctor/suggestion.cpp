@@ -205,6 +205,7 @@ std::vector<Finding> radars_left_out(const Observation& observation) {
 void drop_doubts_of_mounts(Observation& observation) {
   for (RadarObservation& radar : observation.radars) {
     radar.status.belief.doubts &= positions_contradict_speed;
+    radar.status.odometry.cause = {};
   }
 }
 

@@ -61,14 +61,14 @@ LocatedRadars as_sent(const Observation& observation, const std::string& wanted)
 /// Nothing: the radars are to be found in the log itself, while it is read.
 std::optional<LocatedRadars> located(const Arguments& arguments) {
   if (!is_unconfigured(arguments.config)) {
-    return locate_in_log(
+    return locate_in_logs(
         selected(arguments.radar, load_configuration(configuration_path(arguments.config))),
-        arguments.log);
+        {arguments.log});
   }
   if (is_pipe(arguments.log)) {
     return std::nullopt;
   }
-  return as_sent(observe_log(without_radars(), arguments.log), arguments.radar);
+  return as_sent(observe_logs(without_radars(), {arguments.log}), arguments.radar);
 }
 
 /// The longest period of a radar's messages is a second.

@@ -14,6 +14,8 @@ DEG_PER_RAD = 180 / math.pi
 MOTION_STATUSES = cremed.names_of(cremed.ego_motion_t, "STATUS_")
 ODOMETRY_STATUSES = cremed.names_of(cremed.odometry_t, "STATUS_")
 DOUBTS = cremed.names_of(cremed.status_t, "DOUBT_")
+# There are no others: the odometry is of its own earlier scans.
+OF_AN_ONLY_RADAR = {cremed.status_t.DOUBT_OTHER_RADARS_CONTRADICT: "its_own_scans_contradict_each_other"}
 FAULTS = cremed.names_of(cremed.status_t, "FAULT_")
 CAUSES = cremed.names_of(cremed.status_t, "CAUSE_")
 SILENT = "silent"  # Among the statuses over time.
@@ -36,6 +38,7 @@ def names_in(bits, names):
 class DriveReport:
     def __init__(self, drive):
         self.drive = drive
+        self.doubts = DOUBTS if len(drive.statuses) > 1 else DOUBTS | OF_AN_ONLY_RADAR
         # Of the odometry's rows those that do not continue the one before.
         self.begins = {bisect.bisect_left(drive.odometry["utime"], one.utime) for one in drive.timeline.breaks}
 
@@ -83,11 +86,12 @@ class DriveReport:
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
         x, y = odometry["x"], odometry["y"]
-        length = sum(math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins)
-        return {"begin_utime": drive.begin_us,
+        steps = {i: math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins}
+        return {"begin_utime": drive.begin_us or None,
                 "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
-                "path_length_m": round(length, 2),
-                "maximum_speed_mps": round(max(odometry["vx"], default=0), 3),
+                "path_length_m": round(sum(steps.values()), 2),
+                "reversed_length_m": round(sum(step for i, step in steps.items() if odometry["vx"][i] < 0), 2),
+                "maximum_speed_mps": round(max(map(abs, odometry["vx"]), default=0), 3),
                 "odometry": self.odometry_figures(),
                 "sources": {source: {"motions": len(times),
                                      "availability_percent":
@@ -114,7 +118,7 @@ class DriveReport:
     def radar_figures(self, messages):
         last = messages[-1]
         doubts = collections.Counter(name for message in messages
-                                     for name in names_in(message.doubts, DOUBTS))
+                                     for name in names_in(message.doubts, self.doubts))
         ends = {message.run: message for message in messages}.values()  # Each run of cremed counts from 0.
         return {"counters": {name: sum(getattr(end, name) for end in ends) for name in COUNTERS},
                 "statuses_with_doubt": dict(doubts), "statuses": len(messages),
@@ -167,7 +171,7 @@ class DriveReport:
 
     def doubt_runs(self, messages):
         changes = runs(self.seconds(m.utime for m in messages), [m.doubts for m in messages])
-        return [(time, " + ".join(names_in(bits, DOUBTS))) for time, bits in changes]
+        return [(time, " + ".join(names_in(bits, self.doubts))) for time, bits in changes]
 
     def radar_series(self, messages):
         columns = {name: [getattr(m, name) or math.nan for m in messages] for name in NIS}

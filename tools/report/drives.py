@@ -13,9 +13,11 @@ from dataclasses import dataclass, field
 
 import main_program
 import findings
+import truth_findings
 from drive_report import DriveReport
 from heard_drive import HeardDrive
 from index_page import Row, index
+from logs import begun_at_once, named_logs
 from page import data_of, page
 from programs import errors_in, is_lcm, replay
 from replaced_file import replaced_file
@@ -23,6 +25,9 @@ from truth_report import truth_data
 from unconfigured import STANDARD, examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
+ON_NO_BUS = "has no frame of interface"  # As cremed says.
+ONE_DRIVE = "several logs begin at the same time: are they the buses of one drive?"
+MERGE = "`--merge` takes all logs as one drive"
 # Of the time that a candump log takes.
 REPLAY_PART = 0.8
 
@@ -35,26 +40,12 @@ class Drive:
     truth_stds: list = field(default_factory=list)
     page: str = None  # Path; None: only the numbers are asked for.
     has_index: bool = False  # The page stands in a folder with one.
+    is_begun_with_others: bool = False
     json: str = None
     figures: dict = field(default_factory=dict)
     troubles: list = field(default_factory=list)  # The page lacks what they say.
     findings: list = field(default_factory=list)
     truth_figures: list = None
-
-
-def logs_in(folder):
-    """[(log, name of its page)]: all below it that are named as candump and lcm-logger name them."""
-    logs = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".log", ".lcm") and path.is_file())
-    if not logs:
-        raise main_program.UsageError(f"{folder}: has no file *.log or *.lcm")
-    return [(str(log), "-".join(log.relative_to(folder).with_suffix("").parts)) for log in logs]
-
-
-def named_logs(paths):
-    for path in paths:
-        if path == "-":
-            raise main_program.UsageError("LOG: a page is made of a file, not of a pipe")
-        yield from logs_in(path) if os.path.isdir(path) else [(path, pathlib.Path(path).stem)]
 
 
 def drives_of(arguments):
@@ -63,6 +54,10 @@ def drives_of(arguments):
     groups = [([log for log, _ in named], "")] if is_one else [([log], name) for log, name in named]
     truths = arguments.truth + [None] * (len(groups) - len(arguments.truth))
     drives = [Drive(logs, arguments.config, truth, arguments.truth_std) for (logs, _), truth in zip(groups, truths)]
+    for drive, begun in zip(drives, begun_at_once([log for log, _ in named])):
+        drive.is_begun_with_others = begun and not arguments.merge
+    if is_one and not arguments.output and not arguments.json:
+        arguments.output = f"{named[0][1]}.html"
     for drive, (_, name) in zip(drives if arguments.output else (), groups):
         drive.page, drive.has_index = arguments.output, not is_one
         if not is_one:
@@ -77,8 +72,8 @@ def measure(drive, programs, told):
         is_candump, config = not is_lcm(drive.logs), drive.config
         if is_candump:
             begun = REPLAY_PART
-            if not config and len(drive.logs) == 1 and is_unwritten():
-                config, missing = examined_configuration(programs, drive.logs[0], folder)
+            if not config and is_unwritten():
+                config, missing = examined_configuration(programs, drive.logs, folder)
                 found.append(missing)
             lcm_log, warnings, drive.troubles = replay(programs / "cremed", drive.logs, config, folder,
                                                        lambda part: told(REPLAY_PART * part))
@@ -90,17 +85,31 @@ def measure(drive, programs, told):
                 "warnings": warnings or drive.troubles, **DriveReport(heard).data()}
         data["mounts_unknown"] = bool(found)
         data["findings"] = findings_of(drive, programs, data, found, is_candump)
-        if drive.truth and data["breaks"]:
-            wrong = "there is no comparison with truth: the log does not go on as it began"
-            drive.troubles.append(f"{drive.logs[0]}: {wrong}")
-            data["findings"].append(findings.finding("note", wrong, "a log for each part, and truth in the same clock"))
-        elif drive.truth:
-            data["truth"] = truth_data(programs, lcm_log, drive, heard, folder)
-            if gaps := data["truth"]["gaps"]:
-                data["findings"].append(findings.finding("note", f"truth is missing {findings.told(gaps)}",
-                                                         "errors are those of the rest of the drive"))
+        if drive.truth:
+            of_truth = compare(drive, programs, data, heard, (lcm_log, folder))
+            # What contradicts truth comes before all else; that nothing can be compared has a cause.
+            is_compared = "truth" in data
+            data["findings"] = of_truth + data["findings"] if is_compared else data["findings"] + of_truth
+        data["findings"] = findings.in_order(data["findings"])
         told(1.0)
         return data
+
+
+def compare(drive, programs, data, heard, places):
+    """Adds what truth tells to the page; returns its findings. Without it the page goes on."""
+    wrong, severity = "the log does not go on as it began", "note"
+    remedy = "a log for each part, and truth in the same clock"
+    if not data["breaks"]:
+        try:
+            data["truth"] = truth_data(programs, places[0], drive, heard, places[1])
+            return truth_findings.of_truth(data["truth"], list(data["figures"]["radars"]))
+        except ValueError as error:
+            wrong, severity = str(error), "warning"
+            remedy = ("the other findings tell why, or truth is not of this drive and clock, with the columns "
+                      "utime,x_m,y_m,yaw_rad")
+    wrong = f"there is no comparison with truth: {wrong}"
+    drive.troubles.append(f"{drive.logs[0]}: {wrong}")
+    return [findings.finding(severity, wrong, remedy)]
 
 
 def findings_of(drive, programs, data, found, is_candump):
@@ -108,19 +117,24 @@ def findings_of(drive, programs, data, found, is_candump):
     of_drive = findings.of_the_drive(data)
     if found:  # Without a configuration all else follows from that.
         return found
-    if is_candump and len(drive.logs) == 1 and data["warnings"]:
+    if is_candump and data["warnings"]:
         of_doctor = findings.of_the_doctor(programs / "cremed-doctor", drive.logs, drive.config)
         found += findings.without_what_is_told(of_doctor, of_drive)
-    if not any(one["severity"] == "error" for one in found):  # It does not see what several logs lack.
+    if not any(one["severity"] == "error" for one in found):
         found += [findings.finding("error", error) for error in errors_in(drive.troubles)]
+    if drive.is_begun_with_others and drive.troubles:
+        found.insert(0, findings.finding("error", ONE_DRIVE, MERGE))
+    if not is_candump:  # Of which cremed and the doctor tell the same.
+        of_drive += findings.of_reverse(data["figures"])
     if not is_candump and of_drive:
         found.append(findings.of_messages())
-    return findings.in_order(found + of_drive)
+    return findings.joined(found, of_drive, data["figures"]["radars"])
 
 
 def heard_of(lcm_log, drive, told):
+    is_elsewhere = any(ON_NO_BUS in trouble for trouble in drive.troubles)  # The doctor tells where.
     try:
-        heard = HeardDrive(lcm_log, told)
+        heard = HeardDrive(lcm_log, told, is_elsewhere)
     except ValueError as error:  # Its cause comes first.
         raise ValueError("\n".join(drive.troubles) or error) from error
     drive.troubles = drive.troubles or [trouble.replace(str(lcm_log), drive.logs[0]) for trouble in heard.troubles()]
@@ -270,7 +284,10 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
     made = [result for result in results if isinstance(result, Drive)]
     for result in old + results:
         for trouble in result.troubles if isinstance(result, Drive) else [result]:
-            main_program.tell("cremed-report", trouble)
+            is_named = len(drives) == 1 or not isinstance(result, Drive) or trouble.startswith(result.logs[0])
+            main_program.tell("cremed-report", trouble if is_named else f"{result.logs[0]}: {trouble}")
+    if any(isinstance(result, Drive) and result.is_begun_with_others and result.troubles for result in old + results):
+        main_program.tell("cremed-report", f"{ONE_DRIVE} {MERGE}")
     if len(made) < len(new) and len(drives) > 1:
         main_program.tell("cremed-report", f"{len(new) - len(made)} of {len(drives)} drives have no report")
     if folder:

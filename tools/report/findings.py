@@ -4,11 +4,24 @@
 import json
 import subprocess
 
+from programs import replays
+
 GOOD = ("ok", "standing_still")
 TOLD_APART = (*GOOD, "silent")  # of_silences() names the radars.
 SEVERITIES = ("error", "warning", "note")  # As the doctor's, the worst first.
 NO_SCAN = ": no scan "
 MOST_SPANS = 3  # That are named.
+# How the odometry was, the worst first. `STARTING`: any other way.
+REMEDIES = {"ambiguous": "most targets moved with the vehicle (a jam), or a mount, a type or a key that inverts a sign is wrong",
+            "lost": "the scans at that time tell whether a radar saw too little, or none came",
+            "predicted": "the scans at that time tell whether a radar saw too little, or none came"}
+STARTING = "a drive begins with a second of driving or of standing still"
+ANEW = "it began anew after it was lost or ambiguous: those seconds tell why"
+CONTRADICTED = ("compare its mount, its type and the keys that invert a sign with the vehicle; "
+                "`cremed-eval calibrate LOG --config FILE` finds errors of some degrees or percent")
+# The doctor's words on what the seconds in doubt are about.
+OF_DOUBTS = ("few scans give an estimate", "the odometry", "its covariance", "its Doppler", "positions of its targets")
+SAME_MOUNT = "have the same mount"
 LONG_START_S = 5.0  # An odometry begins within two seconds of driving.
 
 
@@ -18,7 +31,7 @@ def finding(severity, what, remedy=""):
 
 def of_the_doctor(doctor, logs, config):
     """cremed-doctor's findings on a candump log."""
-    command = [doctor, "--json", "--replay", *logs] + (["--config", config] if config else [])
+    command = [doctor, "--json", *replays(logs)] + (["--config", config] if config else [])
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
     try:
         return json.loads(done.stdout)["findings"]
@@ -112,31 +125,46 @@ def of_the_odometry(changes, end):
     begin = next((time for time, name in changes if name in GOOD), end) if changes else 0.0
     found = []
     if begin > LONG_START_S:
-        found.append(finding("warning", f"the odometry began {begin:.1f} s after the drive",
-                             "a drive begins with a second of driving or of standing still"))
+        before = {name for time, name in changes if time < begin}
+        name = next((name for name in REMEDIES if name in before), "")
+        found.append(finding("warning", ("the odometry was never usable" if begin == end else
+                                         f"the odometry began {begin:.1f} s after the drive")
+                             + (f": it was {name}" if name else ""), REMEDIES.get(name, STARTING)))
     for name in sorted({name for time, name in changes if time > begin} - {*TOLD_APART}):
         times = spans([change for change in changes if change[0] >= begin], end, lambda other, name=name: other == name)
-        found.append(finding("warning", f"the odometry was {name} {told(times)}"))
+        found.append(finding("warning", f"the odometry was {name} {told(times)}", REMEDIES.get(name, ANEW)))
     return found
+
+
+def of_reverse(figures):
+    """A single radar that drives backwards for all of a drive, as reversed_odometry() of the daemon has it."""
+    driven, back, speed = (figures[name] for name in ("path_length_m", "reversed_length_m", "maximum_speed_mps"))
+    if len(figures["radars"]) != 1 or driven < 50 or back < 0.95 * driven or speed < 2:
+        return []
+    return [finding("note", f"the vehicle drove backwards for {100 * back / driven:.1f} % of {driven:.1f} m, at up to "
+                            f"{speed:.1f} m/s",
+                    "a single radar cannot tell that from a mount turned by pi: if it drove forwards, turn mount.yaw_rad by pi, "
+                    "or correct the sign of its Doppler")]
 
 
 def of_the_radar(radar, changes, figures, end):
-    found, causes = [], figures["statuses_left_out"]
+    """One finding of all that was in doubt, or none."""
+    parts, causes = [], figures["statuses_left_out"]
     if causes:
         known = [cause.replace("_", " ") for cause in causes if cause != "unknown"]
-        found.append(finding("warning", f"{radar}: left out of the odometry for {sum(causes.values())} s: "
-                                        + (", ".join(known) or "the cause is not known")))
+        parts.append(f"left out of the odometry for {sum(causes.values())} s: " + (", ".join(known) or "the cause is not known"))
     for name in sorted({name for _, doubts in changes for name in doubts.split(" + ") if name}):
         times = spans(changes, end, lambda doubts, name=name: name in doubts.split(" + "))
-        found.append(finding("warning", f"{radar}: in doubt {told(times)}: {name.replace('_', ' ')}"))
-    return found
+        parts.append(f"in doubt {told(times)}: {name.replace('_', ' ')}")
+    return [finding("warning", f"{radar}: {'; '.join(parts)}", CONTRADICTED)] if parts else []
 
 
 def of_the_drive(data):
     """Of the numbers of a page: which seconds, which radar."""
     end = data["figures"]["duration_s"]
     found = [] if data["figures"]["odometry"] else [
-        finding("error", "there is no odometry in this drive: the page shows each radar by itself")]
+        finding("error", "there is no odometry in this drive: the page shows each radar by itself",
+                "the other findings tell why, or odometry.enabled is false")]
     radars = data["figures"]["radars"].values()
     found += of_breaks(data["breaks"], max((radar["counters"]["clock_steps"] for radar in radars), default=0))
     found += of_the_odometry(data["statuses"].get("odometry", []), end)
@@ -147,9 +175,28 @@ def of_the_drive(data):
 
 
 def without_what_is_told(of_doctor, of_drive):
-    """The doctor names the longest silence of a radar, the findings of the drive all of them, and no step of the clock."""
+    """The doctor names the longest silence of a radar, the findings of the drive all of them, and no step of the clock.
+    It names how long the odometry was of no use, they the seconds."""
     told_silences = any(text in one["what"] for one in of_drive for text in (NO_SCAN, "were silent", "the clock was set"))
-    return [one for one in of_doctor if not (told_silences and f"{NO_SCAN}from" in one["what"])]
+    told_uses = any(one["what"].startswith("the odometry ") for one in of_drive)
+    return [one for one in of_doctor if not (told_silences and f"{NO_SCAN}from" in one["what"])
+            and not (told_uses and one["what"].startswith("the odometry was "))]
+
+
+def joined(of_doctor, of_drive, radars):
+    """With the seconds in doubt of a radar in the doctor's finding on it, if there is one: it has the cause and the remedy."""
+    if any(SAME_MOUNT in one["what"] for one in of_doctor):  # From which all doubts follow.
+        return of_doctor + [one for one in of_drive if one["remedy"] != CONTRADICTED]
+    found, rest = [dict(one) for one in of_doctor], []
+    for one in of_drive:
+        radar, _, seconds = one["what"].partition(": ")
+        cause = next((other for other in found if radar in radars and one["remedy"] == CONTRADICTED
+                      and other["what"].startswith(f"{radar}: ") and any(text in other["what"] for text in OF_DOUBTS)), None)
+        if cause:
+            cause["what"] += f"; {seconds}"
+        else:
+            rest.append(one)
+    return found + rest
 
 
 def in_order(found):

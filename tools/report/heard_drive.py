@@ -27,10 +27,12 @@ def odometry_row(m):
 
 
 class HeardDrive:
-    """`told` is called with the part that is done, now and then. Times are those of its timeline."""
+    """`told` is called with the part that is done, now and then. Times are those of its timeline; 0 if it has none
+    and `may_be_silent`."""
 
-    def __init__(self, path, told=lambda part: None):
-        self.path, self.told, self.size = path, told, max(os.path.getsize(path), 1)
+    def __init__(self, path, told=lambda part: None, may_be_silent=False):
+        self.path, self.told, self.may_be_silent = path, told, may_be_silent
+        self.size = max(os.path.getsize(path), 1)
         self.odometry = {name: array("d") for name in ODOMETRY_COLUMNS}
         self.motions = {}   # Source: (times, statuses).
         self.statuses = {}  # Radar: the fields of its messages, one a second.
@@ -114,6 +116,8 @@ class HeardDrive:
         ends = [time for column in columns if column for time in (column[0], column[-1])]
         # Of a drive in which all radars were silent there are statuses.
         ends = ends or [message.utime for messages in self.statuses.values() for message in messages]
+        if not ends and self.may_be_silent:
+            return 0, 0
         if not ends:
             raise self.damage or ValueError(
                 self.others.text(self.path)

@@ -58,6 +58,11 @@ def errors_in(troubles):
     return [error for trouble in troubles for error in re.split("(?:^|\n)error: ", trouble.removeprefix(SAID)) if error]
 
 
+def replays(logs):
+    """As arguments of cremed and of the doctor."""
+    return [word for log in logs for word in ("--replay", log)]
+
+
 def has_ended(process, within_s):
     try:
         process.wait(within_s)
@@ -72,8 +77,7 @@ def replay(cremed, logs, config, folder, told):
     lcm_log, words = folder / "heard.lcm", folder / "words"
     command = [cremed, "--publish-scans", "--lcm-url", f"file://{lcm_log}?mode=w"]
     command += ["--config", config] if config else []
-    for log in logs:
-        command += ["--replay", log]
+    command += replays(logs)
     paths = {os.path.realpath(log) for log in logs}
     with open(words, "wb") as file, subprocess.Popen(command, stdin=subprocess.DEVNULL,
                                                      stdout=file, stderr=file) as process:
@@ -127,7 +131,8 @@ def evaluate(programs, lcm_log, drive, folder):
             told = run([programs / "cremed-eval", "drive", rows, drive.truth, "--json", "--tables", tables,
                         *stds])
         except ValueError as error:  # It knows the temporary file only.
-            raise ValueError(str(error).replace(str(rows), drive.logs[0])) from error
+            why = str(error).splitlines()[-1].removeprefix(f"cremed-eval: {rows}: ").replace(str(rows), drive.logs[0])
+            raise ValueError(why) from error
         told = json.loads(told)
         figures += told["sources"]
         errors |= read_table(tables / "errors.csv")

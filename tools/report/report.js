@@ -28,8 +28,9 @@ function indexAt(times, time) {
 }
 
 function showAbout() {
-  const begin = new Date(figures.begin_utime / 1000).toISOString().replace("T", " ").slice(0, 19);
-  byId("about").textContent = `${begin} UTC, ${radars.length} radars; made by ${data.version}`;
+  const begin = figures.begin_utime
+    ? `${new Date(figures.begin_utime / 1000).toISOString().replace("T", " ").slice(0, 19)} UTC, ` : "";
+  byId("about").textContent = `${begin}${radars.length} radars; made by ${data.version}`;
 }
 
 /** A text with commands in `backquotes`. */
@@ -346,6 +347,7 @@ showAbout();
 showFindings();
 showTiles();
 if (figures.odometry) showMotion(); else hide(".of-odometry");
+if (!figures.odometry) byId("statuses-title").textContent = "Status of the motion from scan to scan of each source";
 if (!hasTargets && !figures.odometry) hide(".of-scans");
 if (!hasInnovations) hide(".of-innovations");
 if (data.mounts_unknown) hide(".of-mounts");

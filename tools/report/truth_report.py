@@ -6,6 +6,7 @@ import math
 
 from programs import evaluate, read_poses
 from thinning import extremes, rounded
+from truth_findings import against_truth
 
 
 def truth_data(programs, lcm_log, drive, heard, folder):
@@ -17,6 +18,7 @@ def truth_data(programs, lcm_log, drive, heard, folder):
             "drift": {source: {name: rounded(column) for name, column in columns.items()}
                       for source, columns in drift.items()},
             "gaps": [[round((gap[name] - heard.begin_us) * 1e-6, 3) for name in ("begin_us", "end_us")] for gap in gaps],
+            "comparison": against_truth(poses, heard.odometry),
             "path": true_path(poses, heard.odometry, [gap["end_us"] for gap in gaps])}
 
 

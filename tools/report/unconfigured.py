@@ -4,7 +4,7 @@
 import pathlib
 
 from findings import finding
-from programs import run
+from programs import replays, run
 
 STANDARD = pathlib.Path("/etc/cremed/cremed.toml")
 # As cremed-doctor examines them: without a mount there is no common odometry, and the motion is free.
@@ -23,12 +23,13 @@ def is_unwritten(path=STANDARD):
     return all(not line.strip() or line.strip().startswith("#") for line in lines)
 
 
-def examined_configuration(programs, log, folder):
+def examined_configuration(programs, logs, folder):
     """(the file, the finding that tells of it): of the radars that the doctor recognises in the log."""
-    suggestion = run([programs / "cremed-doctor", "--replay", log, "--suggest-config"])
+    suggestion = run([programs / "cremed-doctor", *replays(logs), "--suggest-config"])
     path = folder / "examined.toml"
     path.write_text(EXAMINED + suggestion.replace(MOUNT_UNKNOWN, "0"), encoding="utf-8")
+    replayed, reported = ("--replay LOG", "LOG") if len(logs) == 1 else ("--replay LOG --replay LOG ...", "--merge LOG LOG ...")
     return str(path), finding(
         "error", "there is no configuration: the radars are those recognised in the log, and their mounts unknown, "
-        "so there is no odometry", "`cremed-doctor --replay LOG --suggest-config > my.toml` writes a first one; fill in "
-        "the mounts, then `cremed-report LOG --config my.toml --output report.html`")
+        "so there is no odometry", f"`cremed-doctor {replayed} --suggest-config > my.toml` writes a first one; fill in "
+        f"the mounts, then `cremed-report {reported} --config my.toml --output report.html`")

@@ -54,7 +54,8 @@ struct Arguments {
 };
 
 void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
-  app.add_option("--config", arguments.config, "Configuration (default: /etc/cremed/cremed.toml)");
+  app.add_option("--config", arguments.config, "Configuration (default: /etc/cremed/cremed.toml)")
+      ->type_name("FILE");
   app.add_option("--seconds", arguments.seconds, "How long to listen")
       ->check(number_in(0.1, 3600.0))
       ->capture_default_str();
@@ -62,11 +63,13 @@ void add_diagnosis_options(CLI::App& app, Arguments& arguments) {
          "--replay", arguments.replay,
          "Diagnose a candump log instead of the live bus; - for standard input; may repeat: "
          "the logs of one drive, merged by stamp")
+      ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--lcm-url", arguments.lcm_url,
                  "LCM URL to check, or none; overrides the configuration. With a log LCM is "
-                 "checked only if this is given");
+                 "checked only if this is given")
+      ->type_name("URL");
 }
 
 void add_other_outputs(CLI::App& app, Arguments& arguments) {
@@ -75,6 +78,7 @@ void add_other_outputs(CLI::App& app, Arguments& arguments) {
          "--suggest-config", arguments.suggested_from,
          "Write a first configuration of the radars on the buses (live), or in the log of "
          "--replay, to standard output; the mounts must be filled in. The log may also follow here")
+      ->type_name("[FILE]")
       ->expected(0, 1)
       ->default_str(kLive)
       ->excludes("--config")
@@ -90,6 +94,7 @@ void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* configure = app.add_option("--configure-ars408", arguments.ars408,
                                    "Set the sensor of this radar as the configuration "
                                    "expects; asks before it sends")
+                        ->type_name("NAME")
                         ->check(name_problem);
   app.add_option("--max-distance", arguments.setup.max_distance_m,
                  "Also set its range in m (by model 196 to 260, or up to 1200)")
@@ -101,10 +106,12 @@ void add_talk_options(CLI::App& app, Arguments& arguments) {
   auto* filtered = app.add_option("--ars408-filters", arguments.filtered,
                                   "Show which clusters the filters of this radar's sensor pass; "
                                   "asks before it sends the request")
+                       ->type_name("NAME")
                        ->check(name_problem);
   app.add_option("--filter", arguments.filters,
                  std::string("Set a filter, also in the sensor's flash; may repeat: ") +
                      kArs408FilterWanted)
+      ->type_name("FILTER")
       ->needs(filtered)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

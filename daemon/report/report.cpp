@@ -365,8 +365,7 @@ CauseText cause_text(const RadarConfiguration& radar, const FaultCause& cause,
   return {all.size() == 1 ? "its Doppler contradicts its positions"
                           : "it contradicts the other radars or its own positions",
           "its mount, the scale or sign of its Doppler, or its bus is wrong: compare them with the "
-          "vehicle; `cremed-eval calibrate LOG --config FILE` finds errors of some degrees or "
-          "percent"};
+          "vehicle; `cremed-eval calibrate LOG --config FILE` finds its yaw, scale and offset"};
 }
 
 /// The names of the others at its mount.

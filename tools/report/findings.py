@@ -18,7 +18,7 @@ REMEDIES = {"ambiguous": "most targets moved with the vehicle (a jam), or a moun
 STARTING = "a drive begins with a second of driving or of standing still"
 ANEW = "it began anew after it was lost or ambiguous: those seconds tell why"
 CONTRADICTED = ("compare its mount, its type and the keys that invert a sign with the vehicle; "
-                "`cremed-eval calibrate LOG --config FILE` finds errors of some degrees or percent")
+                "`cremed-eval calibrate LOG --config FILE` finds yaw, scale and offset")
 # The doctor's words on what the seconds in doubt are about.
 OF_DOUBTS = ("few scans give an estimate", "the odometry", "its covariance", "its Doppler", "positions of its targets")
 SAME_MOUNT = "have the same mount"

@@ -30,7 +30,7 @@ function indexAt(times, time) {
 function showAbout() {
   const begin = figures.begin_utime
     ? `${new Date(figures.begin_utime / 1000).toISOString().replace("T", " ").slice(0, 19)} UTC, ` : "";
-  byId("about").textContent = `${begin}${radars.length} radars; made by ${data.version}`;
+  byId("about").textContent = `${begin}${radars.length} ${radars.length === 1 ? "radar" : "radars"}; made by ${data.version}`;
 }
 
 /** A text with commands in `backquotes`. */
@@ -354,7 +354,7 @@ if (data.mounts_unknown) hide(".of-mounts");
 if (Object.keys(data.statuses).length) showStatuses(); else hide(".of-motions");
 if (truth) showTruth();
 showRadars();
-if (figures.radars[radars[0]]) showCounters();
+if (figures.radars[radars[0]]) showCounters(); else hide(".of-counters");
 showWarnings();
 showPlanes();
 followSlider();

@@ -58,8 +58,8 @@ void ProgressBar::advance() {
 
 void ProgressBar::show(std::optional<double> share, const std::string& text) const {
   if (is_shown_) {
-    ::dprintf(STDERR_FILENO, "\r%s%s %s%s\033[K", label_.c_str(), share ? bar(*share).c_str() : "",
-              text.c_str(), share ? rest(*share, begin_us_).c_str() : "");
+    ::dprintf(STDERR_FILENO, "\r%s%s%s%s%s\033[K", label_.c_str(), share ? bar(*share).c_str() : "",
+              text.empty() ? "" : " ", text.c_str(), share ? rest(*share, begin_us_).c_str() : "");
   }
 }
 

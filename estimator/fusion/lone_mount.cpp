@@ -37,6 +37,11 @@ constexpr double kMinDrivingMps = 1.0;
 constexpr double kTurnedStdRad = 0.1;
 /// The error of the speed, 1 - cos of this, is 1.1 %.
 constexpr double kMaxLearnedRad = 0.15;
+/// Speed of a radar across the vehicle over that along it, x of the mount over the radius of the
+/// turn: 1.5 at the front of a bus at full lock, 1.1 at most on a car.
+constexpr double kMaxSidewaysShare = 1.6;
+/// Twice the step to which Doppler is rounded.
+constexpr double kMinSidewaysMps = 0.5;
 /// A turn by more than 34 degrees is another fault: upside down in a tight bend the direction of
 /// motion jumps like this.
 constexpr double kMaxTurnRad = 0.6;
@@ -176,7 +181,12 @@ bool LoneMount::moves_sideways(std::size_t radar) const {
   const Eigen::Vector2d velocity_mps = state_.radar_velocity(radar);
   const double std_mps = std::abs(state_.mount(radar).x_m) * state_.gaussian.std(kYawRate);
   return judges(radar) && std::abs(velocity_mps.y()) - kGateSigmas * std_mps >
-                              std::abs(velocity_mps.x()) + kMinDrivingMps;
+                              kMaxSidewaysShare * std::abs(velocity_mps.x()) + kMinSidewaysMps;
+}
+
+FaultCause LoneMount::cause_of_sideways(std::size_t radar) const {
+  const Eigen::Vector2d velocity_mps = state_.radar_velocity(radar);
+  return {FaultKind::mount_yaw, -std::atan2(velocity_mps.y(), velocity_mps.x())};
 }
 
 FaultCause LoneMount::cause(std::size_t radar) const {

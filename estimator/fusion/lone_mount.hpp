@@ -65,6 +65,8 @@ class LoneMount {
   /// The radar moves sideways as only a vehicle does that turns about itself: its mount is turned
   /// by more than is learned.
   [[nodiscard]] bool moves_sideways(std::size_t radar) const;
+  /// With the yaw by which it moves ahead.
+  [[nodiscard]] FaultCause cause_of_sideways(std::size_t radar) const;
   /// Whether it is, or was when the odometry last started, too far off.
   [[nodiscard]] bool is_left_out(std::size_t radar) const {
     return is_too_far(radar) || before_restart_rad_[radar] != 0.0;

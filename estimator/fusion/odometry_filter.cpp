@@ -490,7 +490,10 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
 
 FaultCause OdometryFilter::cause(std::size_t radar) const {
   const FaultCause by_others = faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause();
-  return by_others.kind == FaultKind::unknown ? lone_mount_.cause(radar) : by_others;
+  if (by_others.kind != FaultKind::unknown) {
+    return by_others;
+  }
+  return is_sideways(radar) ? lone_mount_.cause_of_sideways(radar) : lone_mount_.cause(radar);
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

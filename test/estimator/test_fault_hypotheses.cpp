@@ -357,6 +357,14 @@ TEST_CASE("of two radars the one that is upside down is at fault, though both co
   CHECK_FALSE(comparison.faults().is_unknown());
 }
 
+TEST_CASE("which of two radars on one axis is upside down is not known") {
+  const auto guilty = GENERATE(std::size_t{0}, std::size_t{1});
+  Comparison comparison({{3.4, 0.0, 0.0}, {-1.0, 0.0, 3.1416}});
+  comparison.drive(20.0, turned_over(guilty));
+  CHECK(comparison.faults().at_fault() == 0);
+  CHECK(comparison.faults().is_unknown());
+}
+
 TEST_CASE("two radars that look aside with each other's mounts are at fault") {
   Comparison comparison(kFive);
   comparison.drive(5.0, [](std::size_t radar, Comparison::Measured& measured) {

@@ -382,7 +382,10 @@ TEST_CASE("a radar whose mount says that it looks aside does not turn the vehicl
   drive.radar(0).mount.yaw_rad = 0.0;
   drive.set_motion(2.0, 0.1);
   CHECK(judge(drive, 8.0).usable_share == 0.0);
-  CHECK(drive.filter().report(0).is_left_out);
+  const RadarReport report = drive.filter().report(0);
+  CHECK(report.is_left_out);
+  CHECK(report.cause.kind == FaultKind::mount_yaw);
+  CHECK(report.cause.value == Approx(-side * 1.56).margin(0.2));
 }
 
 TEST_CASE("radars that join a lone one whose mount was learned agree with it, or judge it") {

@@ -104,6 +104,9 @@ TEST_CASE("a yaw by which a radar moves sideways or backwards is found from any 
       radar.ego_motion.vehicle_from_radar.yaw_rad = 0.0;
     }
   }
+  SECTION("one of three is said to look back, about which its directions scatter") {
+    wrong.radars[0].ego_motion.vehicle_from_radar.yaw_rad += std::numbers::pi;
+  }
   SECTION("the only one is said to look to the left") {
     wrong.radars.resize(1);
     wrong.radars[0].ego_motion.vehicle_from_radar.yaw_rad += 1.4;

@@ -61,7 +61,7 @@ def topic_of(message):
 
 
 class JsonProfile:
-    """All fields of all messages, and what Foxglove draws of them: (topic, type, bytes) of a message."""
+    """All fields of all messages but the lists of targets, and what Foxglove draws of them: (topic, type, bytes) of a message."""
     name, encoding, schema_encoding = "", "json", "jsonschema"
     missing = ""  # What is not in the log.
 

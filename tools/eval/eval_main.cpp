@@ -37,7 +37,7 @@ CLI::App* add_calibrate(CLI::App& app, cremed::CalibrateArguments& arguments) {
                     "Also change the configuration, where the drive gives better values");
   command->footer(
       "Examples:\n"
-      "  A configuration and what a drive would change in it; --write changes it.\n"
+      "  What a drive would change in a configuration; --write changes it.\n"
       "    $ cremed-eval calibrate candump.log --config my.toml > calibrated.toml");
   return command;
 }

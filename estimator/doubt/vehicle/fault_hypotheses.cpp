@@ -20,9 +20,9 @@ constexpr double kMaxDisputedScale = 0.05;
 /// backwards; of simulated regimes with few targets 5.7 (lateness).
 constexpr double kMinGain = 25.0;
 
-/// Largest chi-square of the believed radars in an epoch that is used to search for causes;
-/// consistent sets have 1 to 5. In the epoch before one of three radars is found at fault it is
-/// still among those with which the others are compared.
+/// Largest chi-square of the believed radars in an epoch that is used to search for causes, of
+/// three or more radars; consistent sets have 1 to 5. In the epoch before one of three radars is
+/// found at fault it is still among those with which the others are compared.
 constexpr double kMaxChiSquareOfEpoch = 32.0;
 
 /// Least decrease by lateness of one of two radars, where no third one decides: healthy ones with
@@ -32,6 +32,10 @@ constexpr double kMinGainOfLateness = 37.5;
 /// like a delay, that changes by a second in this time.
 constexpr std::size_t kEpochsOfTwo = 7;
 constexpr double kMaxChangeOfDelayS = 0.05;
+
+/// Of radars whose axes differ by less either may be upside down: twice this is the slip with which
+/// the other one would be, six times what is left open (VelocityMoments::Errors of healthy radars).
+constexpr double kMinBetweenAxesRad = 0.05;
 
 /// Radars whose speeds differ by less than this share have the same speed. A larger error of scale
 /// is found by the radar's own check (DopplerScale).
@@ -317,15 +321,19 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
 
 /// Of two radars one may be too fast or the other too slow. But if one seems late, the other is not
 /// early: a frame is not received before it was measured. And if one seems upside down, the other
-/// does not, since they are mirrored about other axes: pairs of healthy ones have 9.3 at most (0103
-/// backwards). The finding must last: after a change of scale a radar seems to be late by more and
-/// more.
+/// does not, unless their axes are in line (healthy pairs: 9.3 at most, 0103 backwards). The
+/// finding must last: after a change of scale a radar seems to be late by more and more.
 void FaultHypotheses::note_finding_of_two(std::size_t radar,
                                           const FaultCauseSearch::Finding& finding) {
   const FaultCause& cause = finding.cause;
+  const double yaw_rad = state_.mount(radar).yaw_rad;
+  const bool is_in_line = any_of(evidence_.present() & ~set_of(radar), [&](std::size_t other) {
+    return std::abs(std::sin(yaw_rad - state_.mount(other).yaw_rad)) < kMinBetweenAxesRad;
+  });
   const bool is_decisive =
-      finding.is_clear && ((cause.kind == FaultKind::late && finding.gain > kMinGainOfLateness) ||
-                           (cause.kind == FaultKind::upside_down && finding.gain > kMinGain));
+      finding.is_clear &&
+      ((cause.kind == FaultKind::late && finding.gain > kMinGainOfLateness) ||
+       (cause.kind == FaultKind::upside_down && finding.gain > kMinGain && !is_in_line));
   const bool is_same = is_decisive && radar == of_two_.radar && cause.kind == of_two_.cause.kind &&
                        std::abs(cause.value - of_two_.cause.value) < kMaxChangeOfDelayS;
   of_two_ = {radar, cause, is_same ? of_two_.epochs + 1 : 0};

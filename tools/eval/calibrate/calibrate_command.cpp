@@ -110,13 +110,18 @@ void print_vehicle(const Calibration& calibration) {
                                              : ": kept");
 }
 
+bool is_turned(const RadarCalibration& radar) { return radar.turned_rad != 0.0; }
+
 void print_check(const Calibration& calibration) {
   if (const auto& check = calibration.check) {
     std::fprintf(stderr,
                  "checked on each fifth of the drive with what the others give: misfit %.0f, with "
-                 "the configured values %.0f%s\n",
-                 check->found, check->configured,
-                 check->is_better ? "" : ": no better, so that these are kept");
+                 "%s %.0f%s\n",
+                 check->found,
+                 std::ranges::any_of(calibration.radars, is_turned)
+                     ? "the values that the fit began with"
+                     : "the configured values",
+                 check->configured, check->is_better ? "" : ": no better, so that these are kept");
   }
 }
 
@@ -136,7 +141,8 @@ void print_table(const Configuration& configuration, const Calibration& calibrat
       continue;
     }
     std::fprintf(
-        stderr, "%s, %zu scans%s\n", configured.name.c_str(), radar.scans,
+        stderr, "%s, %zu scans%s%s\n", configured.name.c_str(), radar.scans,
+        is_turned(radar) ? ": begun with the yaw by which it moves along" : "",
         radar.is_refused ? ": what was found fits other parts of the drive no better" : "");
     for (const Column& column : kColumns) {
       print_state(configured, radar, column);

@@ -52,39 +52,56 @@ CalibrationVector configured(const RadarConfiguration& radar) {
   return state;
 }
 
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
 /// The direction in which the radar moves, from the x axis of the vehicle by this yaw of its mount;
-/// 0 if it hardly moves. Most of a drive is straight: the median over the scans.
-double direction_rad(const RecordedRadar& recorded, double mount_yaw_rad) {
+/// nothing if it hardly moves. Most of a drive is straight: the median over the scans, about the
+/// mean so that no direction is cut in two.
+std::optional<double> direction_rad(const RecordedRadar& recorded, double mount_yaw_rad) {
   std::vector<double> directions_rad;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const RecordedScan& scan : recorded.scans) {
     const auto state = agreed_velocity(scan.targets);
     if (state && state->head<2>().norm() > kSlowestMps) {
-      directions_rad.push_back(std::remainder(mount_yaw_rad + std::atan2((*state)[1], (*state)[0]),
-                                              2.0 * std::numbers::pi));
+      directions_rad.push_back(mount_yaw_rad + std::atan2((*state)[1], (*state)[0]));
+      sum += Eigen::Vector2d(std::cos(directions_rad.back()), std::sin(directions_rad.back()));
     }
   }
-  return median_or(0.0, directions_rad.begin(), directions_rad.end());
+  if (directions_rad.empty()) {
+    return std::nullopt;
+  }
+  const double mean_rad = std::atan2(sum.y(), sum.x());
+  for (double& direction : directions_rad) {
+    direction = wrapped(direction - mean_rad);
+  }
+  return wrapped(mean_rad + median_or(0.0, directions_rad.begin(), directions_rad.end()));
 }
 
 /// A radar that by its mount moves sideways, as none on a vehicle does, or backwards as few of them
 /// do, gets the yaw with which it moves ahead. The fit would take that for a turn of the vehicle
-/// about itself. If half of them move backwards, the vehicle does.
-Configuration turned_ahead(Configuration configuration,
+/// about itself. If most of them move backwards the vehicle does; if just half of them do, who is
+/// wrong is not known.
+Configuration turned_along(Configuration configuration,
                            const std::vector<RecordedRadar>& recorded) {
-  std::vector<double> off_rad;
+  constexpr double kSidewaysRad = 0.25 * std::numbers::pi;
+  constexpr double kBackwardsRad = 0.75 * std::numbers::pi;
+  const auto yaw_rad = [&](std::size_t i) -> double& {
+    return configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad;
+  };
+  std::vector<std::optional<double>> off_rad;
+  int moving = 0;
+  int moving_back = 0;
   for (std::size_t i = 0; i < recorded.size(); ++i) {
-    off_rad.push_back(
-        direction_rad(recorded[i], configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad));
+    off_rad.push_back(direction_rad(recorded[i], yaw_rad(i)));
+    moving += off_rad[i] ? 1 : 0;
+    moving_back += off_rad[i] && std::abs(*off_rad[i]) > kBackwardsRad ? 1 : 0;
   }
-  const auto is_back = [](double off) { return std::abs(off) > 0.75 * std::numbers::pi; };
-  const bool drives_back =
-      2 * static_cast<std::size_t>(std::ranges::count_if(off_rad, is_back)) >= recorded.size();
+  const double along_rad = 2 * moving_back > moving ? std::numbers::pi : 0.0;
   for (std::size_t i = 0; i < recorded.size(); ++i) {
-    const bool is_wrong =
-        is_back(off_rad[i]) ? !drives_back : std::abs(off_rad[i]) > 0.25 * std::numbers::pi;
-    if (is_wrong) {
-      double& yaw_rad = configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad;
-      yaw_rad = std::remainder(yaw_rad - off_rad[i], 2.0 * std::numbers::pi);
+    const double by_rad = wrapped(off_rad[i].value_or(along_rad) - along_rad);
+    const bool is_against = std::abs(by_rad) > kBackwardsRad;
+    if (is_against ? 2 * moving_back != moving : std::abs(by_rad) > kSidewaysRad) {
+      yaw_rad(i) = wrapped(yaw_rad(i) - by_rad);
     }
   }
   return configuration;
@@ -451,8 +468,8 @@ class Calibrator {
 Calibration calibrate(const Configuration& configuration, const std::vector<std::string>& logs,
                       const TrueTrajectory* truth, const SystematicErrors& errors) {
   std::vector<RecordedRadar> recorded = record_drive(without_motions(configuration), logs).radars;
-  const Configuration ahead = turned_ahead(configuration, recorded);
-  Calibrator calibrator(ahead, logs, std::move(recorded), truth, errors);
+  const Configuration along = turned_along(configuration, recorded);
+  Calibrator calibrator(along, logs, std::move(recorded), truth, errors);
   for (int round = 0; round < kRounds; ++round) {
     calibrator.refine();
   }
@@ -460,8 +477,8 @@ Calibration calibrate(const Configuration& configuration, const std::vector<std:
   Calibration result = calibrator.result();
   for (std::size_t i = 0; i < result.radars.size(); ++i) {
     RadarCalibration& radar = result.radars[i];
-    radar.turned_rad = ahead.radars[i].ego_motion.vehicle_from_radar.yaw_rad -
-                       configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad;
+    radar.turned_rad = wrapped(along.radars[i].ego_motion.vehicle_from_radar.yaw_rad -
+                               configuration.radars[i].ego_motion.vehicle_from_radar.yaw_rad);
     radar.is_changed[kYaw] = radar.is_changed[kYaw] || radar.turned_rad != 0.0;
   }
   return result;
@@ -501,7 +518,7 @@ Configuration calibrated(const Configuration& configuration, const Calibration& 
                     found.is_changed[state] ? found.fit.value[state] : found.fit.prior[state]);
     }
     if (found.is_changed[kYaw]) {
-      value[kYaw] = std::remainder(value[kYaw], 2.0 * std::numbers::pi);
+      value[kYaw] = wrapped(value[kYaw]);
     }
     radar.ego_motion.vehicle_from_radar = {value[kX], value[kY], value[kYaw]};
     radar.stamp_offset_s = value[kStamp];

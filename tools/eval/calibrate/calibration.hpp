@@ -27,7 +27,8 @@ struct RadarCalibration {
   std::size_t scans = 0;
   std::size_t explained_scans = 0;  ///< While driving, by the motion of all radars.
   bool is_refused = false;          ///< What was found fits other parts of the drive no better.
-  /// Yaw of the fit's prior minus the configured one, if by that the radar did not move ahead.
+  /// Yaw of the fit's prior minus the configured one, if by that the radar did not move ahead as
+  /// the others; it is then changed in any case.
   double turned_rad = 0.0;
 };
 
@@ -46,7 +47,8 @@ struct SystematicErrors {
   /// Azimuth scale by Doppler: scatter of one radar between five nuScenes drives.
   double doppler_azimuth = 0.005;
   /// Doppler offset, m/s: RMS of what is found without truth for the front radar on five nuScenes
-  /// drives, -0.13 to -0.24. The cause is unknown; the odometry is worse with it.
+  /// drives (-0.13 to -0.24; rear ones -0.01 to 0.24), from mounts that were only estimated. The
+  /// cause is unknown; the odometry is worse with it.
   double doppler_offset = 0.17;
   /// Turned angle of targets over the true one, without a known cause: 0.5 to 1 % of two tight
   /// turns of nuScenes, and what makes the lever arms of simulated drives credible.

@@ -198,7 +198,11 @@ std::string LiveReporter::report_radar(std::size_t radar) {
                    : progress.seconds_without_estimate >= kPatienceS ? 2
                                                                      : 0;
   log_.update(concat({"radar ", configuration.name}), kind, [&] {
-    const auto findings = radar_findings(configuration, status, configuration_.radars);
+    auto findings = radar_findings(configuration, status, configuration_.radars);
+    if (const auto common = common_mount(configuration_, configuration, status);
+        common && kind == 2) {
+      findings.push_back(*common);
+    }
     return concat({kind == 1 ? "no scans" : "no estimates", findings.empty() ? "" : ": ",
                    findings.empty() ? "" : to_text(findings.front())});
   });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -119,10 +120,18 @@ void report_end(const Replayed& replayed, const std::string& name, const RadarSt
   }
 }
 
+RadarStatus status_of(const Replayed& replayed, std::size_t number) {
+  RadarStatus status = replayed.pipeline.radars()[number]->status(0, replayed.replay);
+  if (reversed_odometry(replayed.odometry, replayed.configuration.radars.size())) {
+    drop_doubts_of_turned_mount(status);
+  }
+  return status;
+}
+
 /// False if it had no scan.
 bool report_radar(const Replayed& replayed, std::size_t number) {
   const RadarConfiguration& radar = replayed.configuration.radars[number];
-  const RadarStatus status = replayed.pipeline.radars()[number]->status(0, replayed.replay);
+  const RadarStatus status = status_of(replayed, number);
   spdlog::info("{}: {}", radar.name, summary(status));
   // Without a frame there is nothing to find in them.
   for (const Finding& finding : status.decoder.frames != 0
@@ -145,19 +154,20 @@ bool report_radar(const Replayed& replayed, std::size_t number) {
 
 /// False if one had no scan, or none an estimate.
 bool report_radars(const Replayed& replayed) {
+  const Configuration& configuration = replayed.configuration;
   bool is_good = true;
-  bool is_in_doubt = false;
+  std::optional<Finding> common;
   std::uint64_t scans = 0;
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i < replayed.configuration.radars.size(); ++i) {
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     is_good = report_radar(replayed, i) && is_good;
-    const RadarStatus status = replayed.pipeline.radars()[i]->status(0, replayed.replay);
+    const RadarStatus status = status_of(replayed, i);
     scans += status.assembler.scans;
     count += estimates(status);
-    is_in_doubt = is_in_doubt || status.belief.doubts != 0;
+    common = common ? common : common_mount(configuration, configuration.radars[i], status);
   }
-  if (const auto finding = common_mount(replayed.configuration.radars); finding && is_in_doubt) {
-    spdlog::error("{}", to_text(*finding));
+  if (common) {
+    spdlog::error("{}", to_text(*common));
   }
   if (scans != 0 && count == 0) {
     spdlog::error("no estimate from {}; {} tells why", counted(scans, "scan"),
@@ -180,9 +190,9 @@ void log_odometry(const OdometryTally& tally, std::size_t radars) {
       tally.count(OdometryStatus::ok) + tally.count(OdometryStatus::standing_still) != 0;
   spdlog::log(is_usable ? spdlog::level::info : spdlog::level::warn, "odometry: {}",
               is_usable ? text : concat({"never usable: ", text.empty() ? "no scan" : text}));
-  for (const auto& finding : {unusable_odometry(tally, radars), reversed_odometry(tally, radars)}) {
-    if (finding && is_usable) {
-      spdlog::warn("{}", to_text(*finding));
+  if (is_usable) {
+    for (const Finding& finding : odometry_findings(tally, radars)) {
+      spdlog::warn("{}", to_text(finding));  // A note too: cremed-report looks for warnings only.
     }
   }
 }

@@ -70,4 +70,14 @@ std::optional<Finding> reversed_odometry(const OdometryTally& tally, std::size_t
                  "turn mount.yaw_rad by pi, or correct the sign of its Doppler"};
 }
 
+std::vector<Finding> odometry_findings(const OdometryTally& tally, std::size_t radars) {
+  std::vector<Finding> findings;
+  for (const auto& finding : {unusable_odometry(tally, radars), reversed_odometry(tally, radars)}) {
+    if (finding) {
+      findings.push_back(*finding);
+    }
+  }
+  return findings;
+}
+
 }  // namespace cremed

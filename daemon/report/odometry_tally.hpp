@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "daemon/output/odometry_sink.hpp"
 #include "daemon/report/finding.hpp"
@@ -38,5 +39,8 @@ std::optional<Finding> unusable_odometry(const OdometryTally& tally, std::size_t
 /// A note if it reversed for nearly all of a drive, as it does by a single radar whose mount is
 /// turned by pi: nothing else that this radar sees contradicts that. Several contradict it.
 std::optional<Finding> reversed_odometry(const OdometryTally& tally, std::size_t radars);
+
+/// Both.
+std::vector<Finding> odometry_findings(const OdometryTally& tally, std::size_t radars);
 
 }  // namespace cremed

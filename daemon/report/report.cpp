@@ -382,6 +382,12 @@ std::string sharing_mount(const RadarConfiguration& radar,
       &RadarConfiguration::name);
 }
 
+bool has_common_mount(const RadarConfiguration& radar, const RadarStatus& status,
+                      std::span<const RadarConfiguration> all) {
+  constexpr std::uint32_t kOfMount = registration_contradicts_doppler | other_radars_contradict;
+  return (status.belief.doubts & kOfMount) != 0 && !sharing_mount(radar, all).empty();
+}
+
 void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
                std::span<const RadarConfiguration> all, Findings& findings) {
   const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
@@ -393,14 +399,14 @@ void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
 /// What contradicts its Doppler or its mount, once: the odometry names scale and sign of Doppler by
 /// a value, and does not know all that its positions tell. Of a common mount common_mount() tells.
 Findings contradictions_of(const RadarConfiguration& radar, const RadarStatus& status,
-                           bool has_common_mount, std::span<const RadarConfiguration> all) {
+                           std::span<const RadarConfiguration> all) {
   const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
   const FaultKind kind = status.odometry.cause.kind;
   Findings findings;
   if (!is_left_out || (kind != FaultKind::scale && kind != FaultKind::sign)) {
     add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
   }
-  if (!has_common_mount && (findings.empty() || kind != FaultKind::unknown)) {
+  if (!has_common_mount(radar, status, all) && (findings.empty() || kind != FaultKind::unknown)) {
     add_fault(radar, status, all, findings);
   }
   return findings;
@@ -425,18 +431,32 @@ Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status
   return {Severity::warning, text.what + effect, text.remedy};
 }
 
-std::optional<Finding> common_mount(std::span<const RadarConfiguration> radars) {
-  for (const RadarConfiguration& radar : radars) {
-    if (const std::string others = sharing_mount(radar, radars); !others.empty()) {
-      const Pose2& mount = radar.ego_motion.vehicle_from_radar;
-      return Finding{Severity::error,
-                     fmt::format("{} and {} have the same mount (x {:g} m, y {:g} m, yaw {:g} rad)",
-                                 radar.name, others, mount.x_m, mount.y_m, mount.yaw_rad),
-                     "write where each radar is ([radar.mount]), from the middle of the rear axle; "
-                     "only radars one above the other share a mount"};
-    }
+std::optional<Finding> common_mount(const Configuration& configuration,
+                                    const RadarConfiguration& radar, const RadarStatus& status) {
+  if (!configuration.odometry.enabled || !has_common_mount(radar, status, configuration.radars)) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  const Pose2& mount = radar.ego_motion.vehicle_from_radar;
+  return Finding{
+      Severity::error,
+      fmt::format("{} and {} have the same mount (x {:g} m, y {:g} m, yaw {:g} rad)", radar.name,
+                  sharing_mount(radar, configuration.radars), mount.x_m, mount.y_m, mount.yaw_rad),
+      "write where each radar is ([radar.mount]), from the middle of the rear axle; "
+      "only radars one above the other share a mount"};
+}
+
+bool is_contradicted(const RadarConfiguration& radar, const RadarStatus& status,
+                     std::span<const RadarConfiguration> all) {
+  return has_common_mount(radar, status, all) || !contradictions_of(radar, status, all).empty();
+}
+
+void drop_doubts_of_turned_mount(RadarStatus& status) {
+  status.belief.doubts &= ~registration_contradicts_doppler;
+  const FaultKind kind = status.odometry.cause.kind;
+  if (kind == FaultKind::mount_yaw || kind == FaultKind::unknown) {
+    status.belief.doubts &= ~other_radars_contradict;
+    status.odometry.cause = {};
+  }
 }
 
 std::uint64_t estimates(const RadarStatus& status) {
@@ -487,10 +507,9 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
   add_no_detection(radar, status, findings);
   const Findings health = health_findings(radar, status);
   findings.insert(findings.end(), health.begin(), health.end());
-  const bool is_misplaced = status.belief.doubts != 0 && !sharing_mount(radar, all).empty();
-  const Findings contradictions = contradictions_of(radar, status, is_misplaced, all);
+  const Findings contradictions = contradictions_of(radar, status, all);
   findings.insert(findings.end(), contradictions.begin(), contradictions.end());
-  const bool is_explained = !contradictions.empty() || is_misplaced;
+  const bool is_explained = is_contradicted(radar, status, all);
   if (!is_explained || !is_mostly_ambiguous(status)) {
     add_few_estimates(status, findings);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,9 +32,20 @@ std::vector<Finding> radar_findings(const RadarConfiguration& radar, const Radar
 Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status,
                       std::span<const RadarConfiguration> all);
 
-/// Radars that have one mount, as in a file that was not filled in: an error if any is in doubt.
-/// What follows from that radar_findings() leaves out.
-std::optional<Finding> common_mount(std::span<const RadarConfiguration> radars);
+/// An error if others have the mount of a radar, as in a file that was not filled in, and the
+/// common odometry or its own positions contradict it. What follows from that radar_findings()
+/// leaves out.
+std::optional<Finding> common_mount(const Configuration& configuration,
+                                    const RadarConfiguration& radar, const RadarStatus& status);
+
+/// Whether radar_findings() or common_mount() name what is wrong with its mount or its Doppler:
+/// missing estimates follow from that.
+bool is_contradicted(const RadarConfiguration& radar, const RadarStatus& status,
+                     std::span<const RadarConfiguration> all);
+
+/// For a single radar that reversed for all of a drive: the yaw that the filter learns with a mount
+/// that is turned by pi is another wrong one.
+void drop_doubts_of_turned_mount(RadarStatus& status);
 
 /// What configures an ARS408 as expected, in backquotes.
 std::string configure_command(const RadarConfiguration& radar);

@@ -69,6 +69,8 @@ TEST_CASE("an odometry in reverse for all of a drive is told, if a single radar 
   CHECK_FALSE(reversed_odometry(driven(40, 1.0, 13.0), 1));
   CHECK_FALSE(reversed_odometry(driven(100, 1.0, 1.0), 1));
   CHECK_FALSE(reversed_odometry(OdometryTally(), 1));
+  CHECK(odometry_findings(driven(100, 1.0, 13.0), 1).size() == 1);
+  CHECK(odometry_findings(driven(100, 0.0, 13.0), 1).empty());
 }
 
 }  // namespace

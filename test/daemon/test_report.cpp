@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -292,15 +293,51 @@ TEST_CASE("Radars that have one mount are told once, and not what follows from i
   RadarStatus status = healthy();
   no_estimate_but(status, MotionStatus::ambiguous);
   status.belief.doubts = other_radars_contradict;
-  const std::array same{front(), left};
+  const std::vector same{front(), left};
   CHECK(radar_findings(front(), status, same).empty());
-  const auto finding = common_mount(same);
+  CHECK(is_contradicted(front(), status, same));
+  Configuration configuration;
+  configuration.radars = same;
+  const auto finding = common_mount(configuration, front(), status);
   REQUIRE(finding);
   CHECK(finding->severity == Severity::error);
   CHECK_THAT(finding->what, Catch::StartsWith("front and left have the same mount (x "));
-  left.ego_motion.vehicle_from_radar.yaw_rad += 0.1;
-  CHECK_FALSE(common_mount(std::array{front(), left}));
-  CHECK(radar_findings(front(), status, std::array{front(), left}).size() == 1);
+  configuration.odometry.enabled = false;
+  CHECK_FALSE(common_mount(configuration, front(), status));
+  configuration.odometry.enabled = true;
+  configuration.radars[1].ego_motion.vehicle_from_radar.yaw_rad += 0.1;
+  CHECK_FALSE(common_mount(configuration, front(), status));
+  CHECK(radar_findings(front(), status, configuration.radars).size() == 1);
+}
+
+TEST_CASE("One radar above the other is well if no doubt is about the mount") {
+  Configuration configuration;
+  configuration.radars = {front(), front()};
+  configuration.radars[1].name = "above";
+  const std::uint32_t doubt = GENERATE(covariance_too_large | 0U, stamps_run_behind | 0U,
+                                       motions_contradict_each_other | 0U);
+  RadarStatus status = healthy();
+  no_estimate_but(status, MotionStatus::ambiguous);
+  status.belief.doubts = doubt;
+  CHECK_FALSE(common_mount(configuration, front(), status));
+  CHECK_FALSE(is_contradicted(front(), status, configuration.radars));
+  CHECK(radar_findings(front(), status, configuration.radars).size() == 2);
+}
+
+TEST_CASE("Of a mount that is turned by pi no other yaw is told, but all that is of no mount") {
+  constexpr std::uint32_t kOthers =
+      covariance_too_large | stamps_run_behind | positions_contradict_speed;
+  RadarStatus status = healthy();
+  status.belief.doubts = kOthers | registration_contradicts_doppler | other_radars_contradict;
+  status.odometry.cause = {FaultKind::mount_yaw, 0.3};
+  drop_doubts_of_turned_mount(status);
+  CHECK(status.belief.doubts == kOthers);
+  CHECK(status.odometry.cause.kind == FaultKind::unknown);
+  status.belief.doubts = other_radars_contradict;
+  status.odometry.cause = {FaultKind::scale, 1.2};
+  drop_doubts_of_turned_mount(status);
+  CHECK(status.belief.doubts == other_radars_contradict);
+  CHECK(status.odometry.cause.kind == FaultKind::scale);
 }
 
 TEST_CASE("A mount that the odometry has learned is named with its value") {

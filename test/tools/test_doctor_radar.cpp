@@ -396,6 +396,20 @@ TEST_CASE("A radar at the mount of another is told which") {
              Catch::Contains("front: it sees what a radar at the mount of rear sees"));
 }
 
+TEST_CASE("A doubt that does not explain it leaves a missing estimate an error") {
+  const Configuration configuration = demo_configuration();
+  Recording traffic = recording_of(configuration.radars);
+  remove_if(traffic, is_between(traffic, 0.06, 9.0));
+  Observation observation = observe(configuration, traffic);
+  observation.is_live = true;
+  observation.radars[0].status.belief.doubts = stamps_run_behind;
+  CHECK_THAT(all_text(diagnose(configuration, observation)),
+             Catch::Contains("front: no estimate yet"));
+  observation.radars[0].status.belief.doubts = other_radars_contradict;
+  CHECK_THAT(all_text(diagnose(configuration, observation)),
+             !Catch::Contains("front: no estimate yet"));
+}
+
 TEST_CASE("A clock that is set back is not blamed on lost frames") {
   const Configuration configuration = demo_configuration();
   Recording traffic = recording_of(configuration.radars);

@@ -89,19 +89,11 @@ void add_vehicle(const VehicleConfiguration& vehicle, const Observation& observa
 
 void add_common_mount(const Configuration& configuration, const Observation& observation,
                       Findings& findings) {
-  const bool is_in_doubt = std::ranges::any_of(
-      observation.radars,
-      [](const RadarObservation& radar) { return radar.status.belief.doubts != 0; });
-  const auto finding = common_mount(configuration.radars);
-  if (configuration.odometry.enabled && is_in_doubt && finding) {
-    findings.insert(findings.begin(), *finding);
-  }
-}
-
-void add_odometry(std::size_t radars, const OdometryTally& tally, Findings& findings) {
-  for (const auto& finding : {unusable_odometry(tally, radars), reversed_odometry(tally, radars)}) {
-    if (finding) {
-      findings.push_back(*finding);
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    const RadarStatus& status = observation.radars[i].status;
+    if (const auto finding = common_mount(configuration, configuration.radars[i], status)) {
+      findings.insert(findings.begin(), *finding);
+      return;
     }
   }
 }
@@ -143,7 +135,7 @@ Findings diagnose(const Configuration& configuration, const Observation& observa
     add_buses(configuration, observation, findings);
     add_clock(observation, findings);
     add_vehicle(configuration.vehicle, observation, findings);
-    add_odometry(configuration.radars.size(), observation.odometry, findings);
+    append(odometry_findings(observation.odometry, configuration.radars.size()), findings);
   }
   if (!observation.malformed_lines.empty()) {
     findings.push_back({Severity::warning, observation.malformed_lines,

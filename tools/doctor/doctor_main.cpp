@@ -20,6 +20,7 @@
 #include "daemon/process/joined.hpp"
 #include "daemon/process/signals.hpp"
 #include "daemon/process/usage_error.hpp"
+#include "daemon/report/report.hpp"
 #include "tools/doctor/ars408_filters.hpp"
 #include "tools/doctor/ars408_setup.hpp"
 #include "tools/doctor/bus_findings.hpp"
@@ -141,10 +142,11 @@ Observation observe(const Arguments& arguments, const Configuration& configurati
   Observation observation = arguments.replay.empty()
                                 ? observe_live(configuration, arguments.seconds, stop)
                                 : observe_logs(configuration, arguments.replay);
-  // What the filter says of a mount that is turned by pi would lead to another wrong one.
-  if (finds_radars(arguments) ||
-      reversed_odometry(observation.odometry, configuration.radars.size())) {
+  if (finds_radars(arguments)) {
     drop_doubts_of_mounts(observation);
+  }
+  if (reversed_odometry(observation.odometry, configuration.radars.size())) {
+    drop_doubts_of_turned_mount(observation.radars.front().status);
   }
   const bool asks_for_lcm = arguments.replay.empty() || arguments.lcm_url;
   if (asks_for_lcm) {

@@ -11,8 +11,7 @@
 
 namespace cremed {
 
-/// The lines of candump logs, one per bus, as one log: by stamp, as the daemon replays them. Each
-/// log stays in its order.
+/// The lines of candump logs, one per bus, as one log: by stamp. Each log stays in its order.
 class MergedLogs {
  public:
   /// Throws std::runtime_error if one cannot be opened or has another format.

@@ -271,14 +271,14 @@ bool is_heard(const RadarConfiguration& radar, const BusObservation& bus) {
 }
 
 /// Findings if nothing else explains a missing estimate.
-void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status, bool is_live,
-                     Findings& findings) {
+void add_no_estimate(const RadarConfiguration& radar, const RadarStatus& status,
+                     const Configuration& configuration, bool is_live, Findings& findings) {
   if (status.assembler.scans == 0) {
     const bool is_ars408 = radar.decoder.as<Ars408Options>() != nullptr;
     findings.push_back(
         {Severity::error, "it reports its state but sends no targets",
          is_ars408 ? configure_command(radar) : "see its data sheet for what makes it send them"});
-  } else if (estimates(status) == 0 && status.belief.doubts == 0) {
+  } else if (estimates(status) == 0 && !is_contradicted(radar, status, configuration.radars)) {
     findings.push_back({Severity::error, concat({"no estimate yet: ", summary(status)}),
                         is_live ? "listen longer, `--seconds 10`" : "record 10 s or more"});
   }
@@ -342,7 +342,7 @@ Findings diagnose_radar(const Configuration& configuration, const Observation& o
     add_incomplete(wanted, observed, findings);
   }
   if (!has_error(findings)) {
-    add_no_estimate(wanted, observed.status, observation.is_live, findings);
+    add_no_estimate(wanted, observed.status, configuration, observation.is_live, findings);
   }
   add_bad_frames(wanted, observed.status, findings);
   return findings;

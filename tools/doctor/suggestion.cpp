@@ -23,7 +23,7 @@ namespace {
 constexpr std::string_view kHeading =
     "# Radars found by cremed-doctor. Fill in the mounts, choose names, and check the file:\n"
     "# `cremed --check-config FILE`. Yaw to 20 degrees will do: `cremed-eval calibrate LOG\n"
-    "# --config FILE --write` finds the rest. config/cremed.toml of cremed explains all keys.\n";
+    "# --config FILE --write` refines it. config/cremed.toml of cremed explains all keys.\n";
 
 constexpr std::string_view kMount =
     "[radar.mount]  # From the middle of the rear axle.\n"

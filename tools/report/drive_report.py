@@ -14,7 +14,7 @@ DEG_PER_RAD = 180 / math.pi
 MOTION_STATUSES = cremed.names_of(cremed.ego_motion_t, "STATUS_")
 ODOMETRY_STATUSES = cremed.names_of(cremed.odometry_t, "STATUS_")
 DOUBTS = cremed.names_of(cremed.status_t, "DOUBT_")
-# There are no others: the odometry is of its own earlier scans.
+# A single radar is compared with the odometry of its own earlier scans.
 OF_AN_ONLY_RADAR = {cremed.status_t.DOUBT_OTHER_RADARS_CONTRADICT: "its_own_scans_contradict_each_other"}
 FAULTS = cremed.names_of(cremed.status_t, "FAULT_")
 CAUSES = cremed.names_of(cremed.status_t, "CAUSE_")
@@ -86,11 +86,10 @@ class DriveReport:
     def figures(self):
         drive, odometry = self.drive, self.drive.odometry
         x, y = odometry["x"], odometry["y"]
-        steps = {i: math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins}
+        path_m = sum(math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) for i in range(1, len(x)) if i not in self.begins)
         return {"begin_utime": drive.begin_us or None,
                 "duration_s": round((drive.end_us - drive.begin_us) * 1e-6, 3),
-                "path_length_m": round(sum(steps.values()), 2),
-                "reversed_length_m": round(sum(step for i, step in steps.items() if odometry["vx"][i] < 0), 2),
+                "path_length_m": round(path_m, 2),
                 "maximum_speed_mps": round(max(map(abs, odometry["vx"]), default=0), 3),
                 "odometry": self.odometry_figures(),
                 "sources": {source: {"motions": len(times),

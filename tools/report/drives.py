@@ -25,7 +25,7 @@ from truth_report import truth_data
 from unconfigured import STANDARD, examined_configuration, is_unwritten
 
 BAR_WIDTH = 40
-ON_NO_BUS = "has no frame of interface"  # As cremed says.
+ON_NO_BUS, NO_FRAME = "has no frame of interface", "no frame of this radar"  # As cremed says.
 ONE_DRIVE = "several logs begin at the same time: are they the buses of one drive?"
 MERGE = "`--merge` takes all logs as one drive"
 # Of the time that a candump log takes.
@@ -122,13 +122,16 @@ def findings_of(drive, programs, data, found, is_candump):
         found += findings.without_what_is_told(of_doctor, of_drive)
     if not any(one["severity"] == "error" for one in found):
         found += [findings.finding("error", error) for error in errors_in(drive.troubles)]
-    if drive.is_begun_with_others and drive.troubles:
+    if may_be_a_bus(drive):
         found.insert(0, findings.finding("error", ONE_DRIVE, MERGE))
-    if not is_candump:  # Of which cremed and the doctor tell the same.
-        of_drive += findings.of_reverse(data["figures"])
     if not is_candump and of_drive:
         found.append(findings.of_messages())
     return findings.joined(found, of_drive, data["figures"]["radars"])
+
+
+def may_be_a_bus(drive):
+    """One of several of a drive: the others may have the radars that it lacks."""
+    return drive.is_begun_with_others and any(text in trouble for trouble in drive.troubles for text in (ON_NO_BUS, NO_FRAME))
 
 
 def heard_of(lcm_log, drive, told):
@@ -286,7 +289,7 @@ def make_pages(drives, programs, share, jobs, version, resume=False):
         for trouble in result.troubles if isinstance(result, Drive) else [result]:
             is_named = len(drives) == 1 or not isinstance(result, Drive) or trouble.startswith(result.logs[0])
             main_program.tell("cremed-report", trouble if is_named else f"{result.logs[0]}: {trouble}")
-    if any(isinstance(result, Drive) and result.is_begun_with_others and result.troubles for result in old + results):
+    if any(isinstance(result, Drive) and may_be_a_bus(result) for result in old + results):
         main_program.tell("cremed-report", f"{ONE_DRIVE} {MERGE}")
     if len(made) < len(new) and len(drives) > 1:
         main_program.tell("cremed-report", f"{len(new) - len(made)} of {len(drives)} drives have no report")

@@ -136,17 +136,6 @@ def of_the_odometry(changes, end):
     return found
 
 
-def of_reverse(figures):
-    """A single radar that drives backwards for all of a drive, as reversed_odometry() of the daemon has it."""
-    driven, back, speed = (figures[name] for name in ("path_length_m", "reversed_length_m", "maximum_speed_mps"))
-    if len(figures["radars"]) != 1 or driven < 50 or back < 0.95 * driven or speed < 2:
-        return []
-    return [finding("note", f"the vehicle drove backwards for {100 * back / driven:.1f} % of {driven:.1f} m, at up to "
-                            f"{speed:.1f} m/s",
-                    "a single radar cannot tell that from a mount turned by pi: if it drove forwards, turn mount.yaw_rad by pi, "
-                    "or correct the sign of its Doppler")]
-
-
 def of_the_radar(radar, changes, figures, end):
     """One finding of all that was in doubt, or none."""
     parts, causes = [], figures["statuses_left_out"]

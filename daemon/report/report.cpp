@@ -132,8 +132,7 @@ std::string_view remedy_of_most_motions(const RadarStatus& status) {
         "check type and the keys that invert a sign: no vehicle is faster than 70 m/s or 3 rad/s"},
        {count_of(status, MotionStatus::ambiguous),
         "its mount or a sign is wrong, the surroundings hold too few fixed targets, or its noise "
-        "is "
-        "set too small: `cremed-eval calibrate LOG --config FILE`"}});
+        "is set too small: `cremed-eval calibrate LOG --config FILE`"}});
 }
 
 /// Most scans without an estimate had several explanations, as they have if the mount is wrong.

@@ -185,8 +185,7 @@ bool LoneMount::moves_sideways(std::size_t radar) const {
 }
 
 FaultCause LoneMount::cause_of_sideways(std::size_t radar) const {
-  const Eigen::Vector2d velocity_mps = state_.radar_velocity(radar);
-  return {FaultKind::mount_yaw, -std::atan2(velocity_mps.y(), velocity_mps.x())};
+  return {FaultKind::mount_yaw, -std::atan2(way_[radar].y(), way_[radar].x())};
 }
 
 FaultCause LoneMount::cause(std::size_t radar) const {

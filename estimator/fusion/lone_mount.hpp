@@ -29,7 +29,10 @@ class LoneMount {
   };
 
   /// `state` must outlive this object.
-  explicit LoneMount(OdometryState& state) : state_(state), before_restart_rad_(state.radars()) {}
+  explicit LoneMount(OdometryState& state)
+      : state_(state),
+        way_(state.radars(), Eigen::Vector2d::Zero()),
+        before_restart_rad_(state.radars()) {}
 
   /// Whether it judges this radar: not one near the axle.
   [[nodiscard]] bool judges(std::size_t radar) const;
@@ -65,7 +68,12 @@ class LoneMount {
   /// The radar moves sideways as only a vehicle does that turns about itself: its mount is turned
   /// by more than is learned.
   [[nodiscard]] bool moves_sideways(std::size_t radar) const;
-  /// With the yaw by which it moves ahead.
+  /// To be called with the velocity of a scan by Doppler, in the axes of the vehicle.
+  void note_velocity(std::size_t radar, const Eigen::Vector2d& velocity_mps) {
+    way_[radar] = kFadeOfWay * way_[radar] + velocity_mps;
+  }
+  /// With the yaw by which it moved ahead, which most of a drive is, not by the state, which takes
+  /// that for a turn.
   [[nodiscard]] FaultCause cause_of_sideways(std::size_t radar) const;
   /// Whether it is, or was when the odometry last started, too far off.
   [[nodiscard]] bool is_left_out(std::size_t radar) const {
@@ -75,6 +83,8 @@ class LoneMount {
   [[nodiscard]] FaultCause cause(std::size_t radar) const;
 
  private:
+  static constexpr double kFadeOfWay = 0.999;  // A scan: a minute.
+
   /// Scans of one radar in succession that show a turn.
   struct Signs {
     std::size_t radar = 0;
@@ -98,6 +108,7 @@ class LoneMount {
   Signs by_doppler_;
   Signs by_positions_;
   std::optional<Turn> turn_;
+  std::vector<Eigen::Vector2d> way_;        // By radar: sum of its velocities, faded.
   std::vector<double> before_restart_rad_;  // By radar: the error if it was too large, or 0.
 };
 

@@ -332,6 +332,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
+  lone_mount_.note_velocity(radar, scan->velocity.velocity_mps);
   if (consensus_[radar].is_trusted && !state_.is_witness(radar) && !traffic_.parked.is_parked()) {
     state_.add_excess(scan->excess_m2ps2);
   }

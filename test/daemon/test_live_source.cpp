@@ -148,6 +148,7 @@ TEST_CASE("Frames of several interfaces come by stamp, and none is waited for on
       {0, 1}, {1, 2}, {0, 3}, {1, 4}, {1, 5}};
   for (const auto& [interface, id] : sent) {
     bench.pairs[interface].send(id, 8);
+    std::this_thread::sleep_for(std::chrono::microseconds(2));  // Stamps are in microseconds.
   }
   for (const auto& [interface, id] : sent) {
     REQUIRE(bench.next_but_idle() == SourceEvent::frame);

@@ -32,7 +32,7 @@ enum class SignalState : std::uint8_t { ok, lost, frozen, excluded };
 SignalState signal_state(const VehicleStatus& status);
 std::string_view to_string(SignalState state);
 
-/// Present faults, that of signal_state() first, and those of the past if `with_past`.
+/// Present faults, the worst (signal_state()) first; with `with_past` also those that are over.
 std::vector<Finding> vehicle_findings(const VehicleConfiguration& vehicle, VehicleSignal signal,
                                       const VehicleStatus& status, bool with_past);
 

@@ -42,9 +42,9 @@ class MajorityFollower {
   [[nodiscard]] std::optional<double> step_mps() const {
     return has_stepped() ? std::optional(step_->mps) : std::nullopt;
   }
-  /// After such a step, whether a radar's velocity is nearer to where the radars stepped to than to
-  /// the state. Its scan is not used, even if it passes the gate, since the sigma of the state
-  /// grows: without this a step from 5 m/s to 0 was followed half a second later.
+  /// After such a step: whether a radar's velocity is nearer to the step than to the state. Its
+  /// scan is not used then, though the growing sigma of the state would let it pass: a step from 5
+  /// m/s to 0 was followed half a second later.
   [[nodiscard]] bool is_after_step(std::size_t radar, const Eigen::Vector2d& velocity_mps) const;
 
  private:

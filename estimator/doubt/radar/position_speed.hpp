@@ -16,8 +16,8 @@ struct SpeedSupport {
   double best_mps = 0.0;     ///< The speed with most votes, to kStepMps.
   double best_votes = 0.0;   ///< Its votes.
   double given_votes = 0.0;  ///< Votes of the given speed.
-  /// Bound that chance votes rarely exceed, by the mean of all speeds at the best one's yaw rate:
-  /// walls lie straight ahead of their own points at one yaw rate only.
+  /// Bound that chance votes rarely exceed, by the mean over all speeds at the best yaw rate: walls
+  /// give many chance votes, but at one yaw rate only.
   double max_chance_votes = 0.0;
 };
 

@@ -41,8 +41,8 @@ constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Decay of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
-/// At rest e and m are noise, and a wrong sign may lower chi-square by chance, with a variance of
-/// 16 e^2 m^2: 2.5 sigma, over sqrt(chance_).
+/// At rest both velocities are noise, and a wrong sign can lower chi-square by chance, with sigma
+/// 4 |e| |m|. This many sqrt(chance_), 2.5 sigma, are subtracted from the decrease.
 constexpr double kChance = 10.0;
 /// Velocities in a second: with fewer no cause is named.
 constexpr double kMinCount = 7.0;
@@ -60,8 +60,8 @@ constexpr double kMaxShareOfOthersLate = 0.4;
 /// ms).
 constexpr double kMinDifference = 12.0;
 constexpr double kMinDifferenceOfScale = 30.0;  // And of an offset.
-/// The same for an offset as the other cause, 2 sigma: it is rarer than a scale, from which it
-/// differs only where the speed changes.
+/// The same, 2 sigma, if the other cause is an offset: an offset is rarer than a scale, and the two
+/// differ only when the speed changes.
 constexpr double kMinDifferenceToOffset = 4.0;
 /// Longest time between motions: one may be missing. After a longer time the lags would differ.
 constexpr double kMaxStepS = 0.5;
@@ -165,8 +165,8 @@ void FaultCauseSearch::add_velocity(const Eigen::Vector2d& velocity_mps,
   add_leads();
 }
 
-/// All of one velocity of this radar, kLags motions ago. Otherwise long leads, which lack the
-/// newest ones, would seem to explain a fault that has just begun.
+/// All leads use the same velocity of this radar, from kLags motions ago. Otherwise long leads,
+/// which miss the newest data, would seem to explain a fault that has just begun.
 void FaultCauseSearch::add_leads() {
   if (motions_ <= kLags || !past(kLags).own) {
     return;

@@ -280,8 +280,8 @@ void FaultHypotheses::allow_for_scale() {
   }
 }
 
-/// Discards what was measured before a radar is found at fault, unless its cause shows there: the
-/// fault may have begun just now. Data of a radar that looks sideways are always discarded: in a
+/// Deletes the data from before a radar is found at fault, because the fault may be new; keeps them
+/// if they already show a cause. Data of a radar that looks sideways are always discarded: in a
 /// turn it may seem to be late (the right one of 1094).
 void FaultHypotheses::begin_search(std::size_t radar) {
   if (is_at_fault(radar)) {
@@ -319,10 +319,10 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   return compared;
 }
 
-/// Of two radars one may be too fast or the other too slow. But if one seems late, the other is not
-/// early: a frame is not received before it was measured. And if one seems upside down, the other
-/// does not, unless their axes are in line (healthy pairs: 9.3 at most, 0103 backwards). The
-/// finding must last: after a change of scale a radar seems to be late by more and more.
+/// Of two radars it is not known whose scale is wrong. Who is late is known: the other one would be
+/// early, and no frame is received before it was measured. Who is upside down is known, unless their
+/// axes are in line (healthy pairs gain 9.3 at most, 0103 backwards). The finding must last: after a
+/// change of scale a radar seems to be late, by more each second.
 void FaultHypotheses::note_finding_of_two(std::size_t radar,
                                           const FaultCauseSearch::Finding& finding) {
   const FaultCause& cause = finding.cause;
@@ -358,8 +358,8 @@ void FaultHypotheses::convict_late_others() {
   reverse(early);
 }
 
-/// Convicts a radar whose velocities one error explains, if no error explains another radar's half
-/// as well.
+/// Convicts a radar whose velocities one error explains, if the best error of every other radar
+/// gains less than half as much.
 void FaultHypotheses::convict_by_cause(RadarSet compared) {
   std::size_t guilty = 0;
   FaultCauseSearch::Finding best;

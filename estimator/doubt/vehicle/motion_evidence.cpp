@@ -42,11 +42,11 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Error of the speed along x of a radar that looks sideways: reflections on passed objects move.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
-/// Prior of the slip if the mount may be turned (17 degrees), and the decrease of chi-square by it
-/// that shows one, as for a radar at fault, in this many epochs: one wrong registration tells
-/// nothing.
+/// Prior of the slip if the mount may be turned: 17 degrees.
 constexpr double kAnySlipRad = 0.3;
+/// Decrease of chi-square by such a slip that shows a turned mount; as for a radar at fault.
 constexpr double kImpossibleSlip = 8.0;
+/// In so many epochs: one may have a wrong registration.
 constexpr int kMinImpossible = 2;
 /// Lateral acceleration of turns, which bounds the yaw rate: slow vehicles turn faster than the
 /// prior at a start allows. With that prior alone a U-turn at full lock (0.85 rad/s) contradicts a
@@ -159,7 +159,8 @@ RadarSet MotionEvidence::take_jumped() {
     lone_jump_ = tracks_[static_cast<std::size_t>(std::countr_zero(heard))].jump;
   }
   for_each(jumped, [&](std::size_t i) { tracks_[i].jump.reset(); });
-  // A kerb or a bump from behind jolts the vehicle: another radar must surely have seen none.
+  // A kerb jolts the vehicle, and all radars see it. So the jump is the radar's fault only if
+  // another radar measured a steady speed.
   return any_of(others, [&](std::size_t i) { return tracks_[i].jumps.is_steady(last_us); }) ? jumped
                                                                                             : 0U;
 }

@@ -100,8 +100,8 @@ class MotionEvidence {
     bool is_exchanged;
   };
   [[nodiscard]] Fit fit(RadarSet set, std::optional<Pair> pair = std::nullopt) const;
-  /// Chi-square of set and witnesses in each epoch, of a lone radar without the worst witness; 0 of
-  /// an empty set and where there is no epoch.
+  /// Chi-square of set and witnesses in each epoch; if the set is one radar, without the worst
+  /// witness. 0 if the set is empty or the epoch missing.
   using ChiSquares = std::array<double, kEpochs>;
   [[nodiscard]] ChiSquares chi_squares(RadarSet set, std::optional<Pair> pair) const;
 

@@ -9,8 +9,8 @@ namespace cremed {
 
 /// Whether the motion of one radar contradicts the odometry of up to 0.3 s before: speeds or yaw
 /// rates differ by more than 5 sigma of both (false-alarm rate 1 in two million motions) plus the
-/// change by 10 m/s^2 or 2 rad/s^2 in between. The status of the odometry does not matter: if it is
-/// ambiguous, neither of the two candidates is published.
+/// change by 10 m/s^2 or 2 rad/s^2 in between. An ambiguous odometry counts too: neither it nor the
+/// motion is then published as true.
 bool contradicts(const Odometry& known, const EgoMotion& motion);
 
 /// The motion without its estimate, with status ambiguous.

@@ -42,8 +42,10 @@ class StandingValue {
   std::int64_t since_us_ = 0;
   std::int64_t last_us_ = 0;
   bool has_range_ = false;
-  double least_upper_ = 0.0;     // Bounds of the filter's value while the signal
-  double greatest_lower_ = 0.0;  // repeats: their gap is the change that is certain.
+  // Bounds of the filter's value since the signal last changed. If the least upper bound is below
+  // the greatest lower one, the value has surely changed.
+  double least_upper_ = 0.0;
+  double greatest_lower_ = 0.0;
 };
 
 }  // namespace cremed

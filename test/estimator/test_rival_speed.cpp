@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -85,6 +86,50 @@ TEST_CASE("Braking does not make a rival of the vehicle's mean speed") {
   const Eigen::Vector3d mean(9.5, 0.0, 0.0);
   CHECK(rival_speed.count(targets, mean, 0.5).rival == 0);
   CHECK(rival_speed.count(targets, mean, 0.0).rival > 10);
+}
+
+TEST_CASE("Clutter is rarely a rival, however much; a world in it is") {
+  std::mt19937_64 random(3);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  const Eigen::Vector3d own(8.0, 0.0, 0.0);
+  RivalSpeed rival_speed(kAheadMount);
+  int rivals = 0;
+  for (int scan = 0; scan < 200; ++scan) {
+    TargetSet targets;
+    add_targets(targets, 30, 60.0, 4.0, own);
+    for (int i = 0; i < 60; ++i) {
+      add_targets(targets, 1, uniform(5.0, 60.0), 4.0, {uniform(-12.0, 28.0), 0.0, 0.0},
+                  uniform(-0.8, 0.8));
+    }
+    rivals += rival_speed.count(targets, own, 0.3).rival >= 5 ? 1 : 0;
+    add_targets(targets, 20, 40.0, 4.0, {15.0, 0.0, 0.0});
+    CHECK(rival_speed.count(targets, own, 0.3).rival >= 15);
+  }
+  CHECK(rivals <= 70);  // Without the comparison with other groups: 130.
+}
+
+TEST_CASE("Cars that drive along beside guard rails are not the road beside a parked vehicle") {
+  struct Row {
+    const char* what;
+    double rival_mps;
+    int targets;
+    std::size_t rival;
+  };
+  const std::vector<Row> rows = {
+      {"cars that drive along", 0.0, 9, 0},
+      {"what rests beside a train", 0.0, 18, 18},
+      {"the road, hidden by cars", 26.0, 9, 9},
+  };
+  const Eigen::Vector3d own(18.0, 0.0, 0.0);
+  for (const Row& row : rows) {
+    CAPTURE(row.what);
+    TargetSet targets;
+    add_targets(targets, 100, 60.0, 0.9, own);
+    add_targets(targets, row.targets, 40.0, 4.0, {row.rival_mps, 0.0, 0.0});
+    CHECK(RivalSpeed(kAheadMount).count(targets, own, 0.3).rival == row.rival);
+  }
 }
 
 TEST_CASE("Targets abeam and an empty scan have no vote") {

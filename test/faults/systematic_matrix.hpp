@@ -43,10 +43,15 @@ class SystematicMatrix {
 
   /// A drive without fault: nobody is named.
   void run_healthy(const std::string& kind, const FaultDrive& drive,
-                   double least_front_availability = 0.0) {
+                   double least_front_availability = 0.0, double least_usable = 0.0) {
     const FaultCase none{"none", "", {drive.start_us(), kNever}};
     const DriveFigures figures = judged(drive, none);
     add(kind, drive, none, figures);
+    if (figures.status_share(OdometryStatus::ok) +
+            figures.status_share(OdometryStatus::standing_still) <
+        least_usable) {
+      failures_[kind].insert('A');
+    }
     for (std::size_t i = 0; i < drive.radars.size(); ++i) {
       const double front = std::cos(drive.radars[i].ego_motion.vehicle_from_radar.yaw_rad);
       if (front > 0.5 && figures.radars[i].availability < least_front_availability) {

@@ -50,8 +50,8 @@ constexpr double kReversedSigmas = 3.0;
 constexpr double kContradictingSigmas = 1.6;
 
 /// Comparisons before a verdict, 0.7 s of an ARS408. Of 420 random scales of a lone radar, from the
-/// start or later, 308 end as the fault matrix demands with 10, 300 with 15, 250 with none. A healthy
-/// start of a lone radar takes 0.3 s longer for it.
+/// start or later, 308 end as the fault matrix demands with 10, 300 with 15, 250 with none. A
+/// healthy start of a lone radar takes 0.3 s longer for it.
 constexpr int kTellingComparisons = 10;
 /// Scans after which these are not waited for, 3 s of an ARS408: too few targets are found again.
 constexpr int kMostScansAwaited = 40;

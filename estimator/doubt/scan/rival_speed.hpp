@@ -15,8 +15,9 @@
 namespace cremed {
 
 /// Number of places where the Doppler of a scan agrees with a motion (`own`), and where it agrees
-/// with the most frequent other speed (`rival`). Targets near each other are one place: a car is
-/// one or two places.
+/// with the most frequent other speed (`rival`), 0 if this is chance, or the speed of too few
+/// targets to be the road beside a vehicle that is slower than it seems. Targets near each other
+/// are one place: a car is one or two places.
 struct SpeedVotes {
   std::size_t own = 0;
   std::size_t rival = 0;
@@ -49,6 +50,8 @@ class RivalSpeed {
   double median_near(Votes votes, double speed_mps, double change_mps);
   /// The largest group of votes that agree with each other. Sorts the votes.
   static Votes largest_group(Votes votes);
+  /// Whether a group of `all`, both sorted, is larger than groups of clutter.
+  static bool is_more_than_chance(Votes group, Votes all);
 
   Pose2 vehicle_from_radar_;
   std::array<Vote, kMaxDetections> votes_;

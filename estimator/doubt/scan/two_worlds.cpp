@@ -8,16 +8,11 @@
 namespace cremed {
 namespace {
 
-/// Least number of places of a rival speed, and its least ratio to those of the estimated speed.
-struct RivalLimits {
-  std::size_t places;
-  double share;
-};
-/// More than the places of one truck (three to five), and more than the usual share of moving
+/// Least number of places of a rival: more than those of one truck (three to five).
+constexpr std::size_t kMinPlaces = 5;
+/// And their least ratio to those of the estimated speed: more than the usual share of moving
 /// targets (5 %: DopplerOptions::moving_weight).
-constexpr RivalLimits kRivalLimits{5, 0.25};
-/// Lower limits while in doubt (hysteresis), for a rival that is half hidden in a scan.
-constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
+constexpr double kMinShare = 0.25;
 
 /// Nearer rivals are the tails of the static world: errors of azimuth spread its Doppler in
 /// proportion to the speed. 2674 of 2677 doubts of RadarScenes 105, with 200 targets a scan at 15
@@ -27,11 +22,10 @@ constexpr double kMinDifferenceShare = 0.05;
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
-  const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
   return std::abs(votes.rival_mps - votes.own_mps) >=
              kMinDifferenceShare * std::abs(votes.own_mps) &&
-         votes.rival >= limits.places &&
-         static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own);
+         votes.rival >= kMinPlaces &&
+         static_cast<double>(votes.rival) >= kMinShare * static_cast<double>(votes.own);
 }
 
 }  // namespace cremed

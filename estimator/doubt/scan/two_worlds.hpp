@@ -15,16 +15,16 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, and that it is open which is the road. The second speed is the rival of the estimated one.
-/// When a scan is in doubt, by what is known before it:
+/// along, and that it is open which is the road. The second speed is the rival of the estimated
+/// one. When a scan is in doubt, by what is known before it:
 ///
-/// - motion: a rival, unless the vehicle can continue at the estimated speed and not at the rival's;
-/// - fault: each rival, or one of few places if the estimated speed has no more places than a truck;
+/// - motion: a rival, unless the vehicle can continue at the estimated speed, not at the rival's;
+/// - fault: each rival, or one of few places if the estimated speed has only those of a truck;
 /// - nothing: as with motion; or a slower rival (traffic may pass a parked vehicle); or one of few
-///   places if the estimated speed has no more places than a truck, or fewer than the rival;
-/// - nothing_beside: as with nothing; or no more places than a truck, even without a rival.
+///   places if the estimated speed has only those of a truck, or fewer than the rival;
+/// - nothing_beside: as with nothing; or only the places of a truck, even without a rival.
 ///
-/// The doubt ends after ten scans without a rival; a smaller rival maintains it.
+/// The doubt ends after ten scans without a rival.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.

@@ -320,9 +320,9 @@ RadarSet FaultHypotheses::search_causes(RadarSet believed) {
 }
 
 /// Of two radars it is not known whose scale is wrong. Who is late is known: the other one would be
-/// early, and no frame is received before it was measured. Who is upside down is known, unless their
-/// axes are in line (healthy pairs gain 9.3 at most, 0103 backwards). The finding must last: after a
-/// change of scale a radar seems to be late, by more each second.
+/// early, and no frame is received before it was measured. Who is upside down is known, unless
+/// their axes are in line (healthy pairs gain 9.3 at most, 0103 backwards). The finding must last:
+/// after a change of scale a radar seems to be late, by more each second.
 void FaultHypotheses::note_finding_of_two(std::size_t radar,
                                           const FaultCauseSearch::Finding& finding) {
   const FaultCause& cause = finding.cause;

@@ -105,9 +105,9 @@ class FaultHypotheses {
   void note_speed_open(std::size_t radar, bool is_open) {
     speed_open_ = (speed_open_ & ~set_of(radar)) | (is_open ? set_of(radar) : 0U);
   }
-  /// To be called if the filter was lost: all radars may be wrong alike, and are believed again only
-  /// if their positions confirm them. `step_mps`: change of the speed of all radars, or of the only
-  /// one ahead, if it stepped (MajorityFollower). Until they step back, rest confirms nothing:
+  /// To be called if the filter was lost: all radars may be wrong alike, and are believed again
+  /// only if their positions confirm them. `step_mps`: change of the speed of all radars, or of the
+  /// only one ahead, if it stepped (MajorityFollower). Until they step back, rest confirms nothing:
   /// targets that do not move always fit the map.
   void require_positions(std::optional<double> step_mps);
 

@@ -585,11 +585,11 @@ TEST_CASE("a radar at fault returns after some seconds of agreement, each time l
 
 TEST_CASE("an accusation of hours ago does not keep a radar out for longer") {
   constexpr std::size_t kRadar = 0;
-  Convictions convictions(1, set_of(kRadar));
+  Convictions convictions(1);
   std::int64_t time_us = 0;
   const auto held_s = [&](double healthy_s) {
     time_us += std::llround(healthy_s * 1e6);
-    convictions.accuse(kRadar, time_us);
+    convictions.accuse(kRadar, set_of(kRadar), time_us);
     double result = 0.0;
     for (; convictions.at_fault() != 0U; result += 0.1, time_us += 100'000) {
       convictions.release(time_us);
@@ -608,12 +608,26 @@ TEST_CASE("an accusation of hours ago does not keep a radar out for longer") {
 
 TEST_CASE("who is acquitted is not wrong by its own check either") {
   constexpr RadarSet kBoth = 3U;
-  Convictions convictions(2, kBoth);
-  convictions.accuse(0, 0);
-  convictions.accuse(1, 0);
+  Convictions convictions(2);
+  convictions.accuse(0, kBoth, 0);
+  convictions.accuse(1, kBoth, 0);
   convictions.acquit(set_of(0));
   CHECK(convictions.at_fault() == set_of(1));
   CHECK(convictions.accused() == set_of(1));
+}
+
+TEST_CASE("the only radar that is heard returns as soon, whatever others are silent") {
+  const auto held = [](RadarSet heard) {
+    Convictions convictions(5);
+    convictions.accuse(0, heard, 0);
+    std::int64_t time_us = 0;
+    for (; convictions.at_fault() != 0U; time_us += 100'000) {
+      convictions.release(time_us);
+    }
+    return time_us;
+  };
+  CHECK(held(set_of(0)) < 1'000'000);
+  CHECK(held(first_radars(3)) > 4'000'000);
 }
 
 TEST_CASE(

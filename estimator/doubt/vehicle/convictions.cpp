@@ -42,10 +42,10 @@ void Convictions::convict(std::size_t radar, std::int64_t time_us) {
   verdict.until_us = time_us + verdict.hold_us;
 }
 
-void Convictions::accuse(std::size_t radar, std::int64_t time_us) {
+void Convictions::accuse(std::size_t radar, RadarSet heard, std::int64_t time_us) {
   convict(radar, time_us);
   accused_ |= set_of(radar);
-  if (2 * std::popcount(at_fault_ & judged_) > std::popcount(judged_)) {
+  if (2 * std::popcount(at_fault_ & heard) > std::popcount(heard)) {
     verdicts_[radar].until_us = time_us + verdicts_[radar].shared_hold_us;
   }
 }

@@ -17,15 +17,15 @@ namespace cremed {
 /// radar is found at fault, and is halved again over the time without.
 class Convictions {
  public:
-  /// `judged`: the radars of which accuse() takes the majority.
-  Convictions(std::size_t radars, RadarSet judged) : verdicts_(radars), judged_(judged) {}
+  explicit Convictions(std::size_t radars) : verdicts_(radars) {}
 
   /// To be called when the clock of the stamps was set: those at fault remain so.
   void leave_clock();
   void convict(std::size_t radar, std::int64_t time_us);
-  /// Likewise, by the radar's own check. If most radars are at fault, so that there is no odometry,
-  /// the hold is shorter: the own check itself tells when the fault is over.
-  void accuse(std::size_t radar, std::int64_t time_us);
+  /// Likewise, by the radar's own check. If most of the radars that are `heard` are at fault, so
+  /// that there is no odometry, the hold is shorter: the own check itself tells when the fault is
+  /// over.
+  void accuse(std::size_t radar, RadarSet heard, std::int64_t time_us);
   /// From now on these radars are not at fault.
   void acquit(RadarSet set);
   /// Releases the radars of `set` whose hold is over.
@@ -45,7 +45,6 @@ class Convictions {
   };
 
   std::vector<Verdict> verdicts_;
-  RadarSet judged_;
   RadarSet at_fault_ = 0;
   RadarSet accused_ = 0;
   bool is_new_ = false;

@@ -67,7 +67,7 @@ bool is_grave(const FaultCause& cause) {
 FaultHypotheses::FaultHypotheses(const OdometryState& state)
     : state_(state),
       evidence_(state),
-      convictions_(state.radars(), evidence_.judged()),
+      convictions_(state.radars()),
       speed_doubted_us_(state.radars()) {
   for (std::size_t i = 0; i < state.radars(); ++i) {
     causes_.emplace_back(state.mounts(), i);
@@ -105,7 +105,7 @@ bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_u
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   begin_search(radar);
   evidence_.add_accusation(radar, time_us);
-  convictions_.accuse(radar, time_us);
+  convictions_.accuse(radar, evidence_.present() | set_of(radar), time_us);
 }
 
 void FaultHypotheses::pause() {

@@ -36,10 +36,6 @@ std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes) {
   return decoded<Ars408RadarState>(Ars408Message::radar_state, bytes);
 }
 
-std::optional<Ars408Version> decode_ars408_version(Ars408Bytes bytes) {
-  return decoded<Ars408Version>(Ars408Message::version, bytes);
-}
-
 std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes) {
   return decoded<Ars408FilterState>(Ars408Message::filter_state, bytes);
 }

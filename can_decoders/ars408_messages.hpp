@@ -188,7 +188,6 @@ std::optional<Ars408ObjectStatus> decode_ars408_object_status(Ars408Bytes bytes)
 std::optional<Ars408General> decode_ars408_object_general(Ars408Bytes bytes);
 std::optional<Ars408ObjectQuality> decode_ars408_object_quality(Ars408Bytes bytes);
 std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes);
-std::optional<Ars408Version> decode_ars408_version(Ars408Bytes bytes);
 std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes);
 
 }  // namespace cremed

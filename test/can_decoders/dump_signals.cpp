@@ -16,9 +16,8 @@
 #include <vector>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/can_decoders/bosch_gpr.hpp"
-#include "test/can_decoders/ars408_unread.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 
 namespace {
@@ -75,20 +74,6 @@ Signals signals(const Ars408ObjectQuality& m) {
                           {"MeasState", code(m.measurement_state)}});
 }
 
-Signals signals(const Ars408ObjectExtended& m) {
-  return {{"ID", m.id},
-          {"ArelLong", m.ax_mps2},
-          {"ArelLat", m.ay_mps2},
-          {"Class", m.object_class},
-          {"OrientationAngle", m.orientation_rad * kDegPerRad},
-          {"Length", m.length_m},
-          {"Width", m.width_m}};
-}
-
-Signals signals(const Ars408ObjectWarning& m) {
-  return {{"ID", m.id}, {"CollDetRegionBitfield", m.regions}};
-}
-
 Signals signals(const Ars408RadarState& m) {
   return {{"NVMReadStatus", m.nvm_read},
           {"NVMwriteStatus", m.nvm_written},
@@ -117,10 +102,6 @@ Signals signals(const Ars408Version& m) {
           {"CountryCode", m.power_restricted}};
 }
 
-Signals signals(const Ars408FilterHeader& m) {
-  return {{"NofClusterFilterCfg", m.cluster_filters}, {"NofObjectFilterCfg", m.object_filters}};
-}
-
 /// The limits have the names of the file without their criterion.
 Signals signals(const Ars408FilterState& m) {
   const double unit = m.criterion == Ars408Criterion::azimuth_rad ? kDegPerRad : 1.0;
@@ -129,20 +110,6 @@ Signals signals(const Ars408FilterState& m) {
           {"Active", m.active},
           {"Min", m.min * unit},
           {"Max", m.max * unit}};
-}
-
-Signals signals(const Ars408CollisionState& m) {
-  return {{"Activation", m.active},
-          {"NofRegions", m.regions},
-          {"MinDetectTime", m.min_detection_time_s},
-          {"MeasCounter", m.counter}};
-}
-
-Signals signals(const Ars408RegionState& m) {
-  return {{"RegionID", m.region_id},     {"WarningLevel", m.warning_level},
-          {"Point1X", m.x1_m},           {"Point1Y", m.y1_m},
-          {"Point2X", m.x2_m},           {"Point2Y", m.y2_m},
-          {"NofObjects", m.object_count}};
 }
 
 Signals signals(const BoschGprTargetA& m) {
@@ -183,14 +150,8 @@ Signals signals_of_ars408(std::uint32_t id, Bytes bytes) {
   switch (Ars408Message{static_cast<std::uint16_t>(ars408_base_id(id))}) {
     case Ars408Message::radar_state:
       return signals(decode_ars408_radar_state(bytes));
-    case Ars408Message::filter_header:
-      return signals(decode_ars408_filter_header(bytes));
     case Ars408Message::filter_state:
       return signals(decode_ars408_filter_state(bytes));
-    case Ars408Message::region_state:
-      return signals(decode_ars408_region_state(bytes));
-    case Ars408Message::collision_state:
-      return signals(decode_ars408_collision_state(bytes));
     case Ars408Message::cluster_status:
       return signals(decode_ars408_cluster_status(bytes));
     case Ars408Message::object_status:
@@ -199,18 +160,15 @@ Signals signals_of_ars408(std::uint32_t id, Bytes bytes) {
       return signals(decode_ars408_object_general(bytes));
     case Ars408Message::object_quality:
       return signals(decode_ars408_object_quality(bytes));
-    case Ars408Message::object_extended:
-      return signals(decode_ars408_object_extended(bytes));
-    case Ars408Message::object_warning:
-      return signals(decode_ars408_object_warning(bytes));
     case Ars408Message::version:
-      return signals(decode_ars408_version(bytes));
+      return signals(ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes));
     case Ars408Message::cluster_general:
       return signals(decode_ars408_cluster_general(bytes));
     case Ars408Message::cluster_quality:
       return signals(decode_ars408_cluster_quality(bytes));
+    default:
+      return {};
   }
-  return {};
 }
 
 Signals gpr_signals(std::uint32_t id, Bytes bytes) {

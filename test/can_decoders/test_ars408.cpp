@@ -6,8 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/can_decoders/ars408.hpp"
-#include "test/can_decoders/hex_frame.hpp"
+#include "test/can_decoders/ars408_rows.hpp"
 
 namespace cremed::test {
 namespace {
@@ -146,6 +145,7 @@ TEST_CASE("Reports and details of objects are state, not parts of a scan") {
   for (const std::string& frame : frames) {
     INFO(frame);
     CHECK(decoder.decode(hex_frame(frame)).kind == Kind::none);
+    check_sensor(hex_frame(frame), message_of(hex_frame(frame)).subject);
   }
   CHECK(decoder.counters().frames == frames.size());
   CHECK(decoder.counters().state_frames == frames.size());

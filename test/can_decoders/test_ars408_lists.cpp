@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "test/can_decoders/ars408_rows.hpp"
-#include "test/can_decoders/ars408_unread.hpp"
 
 namespace cremed::test {
 namespace {
@@ -52,21 +51,6 @@ void check(const Ars408ObjectQuality& decoded, const Ars408ObjectQuality& expect
   CHECK(decoded.orientation_rms_code == expected.orientation_rms_code);
   CHECK(decoded.existence_code == expected.existence_code);
   CHECK(decoded.measurement_state == expected.measurement_state);
-}
-
-void check(const Ars408ObjectExtended& decoded, const Ars408ObjectExtended& expected) {
-  CHECK(decoded.id == expected.id);
-  CHECK(decoded.ax_mps2 == near(expected.ax_mps2));
-  CHECK(decoded.ay_mps2 == near(expected.ay_mps2));
-  CHECK(decoded.object_class == expected.object_class);
-  CHECK(decoded.orientation_rad == near(expected.orientation_rad));
-  CHECK(decoded.length_m == near(expected.length_m));
-  CHECK(decoded.width_m == near(expected.width_m));
-}
-
-void check(const Ars408ObjectWarning& decoded, const Ars408ObjectWarning& expected) {
-  CHECK(decoded.id == expected.id);
-  CHECK(decoded.regions == expected.regions);
 }
 
 TEST_CASE("0x600 heads a list of clusters") {
@@ -129,27 +113,6 @@ TEST_CASE("0x60C holds an object's quality") {
       {"60C#FFFFFFFFFFFFFF", {255, {31, 31, 31, 31}, 31, 31, 31, 7, Ars408MeasurementState{7}}},
   };
   check_rows<Ars408ObjectQuality>(decode_ars408_object_quality, check, rows);
-}
-
-TEST_CASE("0x60D holds an object's acceleration, class, orientation and size") {
-  const std::vector<Ars408Row<Ars408ObjectExtended>> rows = {
-      {"60D#387D0FA070801205", {56, 0.0, 0.0, 0, deg(0.0), 3.6, 1.0}},
-      {"60D#207D4FA17080190C", {32, 0.02, 0.0, 1, deg(0.0), 5.0, 2.4}},
-      {"60D#007D0FA67080190B", {0, 0.0, 0.0, 6, deg(0.0), 5.0, 2.2}},
-      {"60D#FFFFFFFFFFFFFFFF", {255, 10.47, 2.61, 7, deg(229.2), 51.0, 51.0}},
-      {"60D#FF00000000000000", {255, -10.0, -2.5, 0, deg(-180.0), 0.0, 0.0}},
-      {"67D#017D4FC2A3401914", {1, 0.02, 0.02, 2, deg(81.2), 5.0, 4.0}},
-  };
-  check_rows<Ars408ObjectExtended>(decode_ars408_object_extended, check, rows);
-}
-
-TEST_CASE("0x60E names the collision regions an object is in") {
-  const std::vector<Ars408Row<Ars408ObjectWarning>> rows = {
-      {"60E#38050000", {56, 5}},
-      {"60E#00000000", {0, 0}},
-      {"60E#FFFF0000", {255, 255}},
-  };
-  check_rows<Ars408ObjectWarning>(decode_ars408_object_warning, check, rows);
 }
 
 }  // namespace

@@ -52,7 +52,6 @@ void check_reports(Ars408Bytes bytes) {
   if (const auto f = decode_ars408_filter_state(bytes)) {
     check_finite({f->min, f->max});
   }
-  check(decode_ars408_version(bytes).has_value() == (bytes.size() >= 3));
 }
 
 }  // namespace

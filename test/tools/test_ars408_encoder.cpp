@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
 
@@ -55,7 +55,8 @@ const std::array<Message, 8>& messages() {
        }},
       {"0x700", 0x700, "700#FFFFFF03",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_version(bytes_of(frame)));
+         return encode_ars408(sensor, *cremed::ars408_signals::decoded<cremed::Ars408Version>(
+                                          cremed::Ars408Message::version, bytes_of(frame)));
        }},
       {"0x701", 0x701, "701#FFFFFBFFFFFFE7FF",
        [](std::uint8_t sensor, const CanFrame& frame) {

@@ -12,6 +12,7 @@
 
 #include "cremed/can_decoders/ars408.hpp"
 #include "test/can_decoders/hex_frame.hpp"
+#include "test/can_decoders/signal_values.hpp"
 
 namespace cremed::test {
 
@@ -21,8 +22,6 @@ struct Ars408Row {
   std::string frame;
   Message expected;
 };
-
-inline Approx near(double value) { return Approx(value).margin(1e-9).epsilon(0); }
 
 constexpr double deg(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -49,10 +48,8 @@ inline void check_sensor(const CanFrame& frame, Ars408Subject subject) {
   }
 }
 
-/// `check` compares every signal of the message.
 template <class Message>
 void check_rows(std::optional<Message> (*decode)(Ars408Bytes),
-                void (*check)(const Message& decoded, const Message& expected),
                 const std::vector<Ars408Row<Message>>& rows) {
   for (const auto& row : rows) {
     INFO(row.frame);
@@ -60,11 +57,11 @@ void check_rows(std::optional<Message> (*decode)(Ars408Bytes),
     const Ars408MessageRow& message = message_of(frame);
     const auto decoded = decode(bytes_of(frame));
     REQUIRE(decoded.has_value());
-    check(*decoded, row.expected);
+    CHECK(differences(*decoded, row.expected) == "");
     CHECK_FALSE(decode(bytes_of(frame).first(message.length - 1U)).has_value());
     auto longer = frame.data;
     std::fill(longer.begin() + 8, longer.end(), std::uint8_t{0xFF});
-    check(*decode(longer), row.expected);
+    CHECK(differences(*decode(longer), row.expected) == "");
     check_sensor(frame, message.subject);
   }
 }

@@ -7,194 +7,90 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <sstream>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
-#include "cremed/can_decoders/ars408_signals.hpp"
-#include "cremed/can_decoders/bosch_gpr.hpp"
 #include "test/can_decoders/hex_frame.hpp"
+#include "test/can_decoders/signal_values.hpp"
 
 namespace {
 
 using namespace cremed;
 
-using Signals = std::vector<std::pair<std::string, double>>;
 using Bytes = std::span<const std::uint8_t>;
+using test::NamedValues;
+using test::values_of;
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-double code(auto value) { return static_cast<double>(value); }
-
-Signals signals(const Ars408ClusterStatus& m) {
-  return {{"NofClustersNear", m.near_count},
-          {"NofClustersFar", m.far_count},
-          {"MeasCounter", m.counter},
-          {"InterfaceVersion", m.interface_version}};
+template <auto decode>
+NamedValues told(Bytes bytes) {
+  const auto message = decode(bytes);
+  return message ? values_of(*message) : NamedValues();
 }
 
-Signals signals(const Ars408ObjectStatus& m) {
-  return {{"NofObjects", m.count},
-          {"MeasCounter", m.counter},
-          {"InterfaceVersion", m.interface_version}};
+std::optional<Ars408Version> decode_version(Bytes bytes) {
+  return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
 }
 
-Signals signals(const Ars408General& m) {
-  return {{"ID", m.id},           {"DistLong", m.x_m},   {"DistLat", m.y_m},
-          {"VrelLong", m.vx_mps}, {"VrelLat", m.vy_mps}, {"DynProp", code(m.dyn_prop)},
-          {"RCS", m.rcs_dbm2}};
-}
-
-Signals with_rms(const Ars408RmsCodes& rms, Signals others) {
-  others.insert(others.end(), {{"DistLong_rms", rms.x},
-                               {"DistLat_rms", rms.y},
-                               {"VrelLong_rms", rms.vx},
-                               {"VrelLat_rms", rms.vy}});
-  return others;
-}
-
-Signals signals(const Ars408ClusterQuality& m) {
-  return with_rms(m.rms, {{"ID", m.id},
-                          {"Pdh0", m.false_alarm_code},
-                          {"InvalidState", code(m.invalid_state)},
-                          {"AmbigState", code(m.ambiguity)}});
-}
-
-Signals signals(const Ars408ObjectQuality& m) {
-  return with_rms(m.rms, {{"ID", m.id},
-                          {"ArelLong_rms", m.ax_rms_code},
-                          {"ArelLat_rms", m.ay_rms_code},
-                          {"Orientation_rms", m.orientation_rms_code},
-                          {"ProbOfExist", m.existence_code},
-                          {"MeasState", code(m.measurement_state)}});
-}
-
-Signals signals(const Ars408RadarState& m) {
-  return {{"NVMReadStatus", m.nvm_read},
-          {"NVMwriteStatus", m.nvm_written},
-          {"MaxDistanceCfg", m.max_distance_m},
-          {"Persistent_Error", m.persistent_error},
-          {"Interference", m.interference},
-          {"Temperature_Error", m.temperature_error},
-          {"Temporary_Error", m.temporary_error},
-          {"Voltage_Error", m.voltage_error},
-          {"RadarPowerCfg", m.power_code},
-          {"SortIndex", m.sort_code},
-          {"SensorID", m.sensor_id},
-          {"MotionRxState", (m.speed_missing ? 1 : 0) + (m.yaw_rate_missing ? 2 : 0)},
-          {"SendExtInfoCfg", m.sends_extended},
-          {"SendQualityCfg", m.sends_quality},
-          {"OutputTypeCfg", m.output_code},
-          {"CtrlRelayCfg", m.relay_control},
-          {"RCS_Threshold", m.rcs_threshold_code}};
-}
-
-Signals signals(const Ars408Version& m) {
-  return {{"MajorRelease", m.major_release},
-          {"MinorRelease", m.minor_release},
-          {"PatchLevel", m.patch_level},
-          {"ExtendedRange", m.extended_range},
-          {"CountryCode", m.power_restricted}};
-}
-
-/// The limits have the names of the file without their criterion.
-Signals signals(const Ars408FilterState& m) {
-  const double unit = m.criterion == Ars408Criterion::azimuth_rad ? kDegPerRad : 1.0;
-  return {{"Type", m.for_objects},
-          {"Index", code(m.criterion)},
-          {"Active", m.active},
-          {"Min", m.min * unit},
-          {"Max", m.max * unit}};
-}
-
-Signals signals(const BoschGprTargetA& m) {
-  return {{"AMessage", m.is_a},      {"ID", m.id},
-          {"dr", m.range_m},         {"vr", m.radial_velocity_mps},
-          {"dbPower", m.power_dbm2}, {"phi", m.azimuth_rad},
-          {"measured", m.measured},  {"MC", m.counter}};
-}
-
-Signals signals(const BoschGprTargetB& m) {
-  return {{"AMessage", m.is_a},          {"ID", m.id},
-          {"phiSdv", m.azimuth_std_rad}, {"vrSdv", m.radial_velocity_std_mps},
-          {"drSdv", m.range_std_m},      {"pExist", m.existence},
-          {"timeSinceMeas", m.age_s},    {"MC", m.counter}};
-}
-
-Signals signals(const BoschGprInfo& m) {
-  return {{"SensorType", m.sensor_type},
-          {"HWTemperature", m.temperature_degc},
-          {"SensorBlind", m.blind},
-          {"SWFail", m.software_failure},
-          {"HWFail", m.hardware_failure},
-          {"CANFail", m.can_failure},
-          {"ConfigFail", m.configuration_failure},
-          {"DiagMode", m.diagnostic_mode},
-          {"DTC", m.trouble_code},
-          {"DTCOrderId", m.trouble_order},
-          {"SensorNotSafe", m.not_safe},
-          {"MC", m.counter}};
-}
-
-template <typename Message>
-Signals signals(const std::optional<Message>& message) {
-  return message ? signals(*message) : Signals();
-}
-
-Signals signals_of_ars408(std::uint32_t id, Bytes bytes) {
-  switch (Ars408Message{static_cast<std::uint16_t>(ars408_base_id(id))}) {
-    case Ars408Message::radar_state:
-      return signals(decode_ars408_radar_state(bytes));
-    case Ars408Message::filter_state:
-      return signals(decode_ars408_filter_state(bytes));
-    case Ars408Message::cluster_status:
-      return signals(decode_ars408_cluster_status(bytes));
-    case Ars408Message::object_status:
-      return signals(decode_ars408_object_status(bytes));
-    case Ars408Message::object_general:
-      return signals(decode_ars408_object_general(bytes));
-    case Ars408Message::object_quality:
-      return signals(decode_ars408_object_quality(bytes));
-    case Ars408Message::version:
-      return signals(ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes));
-    case Ars408Message::cluster_general:
-      return signals(decode_ars408_cluster_general(bytes));
-    case Ars408Message::cluster_quality:
-      return signals(decode_ars408_cluster_quality(bytes));
-    default:
-      return {};
+/// With azimuths in degrees.
+NamedValues filter_of(Bytes bytes) {
+  Ars408FilterState filter = decode_ars408_filter_state(bytes).value();
+  if (filter.criterion == Ars408Criterion::azimuth_rad) {
+    filter.min *= kDegPerRad;
+    filter.max *= kDegPerRad;
   }
+  return values_of(filter);
 }
 
-Signals gpr_signals(std::uint32_t id, Bytes bytes) {
+NamedValues ars408_signals_of(std::uint32_t id, Bytes bytes) {
+  static const std::map<Ars408Message, NamedValues (*)(Bytes)> kMessages = {
+      {Ars408Message::radar_state, told<decode_ars408_radar_state>},
+      {Ars408Message::filter_state, filter_of},
+      {Ars408Message::cluster_status, told<decode_ars408_cluster_status>},
+      {Ars408Message::object_status, told<decode_ars408_object_status>},
+      {Ars408Message::object_general, told<decode_ars408_object_general>},
+      {Ars408Message::object_quality, told<decode_ars408_object_quality>},
+      {Ars408Message::version, told<decode_version>},
+      {Ars408Message::cluster_general, told<decode_ars408_cluster_general>},
+      {Ars408Message::cluster_quality, told<decode_ars408_cluster_quality>},
+  };
+  return kMessages.at(Ars408Message{static_cast<std::uint16_t>(ars408_base_id(id))})(bytes);
+}
+
+NamedValues gpr_signals_of(std::uint32_t id, Bytes bytes) {
   const BoschGprOptions options;
   if (id == options.info_id) {
-    return signals(decode_bosch_gpr_info(bytes));
+    return told<decode_bosch_gpr_info>(bytes);
   }
-  return (id - options.base_id) % 2 == 0 ? signals(decode_bosch_gpr_target_a(bytes))
-                                         : signals(decode_bosch_gpr_target_b(bytes));
+  return (id - options.base_id) % 2 == 0 ? told<decode_bosch_gpr_target_a>(bytes)
+                                         : told<decode_bosch_gpr_target_b>(bytes);
 }
 
-void print(const std::string& frame, const Signals& signals) {
+void print(const std::string& frame, const NamedValues& values) {
   std::cout << frame << std::setprecision(12);
-  for (const auto& [name, value] : signals) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    auto [name, value] = values[i];
+    if (i + 1 < values.size() && values[i + 1].first == name) {
+      value += 2.0 * values[++i].second;
+    }
     std::cout << ' ' << name << '=' << value;
   }
   std::cout << '\n';
 }
 
-void print(const CanFrame& frame, const Signals& signals) {
+void print(const CanFrame& frame, const NamedValues& values) {
   std::ostringstream text;
   text << std::hex << std::uppercase << std::setfill('0') << std::setw(3) << frame.id << '#';
   for (const std::uint8_t byte : test::bytes_of(frame)) {
     text << std::setw(2) << int{byte};
   }
-  print(text.str(), signals);
+  print(text.str(), values);
 }
 
 /// Each setting alone: its value and its valid bit.
@@ -231,7 +127,7 @@ void print_filters() {
     const auto criterion = Ars408Criterion{i};
     // Decoded values, rounded to the frame's resolution.
     const CanFrame sent = encode_ars408_filter(0, {i % 2 == 0, i % 3 == 0, criterion, 0.2, 3.0});
-    Signals values = signals(decode_ars408_filter_state(test::bytes_of(sent)));
+    NamedValues values = filter_of(test::bytes_of(sent));
     values.emplace_back("Valid", 1);
     print(sent, values);
   }
@@ -262,8 +158,8 @@ int main(int argc, char** argv) {
   for (std::string line; std::getline(std::cin, line);) {
     const CanFrame frame = test::hex_frame(line);
     const auto bytes = test::bytes_of(frame);
-    print(line,
-          what == "bosch_gpr" ? gpr_signals(frame.id, bytes) : signals_of_ars408(frame.id, bytes));
+    print(line, what == "bosch_gpr" ? gpr_signals_of(frame.id, bytes)
+                                    : ars408_signals_of(frame.id, bytes));
   }
   return 0;
 }

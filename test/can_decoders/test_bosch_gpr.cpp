@@ -9,6 +9,7 @@
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
 #include "test/can_decoders/hex_frame.hpp"
+#include "test/can_decoders/signal_values.hpp"
 
 namespace cremed::test {
 namespace {
@@ -53,14 +54,7 @@ TEST_CASE("Message A holds the measurement") {
     const CanFrame frame = hex_frame(row.frame);
     const auto a = decode_bosch_gpr_target_a(bytes_of(frame));
     REQUIRE(a.has_value());
-    CHECK(a->is_a == row.expected.is_a);
-    CHECK(a->id == row.expected.id);
-    CHECK(a->range_m == about(row.expected.range_m));
-    CHECK(a->radial_velocity_mps == about(row.expected.radial_velocity_mps));
-    CHECK(a->power_dbm2 == about(row.expected.power_dbm2));
-    CHECK(a->azimuth_rad == about(row.expected.azimuth_rad));
-    CHECK(a->measured == row.expected.measured);
-    CHECK(a->counter == row.expected.counter);
+    CHECK(differences(*a, row.expected) == "");
     CHECK(crc_ok(frame) == row.crc_ok);
     CHECK_FALSE(decode_bosch_gpr_target_a(bytes_of(frame).first(7)).has_value());
   }
@@ -85,14 +79,7 @@ TEST_CASE("Message B holds the quality") {
     const CanFrame frame = hex_frame(row.frame);
     const auto b = decode_bosch_gpr_target_b(bytes_of(frame));
     REQUIRE(b.has_value());
-    CHECK(b->is_a == row.expected.is_a);
-    CHECK(b->id == row.expected.id);
-    CHECK(b->azimuth_std_rad == about(row.expected.azimuth_std_rad));
-    CHECK(b->radial_velocity_std_mps == about(row.expected.radial_velocity_std_mps));
-    CHECK(b->range_std_m == about(row.expected.range_std_m));
-    CHECK(b->existence == about(row.expected.existence));
-    CHECK(b->age_s == about(row.expected.age_s));
-    CHECK(b->counter == row.expected.counter);
+    CHECK(differences(*b, row.expected) == "");
     CHECK(crc_ok(frame) == row.crc_ok);
     CHECK_FALSE(decode_bosch_gpr_target_b(bytes_of(frame).first(7)).has_value());
   }
@@ -126,18 +113,7 @@ TEST_CASE("The info message holds the sensor's health") {
     const CanFrame frame = hex_frame(row.frame);
     const auto info = decode_bosch_gpr_info(bytes_of(frame));
     REQUIRE(info.has_value());
-    CHECK(info->sensor_type == row.expected.sensor_type);
-    CHECK(info->temperature_degc == row.expected.temperature_degc);
-    CHECK(info->blind == row.expected.blind);
-    CHECK(info->software_failure == row.expected.software_failure);
-    CHECK(info->hardware_failure == row.expected.hardware_failure);
-    CHECK(info->can_failure == row.expected.can_failure);
-    CHECK(info->configuration_failure == row.expected.configuration_failure);
-    CHECK(info->diagnostic_mode == row.expected.diagnostic_mode);
-    CHECK(info->trouble_code == row.expected.trouble_code);
-    CHECK(info->trouble_order == row.expected.trouble_order);
-    CHECK(info->not_safe == row.expected.not_safe);
-    CHECK(info->counter == row.expected.counter);
+    CHECK(differences(*info, row.expected) == "");
     CHECK_FALSE(decode_bosch_gpr_info(bytes_of(frame).first(7)).has_value());
   }
 }

@@ -47,6 +47,8 @@ struct Ars408Options {
   bool invert_azimuth = false;   ///< Mounted upside down: y and azimuth are positive to the right.
   bool motion_feedback = false;  ///< The daemon sends the estimate to the sensor (0x300, 0x301).
   Ars408Model model = Ars408Model::ars408_21;
+
+  bool operator==(const Ars408Options&) const = default;
 };
 
 const RadarFamily& family_of(const Ars408Options& options);

@@ -24,6 +24,8 @@ struct BoschGprOptions {
   bool invert_azimuth = false;  ///< true: the sensor counts azimuth positive to the right.
   bool invert_doppler = false;  ///< true: the sensor's radial velocity is positive when closing.
   double min_existence = 0.0;   ///< Targets with a smaller pExist (0..0.96875) are rejected.
+
+  bool operator==(const BoschGprOptions&) const = default;
 };
 
 const RadarFamily& family_of(const BoschGprOptions& options);

@@ -15,6 +15,8 @@ struct CanSocketOptions {
   /// Use the controller's stamps. If they are missing, run backwards or are not of the system
   /// clock, the kernel's are used from then on.
   bool hardware_stamps = false;
+
+  bool operator==(const CanSocketOptions&) const = default;
 };
 
 }  // namespace cremed

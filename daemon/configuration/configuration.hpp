@@ -48,6 +48,8 @@ struct OdometryConfiguration {
   bool enabled = true;
   std::string state_file;  ///< File of the learned errors (LearnedFile); empty: none.
   OdometryOptions filter;
+
+  bool operator==(const OdometryConfiguration&) const = default;
 };
 
 /// Speed and yaw rate that another node sends, in the layout of 0x300 and 0x301.
@@ -62,6 +64,8 @@ struct VehicleConfiguration {
   [[nodiscard]] bool is_used(VehicleSignal signal) const {
     return !interface.empty() && id(signal).has_value();
   }
+
+  bool operator==(const VehicleConfiguration&) const = default;
 };
 
 struct OutputConfiguration {
@@ -74,6 +78,8 @@ struct OutputConfiguration {
   std::string tum_source;
   std::string nav_msgs_odometry;  ///< LCM channel of nav_msgs.Odometry; empty: none.
   bool publish_scans = false;     ///< radar_scan_t on CREMED_SCAN_<RADAR>.
+
+  bool operator==(const OutputConfiguration&) const = default;
 };
 
 /// Real-time scheduling and locked memory, which the service manager grants.
@@ -88,10 +94,14 @@ struct LiveConfiguration {
   RealTimePolicy real_time = RealTimePolicy::prefer;
   CanSocketOptions socket;
   double max_latency_s = 0.5;  ///< Older frames are not used, older results not sent.
+
+  bool operator==(const LiveConfiguration&) const = default;
 };
 
 struct LoggingConfiguration {
   std::string level = "info";  ///< trace, debug, info, warn, error, off.
+
+  bool operator==(const LoggingConfiguration&) const = default;
 };
 
 /// The content of one TOML file, validated.

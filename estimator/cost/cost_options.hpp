@@ -13,6 +13,8 @@ struct OutlierRayOptions {
   double min_range_m = 0.5;   ///< r_min
   double max_range_m = 50.0;  ///< r_max
   double field_of_view_rad = 1.3962634015954636;  ///< Full opening angle; 80 deg.
+
+  bool operator==(const OutlierRayOptions&) const = default;
 };
 
 /// How Doppler is used.
@@ -28,6 +30,8 @@ struct DopplerOptions {
   double stamp_std_s = 0.0;
   double moving_weight = 0.05;    ///< Weight of the component for moving targets, 0..1.
   double moving_std_mps = 100.0;  ///< Its standard deviation.
+
+  bool operator==(const DopplerOptions&) const = default;
 };
 
 /// Standard deviations of systematic errors, which all targets of a scan share. They do not average
@@ -50,6 +54,8 @@ struct SharedErrorOptions {
   double acceleration_std_mps2 = 3.0;
   double yaw_acceleration_std_radps2 = 0.5;
   double rounding_std_mps = kRoundingStdMps;  ///< Of the speed, while creeping.
+
+  bool operator==(const SharedErrorOptions&) const = default;
 };
 
 }  // namespace cremed

@@ -31,6 +31,8 @@ struct EgoMotionOptions {
     return motion.head<2>().norm() <= max_speed_mps * dt_s &&
            std::abs(motion.z()) <= max_yaw_rate_radps * dt_s;
   }
+
+  bool operator==(const EgoMotionOptions&) const = default;
 };
 
 }  // namespace cremed

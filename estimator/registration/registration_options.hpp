@@ -28,6 +28,8 @@ struct RegistrationOptions {
   OutlierRayOptions outlier_ray;
   DopplerOptions doppler;
   SharedErrorOptions shared_errors;
+
+  bool operator==(const RegistrationOptions&) const = default;
 };
 
 }  // namespace cremed

@@ -10,6 +10,8 @@ struct DetectionLimits {
   double max_range_m = 300.0;
   double max_abs_azimuth_rad = 3.1415926535897932;
   double min_rcs_dbm2 = -100.0;
+
+  bool operator==(const DetectionLimits&) const = default;
 };
 
 /// Corrections, found by calibration, that are applied to a radar's detections before use.
@@ -25,6 +27,8 @@ struct DetectionCorrection {
   double range_std_factor = 1.0;
   double azimuth_std_factor = 1.0;
   double doppler_std_factor = 1.0;
+
+  bool operator==(const DetectionCorrection&) const = default;
 };
 
 }  // namespace cremed

@@ -11,6 +11,8 @@ struct Pose2 {
   double x_m = 0.0;
   double y_m = 0.0;
   double yaw_rad = 0.0;
+
+  bool operator==(const Pose2&) const = default;
 };
 
 /// Sine of the angle between a radar's axis and the direction of travel, forward or back.

@@ -16,24 +16,6 @@ namespace {
 
 Configuration parse(const std::string& text) { return parse_configuration(text, "test.toml"); }
 
-TEST_CASE("required keys alone give the defaults of the structs") {
-  const Configuration configuration = parse(kArs408);
-  REQUIRE(configuration.radars.size() == 1);
-  const RadarConfiguration& radar = configuration.radars[0];
-  CHECK(radar.name == "front");
-  CHECK(radar.interface == "can0");
-  CHECK(radar.scan_timeout_s == RadarConfiguration{}.scan_timeout_s);
-  const auto& decoder = *radar.decoder.as<Ars408Options>();
-  CHECK(decoder.keep_invalid_states == Ars408Options{}.keep_invalid_states);
-  CHECK(radar.ego_motion.vehicle_from_radar.x_m == 3.4);
-  CHECK(radar.ego_motion.vehicle_from_radar.y_m == -0.5);
-  CHECK(radar.ego_motion.vehicle_from_radar.yaw_rad == 0.25);
-  CHECK(radar.ego_motion.limits.max_range_m == DetectionLimits{}.max_range_m);
-  CHECK(radar.ego_motion.registration.start_scale == RegistrationOptions{}.start_scale);
-  CHECK(configuration.output.lcm_url == OutputConfiguration{}.lcm_url);
-  CHECK(configuration.logging.level == "info");
-}
-
 TEST_CASE("every key of an ARS408 is taken") {
   const Configuration configuration = parse(kArs408 + R"(
 scan_timeout_s = 0.04

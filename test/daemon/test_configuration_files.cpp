@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -27,120 +27,40 @@ namespace {
 
 const std::string kFolder = CREMED_SOURCE_DIR "/config/";
 
-// With structured bindings, a new field does not compile until it is added here.
-void write(std::ostream& out, const Ars408Options& options) {
-  const auto& [sensor_id, output, states, dyn_props, existence, inverted, feedback, model] =
-      options;
-  out << "ars408 " << static_cast<int>(model) << ' ' << int{sensor_id} << ' '
-      << static_cast<int>(output) << ' ' << states << ' ' << int{dyn_props} << ' ' << int{existence}
-      << ' ' << inverted << feedback << '\n';
+/// The options of a radar if it is of their family.
+template <typename Options>
+std::optional<Options> options_of(const RadarSettings& settings) {
+  const auto* options = settings.as<Options>();
+  return options != nullptr ? std::optional(*options) : std::nullopt;
 }
 
-void write(std::ostream& out, const BoschGprOptions& options) {
-  const auto& [base_id, info_id, crc_policy, azimuth, doppler, existence] = options;
-  out << "gpr " << base_id << ' ' << info_id << ' ' << static_cast<int>(crc_policy) << ' '
-      << azimuth << ' ' << doppler << ' ' << existence << '\n';
+// With structured bindings, a new part does not compile until it is compared here.
+void check_same(const RadarConfiguration& radar, const RadarConfiguration& expected) {
+  const auto& [name, interface, decoder, timeout_s, stamp_offset_s, ego_motion] = radar;
+  CHECK(name == expected.name);
+  CHECK(interface == expected.interface);
+  CHECK(options_of<Ars408Options>(decoder) == options_of<Ars408Options>(expected.decoder));
+  CHECK(options_of<BoschGprOptions>(decoder) == options_of<BoschGprOptions>(expected.decoder));
+  CHECK(timeout_s == expected.scan_timeout_s);
+  CHECK(stamp_offset_s == expected.stamp_offset_s);
+  CHECK(ego_motion.vehicle_from_radar == expected.ego_motion.vehicle_from_radar);
+  CHECK(ego_motion.limits == expected.ego_motion.limits);
+  CHECK(ego_motion.correction == expected.ego_motion.correction);
+  CHECK(ego_motion.registration == expected.ego_motion.registration);
+  CHECK(ego_motion == expected.ego_motion);
 }
 
-void write(std::ostream& out, const RegistrationOptions& options) {
-  const auto& [freedom, scale, doppler_scale, iterations, work, likelihood, ray, doppler, errors] =
-      options;
-  out << freedom << ' ' << scale << ' ' << doppler_scale << ' ' << iterations << ' ' << work << ' '
-      << static_cast<int>(likelihood);
-  const auto& [weight, min_range, max_range, field_of_view] = ray;
-  out << "\nray " << weight << ' ' << min_range << ' ' << max_range << ' ' << field_of_view;
-  const auto& [enabled, both_scans, stamp_std, moving_weight, moving_std] = doppler;
-  out << "\ndoppler " << enabled << ' ' << both_scans << ' ' << stamp_std << ' ' << moving_weight
-      << ' ' << moving_std;
-  const auto& [offset, mount_yaw, velocity, scale_std, acceleration, yaw_acceleration, rounding] =
-      errors;
-  out << "\nshared " << offset << ' ' << mount_yaw << ' ' << velocity << ' ' << scale_std << ' '
-      << acceleration << ' ' << yaw_acceleration << ' ' << rounding;
-}
-
-void write(std::ostream& out, const EgoMotionOptions& options) {
-  const auto& [mount, limits, correction, registration, min_targets, gap, standstill, speed,
-               yaw_rate, std_m, std_rad] = options;
-  const auto& [x, y, yaw] = mount;
-  const auto& [min_range, max_range, azimuth, rcs] = limits;
-  const auto& [lead, azimuth_scale, doppler_offset, doppler_scale, range_factor, azimuth_factor,
-               doppler_factor] = correction;
-  out << "correction " << lead << ' ' << azimuth_scale << ' ' << doppler_offset << ' '
-      << doppler_scale << ' ' << range_factor << ' ' << azimuth_factor << ' ' << doppler_factor
-      << '\n';
-  out << "mount " << x << ' ' << y << ' ' << yaw << "\nlimits " << min_range << ' ' << max_range
-      << ' ' << azimuth << ' ' << rcs << "\nestimator " << min_targets << ' ' << gap << ' '
-      << standstill << ' ' << speed << ' ' << yaw_rate << ' ' << std_m << ' ' << std_rad << ' ';
-  write(out, registration);
-}
-
-std::string text_of(const RadarConfiguration& radar) {
-  std::ostringstream out;
-  out.precision(17);
-  const auto& [name, interface, decoder, timeout, stamp_offset, ego_motion] = radar;
-  out << name << ' ' << interface << ' ' << timeout << ' ' << stamp_offset << '\n';
-  if (const auto* ars408 = decoder.as<Ars408Options>()) {
-    write(out, *ars408);
-  } else {
-    write(out, *decoder.as<BoschGprOptions>());
-  }
-  write(out, ego_motion);
-  return out.str();
-}
-
-std::ostream& operator<<(std::ostream& out, const OrnsteinUhlenbeck& noise) {
-  const auto& [std, time_s] = noise;
-  return out << std << ' ' << time_s;
-}
-
-std::ostream& operator<<(std::ostream& out, const ErrorProcess& error) {
-  return out << OrnsteinUhlenbeck{error.std, error.time_s};
-}
-
-std::string text_of(const OdometryConfiguration& odometry) {
-  std::ostringstream out;
-  out.precision(17);
-  const auto& [enabled, state_file, o] = odometry;
-  out << enabled << '|' << state_file << '\n'
-      << o.acceleration << ' ' << o.yaw_acceleration << ' ' << o.slip_std_rad << ' ' << o.slip_walk
-      << ' ' << o.body_velocity << ' ' << o.start_speed_std_mps << ' ' << o.start_yaw_rate_std_radps
-      << '\n'
-      << o.slip_per_lateral_acceleration << ' ' << o.slip_per_lateral_acceleration_std << ' '
-      << o.lever_std_m << ' ' << o.mount_yaw_std_rad << ' ' << o.mount_yaw_walk << ' '
-      << o.doppler_scale_std << ' ' << o.doppler_std_mps << ' ' << o.doppler_x << ' ' << o.doppler_y
-      << ' ' << o.offset << ' ' << o.azimuth_scale_std << '\n'
-      << o.min_targets << ' ' << o.max_doppler_nis << ' ' << o.max_position_nis << ' '
-      << o.standstill_mps << ' ' << o.predicted_s << ' ' << o.lost_s << ' ' << o.anchor_period_s
-      << ' ' << o.max_lateness_s << ' ' << o.max_gap_s << ' ' << o.rate_hz << '\n';
-  const VehicleOptions& v = o.vehicle;
-  for (const VehicleSignalOptions& signal : {v.speed, v.yaw_rate}) {
-    out << signal.is_used << ' ' << signal.delay_s << ' ' << signal.scale_std << ' ' << signal.error
-        << ' ';
-  }
-  out << v.yaw_rate_bias_std_radps << '\n';
-  return out.str();
-}
-
-std::string text_of(const VehicleConfiguration& vehicle) {
-  const auto& [interface, ids] = vehicle;
-  return interface + "|" + std::to_string(ids[0].value_or(0)) + "|" +
-         std::to_string(ids[1].value_or(0)) + "\n";
-}
-
-std::string text_of(const Configuration& configuration) {
+void check_same(const Configuration& configuration, const Configuration& expected) {
   const auto& [radars, odometry, vehicle, output, live, logging] = configuration;
-  std::string text = text_of(odometry) + text_of(vehicle);
-  for (const RadarConfiguration& radar : radars) {
-    text += text_of(radar) + "\n";
+  CHECK(odometry == expected.odometry);
+  CHECK(vehicle == expected.vehicle);
+  CHECK(output == expected.output);
+  CHECK(live == expected.live);
+  CHECK(logging == expected.logging);
+  REQUIRE(radars.size() == expected.radars.size());
+  for (std::size_t i = 0; i < radars.size(); ++i) {
+    check_same(radars[i], expected.radars[i]);
   }
-  const auto& [lcm_url, csv, odometry_csv, tum, tum_source, nav_msgs, publish_scans] = output;
-  const auto& [real_time, socket, max_latency] = live;
-  const auto& [receive_buffer, hardware_stamps] = socket;
-  const auto& [level] = logging;
-  text += std::to_string(static_cast<int>(real_time)) + "|" + std::to_string(receive_buffer) + "|" +
-          std::to_string(hardware_stamps) + "|" + std::to_string(max_latency) + "|";
-  return text + lcm_url + "|" + csv + "|" + odometry_csv + "|" + tum + "|" + tum_source + "|" +
-         nav_msgs + "|" + std::to_string(publish_scans) + "|" + level;
 }
 
 std::vector<std::string> manual_lines() {
@@ -194,7 +114,7 @@ TEST_CASE("the manual loads as it is and holds the defaults") {
   radar.interface = "can0";
   radar.ego_motion.vehicle_from_radar = {3.412, 0.0, 0.0};
   radar.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-  CHECK(text_of(configuration) == text_of(expected));
+  check_same(configuration, expected);
 }
 
 /// "table.key" of every key and table that the message about an unknown key of a table lists.
@@ -264,7 +184,7 @@ TEST_CASE("the manual names every key that there is, and no other") {
 
 TEST_CASE("each default that the manual shows is the default") {
   const std::vector<std::string> lines = manual_lines();
-  const std::string as_it_is = text_of(parse_configuration(joined(lines), "manual"));
+  const Configuration as_it_is = parse_configuration(joined(lines), "manual");
   std::string table;
   int tried = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -275,7 +195,7 @@ TEST_CASE("each default that the manual shows is the default") {
     std::vector<std::string> changed = lines;
     changed[i] = uncommented(lines[i]);
     CAPTURE(changed[i]);
-    CHECK(text_of(parse_configuration(joined(changed), "manual")) == as_it_is);
+    check_same(parse_configuration(joined(changed), "manual"), as_it_is);
     ++tried;
   }
   CHECK(tried > 35);
@@ -293,7 +213,7 @@ TEST_CASE("with every comment sign removed, the manual's two radars have their d
   expected.interface = "can1";
   expected.decoder = BoschGprOptions{};
   expected.ego_motion.vehicle_from_radar = {2.0, 0.8, 1.5708};
-  CHECK(text_of(configuration.radars[1]) == text_of(expected));
+  check_same(configuration.radars[1], expected);
 }
 
 /// "0.01 to 1000" of a comment "... m, 0.01 to 1000, less than ..."; empty if it states no range.
@@ -337,55 +257,9 @@ TEST_CASE("each range that the manual states is the range") {
   CHECK(tried >= 36);
 }
 
-struct Place {
-  const char* name;
-  const char* interface;
-  Pose2 mount;
-};
-
-double azimuth_scale_of(std::string_view radar) {
-  return radar == "front" ? 1.007 : radar.starts_with("rear") ? 1.012 : 1.0;
-}
-
-void check_nuscenes(const std::string& file, const std::vector<Place>& places) {
-  const Configuration configuration = load_configuration(kFolder + file);
-  REQUIRE(configuration.radars.size() == places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    RadarConfiguration expected;
-    Ars408Options sensor;
-    sensor.keep_invalid_states = 0x39F11;  // 0, 4, 8 to 12, 15 to 17
-    expected.decoder = sensor;
-    expected.name = places[i].name;
-    expected.interface = places[i].interface;
-    expected.ego_motion.vehicle_from_radar = places[i].mount;
-    expected.ego_motion.correction.rotation_lead_s = kArs408RotationLeadS;
-    expected.ego_motion.correction.azimuth_scale = azimuth_scale_of(places[i].name);
-    expected.ego_motion.correction.doppler_scale = 1.004;
-    expected.ego_motion.correction.azimuth_std_factor = 0.7;
-    RegistrationOptions& registration = expected.ego_motion.registration;
-    registration.degrees_of_freedom = 2;
-    registration.outlier_ray.weight = 0.5;
-    registration.start_scale = 5.0;
-    CHECK(text_of(configuration.radars[i]) == text_of(expected));
-  }
-}
-
-TEST_CASE("the nuScenes files have five radars where they are on the cars") {
-  check_nuscenes("nuscenes-boston.toml", {
-                                             {"front", "can0", {3.412, 0.0, 0.00142}},
-                                             {"left", "can1", {2.422, 0.8, 1.58637}},
-                                             {"right", "can2", {2.422, -0.8, -1.57516}},
-                                             {"rear_left", "can3", {-0.562, 0.628, 3.05431}},
-                                             {"rear_right", "can4", {-0.562, -0.618, -3.06559}},
-                                         });
-  check_nuscenes("nuscenes-singapore.toml",
-                 {
-                     {"front", "can0", {3.412, 0.0, -0.01045}},
-                     {"left", "can1", {2.422, 0.8, 1.55612}},
-                     {"right", "can2", {2.422, -0.8, -1.57599}},
-                     {"rear_left", "can3", {-0.562, 0.628, 3.06197}},
-                     {"rear_right", "can4", {-0.562, -0.618, -3.073699346}},
-                 });
+TEST_CASE("the nuScenes files have five radars") {
+  const std::string file = GENERATE("nuscenes-boston.toml", "nuscenes-singapore.toml");
+  CHECK(load_configuration(kFolder + file).radars.size() == 5);
 }
 
 TEST_CASE("a file that cannot be read is a configuration error with its path") {
@@ -411,8 +285,7 @@ TEST_CASE("a FIFO is refused, and nobody waits for its writer") {
 TEST_CASE("a file gives what its text gives, with its path in errors") {
   const std::string path = std::string(CREMED_BINARY_DIR) + "/test_configuration_files.toml";
   std::ofstream(path, std::ios::binary) << kArs408 << "sensor_id = 4\n";
-  CHECK(text_of(load_configuration(path)) ==
-        text_of(parse_configuration(kArs408 + "sensor_id = 4\n", "")));
+  check_same(load_configuration(path), parse_configuration(kArs408 + "sensor_id = 4\n", ""));
   std::ofstream(path, std::ios::binary) << kArs408 << "sensor_id = 9\n";
   CHECK_THROWS_AS(load_configuration(path), ConfigurationError);
   CHECK_THROWS_WITH(load_configuration(path), Catch::StartsWith(path + ":6: radar.sensor_id: "));

@@ -14,6 +14,8 @@ namespace cremed {
 struct OrnsteinUhlenbeck {
   double std = 0.0;     ///< Stationary standard deviation.
   double time_s = 1.0;  ///< Correlation time.
+
+  bool operator==(const OrnsteinUhlenbeck&) const = default;
 };
 
 /// The Ornstein-Uhlenbeck process of this standard deviation that over short times is a random walk
@@ -36,6 +38,8 @@ struct ErrorProcess {
   double if_across = 0.0;
   double walk = 0.0;          ///< Per sqrt(s), of a constant that walks without bound.
   bool only_driving = false;  ///< Its time stands still with the vehicle.
+
+  bool operator==(const ErrorProcess&) const = default;
 };
 
 /// Errors of one signal of the vehicle's bus.
@@ -44,6 +48,8 @@ struct VehicleSignalOptions {
   double delay_s = 0.01;    ///< From the measurement to the stamp of the frame.
   double scale_std = 0.01;  ///< Of the factor on the signal.
   OrnsteinUhlenbeck error;  ///< Added to the signal.
+
+  bool operator==(const VehicleSignalOptions&) const = default;
 };
 
 /// Speed and yaw rate of the vehicle's own sensors, if its bus tells them. Source of the errors:
@@ -67,6 +73,8 @@ struct VehicleOptions {
     return signal == VehicleSignal::speed ? speed : yaw_rate;
   }
   [[nodiscard]] bool is_used() const { return speed.is_used || yaw_rate.is_used; }
+
+  bool operator==(const VehicleOptions&) const = default;
 };
 
 /// What is left of errors that last for the drive, in the motion from anchor to anchor: RMS of the
@@ -78,6 +86,8 @@ struct LastingErrors {
   double scale_std = 0.002;            ///< Of the way: 0.06 to 0.21 %.
   double slip_std_rad = 0.004;         ///< And mounts' common yaw: 0.0027 to 0.0045.
   double yaw_per_metre_std = 0.00005;  ///< rad/m: 0.00001 to 0.00008.
+
+  bool operator==(const LastingErrors&) const = default;
 };
 
 /// Priors and limits of the odometry filter. Some are keys of [odometry] in the configuration.
@@ -233,6 +243,8 @@ struct OdometryOptions {
   int rate_hz = 0;
 
   VehicleOptions vehicle;  ///< [vehicle] in the configuration.
+
+  bool operator==(const OdometryOptions&) const = default;
 };
 
 }  // namespace cremed

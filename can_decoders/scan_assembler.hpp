@@ -27,6 +27,8 @@ struct AssemblerCounters {
   std::uint64_t missed_scans = 0;       ///< Cycles the counter skipped.
   std::uint64_t stamps_backwards = 0;   ///< Stamp earlier than the one before it.
   std::uint64_t headerless_scans = 0;   ///< Scans whose header was lost; all of them incomplete.
+
+  bool operator==(const AssemblerCounters&) const = default;
 };
 
 /// Collects the parts of one radar into scans. A scan is closed by its count, a counter change, the

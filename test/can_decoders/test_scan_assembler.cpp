@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cremed/can_decoders/scan_assembler.hpp"
@@ -8,82 +10,179 @@
 namespace cremed::test {
 namespace {
 
-TEST_CASE("A list is a scan as soon as its last part is there") {
-  ScanBench bench(kWithHeader);
-  bench.header(7, 2);
-  bench.first(40, 11);
-  bench.first(9, 12);
-  bench.second(40, 21);
-  CHECK(bench.scans.empty());
-  bench.second(9, 22);
-  REQUIRE(bench.scans.size() == 1);
-  const RadarScan& scan = bench.scans[0];
-  CHECK(scan.status == ScanStatus::complete);
-  CHECK(scan.stamp_us == 1'000'000);
-  CHECK(scan.counter == 7);
-  CHECK(scan.announced == 2);
-  REQUIRE(scan.count == 2);
-  CHECK(scan.detections[0].id == 40);
-  CHECK(scan.detections[0].range_m == 11);
-  CHECK(scan.detections[0].range_std_m == 21);
-  CHECK(scan.detections[1].id == 9);
-  CHECK(scan.detections[1].range_m == 12);
-  CHECK(scan.detections[1].range_std_m == 22);
-  CHECK(bench.counters().scans == 1);
-  CHECK(bench.counters().incomplete_scans == 0);
-  CHECK(bench.counters().empty_scans == 0);
-  CHECK(bench.counters().reordered_parts == 0);
+TEST_CASE("A list is closed by its last part, the next header, or the end of input") {
+  const std::vector<ScanRow> rows = {
+      {"as soon as its last part is there",
+       "h7/2 f40=11 f9=12 s40=21 !0 s9=22 !1",
+       {"7/2 complete 40=11,21 9=12,22 @0"}},
+      {"its targets are in the order of their first parts, also if these are second messages",
+       "h1/2 s3=6 f4=7 s4=8 f3=5",
+       {"1/2 complete 3=5,6 4=7,8"},
+       {.reordered_parts = 1}},
+      {"a header that announces nothing is a complete empty scan", "h7/0", {"7/0 complete"}},
+      {"a scan forgets the one before it",
+       "L1/3 h2/1 f2=50 s2=60",
+       {"1/3 complete 0 1 2", "2/1 complete 2=50,60"}},
+      {"the next header closes a scan that lacks parts",
+       "h1/3 f0 f1 s1=77 L2/1",
+       {"1/3 missing_parts 1=1,77", "2/1 complete 0"},
+       {.missing_parts = 3}},
+      {"a header can close one scan and be another",
+       "h1/1 !0 h2/0 !2",
+       {"1/1 missing_parts", "2/0 complete"},
+       {.missing_parts = 2}},
+      {"the end of input closes the open scan",
+       ". !0 h1/1 f0 . .",
+       {"1/1 missing_parts"},
+       {.missing_parts = 1}},
+      {"the header of the last scan closes the open one",
+       "L1/1 h2/1 L1/1",
+       {"1/1 complete 0", "2/1 missing_parts"},
+       {.missing_parts = 2, .orphan_parts = 2, .repeated_scans = 1}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
-TEST_CASE("A header that announces nothing is a complete empty scan") {
-  ScanBench bench(kWithHeader);
-  bench.header(7, 0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[0].count == 0);
-  CHECK(bench.counters().empty_scans == 1);
+TEST_CASE("A list is closed when no part of it came for too long") {
+  const std::vector<ScanRow> rows = {
+      {"by expire(), unless a clock is set back",
+       "h1/1 +40000 f0 x50000 x-500000 !0 x50001 !1 x500000",
+       {"1/1 missing_parts"},
+       {.timeouts = 1, .missing_parts = 1}},
+      {"a later part finds its scan closed",
+       "h1/1 f0 +50000 s0",
+       {"1/1 missing_parts"},
+       {.timeouts = 1, .missing_parts = 1, .orphan_parts = 1}},
+      {"a part exactly at the time-out still counts", "h1/1 f0 +49900 s0", {"1/1 complete 0"}},
+      {"a repeated header, a duplicate and an excess part are parts",
+       "h1/1 +25000 h1/1 +49800 f0 +49800 f0 +49800 f1 +49800 s0",
+       {"1/1 conflicting_parts 0"},
+       {.duplicate_parts = 2, .excess_parts = 1}},
+      {"time-out and a new empty scan in one header",
+       "h1/1 +100000 !0 h2/0 !2",
+       {"1/1 missing_parts", "2/0 complete"},
+       {.timeouts = 1, .missing_parts = 2}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
-TEST_CASE("A scan forgets the one before it") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 3);
-  bench.header(2, 1);
-  bench.first(2, 50);
-  bench.second(2, 60);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
-  CHECK(bench.scans[1].count == 1);
-  CHECK(bench.scans[1].detections[0].range_m == 50);
+TEST_CASE("What comes again or contradicts is not taken twice") {
+  const std::vector<ScanRow> rows = {
+      {"a header again is a duplicate",
+       "h1/1 f0 h1/1 s0",
+       {"1/1 complete 0 @0"},
+       {.duplicate_parts = 1}},
+      {"a header again with another number is a conflict",
+       "h1/1 f0 h1/2 s0",
+       {"1/1 conflicting_parts 0"},
+       {.conflicting_parts = 1}},
+      {"the same message again is ignored",
+       "h1/1 f0=5 f0=5 s0=6",
+       {"1/1 complete 0=5,6"},
+       {.duplicate_parts = 1}},
+      {"a first message with other bytes",
+       "h1/2 f0=5 f1=5 s0=6 f0=8 s1=6",
+       {"1/2 conflicting_parts 0=5,6 1=5,6"},
+       {.conflicting_parts = 1}},
+      {"a second message with other bytes",
+       "h1/2 f0=5 f1=5 s0=6 s0=9 s1=6",
+       {"1/2 conflicting_parts 0=5,6 1=5,6"},
+       {.conflicting_parts = 1}},
+      {"more targets than announced are dropped",
+       "h1/1 f0 f1 s1 s0",
+       {"1/1 conflicting_parts 0"},
+       {.excess_parts = 2}},
+      {"a contradiction weighs more than lost frames",
+       "h1/2 f0=5 d f0=6 .",
+       {"1/2 conflicting_parts"},
+       {.missing_parts = 3, .conflicting_parts = 1}},
+      {"a damaged header in the middle of a list begins no scan",
+       "L1/2 L2/2 h3/2 f0 h16387/2 f1 s0 s1 +10000 L4/2",
+       {"1/2 complete 0 1", "2/2 complete 0 1", "3/2 conflicting_parts 0 1", "4/2 complete 0 1"},
+       {.conflicting_parts = 1}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
-TEST_CASE("The next header closes a scan that lacks parts") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 3);
-  bench.first(0);
-  bench.first(1);
-  bench.second(1, 77);
-  bench.list(2, 1);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[0].announced == 3);
-  REQUIRE(bench.scans[0].count == 1);
-  CHECK(bench.scans[0].detections[0].range_std_m == 77);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
-  CHECK(bench.counters().missing_parts == 3);
-  CHECK(bench.counters().incomplete_scans == 1);
-  CHECK(bench.counters().timeouts == 0);
+TEST_CASE("A repeated list never looks like a fresh one") {
+  const std::vector<ScanRow> rows = {
+      {"not even after a long time",
+       "L1/2 +10000000 L1/2",
+       {"1/2 complete 0 1"},
+       {.orphan_parts = 4, .repeated_scans = 1}},
+      {"nor if it announces nothing",
+       "L1/2 +10000000 L1/2 h1/0",
+       {"1/2 complete 0 1"},
+       {.orphan_parts = 4, .repeated_scans = 2}},
+      {"with a part that the last one lacked, or cut short",
+       "h1/2 f0 f1 s0 +100000 L1/2 +100000 h1/2 f0 x100100",
+       {"1/2 missing_parts 0"},
+       {.timeouts = 1, .missing_parts = 1, .orphan_parts = 5, .repeated_scans = 2}},
+      {"neither it nor an incomplete one counts as missed",
+       "L1/1 L1/1 h2/5 L3/1",
+       {"1/1 complete 0", "2/5 missing_parts", "3/1 complete 0"},
+       {.missing_parts = 10, .orphan_parts = 2, .repeated_scans = 1}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
-TEST_CASE("A header can close one scan and be another") {
+TEST_CASE("With a counter that stands still, each list that differs from the last is a scan") {
+  // Two empty lists are alike, and the first one after them has nothing to differ from.
+  const std::vector<ScanRow> rows = {
+      {"whatever the lists hold",
+       "L7/5=1 +25000 L7/5=2 +25000 L7/3=3 +25000 L7/9=4 +25000 L7/0=5 +25000 L7/0=6 +25000 "
+       "L7/4=7 +25000 L7/4=8 +25000 L7/4=9",
+       {"7/5 complete 0 1 2 3 4", "7/5 complete 0=2 1=2 2=2 3=2 4=2", "7/3 complete 0=3 1=3 2=3",
+        "7/9 complete 0=4 1=4 2=4 3=4 4=4 5=4 6=4 7=4 8=4", "7/4 complete 0=8 1=8 2=8 3=8",
+        "7/4 complete 0=9 1=9 2=9 3=9"},
+       {.orphan_parts = 8, .repeated_scans = 3}},
+      {"and parts of two lists are in no complete scan",
+       "L7/3=1 +25000 L7/3=2 +25000 L7/3=3 +25000 h7/3 f1-2=4 s0-2=4 +25000 L7/3=5 +25000 "
+       "L7/3=6 +25000 L7/3=7 +25000 L7/3=8 +25000 L7/3=9",
+       {"7/3 complete 0 1 2", "7/3 complete 0=2 1=2 2=2", "7/3 complete 0=3 1=3 2=3",
+        "7/3 missing_parts 1=4 2=4", "7/3 complete 0=5 1=5 2=5", "7/3 complete 0=6 1=6 2=6",
+        "7/3 complete 0=7 1=7 2=7", "7/3 complete 0=8 1=8 2=8", "7/3 complete 0=9 1=9 2=9"},
+       {.missing_parts = 1, .reordered_parts = 1}}};
+  check_scripts(kWithHeader, rows);
+}
+
+TEST_CASE("A list is fresh from the first part that differs from the last list") {
   ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.header(2, 0);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.most_waiting == 2);
-  CHECK(bench.scans[0].counter == 1);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[1].counter == 2);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
+  bench.play("L1/3 h1/3 f0 f1");
+  CHECK(bench.open_stamp_us() == std::nullopt);
+  bench.play("f2=9");
+  CHECK(bench.open_stamp_us() == kBeginUs + 7 * 100);
+  CHECK(bench.awaited_parts() == 3U);
+  bench.play("s0-2");
+  const std::vector<std::string> scans = {"1/3 complete 0 1 2", "1/3 complete 0 1 2=9,1 @700"};
+  CHECK(bench.told(scans) == scans);
+}
+
+TEST_CASE("Parts without a header are orphans, or a list whose header was lost") {
+  const std::string fives = "1/5 complete 0 1 2 3 4";
+  const std::vector<ScanRow> rows = {
+      {"no list yet", "f0 s0", {}, {.orphan_parts = 2}},
+      {"the last list is whole", "f0 s0 L1/1 s0", {"1/1 complete 0"}, {.orphan_parts = 3}},
+      {"no pause", "L1/5 f0=9 .", {fives}, {.orphan_parts = 1}},
+      {"not the beginning", "L1/5 +60000 f4=9 .", {fives}, {.orphan_parts = 1}},
+      {"second message", "L1/5 +60000 s0=9 .", {fives}, {.orphan_parts = 1}},
+      {"a header that comes after its first targets is theirs",
+       "L1/2 +10000 f0 h2/2 f1 s0 s1",
+       {"1/2 complete 0 1", "2/2 complete 0 1"},
+       {}},
+      // Two counts a cycle. With its header a list lost slot 0.
+      {"a list of its own, stamped by its first frame",
+       "L1/5 L3/5 h5/5 f0-4 s0-4=2 +10000 f1-4=3 s0-4=4 +10000 L9/5",
+       {fives, "3/5 complete 0 1 2 3 4", "5/5 complete 0=1,2 1=1,2 2=1,2 3=1,2 4=1,2",
+        "7/5 missing_parts 1=3,4 2=3,4 3=3,4 4=3,4 @13300", "9/5 complete 0 1 2 3 4"},
+       {.missing_parts = 1, .reordered_parts = 1, .headerless_scans = 1}},
+      {"the list before it is not whole",
+       "L1/5 L3/5 h5/5 f0-4 s1-4=2 +10000 f1-4=3 s0-4=4 +10000 L9/5",
+       {fives, "3/5 complete 0 1 2 3 4", "5/5 missing_parts 1=1,2 2=1,2 3=1,2 4=1,2",
+        "7/5 missing_parts 1=3,4 2=3,4 3=3,4 4=3,4 @13200", "9/5 complete 0 1 2 3 4"},
+       {.missing_parts = 2, .reordered_parts = 1, .headerless_scans = 1}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
 TEST_CASE("Scans nobody takes are overwritten, oldest first") {
@@ -112,376 +211,6 @@ TEST_CASE("A radar's stamp offset is in the stamps of its scans, and nowhere els
     REQUIRE(scan != nullptr);
     CHECK(scan->stamp_us == stamp_us + offset_us);
   }
-}
-
-TEST_CASE("The end of input closes the open scan") {
-  ScanBench bench(kWithHeader);
-  bench.finish();
-  CHECK(bench.scans.empty());
-  bench.header(1, 1);
-  bench.first(0);
-  bench.finish();
-  bench.finish();
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.counters().missing_parts == 1);
-}
-
-TEST_CASE("An open scan expires when no part of it came for too long") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us += 40'000;
-  bench.first(0);
-  const std::int64_t last_us = bench.now_us - 100;
-  bench.expire(last_us + kTimeoutUs);
-  CHECK(bench.scans.empty());
-  bench.expire(last_us - 10 * kTimeoutUs);  // A clock set back.
-  CHECK(bench.scans.empty());
-  bench.expire(last_us + kTimeoutUs + 1);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.counters().timeouts == 1);
-  bench.expire(last_us + 10 * kTimeoutUs);
-  CHECK(bench.scans.size() == 1);
-}
-
-TEST_CASE("A part that comes after the time-out finds its scan closed") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.now_us += kTimeoutUs;  // With the 100 us since the last part just over the time-out.
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.counters().timeouts == 1);
-  CHECK(bench.counters().orphan_parts == 1);
-}
-
-TEST_CASE("A part exactly at the time-out still counts") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.now_us += kTimeoutUs - 100;
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-}
-
-TEST_CASE("Time-out and a new empty scan in one header") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us += 2 * kTimeoutUs;
-  bench.header(2, 0);
-  CHECK(bench.most_waiting == 2);
-  CHECK(bench.counters().timeouts == 1);
-  CHECK(bench.counters().empty_scans == 1);
-}
-
-TEST_CASE("A header again is a duplicate") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.header(1, 1);
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[0].stamp_us == 1'000'000);
-  CHECK(bench.counters().duplicate_parts == 1);
-  CHECK(bench.counters().conflicting_parts == 0);
-}
-
-TEST_CASE("A header again with another number is a conflict") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.header(1, 2);
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
-  CHECK(bench.scans[0].announced == 1);
-  CHECK(bench.scans[0].count == 1);
-  CHECK(bench.counters().conflicting_parts == 1);
-  CHECK(bench.counters().duplicate_parts == 0);
-}
-
-TEST_CASE("A repeated list never looks like a fresh one") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 2);
-  bench.now_us += 10'000'000;  // Not even after a long time.
-  bench.list(1, 2);
-  CHECK(bench.scans.size() == 1);
-  CHECK(bench.counters().repeated_scans == 1);
-  CHECK(bench.counters().orphan_parts == 4);
-  bench.header(1, 0);
-  CHECK(bench.scans.size() == 1);
-  CHECK(bench.counters().repeated_scans == 2);
-}
-
-TEST_CASE("A counter that stands still loses no list, whatever the lists hold") {
-  ScanBench bench(kWithHeader);
-  const std::vector<std::uint16_t> counts = {5, 5, 3, 9, 0, 0, 4, 4, 4};
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    bench.now_us += kTimeoutUs / 2;
-    bench.list(7, counts[i], static_cast<std::uint8_t>(i + 1));
-  }
-  // Two empty lists are alike, and the first one after them has nothing to differ from.
-  const std::vector<std::size_t> fresh = {0, 1, 2, 3, 7, 8};
-  REQUIRE(bench.scans.size() == fresh.size());
-  for (std::size_t i = 0; i < fresh.size(); ++i) {
-    CAPTURE(i);
-    CHECK(bench.scans[i].status == ScanStatus::complete);
-    REQUIRE(bench.scans[i].count == counts[fresh[i]]);
-    CHECK(bench.scans[i].detections[0].range_m == static_cast<double>(fresh[i] + 1));
-    CHECK(bench.scans[i].detections[0].range_std_m == static_cast<double>(fresh[i] + 1));
-  }
-  CHECK(bench.counters().repeated_scans == 3);
-  CHECK(bench.counters().missed_scans == 0);
-}
-
-TEST_CASE("A list is fresh from the first part that differs from the last list") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 3);
-  bench.header(1, 3);
-  bench.first(0);
-  bench.first(1);
-  CHECK(bench.open_stamp_us() == std::nullopt);
-  bench.first(2, 9);
-  CHECK(bench.open_stamp_us() == 1'000'000 + 7 * 100);
-  CHECK(bench.awaited_parts() == 3U);
-  for (std::uint8_t slot = 0; slot < 3; ++slot) {
-    bench.second(slot);
-  }
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
-  CHECK(bench.scans[1].count == 3);
-  CHECK(bench.scans[1].stamp_us == 1'000'000 + 7 * 100);
-}
-
-TEST_CASE("A repeated list with a part that the last one lacked, or cut short, is no scan") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 2);
-  bench.first(0);
-  bench.first(1);
-  bench.second(0);
-  bench.now_us += 2 * kTimeoutUs;
-  bench.list(1, 2);
-  bench.now_us += 2 * kTimeoutUs;
-  bench.header(1, 2);
-  bench.first(0);
-  bench.expire(bench.now_us + 2 * kTimeoutUs);
-  CHECK(bench.scans.size() == 1);
-  CHECK(bench.counters().timeouts == 1);
-  CHECK(bench.counters().repeated_scans == 2);
-  CHECK(bench.counters().orphan_parts == 5);
-}
-
-TEST_CASE("With a counter that stands still, parts of two lists are in no complete scan") {
-  ScanBench bench(kWithHeader);
-  for (std::uint8_t value = 1; value <= 9; ++value) {
-    bench.now_us += kTimeoutUs / 2;
-    bench.header(7, 3);
-    for (std::uint8_t slot = value == 4 ? 1 : 0; slot < 3; ++slot) {
-      bench.first(slot, value);
-    }
-    for (std::uint8_t slot = 0; slot < 3; ++slot) {
-      bench.second(slot, value);
-    }
-  }
-  REQUIRE(bench.scans.size() == 9);
-  for (std::size_t i = 0; i < bench.scans.size(); ++i) {
-    CAPTURE(i);
-    CHECK(bench.scans[i].status == (i == 3 ? ScanStatus::missing_parts : ScanStatus::complete));
-    CHECK(bench.scans[i].detections[0].range_std_m == static_cast<double>(i + 1));
-  }
-}
-
-TEST_CASE("The header of the last scan closes the open one") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 1);
-  bench.header(2, 1);
-  bench.list(1, 1);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[1].counter == 2);
-  CHECK(bench.scans[1].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[1].count == 0);
-  CHECK(bench.counters().repeated_scans == 1);
-  CHECK(bench.counters().orphan_parts == 2);
-}
-
-TEST_CASE("The same message again is ignored") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0, 5);
-  bench.first(0, 5);
-  bench.second(0, 6);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[0].count == 1);
-  CHECK(bench.counters().duplicate_parts == 1);
-}
-
-TEST_CASE("The same message with other bytes makes a scan conflicting") {
-  for (const bool of_first : {true, false}) {
-    ScanBench bench(kWithHeader);
-    bench.header(1, 2);
-    bench.first(0, 5);
-    bench.first(1, 5);
-    bench.second(0, 6);
-    of_first ? bench.first(0, 8) : bench.second(0, 9);
-    bench.second(1, 6);
-    REQUIRE(bench.scans.size() == 1);
-    CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
-    CHECK(bench.scans[0].count == 2);
-    CHECK(bench.scans[0].detections[0].range_m == 5);
-    CHECK(bench.scans[0].detections[0].range_std_m == 6);
-    CHECK(bench.counters().conflicting_parts == 1);
-    CHECK(bench.counters().incomplete_scans == 1);
-    CHECK(bench.counters().missing_parts == 0);
-  }
-}
-
-TEST_CASE("The second message may come before the first") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 2);
-  bench.second(3, 6);
-  bench.first(4, 7);
-  bench.second(4, 8);
-  bench.first(3, 5);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  REQUIRE(bench.scans[0].count == 2);
-  CHECK(bench.scans[0].detections[0].id == 3);  // In order of the message that came first.
-  CHECK(bench.scans[0].detections[0].range_m == 5);
-  CHECK(bench.scans[0].detections[0].range_std_m == 6);
-  CHECK(bench.counters().reordered_parts == 1);
-}
-
-TEST_CASE("More targets than announced are dropped and the scan is not whole") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.first(1);
-  bench.second(1);
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
-  REQUIRE(bench.scans[0].count == 1);
-  CHECK(bench.scans[0].detections[0].id == 0);
-  CHECK(bench.counters().excess_parts == 2);
-}
-
-TEST_CASE("Parts without an open scan are orphans") {
-  ScanBench bench(kWithHeader);
-  bench.first(0);
-  bench.second(0);
-  CHECK(bench.counters().orphan_parts == 2);
-  bench.list(1, 1);
-  bench.second(0);
-  CHECK(bench.counters().orphan_parts == 3);
-  CHECK(bench.scans.size() == 1);
-}
-
-TEST_CASE("A list whose header was lost is a scan of its own, stamped by its first frame") {
-  const bool is_last_whole = GENERATE(true, false);
-  CAPTURE(is_last_whole);
-  ScanBench bench(kWithHeader);
-  bench.list(1, 5);
-  bench.list(3, 5);  // Two counts a cycle.
-  bench.header(5, 5);
-  for (std::uint8_t slot = 0; slot < 5; ++slot) {
-    bench.first(slot, 1);
-  }
-  for (std::uint8_t slot = is_last_whole ? 0 : 1; slot < 5; ++slot) {
-    bench.second(slot, 2);
-  }
-  bench.now_us += 10'000;
-  const std::int64_t begin_us = bench.now_us;
-  for (std::uint8_t slot = 1; slot < 5; ++slot) {  // With the header slot 0 was lost.
-    bench.first(slot, 3);
-  }
-  for (std::uint8_t slot = 0; slot < 5; ++slot) {
-    bench.second(slot, 4);
-  }
-  bench.now_us += 10'000;
-  bench.list(9, 5);
-  REQUIRE(bench.scans.size() == 5);
-  const RadarScan& scan = bench.scans[3];
-  CHECK(scan.status == ScanStatus::missing_parts);
-  CHECK(scan.stamp_us == begin_us);
-  CHECK(scan.counter == 7);
-  CHECK(scan.announced == 5);
-  REQUIRE(scan.count == 4);
-  CHECK(scan.detections[0].id == 1);
-  CHECK(scan.detections[0].range_m == 3);
-  CHECK(bench.scans[2].count == (is_last_whole ? 5 : 4));
-  CHECK(bench.scans[4].status == ScanStatus::complete);
-  CHECK(bench.counters().headerless_scans == 1);
-  CHECK(bench.counters().orphan_parts == 0);
-  CHECK(bench.counters().conflicting_parts == 0);
-  CHECK(bench.counters().missed_scans == 0);
-}
-
-TEST_CASE("What may be the rest of an old list begins no scan") {
-  struct Row {
-    const char* what;
-    std::int64_t pause_us;
-    std::uint8_t slot;
-    bool is_first;
-  };
-  const auto row = GENERATE(Row{"no pause", 0, 0, true}, Row{"not the beginning", 60'000, 4, true},
-                            Row{"second message", 60'000, 0, false});
-  CAPTURE(row.what);
-  ScanBench bench(kWithHeader);
-  bench.list(1, 5);
-  bench.now_us += row.pause_us;
-  row.is_first ? bench.first(row.slot, 9) : bench.second(row.slot, 9);
-  bench.finish();
-  CHECK(bench.scans.size() == 1);
-  CHECK(bench.counters().orphan_parts == 1);
-}
-
-TEST_CASE("A header that comes after its first targets is theirs") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 2);
-  bench.now_us += 10'000;
-  bench.first(0);
-  bench.header(2, 2);
-  bench.first(1);
-  bench.second(0);
-  bench.second(1);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
-  CHECK(bench.scans[1].counter == 2);
-  CHECK(bench.counters().headerless_scans == 0);
-}
-
-TEST_CASE("A damaged header in the middle of a list begins no scan") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 2);
-  bench.list(2, 2);
-  bench.header(3, 2);
-  bench.first(0);
-  bench.header(3 | 1 << 14, 2);
-  bench.first(1);
-  bench.second(0);
-  bench.second(1);
-  REQUIRE(bench.scans.size() == 3);
-  CHECK(bench.scans[2].status == ScanStatus::conflicting_parts);
-  CHECK(bench.scans[2].counter == 3);
-  bench.now_us += 10'000;
-  bench.list(4, 2);
-  CHECK(bench.scans.back().status == ScanStatus::complete);
-}
-
-TEST_CASE("A contradiction weighs more than lost frames") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 2);
-  bench.first(0, 5);
-  bench.mark_dropped();
-  bench.first(0, 6);
-  bench.finish();
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::conflicting_parts);
 }
 
 TEST_CASE("Frames that are no parts change nothing") {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "test/can_decoders/scan_bench.hpp"
@@ -9,83 +10,48 @@ namespace cremed::test {
 namespace {
 
 TEST_CASE("256 targets fit") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 256);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[0].count == 256);
-  CHECK(bench.scans[0].detections[255].id == 255);
-}
-
-TEST_CASE("More than 256 announced targets are over capacity") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 300);
-  for (unsigned slot = 0; slot < 256; ++slot) {
-    bench.first(static_cast<std::uint8_t>(slot));
-    bench.second(static_cast<std::uint8_t>(slot));
-  }
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::over_capacity);
-  CHECK(bench.scans[0].announced == 300);
-  CHECK(bench.scans[0].count == 256);
-  CHECK(bench.counters().missing_parts == 88);
-}
-
-TEST_CASE("Over capacity hides conflicts and missing parts") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 257);
-  bench.first(0, 1);
-  bench.first(0, 2);
-  bench.finish();
-  CHECK(bench.scans.at(0).status == ScanStatus::over_capacity);
-  CHECK(bench.counters().missing_parts == 2 * 257 - 1);
-}
-
-TEST_CASE("A conflict hides missing parts") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 2);
-  bench.first(0, 1);
-  bench.first(0, 2);
-  bench.finish();
-  CHECK(bench.scans.at(0).status == ScanStatus::conflicting_parts);
-  CHECK(bench.counters().missing_parts == 3);
-}
-
-TEST_CASE("Lost frames spoil the open scan, and hide no contradiction in it") {
-  struct Row {
-    std::uint16_t announced;
-    bool has_conflict;
-    ScanStatus status;
-  };
-  for (const Row& row :
-       {Row{1, false, ScanStatus::dropped_frames}, Row{1, true, ScanStatus::conflicting_parts},
-        Row{300, false, ScanStatus::over_capacity}, Row{300, true, ScanStatus::over_capacity}}) {
-    CAPTURE(row.announced, row.has_conflict);
+  for (const unsigned announced : {256U, 300U}) {
+    CAPTURE(announced);
     ScanBench bench(kWithHeader);
-    bench.header(1, row.announced);
-    bench.first(0);
-    bench.mark_dropped();
-    if (row.has_conflict) {
-      bench.first(0, 9);
-    }
-    bench.second(0);
-    bench.finish();
+    bench.play("h1/" + std::to_string(announced) + " b0-255");
     REQUIRE(bench.scans.size() == 1);
-    CHECK(bench.scans[0].status == row.status);
-    CHECK(bench.scans[0].count == 1);
-    CHECK(bench.counters().incomplete_scans == 1);
+    const RadarScan& scan = bench.scans[0];
+    CHECK(scan.status == (announced == 256 ? ScanStatus::complete : ScanStatus::over_capacity));
+    CHECK(scan.announced == announced);
+    CHECK(scan.count == 256);
+    CHECK(scan.detections[255].id == 255);
+    CHECK(bench.counters().missing_parts == 2 * (announced - 256));
   }
 }
 
-TEST_CASE("Lost frames between scans spoil none") {
-  ScanBench bench(kWithHeader);
-  bench.mark_dropped();
-  bench.list(1, 1);
-  bench.mark_dropped();
-  bench.list(2, 1);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
+TEST_CASE("The status is the first that applies") {
+  const std::vector<ScanRow> rows = {
+      {"over capacity hides conflicts and missing parts",
+       "h1/257 f0 f0=2 .",
+       {"1/257 over_capacity"},
+       {.missing_parts = 513, .conflicting_parts = 1}},
+      {"a conflict hides missing parts",
+       "h1/2 f0 f0=2 .",
+       {"1/2 conflicting_parts"},
+       {.missing_parts = 3, .conflicting_parts = 1}},
+      {"lost frames spoil the open scan", "h1/1 f0 d s0 .", {"1/1 dropped_frames 0"}},
+      {"lost frames hide no conflict",
+       "h1/1 f0 d f0=9 s0 .",
+       {"1/1 conflicting_parts 0"},
+       {.conflicting_parts = 1}},
+      {"nor that they are too many",
+       "h1/300 f0 d s0 .",
+       {"1/300 over_capacity 0"},
+       {.missing_parts = 598}},
+      {"nor both",
+       "h1/300 f0 d f0=9 s0 .",
+       {"1/300 over_capacity 0"},
+       {.missing_parts = 598, .conflicting_parts = 1}},
+      {"lost frames between scans spoil none",
+       "d L1/1 d L2/1",
+       {"1/1 complete 0", "2/1 complete 0"}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
 TEST_CASE("Skipped counters are missed scans") {
@@ -113,9 +79,8 @@ TEST_CASE("Skipped counters are missed scans") {
   };
   for (const Row& row : rows) {
     ScanBench bench(kWithHeader);
-    for (const std::uint16_t counter : row.counters) {
-      bench.now_us += 3'600'000'000;  // Time enough for any gap.
-      bench.list(counter, 1);
+    for (const std::uint16_t counter : row.counters) {  // With time enough for any gap.
+      bench.play("+3600000000 L" + std::to_string(counter) + "/1");
     }
     CAPTURE(row.counters);
     CHECK(bench.scans.size() == row.counters.size());
@@ -131,118 +96,53 @@ TEST_CASE("More cycles than the time holds are a restart, not missed scans") {
   for (const Row& row : {Row{3'000'000, 0}, Row{3'600'000'000, 12767}}) {
     CAPTURE(row.pause_us);
     ScanBench bench(kWithHeader);
-    for (const std::uint16_t counter : std::vector<std::uint16_t>{39998, 40000}) {
-      bench.list(counter, 1);
-      bench.now_us += 75'000;
-    }
-    bench.now_us += row.pause_us;
-    for (const std::uint16_t counter : std::vector<std::uint16_t>{0, 2, 8}) {  // Two are missing.
-      bench.list(counter, 1);
-      bench.now_us += 200'000;
-    }
+    bench.play("L39998/1 +75000 L40000/1 +75000 +" + std::to_string(row.pause_us));
+    bench.play("L0/1 +200000 L2/1 +200000 L8/1");  // Two are missing.
     CHECK(bench.counters().missed_scans == row.missed + 2);
   }
 }
 
 TEST_CASE("A first step that was a glitch is forgotten") {
   ScanBench bench(kWithHeader);
-  bench.list(1, 1);
-  for (std::uint16_t counter = 2; counter < 42; counter = static_cast<std::uint16_t>(counter + 2)) {
-    bench.now_us += 75'000;
-    bench.list(counter, 1);
+  bench.play("L1/1");
+  std::uint64_t missed_at_first = 0;
+  for (int counter = 2; counter < 82; counter += 2) {
+    bench.play("+75000 L" + std::to_string(counter) + "/1");
+    missed_at_first = counter <= 40 ? bench.counters().missed_scans : missed_at_first;
   }
-  const std::uint64_t missed = bench.counters().missed_scans;
-  CHECK(missed < 20);
-  for (std::uint16_t counter = 42; counter < 82;
-       counter = static_cast<std::uint16_t>(counter + 2)) {
-    bench.now_us += 75'000;
-    bench.list(counter, 1);
-  }
-  CHECK(bench.counters().missed_scans == missed);
+  CHECK(missed_at_first < 20);
+  CHECK(bench.counters().missed_scans == missed_at_first);
 }
 
-TEST_CASE("Repeated and incomplete scans are not missed ones") {
-  ScanBench bench(kWithHeader);
-  bench.list(1, 1);
-  bench.list(1, 1);
-  bench.header(2, 5);
-  bench.list(3, 1);
-  CHECK(bench.counters().missed_scans == 0);
-}
-
-TEST_CASE("Equal stamps are no step back") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us -= 100;
-  bench.first(0);
-  CHECK(bench.counters().stamps_backwards == 0);
-}
-
-TEST_CASE("A repeated header, a duplicate and an excess part keep a scan from expiring") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us += kTimeoutUs / 2;
-  bench.header(1, 1);
-  bench.now_us += kTimeoutUs - 200;
-  bench.first(0);
-  bench.now_us += kTimeoutUs - 200;
-  bench.first(0);
-  bench.now_us += kTimeoutUs - 200;
-  bench.first(1);
-  bench.now_us += kTimeoutUs - 200;
-  bench.second(0);
-  CHECK(bench.counters().timeouts == 0);
-  CHECK(bench.scans.size() == 1);
-}
-
-TEST_CASE("A small step back in time is counted and harmless") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us -= kTimeoutUs / 2;
-  bench.first(0);
-  bench.second(0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.counters().stamps_backwards == 1);
-}
-
-TEST_CASE("A step back beyond the time-out closes the open scan") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.first(0);
-  bench.now_us -= 3'600'000'000;
-  bench.second(0);
-  bench.list(2, 1);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[1].status == ScanStatus::complete);
-  CHECK(bench.counters().timeouts == 1);
-  CHECK(bench.counters().orphan_parts == 1);
-  CHECK(bench.counters().stamps_backwards == 1);
-}
-
-TEST_CASE("After a step back the time-out runs from the new time") {
-  ScanBench bench(kWithHeader);
-  bench.header(1, 1);
-  bench.now_us -= kTimeoutUs / 2;
-  bench.first(0);
-  const std::int64_t last_us = bench.now_us - 100;
-  bench.expire(last_us + kTimeoutUs);
-  CHECK(bench.scans.empty());
-  bench.expire(last_us + kTimeoutUs + 1);
-  CHECK(bench.scans.size() == 1);
+TEST_CASE("Stamps may run backwards") {
+  const std::vector<ScanRow> rows = {
+      {"equal stamps are no step back", "h1/1 -100 f0", {}},
+      {"a small step back is counted and harmless",
+       "h1/1 -25000 f0 s0",
+       {"1/1 complete 0"},
+       {.stamps_backwards = 1}},
+      {"beyond the time-out it closes the open scan",
+       "h1/1 f0 -3600000000 s0 L2/1",
+       {"1/1 missing_parts", "2/1 complete 0"},
+       {.timeouts = 1, .missing_parts = 1, .orphan_parts = 1, .stamps_backwards = 1}},
+      {"the time-out runs from the new time",
+       "h1/1 -25000 f0 x50000 !0 x50001 !1",
+       {"1/1 missing_parts"},
+       {.timeouts = 1, .missing_parts = 1, .stamps_backwards = 1}},
+  };
+  check_scripts(kWithHeader, rows);
 }
 
 TEST_CASE("The most extreme stamps are only far apart") {
   ScanBench bench(kWithHeader);
   bench.now_us = std::numeric_limits<std::int64_t>::min();
-  bench.header(1, 1);
+  bench.play("h1/1");
   bench.expire(std::numeric_limits<std::int64_t>::max());
   CHECK(bench.counters().timeouts == 1);
   bench.now_us = std::numeric_limits<std::int64_t>::max() - 100;
-  bench.header(2, 1);
+  bench.play("h2/1");
   bench.now_us = std::numeric_limits<std::int64_t>::min();
-  bench.first(0);
+  bench.play("f0");
   CHECK(bench.counters().timeouts == 2);
 }
 

@@ -2,113 +2,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Families with one message, or more than two, per target.
-#include <initializer_list>
+#include <string>
+#include <vector>
 
 #include "test/can_decoders/scan_bench.hpp"
 
 namespace cremed::test {
 namespace {
 
-using Numbers = std::initializer_list<std::uint8_t>;
-
 TEST_CASE("One message is a whole target") {
-  ScanBench bench({.has_header = true, .messages = 1});
-  bench.header(7, 3);
-  bench.first(2, 12);
-  bench.first(0, 10);
-  CHECK(bench.scans.empty());
-  bench.first(1, 11);
-  REQUIRE(bench.scans.size() == 1);
-  const RadarScan& scan = bench.scans[0];
-  CHECK(scan.status == ScanStatus::complete);
-  REQUIRE(scan.count == 3);
-  CHECK(scan.detections[0].range_m == 12.0);
-  CHECK(scan.detections[2].range_m == 11.0);
-  CHECK(bench.counters().reordered_parts == 0);
+  const std::vector<ScanRow> rows = {
+      {"in any order", "h7/3 f2=12 f0=10 !0 f1=11", {"7/3 complete 2=12 0=10 1=11"}},
+      {"a lost one is one missing part",
+       "h1/2 f0 h2/0",
+       {"1/2 missing_parts 0", "2/0 complete"},
+       {.missing_parts = 1}},
+      {"a lost header does not lose the scan",
+       "h1/0 +70000 f1=5 f2=6 .",
+       {"1/0 complete", "2/2 missing_parts 1=5 2=6"},
+       {.headerless_scans = 1}},
+      {"a message that targets of the family do not have is ignored",
+       "h1/1 s0 m255:0 !0 f0",
+       {"1/1 complete 0"}},
+  };
+  check_scripts({.has_header = true, .messages = 1}, rows);
+  check_scripts({.has_header = false, .counter_modulus = 4, .slot_count = 2, .messages = 1},
+                {{"without header", "c3 f0-1 c0 f0", {"3/2 complete 0 1"}}});
 }
 
-TEST_CASE("A lost target of one message is one missing part") {
-  ScanBench bench({.has_header = true, .messages = 1});
-  bench.header(1, 2);
-  bench.first(0);
-  bench.header(2, 0);
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[0].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[0].count == 1);
-  CHECK(bench.counters().missing_parts == 1);
-}
-
-TEST_CASE("Targets of one message need no header") {
-  ScanBench bench({.has_header = false, .counter_modulus = 4, .slot_count = 2, .messages = 1});
-  bench.first(0, 1, 3);
-  bench.first(1, 1, 3);
-  bench.first(0, 1, 0);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  CHECK(bench.scans[0].counter == 3);
-}
-
-TEST_CASE("A lost header of targets of one message does not lose the scan") {
-  ScanBench bench({.has_header = true, .messages = 1});
-  bench.list(1, 0);
-  bench.now_us += 70'000;
-  bench.first(1, 5);
-  bench.first(2, 6);
-  bench.finish();
-  REQUIRE(bench.scans.size() == 2);
-  CHECK(bench.scans[1].status == ScanStatus::missing_parts);
-  CHECK(bench.scans[1].counter == 2);
-  CHECK(bench.scans[1].count == 2);
-  CHECK(bench.counters().headerless_scans == 1);
-}
-
-TEST_CASE("Four messages make a target, in any order") {
-  ScanBench bench({.has_header = true, .messages = 4});
-  bench.header(1, 2);
-  for (const std::uint8_t number : Numbers{0, 2, 1, 3}) {
-    bench.message(number, 9, static_cast<std::uint8_t>(20 + number));
-  }
-  CHECK(bench.counters().reordered_parts == 1);
-  bench.message(2, 9, 22);
-  CHECK(bench.counters().duplicate_parts == 1);
-  for (const std::uint8_t number : Numbers{0, 1, 2}) {
-    bench.message(number, 4);
-  }
-  CHECK(bench.scans.empty());
-  bench.message(3, 4);
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].status == ScanStatus::complete);
-  REQUIRE(bench.scans[0].count == 2);
-  CHECK(bench.scans[0].detections[0].range_m == 20.0);
-  CHECK(bench.scans[0].detections[0].range_std_m == 23.0);
-}
-
-TEST_CASE("What is missing is counted by the messages of a target") {
-  ScanBench bench({.has_header = true, .messages = 3});
-  bench.header(1, 2);
-  bench.message(0, 0);
-  bench.message(1, 0);
-  bench.finish();
-  REQUIRE(bench.scans.size() == 1);
-  CHECK(bench.scans[0].count == 0);
-  CHECK(bench.counters().missing_parts == 4);
-}
-
-TEST_CASE("A message that targets of the family do not have is ignored") {
-  ScanBench bench({.has_header = true, .messages = 1});
-  bench.header(1, 1);
-  bench.second(0);
-  bench.message(255, 0);
-  CHECK(bench.scans.empty());
-  bench.first(0);
-  CHECK(bench.scans.size() == 1);
+TEST_CASE("More messages than two make a target, in any order") {
+  check_scripts({.has_header = true, .messages = 4},
+                {{"four",
+                  "h1/2 m0:9=20 m2:9=22 m1:9=21 m3:9=23 m2:9=22 m0:4 m1:4 m2:4 !0 m3:4",
+                  {"1/2 complete 9=20,23 4"},
+                  {.duplicate_parts = 1, .reordered_parts = 1}}});
+  check_scripts({.has_header = true, .messages = 3}, {{"what is missing is counted by messages",
+                                                       "h1/2 m0:0 m1:0 .",
+                                                       {"1/2 missing_parts"},
+                                                       {.missing_parts = 4}}});
 }
 
 TEST_CASE("More messages than fit are as many as fit") {
   ScanBench bench({.has_header = true, .messages = 200});
-  bench.header(1, 1);
-  for (std::uint8_t number = 0; number < kMaxMessages; ++number) {
-    bench.message(number, 0);
+  bench.play("h1/1");
+  for (std::size_t number = 0; number < kMaxMessages; ++number) {
+    bench.play("m" + std::to_string(number) + ":0");
   }
   CHECK(bench.scans.size() == 1);
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -35,9 +34,7 @@ FaultTime seconds(const FaultDrive& drive, double from_s, double until_s) {
           drive.start_us() + std::llround(until_s * 1e6)};
 }
 
-FaultCase changed(FaultTime time, std::function<Frames(const FaultDrive&, FaultTime)> put_in) {
-  return {"changed", "", time, std::move(put_in)};
-}
+FaultCase changed(FaultTime time, PutIn put_in) { return {"changed", "", time, std::move(put_in)}; }
 
 }  // namespace
 
@@ -65,9 +62,7 @@ TEST_CASE("A truck ahead leaves every scan complete, at rest relative to the rad
 TEST_CASE("Radars that hang repeat one scan with a counter that runs on") {
   const FaultDrive drive = drive_of_ars408(3.0);
   const FaultTime time = seconds(drive, 1.0, 2.0);
-  const FaultRecord result = record(drive, changed(time, [](const FaultDrive& d, FaultTime t) {
-                                      return with_repeated_scan(d.frames, t);
-                                    }));
+  const FaultRecord result = record(drive, changed(time, put(with_repeated_scan)));
   std::size_t repeated = 0;
   for (const auto& scans : result.sink.scans) {
     for (std::size_t i = 1; i < scans.size(); ++i) {

@@ -113,10 +113,8 @@ TEST_CASE("Two of three radars that are late alike do not outvote the third") {
   const std::int64_t delay_us = GENERATE(300'000, 500'000);
   const FaultDrive drive = simulated_fault_drive("stop-and-go", 30.0, car_with_two_behind().radars);
   FaultCase fault{"pair", "", {drive.start_us(), kNever}};
-  fault.put_in = [=](const FaultDrive& healthy, FaultTime time) {
-    return with_late_stamps(with_late_stamps(healthy.frames, time, kBehind[0], delay_us), time,
-                            kBehind[1], delay_us);
-  };
+  fault.put_in = both(put(with_late_stamps, kBehind[0], delay_us),
+                      put(with_late_stamps, kBehind[1], delay_us));
   const DriveFigures figures = judged(drive, fault);
   CAPTURE(delay_us, figures.radars[kFrontOfThree].left_out, figures.beyond_share());
   // Two seconds of the first start from rest, in which two are against one.

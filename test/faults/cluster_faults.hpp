@@ -39,8 +39,9 @@ inline CanFrame at_place_of(const CanFrame& place, CanFrame frame) {
 
 /// `change(cluster)`, or `change(cluster, seconds since the fault's begin)`, is applied to the
 /// clusters of the radars that `is_faulty` selects; values are rounded again.
-template <typename IsFaulty, typename Change>
-Frames with_changed_clusters(Frames frames, FaultTime time, IsFaulty is_faulty, Change change) {
+template <typename Change>
+Frames with_changed_clusters(Frames frames, FaultTime time, const RadarSelection& is_faulty,
+                             Change change) {
   for (CanFrame& frame : frames) {
     if (!is_faulty(std::size_t{frame.interface}) || !time.has(frame) ||
         !is_message(frame, Ars408Message::cluster_general)) {
@@ -92,8 +93,8 @@ inline Frames with_upside_down(Frames frames, FaultTime time, std::size_t radar)
 }
 
 /// Velocities of those radars are multiplied by `factor`.
-template <typename IsFaulty>
-Frames with_scaled_doppler(Frames frames, FaultTime time, IsFaulty is_faulty, double factor) {
+inline Frames with_scaled_doppler(Frames frames, FaultTime time, const RadarSelection& is_faulty,
+                                  double factor) {
   return with_changed_clusters(std::move(frames), time, is_faulty,
                                [factor](Ars408General& cluster) {
                                  cluster.vx_mps *= factor;

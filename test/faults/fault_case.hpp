@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "test/faults/fault_drive.hpp"
@@ -17,6 +18,28 @@
 namespace cremed::test {
 
 inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+/// Puts a fault into the frames of a drive.
+using PutIn = std::function<Frames(const FaultDrive&, FaultTime)>;
+
+/// `with(frames, time, arguments...)`, a function with_...(), as a fault.
+template <typename With, typename... Arguments>
+PutIn put(With with, Arguments... arguments) {
+  return [=](const FaultDrive& d, FaultTime t) { return with(d.frames, t, arguments...); };
+}
+
+/// The second fault in a drive that has the first.
+inline PutIn both(PutIn first, PutIn second) {
+  return [first = std::move(first), second = std::move(second)](FaultDrive d, FaultTime t) {
+    d.frames = first(d, t);
+    return second(d, t);
+  };
+}
+
+/// The radars that look along the vehicle's axis are silent.
+inline Frames only_sides(const FaultDrive& d, FaultTime t) {
+  return with_silence(d.frames, t, [&](std::size_t radar) { return !d.is_side(radar); });
+}
 
 /// A kind with its size.
 inline std::string fault_kind(const char* format, double value) {
@@ -33,7 +56,7 @@ struct FaultCase {
   std::string of;  ///< The faulty radar; empty: all, or none.
   FaultTime time;
   /// Changes the frames; empty: they stay as they are.
-  std::function<Frames(const FaultDrive&, FaultTime)> put_in{};
+  PutIn put_in{};
   /// Offset of the stamps of radar `of` to truth's clock: it is judged by its own clock.
   std::int64_t clock_offset_us = 0;
   /// The clock of all stamps is set by this at the beginning of `time`.

@@ -45,45 +45,25 @@ inline std::vector<FaultCase> fault_cases(const FaultDrive& drive) {
   for (const double share : {0.001, 0.01, 0.05}) {
     char name[32];
     std::snprintf(name, sizeof name, "loss %g %%", 100.0 * share);
-    cases.push_back({name, "", first, [share](const FaultDrive& d, FaultTime t) {
-                       return with_loss(d.frames, t, share);
-                     }});
+    cases.push_back({name, "", first, put(with_loss, share)});
   }
   for (std::size_t i = 0; i < drive.radars.size(); ++i) {
     const std::string& radar = drive.radars[i].name;
-    const auto silence = [i](const FaultDrive& d, FaultTime t) {
-      return with_silence(d.frames, t, only(i));
-    };
+    const PutIn silence = put(with_silence, only(i));
     cases.push_back({"absent", radar, always, silence});
     cases.push_back({"returning", radar, {at(0.3), at(0.6)}, silence});
-    cases.push_back({"late", radar, first, [i](const FaultDrive& d, FaultTime t) {
-                       return with_lateness(d.frames, t, i);
-                     }});
+    cases.push_back({"late", radar, first, put(with_lateness, i)});
   }
-  const auto only_sides = [](const FaultDrive& d, FaultTime t) {
-    return with_silence(d.frames, t, [&](std::size_t each) { return !d.is_side(each); });
-  };
   cases.push_back({"only sides", "", always, only_sides});
   cases.push_back({"sides, others return", "", first, only_sides});
-  cases.push_back({"knocked", "front", {at(0.5), kNever}, [](const FaultDrive& d, FaultTime t) {
-                     return with_knocked_mount(d.frames, t, 0, 0.1);
-                   }});
-  cases.push_back({"doubled id", "front", first, [](const FaultDrive& d, FaultTime t) {
-                     return with_doubled_id(d.frames, t, 0, index_of(d, "left"));
-                   }});
+  cases.push_back({"knocked", "front", {at(0.5), kNever}, put(with_knocked_mount, 0, 0.1)});
+  cases.push_back({"doubled id", "front", first, put(with_doubled_id, 0, index_of(drive, "left"))});
   for (const std::int64_t ahead_us : {50'000, -50'000}) {
     cases.push_back({"clock offset", ahead_us > 0 ? "front" : "front behind", first,
-                     [ahead_us](const FaultDrive& d, FaultTime t) {
-                       return with_clock_offset(d.frames, t, 0, ahead_us);
-                     },
-                     ahead_us});
+                     put(with_clock_offset, 0, ahead_us), ahead_us});
   }
-  cases.push_back({"reordering", "", first, [](const FaultDrive& d, FaultTime t) {
-                     return with_reordering(d.frames, t, 0.02);
-                   }});
-  cases.push_back({"bit flips", "", first, [](const FaultDrive& d, FaultTime t) {
-                     return with_bit_flips(d.frames, t, 0.01);
-                   }});
+  cases.push_back({"reordering", "", first, put(with_reordering, 0.02)});
+  cases.push_back({"bit flips", "", first, put(with_bit_flips, 0.01)});
   return cases;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -39,14 +40,14 @@ inline Frames with_loss(Frames frames, FaultTime time, double share) {
   return frames;
 }
 
-/// Selects one radar.
-inline auto only(std::size_t radar) {
+using RadarSelection = std::function<bool(std::size_t)>;
+inline RadarSelection only(std::size_t radar) {
   return [radar](std::size_t each) { return each == radar; };
 }
+inline bool every_radar(std::size_t) { return true; }
 
 /// Removes the frames of the radars selected by `is_silent`.
-template <typename IsSilent>
-Frames with_silence(Frames frames, FaultTime time, IsSilent is_silent) {
+inline Frames with_silence(Frames frames, FaultTime time, const RadarSelection& is_silent) {
   std::erase_if(frames, [&](const CanFrame& frame) {
     return time.has(frame) && is_silent(std::size_t{frame.interface});
   });

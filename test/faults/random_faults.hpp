@@ -36,7 +36,7 @@ class RandomFaults {
       const std::size_t others = drive_.radars.size() - 1;
       if (random_.chance(kTwoShare) && others > 0) {
         const FaultCase second = of((first + 1 + random_.index(others)) % (others + 1), time);
-        fault = both(fault, second);
+        fault = pair_of(fault, second);
       }
       cases.push_back(fault);
     }
@@ -56,7 +56,7 @@ class RandomFaults {
     return random_.uniform(low, high) * (random_.chance(0.5) ? 1.0 : -1.0);
   }
 
-  static FaultCase both(const FaultCase& first, const FaultCase& second) {
+  static FaultCase pair_of(const FaultCase& first, const FaultCase& second) {
     FaultCase result = first;
     result.kind += " & " + second.kind;
     result.of += "+" + second.of;
@@ -64,15 +64,9 @@ class RandomFaults {
     result.others_guilty = second.guilty;
     result.cause_of_others = second.cause;
     result.may_be_learned = first.may_be_learned || second.may_be_learned;
-    result.put_in = [first, second](const FaultDrive& drive, FaultTime time) {
-      FaultDrive changed = drive;
-      changed.frames = first.put_in(drive, time);
-      return second.put_in(changed, time);
-    };
+    result.put_in = both(first.put_in, second.put_in);
     return result;
   }
-
-  using PutIn = std::function<Frames(const FaultDrive&, FaultTime)>;
 
   /// What is drawn for one radar. `may_be_learned`: see FaultCase.
   struct Fault {
@@ -107,16 +101,11 @@ class RandomFaults {
     };
   }
 
-  static PutIn scaled(std::size_t radar, double factor) {
-    return [radar, factor](const FaultDrive& d, FaultTime t) {
-      return with_scaled_doppler(d.frames, t, only(radar), factor);
-    };
-  }
-
   Fault scale(std::size_t radar) {
     const double factor = 1.0 + either_sign(0.02, 0.4);
     return {fault_kind("scale %.2f", factor), FaultKind::scale,
-            drive_.is_side(radar) || std::abs(factor - 1.0) < 0.06, scaled(radar, factor)};
+            drive_.is_side(radar) || std::abs(factor - 1.0) < 0.06,
+            put(with_scaled_doppler, only(radar), factor)};
   }
 
   Fault offset(std::size_t radar) {
@@ -130,9 +119,7 @@ class RandomFaults {
     const double deg = either_sign(1.0, 20.0);
     return {fault_kind("turned %.1f", deg), FaultKind::mount_yaw,
             drive_.is_side(radar) || std::abs(deg) < 5.0,
-            [radar, deg](const FaultDrive& d, FaultTime t) {
-              return with_knocked_mount(d.frames, t, radar, deg * kRadPerDeg);
-            }};
+            put(with_knocked_mount, radar, deg * kRadPerDeg)};
   }
 
   Fault range(std::size_t radar) {
@@ -147,18 +134,14 @@ class RandomFaults {
   Fault late(std::size_t radar) {
     const double ms = random_.uniform(50.0, 800.0);
     return {fault_kind("late %.0f", ms), FaultKind::late, drive_.is_side(radar) || ms < 300.0,
-            [radar, ms](const FaultDrive& d, FaultTime t) {
-              return with_late_stamps(d.frames, t, radar, std::llround(1e3 * ms));
-            }};
+            put(with_late_stamps, radar, std::llround(1e3 * ms))};
   }
 
   Fault clock(std::size_t radar) {
     const double ms = either_sign(50.0, 450.0);
     return {fault_kind("clock %+.0f", ms), FaultKind::late,
             drive_.is_side(radar) || std::abs(ms) < 300.0,
-            [radar, ms](const FaultDrive& d, FaultTime t) {
-              return with_clock_offset(d.frames, t, radar, std::llround(1e3 * ms));
-            }};
+            put(with_clock_offset, radar, std::llround(1e3 * ms))};
   }
 
   Fault noise(std::size_t radar) {
@@ -195,22 +178,18 @@ class RandomFaults {
   }
 
   Fault silence(std::size_t radar) {
-    return {"silent", FaultKind::unknown, true, [radar](const FaultDrive& d, FaultTime t) {
-              return with_silence(d.frames, t, only(radar));
-            }};
+    return {"silent", FaultKind::unknown, true, put(with_silence, only(radar))};
   }
 
   /// Doppler at zero, or of the wrong sign.
   Fault stuck(std::size_t radar) {
     const double factor = random_.chance(0.5) ? 0.0 : -1.0;
     return {fault_kind("times %.0f", factor), factor == 0.0 ? FaultKind::scale : FaultKind::sign,
-            drive_.is_side(radar), scaled(radar, factor)};
+            drive_.is_side(radar), put(with_scaled_doppler, only(radar), factor)};
   }
 
   Fault upside_down(std::size_t radar) {
-    return {"upside down", FaultKind::upside_down, true, [radar](const FaultDrive& d, FaultTime t) {
-              return with_upside_down(d.frames, t, radar);
-            }};
+    return {"upside down", FaultKind::upside_down, true, put(with_upside_down, radar)};
   }
 
   Fault repeated_scan(std::size_t radar) {

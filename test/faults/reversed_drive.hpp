@@ -47,10 +47,9 @@ class ReversedDrive {
   [[nodiscard]] Frames frames() const {
     constexpr double kFaster = 0.4;
     const auto always = FaultTime{0, std::numeric_limits<std::int64_t>::max()};
-    const auto each = [](std::size_t) { return true; };
     std::array<std::int64_t, 256> begin_us{};
     Arrivals arrivals;
-    for (CanFrame frame : with_changed_clusters(drive_.frames, always, each, mirror)) {
+    for (CanFrame frame : with_changed_clusters(drive_.frames, always, every_radar, mirror)) {
       const bool is_header = is_message(frame, Ars408Message::cluster_status);
       if (is_header) {
         begin_us[frame.interface] = frame.stamp_us;

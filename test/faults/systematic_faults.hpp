@@ -115,19 +115,14 @@ class SystematicFaults {
   }
 
   void add_scale_alone(const char* kind, double factor, FaultTime time) {
-    const std::size_t radar = front();
     FaultCase& alone = add_alone(fault_kind(kind, factor), time, FaultKind::scale);
     if (factor == 1.0) alone.guilty = 0;
-    alone.put_in = [radar, factor](const FaultDrive& d, FaultTime t) {
-      return with_scaled_doppler(d.frames, t, only(radar), factor);
-    };
+    alone.put_in = put(with_scaled_doppler, only(front()), factor);
   }
 
   void add_turned_alone(const char* kind, double yaw_rad, FaultTime time) {
     add_alone(fault_kind(kind, yaw_rad), time, FaultKind::mount_yaw).put_in =
-        [radar = front(), yaw_rad](const FaultDrive& d, FaultTime t) {
-          return with_knocked_mount(d.frames, t, radar, yaw_rad);
-        };
+        put(with_knocked_mount, front(), yaw_rad);
   }
 
   void add_signs_and_mounts() {
@@ -137,9 +132,7 @@ class SystematicFaults {
     }
     for (const std::size_t radar : {front(), second()}) {
       add("upside down", radar, always(), FaultKind::upside_down).put_in =
-          [radar](const FaultDrive& d, FaultTime t) {
-            return with_upside_down(d.frames, t, radar);
-          };
+          put(with_upside_down, radar);
     }
     for (const std::size_t radar : {front(), second()}) {
       for (const double yaw_deg : {3.0, 5.0, 10.0}) {
@@ -153,9 +146,7 @@ class SystematicFaults {
     configure("mount 2 m ahead", front(), FaultKind::mount_x,
               [](RadarConfiguration& each) { each.ego_motion.vehicle_from_radar.x_m += 2.0; });
     add("knocked at 8 s", front(), onwards(), FaultKind::mount_yaw).put_in =
-        [radar = front()](const FaultDrive& d, FaultTime t) {
-          return with_knocked_mount(d.frames, t, radar, 0.1);
-        };
+        put(with_knocked_mount, front(), 0.1);
   }
 
   void swap(const std::string& kind, std::size_t a, std::size_t b) {
@@ -172,9 +163,7 @@ class SystematicFaults {
 
   void connect(const std::string& kind, const std::string& of,
                const std::vector<std::uint8_t>& buses, std::uint32_t guilty) {
-    cases_.push_back({kind, of, always(), [buses](const FaultDrive& d, FaultTime t) {
-                        return with_buses(d.frames, t, buses);
-                      }});
+    cases_.push_back({kind, of, always(), put(with_buses, buses)});
     cases_.back().guilty = guilty;
     cases_.back().cause = FaultKind::exchanged;
   }
@@ -190,8 +179,7 @@ class SystematicFaults {
     connect("buses rotated", "", rotated, all_bits());
   }
 
-  void add_to_all(const std::string& kind,
-                  const std::function<Frames(const FaultDrive&, FaultTime)>& put_in) {
+  void add_to_all(const std::string& kind, const PutIn& put_in) {
     for (const FaultTime time : {onwards(), for_a_while()}) {
       cases_.push_back(
           {kind + (time.until_us == kNever ? " from 8 s" : " for 5 s"), "", time, put_in});
@@ -200,16 +188,9 @@ class SystematicFaults {
   }
 
   void add_all_radars() {
-    const auto scaled = [](double factor) {
-      return [factor](const FaultDrive& d, FaultTime t) {
-        return with_scaled_doppler(
-            d.frames, t, [](std::size_t) { return true; }, factor);
-      };
-    };
-    add_to_all("all flipped", scaled(-1.0));
-    add_to_all("all zero", scaled(0.0));
-    add_to_all("all repeat",
-               [](const FaultDrive& d, FaultTime t) { return with_repeated_scan(d.frames, t); });
+    add_to_all("all flipped", put(with_scaled_doppler, every_radar, -1.0));
+    add_to_all("all zero", put(with_scaled_doppler, every_radar, 0.0));
+    add_to_all("all repeat", put(with_repeated_scan));
   }
 
   void add_clocks() {
@@ -218,22 +199,16 @@ class SystematicFaults {
         FaultCase& late =
             add("late " + std::to_string(late_ms) + " ms", radar, always(), FaultKind::late);
         late.may_be_learned = late_ms <= 300;
-        late.put_in = [radar, late_ms](const FaultDrive& d, FaultTime t) {
-          return with_late_stamps(d.frames, t, radar, 1000 * late_ms);
-        };
+        late.put_in = put(with_late_stamps, radar, 1000 * late_ms);
       }
       for (const double ahead_s : {1.0, 0.3, -0.3}) {
         add(fault_kind("stamps %+.1f s ahead", ahead_s), radar, always(), FaultKind::late).put_in =
-            [radar, ahead_us = std::llround(ahead_s * 1e6)](const FaultDrive& d, FaultTime t) {
-              return with_clock_offset(d.frames, t, radar, ahead_us);
-            };
+            put(with_clock_offset, radar, std::llround(ahead_s * 1e6));
       }
     }
     // As an overloaded computer does, or a USB adapter. Nobody is at fault.
     for (const int halt_ms : {50, 80}) {
-      const auto halts = [halt_ms](const FaultDrive& d, FaultTime t) {
-        return with_halts(d.frames, t, 1'600'000, 1000 * halt_ms);
-      };
+      const PutIn halts = put(with_halts, 1'600'000, 1000 * halt_ms);
       cases_.push_back({fault_kind("halts of %.0f ms", halt_ms), "", onwards(), halts});
       cases_.push_back({fault_kind("alone, halts of %.0f ms", halt_ms), "", onwards(), halts});
       cases_.back().configure = [radar = front()](Radars& radars) { radars = {radars[radar]}; };
@@ -241,10 +216,7 @@ class SystematicFaults {
     for (const double step_s : {0.1, 0.5, 1.0, -0.1, -0.5, -1.0}) {
       const auto step_us = std::llround(step_s * 1e6);
       cases_.push_back({fault_kind("clock step %+.1f s", step_s), "", onwards(),
-                        [step_us](const FaultDrive& d, FaultTime t) {
-                          return with_clock_step(d.frames, t, step_us);
-                        },
-                        0, step_us});
+                        put(with_clock_step, step_us), 0, step_us});
     }
   }
 

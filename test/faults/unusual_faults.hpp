@@ -162,10 +162,8 @@ class UnusualFaults {
           added.of += "+" + drive_.radars[other].name;
           added.guilty |= 1U << other;
           added.cause = FaultKind::late;
-          added.put_in = [=](const FaultDrive& d, FaultTime t) {
-            return with_late_stamps(with_late_stamps(d.frames, t, one, 1000 * ms), t, other,
-                                    1000 * ms);
-          };
+          added.put_in =
+              both(put(with_late_stamps, one, 1000 * ms), put(with_late_stamps, other, 1000 * ms));
         }
       }
     }
@@ -173,10 +171,7 @@ class UnusualFaults {
 
   void add_only_sides() {
     const FaultTime eight_s{drive_.start_us() + 4'000'000, drive_.start_us() + 12'000'000};
-    cases_.push_back({"only sides for 8 s", "", eight_s, [](const FaultDrive& d, FaultTime t) {
-                        return with_silence(d.frames, t,
-                                            [&](std::size_t radar) { return !d.is_side(radar); });
-                      }});
+    cases_.push_back({"only sides for 8 s", "", eight_s, only_sides});
   }
 
   const FaultDrive& drive_;

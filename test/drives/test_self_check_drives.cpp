@@ -10,17 +10,16 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
 #include "cremed/estimator/doubt/radar/self_check.hpp"
 #include "daemon/report/report.hpp"
+#include "test/faults/cluster_faults.hpp"
+#include "test/faults/fault_case.hpp"
 #include "test/tools/pipeline_bench.hpp"
-#include "tools/simulate/ars408_encoder.hpp"
 
 using namespace cremed;
 using namespace cremed::test;
@@ -203,19 +202,6 @@ double doubted_after_s(const RecordingSink& sink, std::size_t radar, Doubt doubt
   return std::numeric_limits<double>::infinity();
 }
 
-/// An ARS408 whose clusters all have zero velocity from a time on.
-std::vector<CanFrame> with_stuck_doppler(std::vector<CanFrame> frames, std::int64_t from_us) {
-  for (CanFrame& frame : frames) {
-    const auto id = static_cast<std::uint32_t>(Ars408Message::cluster_general);
-    if (frame.id == id && frame.interface == kFront && frame.stamp_us >= from_us) {
-      auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
-      cluster->vx_mps = cluster->vy_mps = 0.0;
-      frame.data = encode_ars408_cluster(0, *cluster).data;
-    }
-  }
-  return frames;
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -223,7 +209,8 @@ TEST_CASE(
   const bool is_alone = GENERATE(true, false);
   const Drive healthy = simulated("straight", default_radars(), 5, 10.0);
   const std::int64_t start_us = healthy.frames.front().stamp_us;
-  std::vector<CanFrame> frames = with_stuck_doppler(healthy.frames, start_us + 5'000'000);
+  const FaultTime onwards{start_us + 5'000'000, kNever};
+  std::vector<CanFrame> frames = with_scaled_doppler(healthy.frames, onwards, only(kFront), 0.0);
   if (is_alone) {
     std::erase_if(frames, [](const CanFrame& frame) { return frame.interface != kFront; });
   }

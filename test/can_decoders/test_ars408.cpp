@@ -172,6 +172,29 @@ TEST_CASE("The latest state is kept") {
   }
 }
 
+TEST_CASE("Each fault that the state reports is a fault of its health") {
+  struct Row {
+    const char* frame;
+    std::uint32_t faults;
+  };
+  const std::vector<Row> rows = {
+      {"201#0000000000000000", 0},
+      {"201#0000200000000000", RadarHealth::persistent_error},
+      {"201#0000100000000000", RadarHealth::interference},
+      {"201#0000080000000000", RadarHealth::temperature_error},
+      {"201#0000040000000000", RadarHealth::temporary_error},
+      {"201#0000020000000000", RadarHealth::voltage_error},
+      {"201#0000000000400000", RadarHealth::speed_missing},
+      {"201#0000000000800000", RadarHealth::yaw_rate_missing},
+  };
+  for (const Row& row : rows) {
+    INFO(row.frame);
+    Ars408Decoder decoder({});
+    decoder.decode(hex_frame(row.frame));
+    CHECK(decoder.health().faults == row.faults);
+  }
+}
+
 TEST_CASE("What only has the identifier of a state makes it unknown") {
   constexpr std::int64_t kSecondUs = 1'000'000;
   Ars408Decoder decoder({});

@@ -48,6 +48,15 @@ void no_estimate_but(RadarStatus& status, MotionStatus motion) {
   count(status, motion) = 100;
 }
 
+/// No target is used: all are counted there.
+std::function<void(RadarStatus&)> all_targets_are(std::uint64_t SelectionCounters::*counter) {
+  return [counter](RadarStatus& status) {
+    no_estimate_but(status, MotionStatus::too_few_targets);
+    status.selection = {};
+    status.selection.*counter = 2000;
+  };
+}
+
 }  // namespace
 
 TEST_CASE("All well: nothing is reported but the summary") {
@@ -98,32 +107,34 @@ TEST_CASE("Each trouble is the first finding") {
            },
            Severity::error, "no scan is complete", "--configure-ars408 front"},
       Case{"empty", [](auto& s) { s.assembler.empty_scans = 100; }, Severity::error,
-           "all scans are empty", "0x202"},
+           "all scans are empty",
+           "(0x202) let nothing pass: `cremed-doctor --ars408-filters front`"},
       Case{"no quality", [](auto& s) { s.health.sends_quality = false; }, Severity::error,
            "no quality (0x201)", "--configure-ars408 front"},
       Case{"no output", [](auto& s) { s.health.output = RadarHealth::Output::none; },
            Severity::error, "send no targets (0x201)", "--configure-ars408 front"},
-      Case{"no detection has noise",
+      Case{"no detection has noise", all_targets_are(&SelectionCounters::no_noise), Severity::error,
+           "no usable detection: no noise 2000", "covered"},
+      Case{"low existence", all_targets_are(&SelectionCounters::low_existence), Severity::error,
+           "no usable detection: low existence 2000", "min_existence"},
+      Case{"no position", all_targets_are(&SelectionCounters::no_position), Severity::error,
+           "no usable detection: no position 2000", "type"},
+      Case{"outside limits", all_targets_are(&SelectionCounters::outside_limits), Severity::error,
+           "no usable detection: outside limits 2000", "widen [radar.limits]"},
+      Case{"invalid state", all_targets_are(&SelectionCounters::invalid_state), Severity::error,
+           "no usable detection: invalid state 2000",
+           "add the codes the sensor sends to keep_invalid_states"},
+      Case{"most move",
            [](auto& s) {
-             no_estimate_but(s, MotionStatus::too_few_targets);
-             s.selection = {};
-             s.selection.no_noise = 2000;
+             all_targets_are (&SelectionCounters::moving)(s);
+             s.selection.invalid_state = 1999;
            },
-           Severity::error, "no usable detection: no noise 2000", "covered"},
-      Case{"low existence",
-           [](auto& s) {
-             no_estimate_but(s, MotionStatus::too_few_targets);
-             s.selection = {};
-             s.selection.low_existence = 2000;
-           },
-           Severity::error, "no usable detection: low existence 2000", "min_existence"},
-      Case{"no position",
-           [](auto& s) {
-             no_estimate_but(s, MotionStatus::too_few_targets);
-             s.selection = {};
-             s.selection.no_position = 2000;
-           },
-           Severity::error, "no usable detection: no position 2000", "type"},
+           Severity::error, "no usable detection: invalid state 1999, moving 2000",
+           "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
+      Case{"no speed", [](auto& s) { s.health.faults = RadarHealth::speed_missing; },
+           Severity::warning, "the sensor gets no speed (0x300): ", "motion_feedback = true"},
+      Case{"no yaw rate", [](auto& s) { s.health.faults = RadarHealth::yaw_rate_missing; },
+           Severity::warning, "the sensor gets no yaw rate (0x301): ", "keep_dyn_props"},
       Case{"no motion at all",
            [](auto& s) {
              s.health.faults = RadarHealth::speed_missing | RadarHealth::yaw_rate_missing;
@@ -157,7 +168,9 @@ TEST_CASE("Each way to end without an estimate has its own remedy") {
   auto findings = radar_findings(front(), status, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings.front().severity == Severity::error);
-  CHECK_THAT(findings.front().what, Catch::Contains(std::string(to_string(row.status)) + " 100"));
+  CHECK_THAT(findings.front().what,
+             Catch::StartsWith("few scans give an estimate: ") &&
+                 Catch::Contains(std::string(to_string(row.status)) + " 100"));
   CHECK_THAT(findings.front().remedy, Catch::Contains(row.remedy));
   count(status, MotionStatus::ok) = 49;
   findings = radar_findings(front(), status, {});

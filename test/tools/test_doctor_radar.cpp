@@ -187,14 +187,6 @@ const std::vector<Case>& cases() {
        },
        Severity::error, "front: it reports its state but sends no targets",
        "`cremed-doctor --configure-ars408 front`"},
-      {"no speed",
-       [](auto&, auto& traffic) { say(traffic, [](auto& state) { state.speed_missing = true; }); },
-       Severity::warning, "front: the sensor gets no speed (0x300): ", "motion_feedback = true"},
-      {"no yaw rate",
-       [](auto&, auto& traffic) {
-         say(traffic, [](auto& state) { state.yaw_rate_missing = true; });
-       },
-       Severity::warning, "front: the sensor gets no yaw rate (0x301): ", "keep_dyn_props"},
       {"a fault",
        [](auto&, auto& traffic) { say(traffic, [](auto& state) { state.voltage_error = true; }); },
        Severity::warning, "front: the sensor reports a fault: voltage error", "8 to 32 V"},
@@ -209,35 +201,6 @@ const std::vector<Case>& cases() {
        "`cremed-doctor --configure-ars408 front --max-distance 200`"},
       {"every scan lacks a frame", [](auto&, auto& traffic) { announce(traffic, 100); },
        Severity::error, "scans are incomplete", "frames are lost on the way"},
-      {"all targets move",
-       [](auto& configuration, auto&) { front_options(configuration).keep_dyn_props = 1U << 7U; },
-       Severity::error, "front: complete scans, but no usable detection: invalid state",
-       "keep_dyn_props = [0, 1, 2, 3, 4, 5, 6, 7]"},
-      {"all targets outside the limits",
-       [](auto& configuration, auto&) {
-         configuration.radars[0].ego_motion.limits.min_rcs_dbm2 = 99.0;
-       },
-       Severity::error, "no usable detection: ", "widen [radar.limits]"},
-      {"all states refused",
-       [](auto& configuration, auto&) {
-         front_options(configuration).keep_invalid_states = 1U << 14U;
-       },
-       Severity::error, "no usable detection: invalid state",
-       "add the codes the sensor sends to keep_invalid_states"},
-      {"empty scans",
-       [](auto&, auto& traffic) {
-         announce(traffic, 0);
-         for (auto& entry : traffic) {
-           entry.frame.data[1] = is_of(entry, "can0", 0x600) ? 0 : entry.frame.data[1];
-         }
-         remove_if(traffic, [](const auto& entry) {
-           return entry.interface == "can0" && entry.frame.id != 0x600;
-         });
-       },
-       Severity::error, "front: all scans are empty", "`cremed-doctor --ars408-filters front`"},
-      {"too few targets",
-       [](auto& configuration, auto&) { configuration.radars[0].ego_motion.min_targets = 250; },
-       Severity::error, "front: few scans give an estimate", "min_targets"},
       {"wrong checksums",
        [](auto&, auto& traffic) {
          for (auto& entry : traffic) {

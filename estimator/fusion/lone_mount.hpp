@@ -72,8 +72,8 @@ class LoneMount {
   void note_velocity(std::size_t radar, const Eigen::Vector2d& velocity_mps) {
     way_[radar] = kFadeOfWay * way_[radar] + velocity_mps;
   }
-  /// With the yaw that would make it move straight ahead, averaged over its way. The state is not
-  /// used: it takes the wrong yaw for a turn.
+  /// With the yaw that would make it move straight ahead, as most of a drive does, averaged over
+  /// its way. The state is not used: it takes the wrong yaw for a turn.
   [[nodiscard]] FaultCause cause_of_sideways(std::size_t radar) const;
   /// Whether it is, or was when the odometry last started, too far off.
   [[nodiscard]] bool is_left_out(std::size_t radar) const {

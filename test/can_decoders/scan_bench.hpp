@@ -140,19 +140,27 @@ class ScanBench {
   static Step step_of(const std::string& word) {
     Step step;
     std::istringstream in(word);
+    bool is_number = true;
+    const auto read = [&](std::int64_t& number) {
+      in >> number;
+      is_number = is_number && !in.fail();
+    };
     const auto read_after = [&](char sign, std::int64_t& number) {
       if (in.peek() == sign) {
         in.ignore();
-        in >> number;
+        read(number);
       }
     };
-    in >> step.kind >> step.number;
+    in >> step.kind;
+    if (word != "d" && word != ".") {
+      read(step.number);
+    }
     step.last = step.number;
     read_after('-', step.last);
     read_after('/', step.announced);
     read_after(':', step.slot);
     read_after('=', step.value);
-    if (in.peek() != std::istringstream::traits_type::eof()) {
+    if (!is_number || in.peek() != std::istringstream::traits_type::eof()) {
       FAIL("not a step: " << word);
     }
     return step;

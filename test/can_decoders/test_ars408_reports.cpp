@@ -80,7 +80,7 @@ TEST_CASE("0x201 reports configuration and faults") {
   check_rows<Ars408RadarState>(decode_ars408_radar_state, rows);
 }
 
-/// The product only writes 0x700: the simulation.
+/// Only the simulation writes 0x700; nothing reads it.
 std::optional<Ars408Version> decode_version(Ars408Bytes bytes) {
   return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
 }

@@ -257,9 +257,28 @@ TEST_CASE("each range that the manual states is the range") {
   CHECK(tried >= 36);
 }
 
-TEST_CASE("the nuScenes files have five radars") {
+TEST_CASE("the nuScenes files have five radars, which look where their names say") {
+  struct Side {
+    const char* name;
+    double yaw_rad;
+    double y_sign;
+  };
+  const std::vector<Side> sides = {{"front", 0.0, 0.0},
+                                   {"left", 1.57, 1.0},
+                                   {"right", -1.57, -1.0},
+                                   {"rear_left", 3.06, 1.0},
+                                   {"rear_right", -3.06, -1.0}};
   const std::string file = GENERATE("nuscenes-boston.toml", "nuscenes-singapore.toml");
-  CHECK(load_configuration(kFolder + file).radars.size() == 5);
+  const auto radars = load_configuration(kFolder + file).radars;
+  REQUIRE(radars.size() == sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    CAPTURE(file, sides[i].name);
+    const Pose2& mount = radars[i].ego_motion.vehicle_from_radar;
+    CHECK(radars[i].name == sides[i].name);
+    CHECK(mount.yaw_rad == Approx(sides[i].yaw_rad).margin(0.03));
+    CHECK(mount.y_m * sides[i].y_sign >= 0.0);
+    CHECK((mount.x_m < 0.0) == (std::abs(sides[i].yaw_rad) > 3.0));
+  }
 }
 
 TEST_CASE("a file that cannot be read is a configuration error with its path") {

@@ -108,6 +108,35 @@ TEST_CASE("before a motion is known a slower rival is in doubt, after a loss eve
   CHECK_FALSE(is_in_doubt(8.0, Before::motion));
 }
 
+/// Adds targets of one place.
+void add_place(TargetSet& targets, int count, double range_m, double speed_mps) {
+  for (int i = 0; i < count; ++i) {
+    Detection detection;
+    detection.range_m = range_m + 0.02 * i;
+    detection.doppler_mps = -speed_mps;
+    detection.range_std_m = 0.15;
+    detection.azimuth_std_rad = 0.008;
+    detection.doppler_std_mps = 0.1;
+    targets.add(detection, Pose2{});
+  }
+}
+
+TEST_CASE("what rests beside a parked vehicle has a share of the targets, but not beside a truck") {
+  using Before = TwoWorlds::Before;
+  const auto is_in_doubt = [](int passing_places, int resting) {
+    TargetSet targets;
+    for (int place = 0; place < passing_places; ++place) {
+      add_place(targets, 100 / passing_places, 10.0 + 5.0 * place, 18.0);
+    }
+    add_places(targets, resting, 0.0, 0.4);
+    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d(18.0, 0.0, 0.0), 0.0, Before::nothing,
+                                    [](double) { return true; });
+  };
+  CHECK_FALSE(is_in_doubt(20, 14));  // Guard rails, and cars that drive along.
+  CHECK(is_in_doubt(20, 16));
+  CHECK(is_in_doubt(4, 5));  // A truck that passes.
+}
+
 TEST_CASE("of a lone radar that looks sideways six places along the way tell the road") {
   using Before = TwoWorlds::Before;
   const auto is_in_doubt = [&](TwoWorlds& worlds, int places, Before before) {

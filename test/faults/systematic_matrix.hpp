@@ -41,7 +41,9 @@ class SystematicMatrix {
     REQUIRE(found > 0);
   }
 
-  /// A drive without fault: nobody is named.
+  /// A drive without fault: nobody is named. A: a front radar is less available than
+  /// `least_front_availability`; S: the odometry less usable than `least_usable`, as if it did not
+  /// start.
   void run_healthy(const std::string& kind, const FaultDrive& drive,
                    double least_front_availability = 0.0, double least_usable = 0.0) {
     const FaultCase none{"none", "", {drive.start_us(), kNever}};
@@ -50,7 +52,7 @@ class SystematicMatrix {
     if (figures.status_share(OdometryStatus::ok) +
             figures.status_share(OdometryStatus::standing_still) <
         least_usable) {
-      failures_[kind].insert('A');
+      failures_[kind].insert('S');
     }
     for (std::size_t i = 0; i < drive.radars.size(); ++i) {
       const double front = std::cos(drive.radars[i].ego_motion.vehicle_from_radar.yaw_rad);

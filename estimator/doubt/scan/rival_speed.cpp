@@ -15,17 +15,11 @@ namespace {
 /// Targets nearer than this to each other are one place: a car (2 by 4.5 m) is one or two.
 constexpr float kPlaceRadiusM = 3.0F;
 
-/// Clutter (rain, ambiguous Doppler) spreads over all speeds, and some group of it is the largest.
-/// A group is more than that if it exceeds the mean of those beside it, within so many of its
-/// widths on either side, by so many standard deviations of a Poisson distribution: of 60
-/// targets of clutter over 40 m/s the largest group does in a quarter of the scans.
+/// Clutter (rain, ambiguous Doppler) has votes at all speeds, and its largest group is no world. A
+/// group counts if it exceeds the mean number in its width, over 5 widths on either side, by 4
+/// sigma (Poisson). With 60 targets of clutter over 40 m/s two of five scans still pass.
 constexpr double kWidthsBeside = 5.0;
-constexpr double kChanceSigmas = 5.0;
-/// Least ratio of the targets at rest beside a parked vehicle to those that pass it at one speed.
-/// Of a train that passes it is known to be mistaken for the road (../README.md). Cars that drive
-/// along on a motorway, which would rest if the vehicle did, have 0.03 to 0.12 times the targets of
-/// guard rails, but a quarter of their places (RadarScenes 105 without its flags).
-constexpr double kMinRestingShare = 0.15;
+constexpr double kClutterSigmas = 4.0;
 
 /// Number of targets with a vote that are not near a target of an earlier vote. Counts all earlier
 /// ones that are near, without branches, which is faster than to find the first.
@@ -102,7 +96,7 @@ RivalSpeed::Votes RivalSpeed::largest_group(Votes votes) {
   return largest;
 }
 
-bool RivalSpeed::is_more_than_chance(Votes group, Votes all) {
+bool RivalSpeed::is_more_than_clutter(Votes group, Votes all) {
   const double width_mps = 2.0 * kGateSigmas * group.front().std_mps;
   const double from_mps = group.front().speed_mps - kWidthsBeside * width_mps;
   const double until_mps = group.back().speed_mps + kWidthsBeside * width_mps;
@@ -111,7 +105,7 @@ bool RivalSpeed::is_more_than_chance(Votes group, Votes all) {
   });
   const auto size = static_cast<double>(group.size());
   const double mean = (static_cast<double>(near) - size) / (2.0 * kWidthsBeside);
-  return size > mean + kChanceSigmas * std::sqrt(mean);
+  return size > mean + kClutterSigmas * std::sqrt(mean);
 }
 
 SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& velocity,
@@ -123,16 +117,17 @@ SpeedVotes RivalSpeed::count(const TargetSet& targets, const Eigen::Vector3d& ve
   });
   const Votes own(votes.begin(), first_other);
   const Votes others(first_other, votes.end());
-  SpeedVotes result{count_places(targets, own), 0, 0.0, speed_mps, targets.size() - votes.size()};
+  SpeedVotes result;
+  result.own = count_places(targets, own);
+  result.own_targets = own.size();
+  result.own_mps = speed_mps;
+  result.abeam = targets.size() - votes.size();
   const Votes rival = largest_group(others);
-  if (rival.empty() || !is_more_than_chance(rival, others)) {
-    return result;
+  if (!rival.empty() && is_more_than_clutter(rival, others)) {
+    result.rival = count_places(targets, rival);
+    result.rival_targets = rival.size();
+    result.rival_mps = 0.5 * (rival.front().speed_mps + rival.back().speed_mps);
   }
-  result.rival_mps = 0.5 * (rival.front().speed_mps + rival.back().speed_mps);
-  const bool may_rest =
-      std::abs(result.rival_mps) >= std::abs(speed_mps) ||
-      static_cast<double>(rival.size()) >= kMinRestingShare * static_cast<double>(own.size());
-  result.rival = may_rest ? count_places(targets, rival) : 0;
   return result;
 }
 

@@ -15,12 +15,13 @@
 namespace cremed {
 
 /// Number of places where the Doppler of a scan agrees with a motion (`own`), and where it agrees
-/// with the most frequent other speed (`rival`), 0 if this is chance, or the speed of too few
-/// targets to be the road beside a vehicle that is slower than it seems. Targets near each other
-/// are one place: a car is one or two places.
+/// with the most frequent other speed (`rival`), unless clutter has as many. Targets near each
+/// other are one place: a car is one or two places.
 struct SpeedVotes {
   std::size_t own = 0;
   std::size_t rival = 0;
+  std::size_t own_targets = 0;
+  std::size_t rival_targets = 0;
   double rival_mps = 0.0;
   double own_mps = 0.0;   ///< Median speed of the votes for `own`.
   std::size_t abeam = 0;  ///< Targets (not places) abeam: no vote.
@@ -51,7 +52,7 @@ class RivalSpeed {
   /// The largest group of votes that agree with each other. Sorts the votes.
   static Votes largest_group(Votes votes);
   /// Whether a group of `all`, both sorted, is larger than groups of clutter.
-  static bool is_more_than_chance(Votes group, Votes all);
+  static bool is_more_than_clutter(Votes group, Votes all);
 
   Pose2 vehicle_from_radar_;
   std::array<Vote, kMaxDetections> votes_;

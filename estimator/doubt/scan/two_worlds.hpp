@@ -15,16 +15,19 @@
 namespace cremed {
 
 /// Detects that the Doppler of one radar shows two rigid worlds, the road and vehicles that move
-/// along, and that it is open which is the road. The second speed is the rival of the estimated
-/// one. When a scan is in doubt, by what is known before it:
+/// along, and that it is open which is the road. A rival is another speed with at least 5 places, a
+/// quarter of those of the estimated speed, and 0.15 of its targets if it is slower. When a scan is
+/// in doubt, by what is known before it:
 ///
 /// - motion: a rival, unless the vehicle can continue at the estimated speed, not at the rival's;
-/// - fault: each rival, or one of few places if the estimated speed has only those of a truck;
-/// - nothing: as with motion; or a slower rival (traffic may pass a parked vehicle); or one of few
-///   places if the estimated speed has only those of a truck, or fewer than the rival;
-/// - nothing_beside: as with nothing; or only the places of a truck, even without a rival.
+/// - fault: each rival; or a speed of two places, if the estimated one has fewer than six (targets
+///   abeam included), as a truck has;
+/// - nothing: as with motion; or a slower rival (traffic may pass a parked vehicle); or a speed of
+///   two places, if the estimated one has fewer than six (with those abeam), or fewer than it;
+/// - nothing_beside: as with nothing; or fewer than six places (without those abeam) in one of the
+///   last ten scans.
 ///
-/// The doubt ends after ten scans without a rival.
+/// A doubt ends ten scans after the last such scan.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.

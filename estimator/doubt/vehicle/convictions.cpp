@@ -15,7 +15,7 @@ constexpr std::int64_t kLongestHoldUs = 640'000'000;
 /// counts.
 constexpr std::int64_t kHalfLifeUs = kLongestHoldUs;
 constexpr std::int64_t kMostHalvings = 30;  // Nothing is left of any hold.
-/// First hold after a radar's own check while most radars are at fault.
+/// First hold after a radar's own check while most radars that are heard are at fault.
 constexpr std::int64_t kFirstSharedHoldUs = 500'000;
 
 }  // namespace

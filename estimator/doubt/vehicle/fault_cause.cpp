@@ -41,7 +41,7 @@ constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Decay of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
-/// At rest both velocities are noise, and a wrong sign can lower chi-square by chance, with sigma
+/// At rest the velocities e and m are noise, and a wrong sign can lower chi-square by chance, sigma
 /// 4 |e| |m|. This many sqrt(chance_), 2.5 sigma, are subtracted from the decrease.
 constexpr double kChance = 10.0;
 /// Velocities in a second: with fewer no cause is named.

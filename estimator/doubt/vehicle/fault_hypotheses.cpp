@@ -105,7 +105,9 @@ bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_u
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   begin_search(radar);
   evidence_.add_accusation(radar, time_us);
-  convictions_.accuse(radar, evidence_.present() | set_of(radar), time_us);
+  RadarSet heard = 0;
+  for_each(judged(), [&](std::size_t i) { heard |= state_.is_heard(i, time_us) ? set_of(i) : 0U; });
+  convictions_.accuse(radar, heard, time_us);
 }
 
 void FaultHypotheses::pause() {

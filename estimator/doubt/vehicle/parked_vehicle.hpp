@@ -45,8 +45,8 @@ class ParkedVehicle {
   /// A parked vehicle may move as estimated or not at all: adds the way since it was parked, and
   /// the velocity, to the standard deviations.
   void widen(Odometry& odometry) const;
-  /// The way (x, y, yaw) that it seemed to go while parked: returned once, after it has left;
-  /// otherwise zero.
+  /// The way (x, y, yaw) since the start that it seemed to go while parked: returned once, after it
+  /// has left; otherwise zero.
   Eigen::Vector3d take_way();
   /// The vehicle stood for kParkedUs, at the start too, and has not started since.
   [[nodiscard]] bool is_parked() const { return is_parked_; }

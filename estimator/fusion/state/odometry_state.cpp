@@ -135,8 +135,8 @@ void OdometryState::hear(std::size_t radar, std::int64_t stamp_us) {
   heard_us_[radar] = std::max(heard_us_[radar], std::optional(stamp_us));
 }
 
-bool OdometryState::is_heard(std::size_t radar) const {
-  return !heard_us_[radar] || seconds_between(*heard_us_[radar], time_us_) <= kGoneS;
+bool OdometryState::is_heard(std::size_t radar, std::int64_t at_us) const {
+  return !heard_us_[radar] || seconds_between(*heard_us_[radar], at_us) <= kGoneS;
 }
 
 template <typename IsSo>

@@ -107,6 +107,7 @@ class OdometryState {
   /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
   /// others are heard are gone.
   void hear(std::size_t radar, std::int64_t stamp_us);
+  [[nodiscard]] bool is_heard(std::size_t radar, std::int64_t at_us) const;
   /// Whether no other radar that looks ahead or back was heard in the last 0.5 s.
   [[nodiscard]] bool is_alone_ahead(std::size_t radar) const;
   /// To be called when the clock of the stamps was set.
@@ -144,7 +145,7 @@ class OdometryState {
  private:
   template <typename Visit>
   void for_each_error(Visit visit) const;
-  [[nodiscard]] bool is_heard(std::size_t radar) const;
+  [[nodiscard]] bool is_heard(std::size_t radar) const { return is_heard(radar, time_us_); }
   /// Whether a radar is heard whose mount is so.
   template <typename IsSo>
   [[nodiscard]] bool is_any_heard(IsSo is_so) const;

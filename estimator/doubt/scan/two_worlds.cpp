@@ -8,14 +8,19 @@
 namespace cremed {
 namespace {
 
-/// Least number of places of a rival: more than those of one truck (three to five).
-constexpr std::size_t kMinPlaces = 5;
-/// And their least ratio to those of the estimated speed: more than the usual share of moving
+/// Least number of places of a rival speed, and its least ratio to those of the estimated speed.
+struct RivalLimits {
+  std::size_t places;
+  double share;
+};
+/// More than the places of one truck (three to five), and more than the usual share of moving
 /// targets (5 %: DopplerOptions::moving_weight).
-constexpr double kMinShareOfPlaces = 0.25;
-/// And of their targets, if it is slower. Cars that drive along on a motorway, which would rest if
-/// the vehicle did, have 0.03 to 0.12 times the targets of guard rails, but a quarter of their
-/// places (RadarScenes 105 without its flags).
+constexpr RivalLimits kRivalLimits{5, 0.25};
+/// Lower limits while in doubt (hysteresis), for a rival that is half hidden in a scan.
+constexpr RivalLimits kRivalLimitsInDoubt{3, 0.1};
+/// Least ratio of the targets, if the rival is slower. Cars that drive along on a motorway, which
+/// would rest if the vehicle did, have 0.03 to 0.12 times the targets of guard rails, but a quarter
+/// of their places (RadarScenes 105 without its flags).
 constexpr double kMinShareOfTargets = 0.15;
 
 /// Nearer rivals are the tails of the static world: errors of azimuth spread its Doppler in
@@ -26,13 +31,14 @@ constexpr double kMinDifferenceShare = 0.05;
 }  // namespace
 
 bool TwoWorlds::is_rival(const SpeedVotes& votes) const {
+  const RivalLimits& limits = is_in_doubt() ? kRivalLimitsInDoubt : kRivalLimits;
   const bool is_slower = std::abs(votes.rival_mps) < std::abs(votes.own_mps);
   const double least_targets =
       is_slower ? kMinShareOfTargets * static_cast<double>(votes.own_targets) : 0.0;
   return std::abs(votes.rival_mps - votes.own_mps) >=
              kMinDifferenceShare * std::abs(votes.own_mps) &&
-         votes.rival >= kMinPlaces &&
-         static_cast<double>(votes.rival) >= kMinShareOfPlaces * static_cast<double>(votes.own) &&
+         votes.rival >= limits.places &&
+         static_cast<double>(votes.rival) >= limits.share * static_cast<double>(votes.own) &&
          static_cast<double>(votes.rival_targets) >= least_targets;
 }
 

@@ -27,7 +27,8 @@ namespace cremed {
 /// - nothing_beside: as with nothing; or fewer than six places (without those abeam) in one of the
 ///   last ten scans.
 ///
-/// A doubt ends ten scans after the last such scan.
+/// A doubt ends ten scans after the last such scan; a rival of three places and a tenth of those of
+/// the estimated speed maintains it.
 class TwoWorlds {
  public:
   /// What is known of the motion before a scan.

@@ -16,8 +16,8 @@ using namespace state_layout;
 /// errors of 4 m/s and more, a usual speed of other cars relative to the vehicle.
 constexpr double kUnknownSpeedStdMps = 1.0;
 /// After a scan that shows two worlds, what seems to rest may be cars that drive along and hide the
-/// road. Wrong poses in
-/// simulated jams with few radars: 10 to 50 % with 2 s, up to 10 % with 3.5 s, fewer with 5 s.
+/// road. Wrong poses in simulated jams with few radars: 10 to 50 % with 2 s, up to 10 % with 3.5 s,
+/// fewer with 5 s.
 constexpr double kHiddenRoadS = 5.0;
 /// Above the noise of a start at rest, and below what cars in a jam differ by.
 constexpr double kAtRestMps = 0.3;

@@ -9,7 +9,6 @@
 #include <iostream>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -34,10 +33,6 @@ NamedValues told(Bytes bytes) {
   return message ? values_of(*message) : NamedValues();
 }
 
-std::optional<Ars408Version> decode_version(Bytes bytes) {
-  return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
-}
-
 /// With azimuths in degrees.
 NamedValues filter_of(Bytes bytes) {
   Ars408FilterState filter = decode_ars408_filter_state(bytes).value();
@@ -56,7 +51,7 @@ NamedValues ars408_signals_of(std::uint32_t id, Bytes bytes) {
       {Ars408Message::object_status, told<decode_ars408_object_status>},
       {Ars408Message::object_general, told<decode_ars408_object_general>},
       {Ars408Message::object_quality, told<decode_ars408_object_quality>},
-      {Ars408Message::version, told<decode_version>},
+      {Ars408Message::version, told<test::decode_version>},
       {Ars408Message::cluster_general, told<decode_ars408_cluster_general>},
       {Ars408Message::cluster_quality, told<decode_ars408_cluster_quality>},
   };

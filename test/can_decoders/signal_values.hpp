@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -120,6 +121,11 @@ std::string differences(const Message& decoded, const Message& expected) {
     }
   }
   return text.str();
+}
+
+/// Only the simulation writes 0x700; the product does not read it.
+inline std::optional<Ars408Version> decode_version(Ars408Bytes bytes) {
+  return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
 }
 
 }  // namespace cremed::test

@@ -80,11 +80,6 @@ TEST_CASE("0x201 reports configuration and faults") {
   check_rows<Ars408RadarState>(decode_ars408_radar_state, rows);
 }
 
-/// Only the simulation writes 0x700; nothing reads it.
-std::optional<Ars408Version> decode_version(Ars408Bytes bytes) {
-  return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
-}
-
 TEST_CASE("0x700 reports the software version") {
   const std::vector<Ars408Row<Ars408Version>> rows = {
       {"700#041E0200", {4, 30, 2, false, false}},

@@ -26,11 +26,12 @@ RadarScan merged(RadarScan scan, const RadarScan& other) {
   return scan;
 }
 
-/// Adds targets 4 m from each other, relative to which the vehicle drives ahead.
-void add_places(TargetSet& targets, int places, double speed_mps, double azimuth_rad) {
-  for (int i = 0; i < places; ++i) {
+/// Adds targets `spacing_m` from each other, relative to which the vehicle drives ahead.
+void add_row(TargetSet& targets, int count, double speed_mps, double azimuth_rad, double range_m,
+             double spacing_m) {
+  for (int i = 0; i < count; ++i) {
     Detection detection;
-    detection.range_m = 8.0 + 4.0 * i;
+    detection.range_m = range_m + spacing_m * i;
     detection.azimuth_rad = azimuth_rad;
     detection.doppler_mps = -speed_mps * std::cos(azimuth_rad);
     detection.range_std_m = 0.15;
@@ -38,6 +39,10 @@ void add_places(TargetSet& targets, int places, double speed_mps, double azimuth
     detection.doppler_std_mps = 0.1;
     targets.add(detection, Pose2{});
   }
+}
+
+void add_places(TargetSet& targets, int places, double speed_mps, double azimuth_rad) {
+  add_row(targets, places, speed_mps, azimuth_rad, 8.0, 4.0);
 }
 
 TEST_CASE("two worlds are ambiguous until one is gone, unless the last motion decides") {
@@ -108,25 +113,12 @@ TEST_CASE("before a motion is known a slower rival is in doubt, after a loss eve
   CHECK_FALSE(is_in_doubt(8.0, Before::motion));
 }
 
-/// Adds targets of one place.
-void add_place(TargetSet& targets, int count, double range_m, double speed_mps) {
-  for (int i = 0; i < count; ++i) {
-    Detection detection;
-    detection.range_m = range_m + 0.02 * i;
-    detection.doppler_mps = -speed_mps;
-    detection.range_std_m = 0.15;
-    detection.azimuth_std_rad = 0.008;
-    detection.doppler_std_mps = 0.1;
-    targets.add(detection, Pose2{});
-  }
-}
-
 TEST_CASE("what rests beside a parked vehicle has a share of the targets, but not beside a truck") {
   using Before = TwoWorlds::Before;
   const auto is_in_doubt = [](int passing_places, int resting) {
     TargetSet targets;
     for (int place = 0; place < passing_places; ++place) {
-      add_place(targets, 100 / passing_places, 10.0 + 5.0 * place, 18.0);
+      add_row(targets, 100 / passing_places, 18.0, 0.0, 10.0 + 5.0 * place, 0.02);
     }
     add_places(targets, resting, 0.0, 0.4);
     return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d(18.0, 0.0, 0.0), 0.0, Before::nothing,

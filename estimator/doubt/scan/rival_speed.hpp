@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,6 +26,8 @@ struct SpeedVotes {
   double rival_mps = 0.0;
   double own_mps = 0.0;   ///< Median speed of the votes for `own`.
   std::size_t abeam = 0;  ///< Targets (not places) abeam: no vote.
+
+  [[nodiscard]] bool is_rival_slower() const { return std::abs(rival_mps) < std::abs(own_mps); }
 };
 
 /// Counts the votes of two speeds. In a traffic jam most targets may be on cars of nearly the same

@@ -50,9 +50,9 @@ class TwoWorlds {
              Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
     const bool is_first_start = before == Before::nothing || before == Before::nothing_beside;
-    const bool is_possible =
-        before == Before::fault || continues(votes.rival_mps) || !continues(velocity.x()) ||
-        (is_first_start && std::abs(votes.rival_mps) < std::abs(votes.own_mps));
+    const bool is_possible = before == Before::fault || continues(votes.rival_mps) ||
+                             !continues(velocity.x()) ||
+                             (is_first_start && votes.is_rival_slower());
     const bool is_open =
         (before != Before::motion && votes.rival >= kMinRivalPlaces &&
          votes.own + votes.abeam < kMinRoadPlaces) ||

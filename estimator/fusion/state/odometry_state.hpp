@@ -107,6 +107,7 @@ class OdometryState {
   /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
   /// others are heard are gone.
   void hear(std::size_t radar, std::int64_t stamp_us);
+  /// False once it is gone.
   [[nodiscard]] bool is_heard(std::size_t radar, std::int64_t at_us) const;
   /// Whether no other radar that looks ahead or back was heard in the last 0.5 s.
   [[nodiscard]] bool is_alone_ahead(std::size_t radar) const;

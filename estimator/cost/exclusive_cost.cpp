@@ -64,8 +64,9 @@ std::optional<Estimate> ExclusiveCost::estimate(const Unknowns& at,
     return std::nullopt;
   }
   const Eigen::Vector3d sigma = complete->diagonal().cwiseSqrt();
-  auto covariance = invert_information(
-      equations.information - likelihood_.missing_information(sigma), degrees_of_freedom_);
+  missing_information_ = likelihood_.missing_information(sigma);
+  auto covariance =
+      invert_information(equations.information - missing_information_, degrees_of_freedom_);
   if (!covariance) {
     return std::nullopt;
   }
@@ -82,6 +83,15 @@ double ExclusiveCost::doppler_nis() const {
   }
   const Eigen::Vector3d& g = doppler_.gradient;
   return g.dot((*by_doppler + *by_position) * g) / degrees_of_freedom_;
+}
+
+YawByPositions ExclusiveCost::by_positions(const Unknowns& at) const {
+  const auto covariance = invert_information(positions_.information - missing_information_, 3);
+  if (!covariance) {
+    return {};
+  }
+  const Eigen::Vector3d step = -*covariance * positions_.gradient;
+  return {at.motion.z() + step.z(), (*covariance)(2, 2)};
 }
 
 }  // namespace cremed

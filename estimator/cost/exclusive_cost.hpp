@@ -12,6 +12,7 @@
 #include "cremed/estimator/cost/normal_equations.hpp"
 #include "cremed/estimator/cost/outlier_ray.hpp"
 #include "cremed/estimator/cost/shared_doppler.hpp"
+#include "cremed/estimator/cost/yaw_by_positions.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -60,6 +61,10 @@ class ExclusiveCost {
   /// g_d of the Doppler cancel. The solution of either alone lies H^-1 g away; the covariance of
   /// their difference is H_p^-1 + H_d^-1.
   [[nodiscard]] double doppler_nis() const;
+  /// After estimate(), whose missing information it uses: a Newton step by the positions alone, in
+  /// 3 DoF. Without sideways motion (2 DoF) Doppler takes a slip for a turn: with all mounts turned
+  /// by 3 degrees the front radar of 0655, 3.4 m ahead, seems to turn by 3 deg/s.
+  [[nodiscard]] YawByPositions by_positions(const Unknowns& at) const;
 
  private:
   /// Lists the pairs again if targets may have moved beyond the margin of the last list.
@@ -72,6 +77,7 @@ class ExclusiveCost {
   ExclusiveLikelihood likelihood_;
   const TargetSet* previous_ = nullptr;
   const TargetSet* current_ = nullptr;
+  Eigen::Matrix3d missing_information_ = Eigen::Matrix3d::Zero();
   double dt_s_ = 0.0;
   bool settle_ = false;
   bool is_complete_ = true;

@@ -12,6 +12,7 @@
 #include "cremed/estimator/cost/mixture.hpp"
 #include "cremed/estimator/cost/normal_equations.hpp"
 #include "cremed/estimator/cost/outlier_ray.hpp"
+#include "cremed/estimator/cost/yaw_by_positions.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -55,6 +56,7 @@ class MixtureCost {
   [[nodiscard]] static constexpr double doppler_nis() {
     return std::numeric_limits<double>::quiet_NaN();
   }
+  [[nodiscard]] static YawByPositions by_positions(const Unknowns& /*at*/) { return {}; }
 
  private:
   void add_positions(const Eigen::Vector3d& motion, NormalEquations& equations);

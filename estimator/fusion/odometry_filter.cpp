@@ -185,6 +185,7 @@ void OdometryFilter::restart(std::int64_t stamp_us, OdometryOutput::Gap gap) {
   majority_.clear();
   traffic_.parked.clear();
   side_slip_.clear();
+  faults_.forget_skid();
   lone_mount_.restart();
   has_started_ = true;
   was_ok_ = false;
@@ -343,9 +344,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
     condition_.doubt();
     return false;
   }
-  if (state_.skid_variance() > 0.0) {
-    faults_.pause();
-  } else if (seen == Seen::road) {
+  if (seen == Seen::road) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
     if (const auto jump = faults_.take_lone_jump()) {
       reject_jump(radar, *jump);

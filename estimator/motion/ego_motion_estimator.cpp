@@ -101,6 +101,7 @@ MotionStatus EgoMotionEstimator::solve(double dt_s, EgoMotion& motion) {
     motion.motion = result.motion;
     motion.covariance = result.covariance;
     motion.doppler_nis = result.doppler_nis;
+    motion.by_positions = result.by_positions;
     last_velocity_ = result.motion / dt_s;
   }
   return status;

@@ -56,6 +56,7 @@ struct EgoMotion {
   int targets = 0;            ///< Usable targets in the current scan.
   int iterations = 0;         ///< Gauss-Newton steps.
   double doppler_nis = kNan;  ///< See RegistrationResult.
+  YawByPositions by_positions;
 
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool has_estimate() const {

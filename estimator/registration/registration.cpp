@@ -184,6 +184,7 @@ RegistrationResult Registration::second_stage(Cost& exact, Descent descent) {
     result.motion = estimate->motion;
     result.covariance = estimate->covariance;
     result.doppler_nis = exact.doppler_nis();
+    result.by_positions = exact.by_positions(descent.at);
   } else {
     result.status = RegistrationStatus::degenerate;
   }

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/cost/yaw_by_positions.hpp"
+
 namespace cremed {
 
 /// How a registration ended. With the next step s, the information H of the free states, the
@@ -39,10 +41,11 @@ struct RegistrationResult {
   /// against that by Doppler alone: 1 on average. NaN if one of them does not observe all free
   /// states, or with max_sum_mixture.
   double doppler_nis = std::numeric_limits<double>::quiet_NaN();
-  double cost = 0.0;     ///< Negative log likelihood + constant of the likelihood.
-  double matched = 0.0;  ///< Expected number of matched targets; 0 with max_sum_mixture.
-  int iterations = 0;    ///< Gauss-Newton steps of both stages, of all starts.
-  int starts = 1;        ///< Searches; more than one if the first matched few targets.
+  YawByPositions by_positions;  ///< NaN with max_sum_mixture.
+  double cost = 0.0;            ///< Negative log likelihood + constant of the likelihood.
+  double matched = 0.0;         ///< Expected number of matched targets; 0 with max_sum_mixture.
+  int iterations = 0;           ///< Gauss-Newton steps of both stages, of all starts.
+  int starts = 1;               ///< Searches; more than one if the first matched few targets.
   std::int64_t component_evaluations = 0;
 
   /// Whether `motion` is the end of a search, possibly ended by a limit.

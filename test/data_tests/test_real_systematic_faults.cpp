@@ -93,11 +93,13 @@ TEST_CASE("Real drives: each systematic fault", "[systematic]") {
   matrix.check();
 }
 
-TEST_CASE("Real drives: faults that come slowly, loose radars, all ahead gone", "[systematic]") {
+TEST_CASE("Real drives: faults that come slowly, of two or all alike, all ahead gone",
+          "[systematic]") {
   SystematicMatrix matrix(&NotYet::recorded);
   for (const auto* scene : {"0103", "0796"}) {
     const FaultDrive drive = nuscenes_fault_drive(scene);
-    for (const auto* kind : {"drifts", "loose", "only sides"}) {
+    for (const auto* kind :
+         {"drifts", "loose", "only sides", "two turned", "all mounts", "all scale"}) {
       matrix.run(drive, UnusualFaults(drive).all(), kind);
     }
   }

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "cremed/estimator/doubt/vehicle/convictions.hpp"
@@ -31,6 +32,7 @@ class Comparison {
     Eigen::Vector2d velocity_mps;
     double yaw_rate_radps;
     double speed_by_positions_mps;
+    double error_of_registration_radps = 0.0;  ///< Of the yaw rate with Doppler.
   };
   using Fault = std::function<void(std::size_t radar, Measured&)>;
 
@@ -71,6 +73,13 @@ class Comparison {
   void lose(bool is_after_step = false) {
     faults_.require_positions(is_after_step ? std::optional(-8.0) : std::nullopt);
   }
+  /// The state sees a skid begin, or begins anew.
+  void begin_skid() { state_.add_skid(0.15); }
+  void restart() {
+    state_.restart(std::llround(time_s_ * 1e6));
+    faults_.forget_skid();
+  }
+  [[nodiscard]] double time_s() const { return time_s_; }
   void set_clock(double by_s) {
     time_s_ += by_s;
     faults_.clear();
@@ -112,9 +121,10 @@ class Comparison {
     motion.status = MotionStatus::ok;
     motion.utime_start_us = stamp_us - 75'000;
     motion.utime_us = stamp_us;
-    motion.motion.z() = 0.075 * measured.yaw_rate_radps;
+    motion.motion.z() = 0.075 * (measured.yaw_rate_radps + measured.error_of_registration_radps);
     motion.covariance.setZero();
     motion.covariance(2, 2) = std::pow(0.075 * 0.01, 2);
+    motion.by_positions = {0.075 * measured.yaw_rate_radps, motion.covariance(2, 2)};
     faults_.add_motion(radar, motion);
     DopplerVelocity velocity;
     velocity.velocity_mps = measured.velocity_mps;
@@ -144,6 +154,19 @@ class Comparison {
 Comparison::Fault scaled(std::size_t guilty, double factor) {
   return [=](std::size_t radar, Comparison::Measured& measured) {
     measured.velocity_mps *= radar == guilty ? factor : 1.0;
+  };
+}
+
+/// The mounts of these radars are turned by `yaw_rad`, so that what they see turns the other way.
+/// The front radar's registration without sideways motion takes 0.4 of that for a turn.
+Comparison::Fault turned(RadarSet guilty, double yaw_rad) {
+  return [=](std::size_t radar, Comparison::Measured& measured) {
+    if (contains(guilty, radar)) {
+      const double forward_mps = measured.velocity_mps.x();
+      measured.velocity_mps = Eigen::Rotation2Dd(-yaw_rad) * measured.velocity_mps;
+      measured.error_of_registration_radps =
+          radar == 0 ? -0.4 * yaw_rad * forward_mps / kFront.x_m : 0.0;
+    }
   };
 }
 
@@ -477,6 +500,68 @@ TEST_CASE("two of three radars that are late alike are at fault: the third canno
     CHECK(comparison.faults().cause(late).kind == FaultKind::late);
     CHECK(comparison.faults().cause(late).value == Approx(0.3).margin(0.06));
   }
+}
+
+TEST_CASE(
+    "mounts that are all turned alike are told, and by how much; no radar is at fault alone") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft},
+                               std::vector<Pose2>{kFront, kRearLeft, kRearRight}, kFive);
+  const double yaw_rad = GENERATE(-0.09, 0.06);
+  Comparison comparison(mounts);
+  comparison.drive(3.0, turned(0b11111, yaw_rad));
+  CHECK(comparison.faults().at_fault() == 0U);
+  CHECK(comparison.faults().is_unknown());
+  CHECK_FALSE(comparison.faults().is_verified());
+  for_each(comparison.faults().judged(), [&](std::size_t i) {
+    CHECK(comparison.faults().cause(i).kind == FaultKind::mount_yaw);
+    CHECK(comparison.faults().cause(i).value == Approx(yaw_rad).margin(0.015));
+  });
+  comparison.drive(3.0);
+  CHECK_FALSE(comparison.faults().is_unknown());
+  CHECK(comparison.faults().cause(0).kind == FaultKind::unknown);
+}
+
+TEST_CASE("in a skid no radar is at fault, and none is told apart from turned mounts at once") {
+  Comparison comparison({kFront, kRearLeft, kRearRight});
+  comparison.drive(3.0);
+  comparison.begin_skid();
+  SECTION("its slip changes") {
+    for (int i = 0; i < 100; ++i) {
+      comparison.drive(0.075, turned(0b111, 0.2 * std::sin(2.0 * comparison.time_s())));
+      CHECK(comparison.faults().at_fault() == 0U);
+      CHECK_FALSE(comparison.faults().is_unknown());
+    }
+    comparison.restart();
+    comparison.drive(2.0);
+    CHECK(comparison.faults().at_fault() == 0U);
+    CHECK(comparison.faults().is_verified());
+  }
+  SECTION("it stays: the mounts are turned, and go on to be") {
+    comparison.drive(3.0, turned(0b111, 0.08));
+    CHECK_FALSE(comparison.faults().is_unknown());
+    comparison.drive(4.0, turned(0b111, 0.08));
+    for (int i = 0; i < 100; ++i) {
+      comparison.drive(0.1, turned(0b111, 0.08));
+      CHECK(comparison.faults().is_unknown());
+    }
+    CHECK(comparison.faults().cause(0).value == Approx(0.08).margin(0.015));
+  }
+  SECTION("the odometry begins anew") {
+    comparison.drive(1.0, turned(0b111, 0.08));
+    comparison.restart();
+    comparison.drive(3.0, turned(0b111, 0.08));
+    CHECK(comparison.faults().is_unknown());
+  }
+}
+
+TEST_CASE("two of three radars that are turned alike are at fault: no vehicle slips like that") {
+  const RadarSet guilty = GENERATE(0b011U, 0b101U, 0b110U);
+  const double yaw_rad = GENERATE(-0.09, 0.09);
+  Comparison comparison({kFront, kRearLeft, kRearRight});
+  comparison.drive(3.0);
+  comparison.drive(2.0, turned(guilty, yaw_rad));
+  CHECK(comparison.faults().at_fault() == guilty);
+  CHECK_FALSE(comparison.faults().is_unknown());
 }
 
 TEST_CASE("two others with a radar's speed tell that its own check found it wrong by chance") {

@@ -103,6 +103,35 @@ TEST_CASE("a turned vehicle frame turns the motion, with Doppler as well") {
   }
 }
 
+TEST_CASE("the yaw by positions alone is credible, also if the mount is turned") {
+  Random random(6);
+  const Pose2 mount{3.4, 0.0, 0.0};
+  RegistrationOptions options = simulation::paper_options(2, true);
+  options.likelihood = Likelihood::exclusive;
+  for (const double turned_rad : {0.0, 0.06}) {
+    double nees = 0.0;
+    double nees_with_doppler = 0.0;
+    constexpr int kPairs = 100;
+    for (int i = 0; i < kPairs; ++i) {
+      const simulation::Points points =
+          simulation::scatter(random, 60, 5.0, 35.0, radians(50.0), 3.0);
+      const Eigen::Vector3d motion{0.6, 0.0, uniform(random, -0.02, 0.02)};
+      ScanPair pair{simulation::observe_all(points, Eigen::Vector3d::Zero(), kDt, mount, {}),
+                    simulation::observe_all(points, motion, kDt, mount, {})};
+      simulation::perturb(pair.previous, random);
+      simulation::perturb(pair.current, random);
+      const RegistrationResult result =
+          result_of(options, {mount.x_m, mount.y_m, mount.yaw_rad - turned_rad}, pair);
+      nees += std::pow(result.by_positions.rad - motion.z(), 2) / result.by_positions.variance_rad2;
+      nees_with_doppler += std::pow(result.motion.z() - motion.z(), 2) / result.covariance(2, 2);
+    }
+    // 5 sigma of the mean of so many.
+    CHECK(nees / kPairs == Approx(1.0).margin(0.7));
+    // Without sideways motion a turned mount is taken for a turn by Doppler.
+    CHECK((nees_with_doppler / kPairs > 5.0) == (turned_rad > 0.0));
+  }
+}
+
 TEST_CASE("mirrored scans give the mirrored motion") {
   Random random(3);
   const auto mirror = [](Detections detections) {

@@ -18,8 +18,9 @@
 
 namespace cremed::test {
 
-/// Faults of one radar that come slowly, or that no value of the configuration describes. One
-/// threshold was set by them: kMaxShareOfOthersLate. All radars are ARS408.
+/// Faults that come slowly, that two or all radars share, or that no value of the configuration
+/// describes. Two thresholds were set by them: kMaxShareOfOthersLate, and the limit of
+/// agree_on_slip(). All radars are ARS408.
 class UnusualFaults {
  public:
   explicit UnusualFaults(const FaultDrive& drive) : drive_(drive) {}
@@ -33,7 +34,8 @@ class UnusualFaults {
       add_positions(radar);
       add_clutter(radar);
     }
-    add_late_pairs();
+    add_pairs();
+    add_common();
     add_only_sides();
     return std::move(cases_);
   }
@@ -152,21 +154,62 @@ class UnusualFaults {
     }
   }
 
-  /// Two radars that look along the vehicle's axis are late alike.
-  void add_late_pairs() {
+  /// Two radars that look along the vehicle's axis have the same error.
+  void add_pairs() {
     for (std::size_t one = 0; one < drive_.radars.size(); ++one) {
       for (std::size_t other = one + 1; other < drive_.radars.size(); ++other) {
         if (drive_.is_side(one) || drive_.is_side(other)) continue;
         for (const int ms : {100, 200, 300, 500}) {
-          FaultCase& added = add(fault_kind("two late %g ms", ms), one);
-          added.of += "+" + drive_.radars[other].name;
-          added.guilty |= 1U << other;
-          added.cause = FaultKind::late;
-          added.put_in =
-              both(put(with_late_stamps, one, 1000 * ms), put(with_late_stamps, other, 1000 * ms));
+          add_pair(fault_kind("two late %g ms", ms), one, other, FaultKind::late,
+                   put(with_late_stamps, one, 1000 * ms), put(with_late_stamps, other, 1000 * ms));
+        }
+        for (const double deg : {-5.0, 5.0, 10.0}) {
+          add_pair(fault_kind("two turned %g deg", deg), one, other, FaultKind::mount_yaw,
+                   put(with_knocked_mount, one, deg * kRadPerDeg),
+                   put(with_knocked_mount, other, deg * kRadPerDeg));
         }
       }
     }
+  }
+
+  void add_pair(const std::string& kind, std::size_t one, std::size_t other, FaultKind cause,
+                const PutIn& of_one, const PutIn& of_other) {
+    FaultCase& added = add(kind, one);
+    added.of += "+" + drive_.radars[other].name;
+    added.guilty |= 1U << other;
+    added.cause = cause;
+    added.put_in = both(of_one, of_other);
+  }
+
+  /// All radars have the same error: scales from the start or from 4 s, mounts in the
+  /// configuration.
+  void add_common() {
+    for (const double factor : {0.95, 1.05}) {
+      for (const bool is_from_start : {true, false}) {
+        FaultCase& added =
+            add_to_all(fault_kind("all scale %g", factor) + (is_from_start ? "" : " from 4 s"),
+                       FaultKind::scale);
+        added.time.from_us = is_from_start ? drive_.start_us() : added.time.from_us;
+        added.put_in = put(with_scaled_doppler, every_radar, factor);
+      }
+    }
+    for (const double deg : {-5.0, -3.0, 3.0, 10.0}) {
+      FaultCase& added = add_to_all(fault_kind("all mounts %g deg off", deg), FaultKind::mount_yaw);
+      added.time.from_us = drive_.start_us();
+      added.configure = [deg](FaultCase::Radars& radars) {
+        for (RadarConfiguration& radar : radars) {
+          radar.ego_motion.vehicle_from_radar.yaw_rad += deg * kRadPerDeg;
+        }
+      };
+    }
+  }
+
+  FaultCase& add_to_all(const std::string& kind, FaultKind cause) {
+    FaultCase& added = add(kind, 0);
+    added.of = "";
+    added.guilty = (1U << drive_.radars.size()) - 1U;
+    added.cause = cause;
+    return added;
   }
 
   void add_only_sides() {

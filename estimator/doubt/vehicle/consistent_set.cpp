@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace cremed {
@@ -15,35 +17,40 @@ constexpr double kMaxDecreaseToReturn = 4.0;
 /// Decrease of chi-square by which one set is better than another.
 constexpr double kClearlyBetter = 4.0;
 
-/// The epochs by which a set is judged.
-enum class Epochs : std::uint8_t { all, all_but_worst };
+/// The epochs by which a set is judged. The number is that of the worst ones that do not count.
+enum class Epochs : std::uint8_t { all = 0, all_but_worst = 1, all_but_two_worst = 2 };
 
 /// Mean decrease of chi-square over the epochs.
 double decrease(const MotionEvidence& evidence, const MotionEvidence::ChiSquares& of_set,
                 const MotionEvidence::ChiSquares& without, Epochs by) {
-  double sum = 0.0;
-  double worst = 0.0;
+  MotionEvidence::ChiSquares decreases{};
   for (std::size_t k = 0; k < of_set.size(); ++k) {
-    sum += of_set[k] - without[k];
-    worst = std::max(worst, of_set[k] - without[k]);
+    decreases[k] = of_set[k] - without[k];
   }
-  const auto count = static_cast<double>(evidence.epochs());
-  return by == Epochs::all_but_worst && count > 1.0 ? (sum - worst) / (count - 1.0) : sum / count;
+  std::size_t counted = evidence.epochs();
+  for (int worst = static_cast<int>(by); worst > 0 && counted > 1; --worst, --counted) {
+    *std::max_element(decreases.begin(), decreases.end()) = 0.0;
+  }
+  return std::accumulate(decreases.begin(), decreases.end(), 0.0) / static_cast<double>(counted);
 }
 
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault, Epochs by,
-                   std::optional<MotionEvidence::Pair> pair = std::nullopt) {
-  const auto of_set = evidence.chi_squares(set, pair);
+                   std::optional<MotionEvidence::Pair> pair = std::nullopt,
+                   MotionEvidence::Slip slip = MotionEvidence::Slip::usual) {
+  const auto of_set = evidence.chi_squares(set, pair, slip);
   return !any_of(set, [&](std::size_t radar) {
     const double limit = contains(at_fault, radar) ? kMaxDecreaseToReturn : kMaxDecrease;
-    return decrease(evidence, of_set, evidence.chi_squares(set & ~set_of(radar), pair), by) > limit;
+    const auto without = evidence.chi_squares(set & ~set_of(radar), pair, slip);
+    return decrease(evidence, of_set, without, by) > limit;
   });
 }
 
 class Search {
+  using Slip = MotionEvidence::Slip;
+
  public:
-  Search(const MotionEvidence& evidence, RadarSet at_fault)
-      : evidence_(evidence), at_fault_(at_fault) {}
+  Search(const MotionEvidence& evidence, RadarSet at_fault, const SlipRule& rule)
+      : evidence_(evidence), at_fault_(at_fault), rule_(rule) {}
 
   [[nodiscard]] ConsistentSet find() {
     const RadarSet present = evidence_.present();
@@ -52,7 +59,11 @@ class Search {
     }
     // All radars are believed while that explains the measurements.
     try_believed(present);
-    if (best_.radars == 0) {
+    const bool is_slip_in_question = best_.radars == 0 && slips_as_none(present);
+    best_.agrees_on_slip =
+        is_slip_in_question && rule_.may_be_common && agree_on_slip(evidence_, present);
+    if (best_.radars == 0 && !best_.agrees_on_slip) {
+      slip_ = is_slip_in_question ? Slip::usual_by_positions : Slip::usual;
       try_less(present);
     }
     best_.radars |= best_.radars != 0 ? evidence_.judged() & ~present & ~at_fault_ : 0U;
@@ -140,11 +151,17 @@ class Search {
     try_set(set, (set & at_fault_) == 0 ? Epochs::all_but_worst : Epochs::all);
   }
 
+  /// A single radar tells it by its own chi-square.
+  [[nodiscard]] bool slips_as_none(RadarSet set) const {
+    return std::popcount(set) > 1 && evidence_.decrease_by_slip(set) > rule_.max_decrease;
+  }
+
   void try_set(RadarSet set, Epochs by = Epochs::all) {
-    if (set == 0 || !is_consistent(evidence_, set, at_fault_, by)) {
+    if (set == 0 || !is_consistent(evidence_, set, at_fault_, by, std::nullopt, slip_) ||
+        slips_as_none(set)) {
       return;
     }
-    const double fit = evidence_.fit(set).chi_square();
+    const double fit = evidence_.fit(set, {}, slip_).chi_square();
     // Of two single radars, each confirmed by its own positions, neither is better.
     const double clearly_better =
         std::has_single_bit(set) ? std::numeric_limits<double>::infinity() : kClearlyBetter;
@@ -164,10 +181,12 @@ class Search {
     if (set == 0 || fewer <= 0) {
       return;
     }
-    const MotionEvidence::Fit fit = evidence_.fit(set);
-    const double gain =
-        evidence_.fit(best_.radars).of_witnesses - fit.of_witnesses - kMaxWitness * fewer;
-    if (gain <= 0.0 || !is_consistent(evidence_, set, at_fault_, Epochs::all)) {
+    const MotionEvidence::Fit fit = evidence_.fit(set, {}, slip_);
+    const double gain = evidence_.fit(best_.radars, {}, slip_).of_witnesses - fit.of_witnesses -
+                        kMaxWitness * fewer;
+    if (gain <= 0.0 ||
+        !is_consistent(evidence_, set, at_fault_, Epochs::all, std::nullopt, slip_) ||
+        slips_as_none(set)) {
       return;
     }
     if (gain > kClearlyBetter) {
@@ -179,6 +198,8 @@ class Search {
 
   const MotionEvidence& evidence_;
   RadarSet at_fault_;
+  SlipRule rule_;
+  Slip slip_ = Slip::usual;
   ConsistentSet best_;
 };
 
@@ -188,8 +209,16 @@ bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fau
   return is_consistent(evidence, set, at_fault, Epochs::all);
 }
 
-ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault) {
-  return Search(evidence, at_fault).find();
+bool agree_on_slip(const MotionEvidence& evidence, RadarSet set) {
+  // The limit is that of radars at fault: without it two radars of three that are turned by 5
+  // degrees agree with the third. The two worst epochs are left out: in a skid registrations fail.
+  return std::popcount(set) > 1 && is_consistent(evidence, set, set, Epochs::all_but_two_worst,
+                                                 std::nullopt, MotionEvidence::Slip::any);
+}
+
+ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault,
+                                  const SlipRule& slip) {
+  return Search(evidence, at_fault, slip).find();
 }
 
 }  // namespace cremed

@@ -18,6 +18,8 @@ struct ConsistentSet {
   RadarSet radars = 0;  ///< 0: no set is consistent.
   double chi_square = 0.0;
   int rivals = 0;  ///< Consistent sets of the same size that fit as well.
+  /// No set is consistent, but all radars agree on a slip that no vehicle has.
+  bool agrees_on_slip = false;
   /// Two radars with each other's mounts would explain all measurements as well.
   bool is_exchange_possible = false;
 };
@@ -27,13 +29,24 @@ struct ConsistentSet {
 /// with the radars that look sideways.
 bool is_consistent(const MotionEvidence& evidence, RadarSet set, RadarSet at_fault);
 
-/// The first of these sets that is consistent:
+/// Whether several radars are consistent with each other, with half of kMaxDecrease, if the vehicle
+/// may have any slip: it skids, or their mounts are turned alike.
+bool agree_on_slip(const MotionEvidence& evidence, RadarSet set);
+
+/// With which sets the vehicle would slip as none does.
+struct SlipRule {
+  double max_decrease = kDecreaseByImpossibleSlip;  ///< Of chi-square of a set by any slip.
+  bool may_be_common = true;  ///< ConsistentSet::agrees_on_slip is looked for.
+};
+
+/// The first of these sets that is consistent, unless the vehicle would slip as none does:
 /// - all radars;
 /// - all that are not at fault;
 /// - all but one or two; or a single radar. Of several that are consistent the one that fits best.
 ///
 /// Two sets may replace it: a smaller one, if the witnesses contradict it; and all but two radars,
 /// if all measurements fit with these two at each other's mounts.
-ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault);
+ConsistentSet find_consistent_set(const MotionEvidence& evidence, RadarSet at_fault,
+                                  const SlipRule& slip);
 
 }  // namespace cremed

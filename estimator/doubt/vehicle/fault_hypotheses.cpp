@@ -43,6 +43,18 @@ constexpr double kMaxShareShared = 0.03;
 /// An error that all radars share (a scale) is found by the own check of each within this time.
 constexpr double kSharedFoundS = 5.0;
 
+/// Two degrees: more than the error of mounts measured by hand.
+constexpr double kMinNamedTurnRad = 0.035;
+/// Longest time for which a vehicle skids with the same slip. A test drives two seconds so.
+constexpr double kMaxSteadyS = 4.0;
+/// Change of the same slip within a second: 0.1 by noise, with a lone radar at 6 m/s (1094). A skid
+/// of 14 degrees changes by 0.2 rad.
+constexpr double kMaxChangeOfSlipRad = 0.12;
+/// Decrease of chi-square by any slip beyond which a skid needs no agreement: registrations without
+/// sideways motion fail then. 14 degrees have 100 to 300. Two radars turned by 5 degrees have 42 at
+/// most; if they turn by 10, they are found before the mean over a second gets there.
+constexpr double kDecreaseOfSkid = 100.0;
+
 /// Whether the error is larger than those of healthy radars and than what the filter learns.
 bool is_grave(const FaultCause& cause) {
   switch (cause.kind) {
@@ -74,6 +86,13 @@ FaultHypotheses::FaultHypotheses(const OdometryState& state)
   }
 }
 
+FaultCause FaultHypotheses::cause(std::size_t radar) const {
+  const FaultCause own = is_at_fault(radar) ? causes_[radar].cause(at_fault()) : FaultCause();
+  const bool is_common = own.kind == FaultKind::unknown && common_turn_rad_ && is_unknown() &&
+                         contains(judged(), radar);
+  return is_common ? FaultCause{FaultKind::mount_yaw, *common_turn_rad_} : own;
+}
+
 void FaultHypotheses::clear() {
   evidence_.clear();
   convictions_.leave_clock();
@@ -81,6 +100,8 @@ void FaultHypotheses::clear() {
     cause.forget();
   }
   std::fill(speed_doubted_us_.begin(), speed_doubted_us_.end(), std::nullopt);
+  forget_skid();
+  common_turn_rad_.reset();
   unknown_epochs_ = 0;
   was_paused_ = false;
 }
@@ -112,6 +133,8 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 
 void FaultHypotheses::pause() {
   evidence_.forget_epochs();
+  forget_skid();
+  common_turn_rad_.reset();
   unknown_epochs_ = 0;
   supported_epochs_ = 0;
   was_paused_ = true;
@@ -120,12 +143,49 @@ void FaultHypotheses::pause() {
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
   const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
+  is_skidding_ = is_due ? is_skid() : is_skidding_;
+  if (is_skidding_) {
+    evidence_.forget_jumps();
+    unknown_epochs_ = 0;
+    return;
+  }
   // Their speed jumped, and that of other radars did not: it was not the vehicle.
   convict(evidence_.take_jumped() & ~at_fault(), stamp_us);
   if (is_due && evidence_.epochs() >= (was_paused_ ? MotionEvidence::kEpochs : kMinEpochs)) {
     was_paused_ = false;
     judge();
   }
+}
+
+/// Whether the vehicle skids: the state saw it begin while it was known which radars are right, and
+/// they agree on the slip. To be called with each epoch.
+bool FaultHypotheses::is_skid() {
+  const bool seems_so = state_.skid_variance() > 0.0;
+  const RadarSet present = evidence_.present();
+  if (!slip_changed_us_ && (!seems_so || is_unknown())) {
+    return false;
+  }
+  if (slip_changed_us_ && std::popcount(present) < 2) {
+    return is_skidding_;  // One radar tells nothing new.
+  }
+  const double decrease = evidence_.decrease_by_slip(present);
+  if (!seems_so && decrease <= kDecreaseByUsualSlip) {
+    pause();
+    return false;
+  }
+  const auto slip = evidence_.slip(present);
+  const bool is_steady = evidence_.epochs() == MotionEvidence::kEpochs &&
+                         slip.largest_rad - slip.least_rad < kMaxChangeOfSlipRad;
+  if (!slip_changed_us_ || (!is_steady && !is_unknown())) {
+    slip_changed_us_ = evidence_.time_us();
+  }
+  return seconds_between(*slip_changed_us_, evidence_.time_us()) < kMaxSteadyS &&
+         (decrease > kDecreaseOfSkid || agree_on_slip(evidence_, present));
+}
+
+void FaultHypotheses::forget_skid() {
+  slip_changed_us_.reset();
+  is_skidding_ = false;
 }
 
 void FaultHypotheses::convict(RadarSet set, std::int64_t time_us) {
@@ -163,7 +223,7 @@ void FaultHypotheses::require_positions(std::optional<double> step_mps) {
 
 void FaultHypotheses::judge() {
   acquit_misjudged();
-  const ConsistentSet best = find_consistent_set(evidence_, at_fault());
+  const ConsistentSet best = find_consistent_set(evidence_, at_fault(), slip_rule());
   // Radars are not exchanged while driving.
   is_start_open_ = best.is_exchange_possible && !is_verified_;
   if (is_start_open_) {
@@ -171,6 +231,12 @@ void FaultHypotheses::judge() {
   }
   const bool is_known = judged() == 0 || (best.radars != 0 && best.rivals == 0);
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
+  common_turn_rad_.reset();
+  if (best.agrees_on_slip && unknown_epochs_ >= MotionEvidence::kEpochs) {
+    const double turn_rad = -evidence_.slip(evidence_.present()).mean_rad;
+    common_turn_rad_ =
+        std::abs(turn_rad) > kMinNamedTurnRad ? std::optional(turn_rad) : std::nullopt;
+  }
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
     for_each(evidence_.present(), [&](std::size_t i) { begin_search(i); });
     allow_for_scale();

@@ -57,8 +57,11 @@ class FaultHypotheses {
   void add_motion(std::size_t radar, const EgoMotion& motion) {
     evidence_.add_motion(radar, motion);
   }
-  /// The vehicle skids: radars cannot be compared, nor by what they measured shortly before.
+  /// What was measured until now is not compared any more: a skid has ended, or a mount was learned
+  /// anew.
   void pause();
+  /// The state begins anew.
+  void forget_skid();
   /// MotionEvidence::motion_with_impossible_slip() if it is not known which radars are wrong.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const {
     return is_unknown() ? evidence_.motion_with_impossible_slip() : std::nullopt;
@@ -68,17 +71,16 @@ class FaultHypotheses {
 
   [[nodiscard]] RadarSet at_fault() const { return convictions_.at_fault(); }
   [[nodiscard]] bool is_at_fault(std::size_t radar) const { return contains(at_fault(), radar); }
-  /// The error that explains a radar at fault.
-  [[nodiscard]] FaultCause cause(std::size_t radar) const {
-    return causes_[radar].cause(at_fault());
-  }
+  /// The error that explains a radar at fault, or the one of all judged radars: their mounts are
+  /// turned alike.
+  [[nodiscard]] FaultCause cause(std::size_t radar) const;
   [[nodiscard]] RadarSet judged() const { return evidence_.judged(); }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
   /// The radars in use were compared and are consistent, a single one with its positions, if it has
   /// targets for that.
   [[nodiscard]] bool is_verified() const {
-    return is_verified_ || (!needs_positions_ && !is_start_open_ && !is_unknown() &&
+    return is_verified_ || (!needs_positions_ && !is_start_open_ && unknown_epochs_ == 0 &&
                             evidence_.epochs() >= kMinEpochs &&
                             (judged() == 0 || std::popcount(evidence_.present()) > 1));
   }
@@ -115,6 +117,12 @@ class FaultHypotheses {
   /// So that one scan decides nothing.
   static constexpr std::size_t kMinEpochs = 3;
 
+  bool is_skid();
+  /// A verdict stands: those found at fault do not make the others agree with them.
+  [[nodiscard]] SlipRule slip_rule() const {
+    return {is_unknown() ? kDecreaseByUsualSlip : kDecreaseByImpossibleSlip,
+            is_unknown() || (at_fault() & evidence_.present()) == 0};
+  }
   void convict(RadarSet set, std::int64_t time_us);
   void judge();
   void acquit_misjudged();
@@ -152,6 +160,9 @@ class FaultHypotheses {
   bool is_start_open_ = false;  // Wrong sign of one, or two exchanged?
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
+  std::optional<double> common_turn_rad_;  // Of the mounts of all judged radars.
+  bool is_skidding_ = false;
+  std::optional<std::int64_t> slip_changed_us_;  // Of the vehicle that skids: last not steady.
   bool was_paused_ = false;  // All epochs are needed, as many as are compared while driving on.
 };
 

@@ -17,7 +17,6 @@
 namespace cremed {
 namespace {
 
-constexpr double kEpochS = 0.15;
 /// Largest difference of the times at which two radars see the same jump: a scan period.
 constexpr double kMaxSkewS = 0.08;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.
@@ -42,11 +41,9 @@ constexpr double kMoreMountYawStdRad = 0.005;
 /// Error of the speed along x of a radar that looks sideways: reflections on passed objects move.
 constexpr double kWitnessMps = 0.5;
 constexpr double kWitnessShare = 0.3;
-/// Prior of the slip if the mount may be turned: 17 degrees.
+/// Prior of the slip in a skid, or if mounts may be turned: 17 degrees.
 constexpr double kAnySlipRad = 0.3;
-/// Decrease of chi-square by such a slip that shows a turned mount; as for a radar at fault.
-constexpr double kImpossibleSlip = 8.0;
-/// In so many epochs: one may have a wrong registration.
+/// Least number of epochs with an impossible slip: one may have a wrong registration.
 constexpr int kMinImpossible = 2;
 /// Lateral acceleration of turns, which bounds the yaw rate: slow vehicles turn faster than the
 /// prior at a start allows. With that prior alone a U-turn at full lock (0.85 rad/s) contradicts a
@@ -91,8 +88,10 @@ void MotionEvidence::add_motion(std::size_t radar, const EgoMotion& motion) {
   }
   auto& rates = tracks_[radar].yaw_rates;
   rates[0] = rates[1];
-  rates[1] = {motion.utime_start_us, motion.utime_us, motion.motion.z() / dt_s,
-              motion.covariance(2, 2) / squared(dt_s)};
+  const YawByPositions& yaw = motion.by_positions;
+  rates[1] = {motion.utime_start_us,    motion.utime_us,
+              motion.motion.z() / dt_s, motion.covariance(2, 2) / squared(dt_s),
+              yaw.rad / dt_s,           yaw.variance_rad2 / squared(dt_s)};
 }
 
 bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
@@ -202,7 +201,11 @@ void MotionEvidence::observe(std::int64_t time_us) {
   Epoch& epoch = epochs_[count_++ % kEpochs];
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const auto velocity = velocity_at(i, time_us);
-    epoch[i] = {velocity, velocity ? measurements(i, *velocity) : MotionSums()};
+    epoch[i] = {velocity, {}, {}};
+    if (velocity) {
+      epoch[i].all = measurements(i, *velocity, Slip::usual);
+      epoch[i].all_by_positions = measurements(i, *velocity, Slip::usual_by_positions);
+    }
   }
 }
 
@@ -258,7 +261,8 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   return sums;
 }
 
-MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& velocity) const {
+MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& velocity,
+                                        Slip slip) const {
   MotionSums sums = by_doppler(radar, velocity);
   if (!contains(judged_, radar)) {
     return sums;
@@ -275,11 +279,12 @@ MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& veloc
              track.speed->variance - track.speed->variance_of_method);
   }
   for (const YawRate& rate : track.yaw_rates) {
-    if (rate.start_us < time_us_ && time_us_ <= rate.end_us) {
-      sums.add(
-          Eigen::Vector3d::UnitY(), rate.radps,
-          rate.variance + squared(kPositionYawRateRadps) + squared(kPositionTurnShare * rate.radps),
-          rate.variance);
+    const double radps = slip == Slip::usual ? rate.radps : rate.by_positions_radps;
+    const double variance = slip == Slip::usual ? rate.variance : rate.variance_by_positions;
+    if (rate.start_us < time_us_ && time_us_ <= rate.end_us && std::isfinite(radps)) {
+      sums.add(Eigen::Vector3d::UnitY(), radps,
+               variance + squared(kPositionYawRateRadps) + squared(kPositionTurnShare * radps),
+               variance);
     }
   }
   return sums;
@@ -295,8 +300,12 @@ MotionSums MotionEvidence::prior(double yaw_rate_std_radps) const {
 
 /// Prior of the slip, -k v w with an error that grows in the turn, as in the filter. Speed and turn
 /// are those of the solution with the slip of straight driving.
-void MotionEvidence::add_slip(MotionSums& sum) const {
+void MotionEvidence::add_slip(MotionSums& sum, Slip slip) const {
   const OdometryOptions& options = state_.options();
+  if (slip == Slip::any) {
+    sum.add(Eigen::Vector3d::UnitZ(), 0.0, squared(kAnySlipRad));
+    return;
+  }
   MotionSums straight = sum;
   straight.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad));
   const Eigen::Vector3d motion = straight.solution();
@@ -334,40 +343,52 @@ MotionSums MotionEvidence::by_doppler_at(std::size_t radar, std::size_t mount,
 }
 
 MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<Pair> pair,
-                               double yaw_rate_std_radps) const {
+                               double yaw_rate_std_radps, Slip slip) const {
   MotionSums sum = prior(yaw_rate_std_radps);
   for_each(set, [&](std::size_t i) {
     if (pair && (i == pair->one || i == pair->other)) {
       const std::size_t partner = i == pair->one ? pair->other : pair->one;
       sum.add(by_doppler_at(i, pair->is_exchanged ? partner : i, epoch[i].velocity));
     } else {
-      sum.add(epoch[i].all);
+      sum.add(slip == Slip::usual ? epoch[i].all : epoch[i].all_by_positions);
     }
   });
-  add_slip(sum);
+  add_slip(sum, slip);
   return sum;
+}
+
+MotionEvidence::SlipOfEpochs MotionEvidence::slip(RadarSet set) const {
+  SlipOfEpochs result{0.0, std::numeric_limits<double>::infinity(),
+                      -std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < epochs(); ++k) {
+    const double slip_rad =
+        sum(set, epochs_[k], {}, turn_std_radps(epochs_[k]), Slip::any).solution().z();
+    result.mean_rad += slip_rad / static_cast<double>(epochs());
+    result.least_rad = std::min(result.least_rad, slip_rad);
+    result.largest_rad = std::max(result.largest_rad, slip_rad);
+  }
+  return result;
 }
 
 std::optional<Eigen::Vector3d> MotionEvidence::motion_with_impossible_slip() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t k = 0; k < epochs(); ++k) {
-    MotionSums with_any_slip = prior(turn_std_radps(epochs_[k]));
-    for_each(present(), [&](std::size_t i) { with_any_slip.add(epochs_[k][i].all); });
-    MotionSums with_slip = with_any_slip;
-    add_slip(with_slip);
-    with_any_slip.add(Eigen::Vector3d::UnitZ(), 0.0, squared(kAnySlipRad));
-    if (with_slip.chi_square() - with_any_slip.chi_square() > kImpossibleSlip) {
-      sum += with_any_slip.solution();
+    const double std_radps = turn_std_radps(epochs_[k]);
+    const MotionSums usual =
+        this->sum(present(), epochs_[k], {}, std_radps, Slip::usual_by_positions);
+    const MotionSums any = this->sum(present(), epochs_[k], {}, std_radps, Slip::any);
+    if (usual.chi_square() - any.chi_square() > kDecreaseByImpossibleSlip) {
+      sum += any.solution();
       ++count;
     }
   }
   return count >= kMinImpossible ? std::optional<Eigen::Vector3d>(sum / count) : std::nullopt;
 }
 
-MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,
-                                        std::optional<Pair> pair) const {
-  const MotionSums joint = sum(set, epoch, pair, turn_std_radps(epoch));
+MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch, std::optional<Pair> pair,
+                                        Slip slip) const {
+  const MotionSums joint = sum(set, epoch, pair, turn_std_radps(epoch), slip);
   Fit fit{joint.chi_square()};
   int heard = 0;
   for_each(witnesses(), [&](std::size_t i) {
@@ -382,10 +403,10 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set, const Epoch& epoch,
   return fit;
 }
 
-MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) const {
+MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair, Slip slip) const {
   Fit sum;
   for (std::size_t k = 0; k < epochs(); ++k) {
-    const Fit of_epoch = fit(set, epochs_[k], pair);
+    const Fit of_epoch = fit(set, epochs_[k], pair, slip);
     sum.of_set += of_epoch.of_set;
     sum.of_witnesses += of_epoch.of_witnesses;
   }
@@ -393,12 +414,12 @@ MotionEvidence::Fit MotionEvidence::fit(RadarSet set, std::optional<Pair> pair) 
   return {sum.of_set / count, sum.of_witnesses / count};
 }
 
-MotionEvidence::ChiSquares MotionEvidence::chi_squares(RadarSet set,
-                                                       std::optional<Pair> pair) const {
+MotionEvidence::ChiSquares MotionEvidence::chi_squares(RadarSet set, std::optional<Pair> pair,
+                                                       Slip slip) const {
   const bool is_lone = std::has_single_bit(set) && set == present();
   ChiSquares result{};
   for (std::size_t k = 0; set != 0 && k < epochs(); ++k) {
-    const Fit of_epoch = fit(set, epochs_[k], pair);
+    const Fit of_epoch = fit(set, epochs_[k], pair, slip);
     // Against a lone radar several witnesses must agree: one of them may see a passing vehicle.
     result[k] = of_epoch.chi_square() - (is_lone ? of_epoch.of_worst_witness : 0.0);
   }
@@ -416,7 +437,8 @@ MotionEvidence::SpeedDifference MotionEvidence::speed_difference(std::size_t rad
     const Epoch& epoch = epochs_[k];
     const auto& velocity = epoch[radar].velocity;
     if (velocity && !any_of(set, [&](std::size_t i) { return !epoch[i].velocity; })) {
-      const MotionSums others = sum(set, epoch, {}, state_.options().start_yaw_rate_std_radps);
+      const MotionSums others =
+          sum(set, epoch, {}, state_.options().start_yaw_rate_std_radps, Slip::usual);
       speeds_mps += velocity->mps.x();
       differences_mps += velocity->mps.x() - along.dot(others.solution());
       variances += velocity->covariance(0, 0) + along.dot(others.random_covariance() * along);

@@ -115,7 +115,7 @@ class ScanAssembler {
     bool conflicting = false;
     bool dropped = false;
     bool has_header = true;
-    bool may_repeat = false;  ///< So far the last list again, which is no scan.
+    bool may_repeat = false;  ///< All parts so far equal those of the last list: perhaps no scan.
     /// By slot; bit n: message n came.
     std::array<std::uint8_t, kMaxDetections> messages{};
   };

@@ -51,14 +51,14 @@ class BusClocks {
   static constexpr std::int64_t kSetBackUs = 50'000;
   /// Frames in a row that show it: a single one may have waited for the next list.
   static constexpr std::uint32_t kMinFramesBack = 3;
-  /// More than a radar's frames wait in a gateway (75 ms, a cycle). Stamps of the kernel, and logs
-  /// sorted by stamps, differ by 1 ms. Of two buses either may be wrong; but 0.5 s are no delay any
-  /// more, so the one that is ahead is wrong.
+  /// Longer than frames wait in a gateway (75 ms, a cycle). Stamps of the kernel, and logs sorted
+  /// by stamps, differ by 1 ms. Of two buses either may be wrong; but no delay is as long as 0.5 s,
+  /// so the one that is ahead is wrong.
   static constexpr std::int64_t kOffsetUs = 100'000;
   static constexpr std::int64_t kOffsetOfTwoUs = 500'000;
 
   /// Whether this bus is ahead (or behind), by pairs of successive frames of this bus and another.
-  /// Frames with others between them can show that too, but not that it is not.
+  /// Frames with others between them can show that it is ahead, but not that it is not.
   struct Offset {
     /// More than single late frames: lists of ARS408 are 13 pairs a second or more.
     static constexpr int kMinPairs = 10;

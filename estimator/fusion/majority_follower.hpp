@@ -16,10 +16,11 @@
 namespace cremed {
 
 /// If a majority of radars contradicts the filter and agrees with each other, the velocity of the
-/// state is reset to theirs. Not followed are a step of all radars, or of the only one ahead, that
-/// no vehicle can make, velocities near that step, and a majority that its own positions
-/// contradict: the filter is then in doubt and later lost, and positions have to confirm the next
-/// start.
+/// state is reset to theirs, but not:
+/// - a change of speed that no vehicle can make, by all radars or by the only one ahead;
+/// - later velocities close to it;
+/// - a majority that its own positions contradict.
+/// The filter is then in doubt and later lost, and positions have to confirm the next start.
 class MajorityFollower {
  public:
   /// The arguments must outlive this object.

@@ -78,7 +78,7 @@ class OdometryFilter {
 
   /// A radar's own motion, which is compared with other radars and with the signals of the
   /// vehicle's bus. To be called before update() with its scan.
-  /// `is_speed_open`: its own check does not know yet whether the speed is right.
+  /// `is_speed_open`: its own check has not decided about its speed yet.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
                bool is_speed_open = false);
 

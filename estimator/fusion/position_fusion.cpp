@@ -22,10 +22,10 @@ constexpr double kMinShareOfX = 0.2;
 /// Least share of a scan's targets in the map with which they confirm the state. On healthy drives
 /// half to nine tenths are in the map.
 constexpr double kMinConfirmedShare = 0.4;
-/// Static targets of a scan whose positions should tell the speed. Of 10 seldom enough are in the
-/// map: a radar with fewer needs no such confirmation (FaultHypotheses). Nor are fewer positions of
-/// a lateral radar used: what they show moves along. With 6 the left and right radars of 0796 alone
-/// followed it, 94 % of the rows beyond 5 sigma on one of its starts.
+/// A scan with so many static targets has to confirm its speed by positions (FaultHypotheses). Of
+/// 10, too few are found in the map too often: a radar with fewer is exempt. Fewer positions of a
+/// lateral radar are not used either, because what they show moves along. With 6 the left and right
+/// radars of 0796 alone followed it, 94 % of the rows beyond 5 sigma on one of its starts.
 constexpr std::size_t kTellingTargets = 20;
 /// Beyond this slow cars are in the map, which then moves along.
 constexpr double kMaxMixtureMps = 0.1;

@@ -42,8 +42,8 @@ constexpr double kShareByCurvatureM = 0.4;
 /// five comparisons in a row).
 constexpr double kClearSigmas = 4.0;
 /// The sign is wrong if the votes for the way back exceed those for any r by this many sigmas.
-/// Those for r = 0 healthy radars of 0061, 0103, 1094 and RadarScenes 105 exceed by 0.7 at most;
-/// with the sign of Doppler flipped it is 3 to 14 after a second.
+/// With healthy radars of 0061, 0103, 1094 and RadarScenes 105 they exceed those for r = 0 by 0.7
+/// at most; with the sign of Doppler flipped by 3 to 14 after a second.
 constexpr double kReversedSigmas = 3.0;
 /// The scale is wrong if the votes for an r above kMaxShare exceed those for 0 by this many sigmas:
 /// figures at the class.

@@ -24,8 +24,8 @@ namespace cremed {
 ///   abeam included), as a truck has;
 /// - nothing: as with motion; or a slower rival (traffic may pass a parked vehicle); or a speed of
 ///   two places, if the estimated one has fewer than six (with those abeam), or fewer than it;
-/// - nothing_beside: as with nothing; or fewer than six places (without those abeam) in one of the
-///   last ten scans.
+/// - nothing_beside: as with nothing; or the estimated speed had fewer than six places in one of
+///   the last ten scans, those abeam not counted.
 ///
 /// A doubt ends ten scans after the last such scan; a rival of three places and a tenth of those of
 /// the estimated speed maintains it.

@@ -103,14 +103,14 @@ class FaultHypotheses {
   }
   /// A jump of the speed by the only judged radar that is heard; returned once.
   std::optional<SpeedJump::Jump> take_lone_jump() { return evidence_.take_lone_jump(); }
-  /// Whether a radar's own check does not know yet whether its speed is right.
+  /// Whether a radar's own check (SelfCheck) has not decided about its speed yet.
   void note_speed_open(std::size_t radar, bool is_open) {
     speed_open_ = (speed_open_ & ~set_of(radar)) | (is_open ? set_of(radar) : 0U);
   }
   /// To be called if the filter was lost: all radars may be wrong alike, and are believed again
   /// only if their positions confirm them. `step_mps`: change of the speed of all radars, or of the
-  /// only one ahead, if it stepped (MajorityFollower). Until they step back, rest confirms nothing:
-  /// targets that do not move always fit the map.
+  /// only one ahead, if it stepped (MajorityFollower). Until they step back, scans at rest do not
+  /// count as confirmation: targets that do not move always fit the map.
   void require_positions(std::optional<double> step_mps);
 
  private:
@@ -157,7 +157,8 @@ class FaultHypotheses {
   std::size_t supported_epochs_ = 0;
   bool needs_positions_ = false;
   bool is_verified_ = false;
-  bool is_start_open_ = false;  // Wrong sign of one, or two exchanged?
+  /// At a start a radar with a wrong sign and two that are exchanged explain the data equally well.
+  bool is_start_open_ = false;
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
   std::optional<double> common_turn_rad_;  // Of the mounts of all judged radars.

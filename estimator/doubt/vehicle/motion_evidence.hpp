@@ -151,14 +151,15 @@ class MotionEvidence {
     double largest_rad = 0.0;
   };
   [[nodiscard]] SlipOfEpochs slip(RadarSet set) const;
-  /// Mean motion by the radars that are present, in the epochs that no slip of a vehicle explains
-  /// but any other does: of a lone radar whose mount is turned.
+  /// Mean motion by the radars that are present, over the epochs that fit only if the slip may be
+  /// larger than a vehicle's. That is how a lone radar with a turned mount looks.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const;
   /// Doppler of a radar that is present.
   [[nodiscard]] MotionSums by_doppler(std::size_t radar) const {
     return by_doppler(radar, *velocity(radar));
   }
-  /// Whether positions confirm the speed of a radar in the set, or none has targets for that.
+  /// Whether positions confirm the speed of at least one radar of the set, or no radar of it has
+  /// enough targets to check it.
   [[nodiscard]] bool is_supported(RadarSet set) const;
   /// Whether a radar of the set that is heard is suspect (set_after_step()).
   [[nodiscard]] bool is_after_step(RadarSet set) const;

@@ -30,7 +30,7 @@ namespace cremed {
 class ParkedVehicle {
  public:
   enum class Verdict : std::uint8_t {
-    rests,       ///< Nothing departs, but for radars that most targets outvote.
+    rests,       ///< Nothing departs. Radars outvoted by most of the targets are ignored.
     undecided,   ///< Something departs, too slowly to tell.
     two_worlds,  ///< Something departs and something rests.
     started,     ///< All departs as one world.
@@ -55,7 +55,7 @@ class ParkedVehicle {
   /// Something departs, and it is not known whether the vehicle does.
   [[nodiscard]] bool is_in_doubt() const { return is_parked_ && verdict_ != Verdict::rests; }
   /// Judges by a scan and the last scans of the other radars. A start ends is_parked(). Returns the
-  /// verdict; two_worlds for a radar that most targets of the others outvote.
+  /// verdict; two_worlds for a radar whose targets are outvoted by those of the others.
   Verdict judge(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
                 std::int64_t stamp_us);
 

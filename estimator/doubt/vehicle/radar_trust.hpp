@@ -48,7 +48,7 @@ struct RadarTrust {
   int contradictions = 0;
   bool is_left_out = false;
   std::int64_t left_out_us = 0;  ///< Since when.
-  bool is_doubted = false;       ///< For kDoubtedS.
+  bool is_doubted = false;       ///< It was left out for kDoubtedS or longer.
   bool is_trusted = true;        ///< By its self-check: it may vote.
   // Its last scan:
   bool has_verdict = false;

@@ -16,9 +16,9 @@
 namespace cremed {
 
 /// What is wrong with a signal of the vehicle's bus: h offset, g scale and tau delay by least
-/// squares. They are a fault if they differ from 0 by more than their uncertainty together with
-/// those of sensors and radars explains: all three at once, since on a straight road offset and
-/// scale are one. Two kinds of evidence are judged by themselves:
+/// squares. They are a fault if they differ from 0 by more than their uncertainty and the errors of
+/// healthy sensors and radars explain. The three are tested together, since on a straight road
+/// offset and scale cannot be told apart. Two kinds of evidence are judged each by itself:
 ///
 /// - The radars' own motions from scan to scan of the last minute. Unlike the filter these do not
 ///   follow a wrong yaw rate. Over a motion of rate w (a speed or yaw rate) and its change c, the

@@ -42,8 +42,8 @@ class StandingValue {
   std::int64_t since_us_ = 0;
   std::int64_t last_us_ = 0;
   bool has_range_ = false;
-  // Bounds of the filter's value since the signal last changed. If the least upper bound is below
-  // the greatest lower one, the value has changed by their difference or more.
+  // Since the signal last changed: the least upper and the greatest lower bound of the filter's
+  // value. If the first is below the second, the value has changed by their difference or more.
   double least_upper_ = 0.0;
   double greatest_lower_ = 0.0;
 };

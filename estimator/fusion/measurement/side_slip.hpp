@@ -14,8 +14,9 @@
 namespace cremed {
 
 /// Whether the vehicle skids: a radar behind the rear axle and another one see the same slip that
-/// the state does not expect. An unexpected turn moves one ahead of the axle to the opposite side,
-/// and one behind it hardly, being near the axle; an error of one radar is seen by that radar only.
+/// the state does not expect. An unexpected turn would move a radar ahead of the axle to one side,
+/// and one behind it, which is near the axle, a little to the other. An error of one radar is seen
+/// by that radar only.
 class SideSlip {
  public:
   /// `state` must outlive this object.

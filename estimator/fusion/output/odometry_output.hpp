@@ -25,10 +25,10 @@ namespace cremed {
 /// poses of the state are transformed into its frame. Covariances then stay small.
 ///
 /// The pose since the start is composed of the motions between outputs, as they were when they were
-/// published, so that it never jumps. Anchors also have what was learned later of the way since the
-/// anchor before. The covariance of the pose since the start is that by anchors as if independent,
-/// the effect of errors that last (LastingErrors), and the square of its difference from the pose
-/// by anchors.
+/// published, so that it never jumps. The pose at an anchor includes later corrections of the
+/// motion since the anchor before. The covariance of the pose since the start is that by anchors as
+/// if independent, the effect of errors that last (LastingErrors), and the square of its difference
+/// from the pose by anchors.
 class OdometryOutput {
  public:
   /// The state must outlive this object.

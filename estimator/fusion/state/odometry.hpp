@@ -15,12 +15,12 @@ enum class OdometryStatus : std::uint8_t {
   ok = 0,              ///< None of the following.
   standing_still = 1,  ///< ok; speed <= standstill_mps and its sigma too, |yaw rate| <= 3 sigma.
   initialising = 2,    ///< Not yet known since the start: sigma of speed or yaw rate > settled_*;
-                       ///< or fewer than settled_scans scans used; or of the last scans more in
-                       ///< doubt (two worlds) than used; or at rest within 5 s of such a scan; or
-                       ///< the radars are not compared yet, for half a second.
+                       ///< or fewer than settled_scans scans used; or more of the last scans were
+                       ///< in doubt (two worlds) than were used; or at rest within 5 s of such a
+                       ///< scan; or the radars are not compared yet, for half a second.
   predicted = 3,       ///< No measurement used for > predicted_s.
-  ambiguous = 4,       ///< No scan with mostly static targets for > ambiguous_s; at the start,
-                       ///< a radar contradicts; at the start, parked or predicted, two worlds.
+  ambiguous = 4,       ///< No scan with mostly static targets for > ambiguous_s; or at the start a
+                       ///< radar contradicts; or two worlds at the start, parked or predicted.
   lost = 5,            ///< No measurement used for > lost_s; the next restarts the velocity.
 };
 

@@ -30,8 +30,8 @@ constexpr double kMaxMixedMps = 3.0;
 
 /// Least slip of a skid, in standard deviations of the slip of usual driving.
 constexpr double kLeastSkid = 3.0;
-/// A slip that stays is no skid: it ends so many kSkidS after the last change that was seen, if
-/// that was the least; twice as many after one of 14 degrees.
+/// A slip that stays is no skid. It ends so many kSkidS after the last change of the slip, if that
+/// was the smallest that counts (kLeastSkid), and twice as many after a change of 14 degrees.
 constexpr double kMaxSkids = 5.0;
 
 /// Five cycles of the slowest radar, a Bosch GPR. After that nothing of a radar ahead holds the

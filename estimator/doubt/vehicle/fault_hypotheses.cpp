@@ -47,8 +47,8 @@ constexpr double kSharedFoundS = 5.0;
 constexpr double kMinNamedTurnRad = 0.035;
 /// Longest time for which a vehicle skids with the same slip. A test drives two seconds so.
 constexpr double kMaxSteadyS = 4.0;
-/// Change of the same slip within a second: 0.1 by noise, with a lone radar at 6 m/s (1094). A skid
-/// of 14 degrees changes by 0.2 rad.
+/// Change of a slip that stays, within a second: with 0.09 the noise of a turned radar at 6 m/s
+/// (1094) looked like a skid at times.
 constexpr double kMaxChangeOfSlipRad = 0.12;
 /// Decrease of chi-square by any slip beyond which a skid needs no agreement: registrations without
 /// sideways motion fail then. 14 degrees have 100 to 300. Two radars turned by 5 degrees have 42 at

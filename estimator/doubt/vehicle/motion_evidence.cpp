@@ -17,6 +17,7 @@
 namespace cremed {
 namespace {
 
+constexpr double kEpochS = 0.15;
 /// Largest difference of the times at which two radars see the same jump: a scan period.
 constexpr double kMaxSkewS = 0.08;
 /// Bound of the noise of a velocity's change. Larger steps are not interpolated.

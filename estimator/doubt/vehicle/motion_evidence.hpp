@@ -93,7 +93,6 @@ class MotionEvidence {
   [[nodiscard]] RadarSet witnesses() const { return first_radars(tracks_.size()) & ~judged_; }
   [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
 
-  static constexpr double kEpochS = 0.15;
   static constexpr std::size_t kEpochs = 7;  ///< A second.
   /// Number of epochs that are compared: a second, less after a start, a gap or a step back.
   [[nodiscard]] std::size_t epochs() const { return std::min(count_, kEpochs); }

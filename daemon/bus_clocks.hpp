@@ -9,7 +9,7 @@
 
 #include "cremed/can_decoders/can_frame.hpp"
 #include "cremed/can_decoders/radar_scan.hpp"
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "daemon/configuration/configuration.hpp"
 
 namespace cremed {

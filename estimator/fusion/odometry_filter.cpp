@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/motion/vehicle_limits.hpp"
 #include "cremed/estimator/scan/gate.hpp"
 #include "cremed/estimator/scan/squared.hpp"
@@ -84,7 +84,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     // 4. Velocity by Doppler (10), and 5. if that fits, motion by positions (11, 13).
     const bool is_used = use_doppler(radar, targets, stamp_us);
     const auto yaw_rate = is_used ? positions_.use(radar, targets, stamp_us) : std::nullopt;
-    if (is_alone(radar)) {
+    if (is_mount_judged(radar)) {
       if (const auto motion = faults_.motion_with_impossible_slip()) {
         lone_mount_.note_impossible_slip(*motion);
       } else if (is_used) {
@@ -165,7 +165,7 @@ void OdometryFilter::start_if_needed(std::int64_t stamp_us, bool is_trusted) {
     const std::int64_t from_us = std::max(stamp_us, state_.time_us());
     const bool is_contradicted = condition_.is_doubtful(state_.time_us()) ||
                                  faults_.at_fault() != 0 ||
-                                 consensus_.contradicting(state_.time_us()) > 0;
+                                 consensus_.contradicting(state_.time_us()) != 0;
     restart(from_us, is_reversed || has_stepped_back || is_contradicted
                          ? OdometryOutput::Gap::nothing
                          : OdometryOutput::Gap::speed);
@@ -208,7 +208,7 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
 }
 
 /// Whether LoneMount judges the radar: no other that looks ahead or back is heard, believed or not.
-bool OdometryFilter::is_alone(std::size_t radar) const {
+bool OdometryFilter::is_mount_judged(std::size_t radar) const {
   return !faults_.is_at_fault(radar) && !looks_across(state_.mount(radar)) &&
          state_.is_alone_ahead(radar) && lone_mount_.judges(radar);
 }
@@ -313,11 +313,10 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
 
 /// Radars that are not believed: at fault, side radars that contradict, all that are judged if it
 /// is not known which are at fault, or the only one if its mount is too far off.
-std::uint32_t OdometryFilter::left_out() const {
-  std::uint32_t turned = 0;
-  for (std::size_t i = 0; i < state_.radars(); ++i) {
-    turned |= lone_mount_.is_left_out(i) || is_sideways(i) ? set_of(i) : 0U;
-  }
+RadarSet OdometryFilter::left_out() const {
+  const RadarSet turned = filter(first_radars(state_.radars()), [&](std::size_t i) {
+    return lone_mount_.is_left_out(i) || is_sideways(i);
+  });
   return turned | consensus_.at_fault() |
          (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
 }
@@ -394,7 +393,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
     trust.doppler_noise.add(0.5 * innovation.nis);
   }
   if (!is_expected) {
-    if (is_used && is_alone(radar) && (condition_.is_settled() || state_.is_turned(radar))) {
+    if (is_used && is_mount_judged(radar) && (condition_.is_settled() || state_.is_turned(radar))) {
       lone_mount_.note_contradiction(radar, stamp_us, measurement, innovation);
     }
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
@@ -436,7 +435,7 @@ bool OdometryFilter::may_be_jolt(std::size_t radar, std::int64_t stamp_us, doubl
 /// Whether in the last 0.3 s no other trusted radar that looks ahead or back was heard.
 bool OdometryFilter::is_only_one_ahead(std::size_t radar, std::int64_t stamp_us) const {
   return consensus_[radar].is_trusted && !looks_across(state_.mount(radar)) &&
-         consensus_.is_lone(radar, stamp_us);
+         consensus_.is_only_voter(radar, stamp_us);
 }
 
 /// A scan contradicts the state, its speed by `change_mps`. The state follows if most radars agree

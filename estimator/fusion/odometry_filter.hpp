@@ -23,6 +23,7 @@
 #include "cremed/estimator/fusion/state/odometry.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/fusion/traffic_doubt.hpp"
 #include "cremed/estimator/fusion/vehicle_signals.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -115,14 +116,14 @@ class OdometryFilter {
   [[nodiscard]] bool is_usable(std::size_t radar, const TargetSet& targets,
                                std::int64_t stamp_us) const;
   void set_trusted(std::size_t radar, bool is_trusted);
-  [[nodiscard]] bool is_alone(std::size_t radar) const;
+  [[nodiscard]] bool is_mount_judged(std::size_t radar) const;
   [[nodiscard]] bool is_sideways(std::size_t radar) const;
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
   void add_error_of_motion(const Eigen::Vector3d& believed);
   void follow_if_far(const Eigen::Vector3d& believed, double possible_change_mps);
-  [[nodiscard]] std::uint32_t left_out() const;
+  [[nodiscard]] RadarSet left_out() const;
   bool use_doppler(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us);
   bool take_doppler(std::size_t radar, const TargetSet& targets, const ScanVelocity& scan,
                     std::int64_t stamp_us);

@@ -47,7 +47,7 @@ ParkedVehicle::Verdict TrafficDoubt::judge_parked(std::size_t radar, const Targe
     return before;
   }
   if (!is_believed(radar)) {
-    if (parked.is_in_doubt() && !is_any_believed_heard()) {
+    if (parked.is_in_doubt() && !any_of(heard(), [&](std::size_t i) { return is_believed(i); })) {
       parked.clear();
     }
     return parked.verdict();
@@ -86,25 +86,18 @@ TwoWorlds::Before TrafficDoubt::before(std::size_t radar) const {
   if (condition_.is_settled() && !condition_.is_speed_unknown()) {
     return Before::motion;
   }
-  if (looks_across(state_.mount(radar)) && !state_.is_witness(radar) && is_alone(radar)) {
-    return Before::nothing_beside;
+  if (looks_across(state_.mount(radar)) && !state_.is_witness(radar) &&
+      (heard() & ~set_of(radar)) == 0) {
+    return Before::first_scans_lone_side_radar;
   }
-  return faults_.needs_positions() ? Before::fault : Before::nothing;
+  return faults_.needs_positions() ? Before::fault : Before::first_scans;
 }
 
-bool TrafficDoubt::is_alone(std::size_t radar) const {
-  return !any_of(first_radars(scan_us_.size()) & ~set_of(radar),
-                 [&](std::size_t i) { return is_heard(i); });
-}
-
-bool TrafficDoubt::is_any_believed_heard() const {
-  return any_of(first_radars(scan_us_.size()),
-                [&](std::size_t i) { return is_believed(i) && is_heard(i); });
-}
-
-bool TrafficDoubt::is_heard(std::size_t radar) const {
-  return scan_us_[radar] &&
-         std::abs(seconds_between(*scan_us_[radar], state_.time_us())) <= kScanVerdictValidS;
+RadarSet TrafficDoubt::heard() const {
+  return filter(first_radars(scan_us_.size()), [&](std::size_t i) {
+    return scan_us_[i] &&
+           std::abs(seconds_between(*scan_us_[i], state_.time_us())) <= kScanVerdictValidS;
+  });
 }
 
 bool TrafficDoubt::is_believed(std::size_t radar) const {

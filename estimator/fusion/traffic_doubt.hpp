@@ -45,10 +45,8 @@ class TrafficDoubt {
   bool sees_two_worlds(std::size_t radar, const TargetSet& targets, const DopplerVelocity& velocity,
                        double possible_change_mps);
   [[nodiscard]] TwoWorlds::Before before(std::size_t radar) const;
-  /// No other radar is heard.
-  [[nodiscard]] bool is_alone(std::size_t radar) const;
-  [[nodiscard]] bool is_any_believed_heard() const;
-  [[nodiscard]] bool is_heard(std::size_t radar) const;
+  /// Radars with a scan in the last 0.3 s.
+  [[nodiscard]] RadarSet heard() const;
   [[nodiscard]] bool is_believed(std::size_t radar) const;
   void rest();
 

@@ -164,7 +164,8 @@ bool EgoMotionEstimator::sees_two_worlds(const RegistrationResult& result, doubl
   RegistrationResult other = result;
   return two_worlds_.check(
       targets_, result.motion / dt_s, 0.5 * kMaxAccelerationMps2 * dt_s + kGateSigmas * noise_mps,
-      has_started_ ? TwoWorlds::Before::motion : TwoWorlds::Before::nothing, [&](double speed_mps) {
+      has_started_ ? TwoWorlds::Before::motion : TwoWorlds::Before::first_scans,
+      [&](double speed_mps) {
         other.motion.x() = speed_mps * dt_s;
         return continues(other, dt_s);
       });

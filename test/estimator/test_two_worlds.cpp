@@ -87,11 +87,11 @@ TEST_CASE("at the start a speed that more places contradict is in doubt, whateve
   const auto is_in_doubt = [&](Before before) {
     return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d::Zero(), 0.0, before, is_slow);
   };
-  CHECK_FALSE(is_in_doubt(Before::nothing));
+  CHECK_FALSE(is_in_doubt(Before::first_scans));
   add_places(targets, 9, 16.0, -0.2);
-  CHECK_FALSE(is_in_doubt(Before::nothing));
+  CHECK_FALSE(is_in_doubt(Before::first_scans));
   add_places(targets, 9, 16.0, -0.5);
-  CHECK(is_in_doubt(Before::nothing));
+  CHECK(is_in_doubt(Before::first_scans));
   CHECK_FALSE(is_in_doubt(Before::motion));
 }
 
@@ -104,11 +104,11 @@ TEST_CASE("before a motion is known a slower rival is in doubt, after a loss eve
   };
   add_places(targets, 10, 0.0, 0.2);
   add_places(targets, 9, 8.0, -0.2);
-  CHECK_FALSE(is_in_doubt(0.0, Before::nothing));
+  CHECK_FALSE(is_in_doubt(0.0, Before::first_scans));
   CHECK(is_in_doubt(0.0, Before::fault));
   CHECK_FALSE(is_in_doubt(0.0, Before::motion));
   add_places(targets, 9, 8.0, -0.5);
-  CHECK(is_in_doubt(8.0, Before::nothing));
+  CHECK(is_in_doubt(8.0, Before::first_scans));
   CHECK(is_in_doubt(8.0, Before::fault));
   CHECK_FALSE(is_in_doubt(8.0, Before::motion));
 }
@@ -121,8 +121,8 @@ TEST_CASE("what rests beside a parked vehicle has a share of the targets, but no
       add_row(targets, 100 / passing_places, 18.0, 0.0, 10.0 + 5.0 * place, 0.02);
     }
     add_places(targets, resting, 0.0, 0.4);
-    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d(18.0, 0.0, 0.0), 0.0, Before::nothing,
-                                    [](double) { return true; });
+    return TwoWorlds(Pose2{}).check(targets, Eigen::Vector3d(18.0, 0.0, 0.0), 0.0,
+                                    Before::first_scans, [](double) { return true; });
   };
   CHECK_FALSE(is_in_doubt(20, 14));  // Guard rails, and cars that drive along.
   CHECK(is_in_doubt(20, 16));
@@ -138,16 +138,16 @@ TEST_CASE("of a lone radar that looks sideways six places along the way tell the
                         [](double) { return true; });
   };
   TwoWorlds worlds(Pose2{});
-  CHECK_FALSE(is_in_doubt(worlds, 5, Before::nothing));
-  CHECK_FALSE(is_in_doubt(worlds, 6, Before::nothing_beside));
-  CHECK(is_in_doubt(worlds, 5, Before::nothing_beside));
+  CHECK_FALSE(is_in_doubt(worlds, 5, Before::first_scans));
+  CHECK_FALSE(is_in_doubt(worlds, 6, Before::first_scans_lone_side_radar));
+  CHECK(is_in_doubt(worlds, 5, Before::first_scans_lone_side_radar));
   // It lasts for ten scans, and does not count where another radar is heard or the motion is known.
   for (int i = 0; i < 9; ++i) {
-    CHECK(is_in_doubt(worlds, 6, Before::nothing_beside));
+    CHECK(is_in_doubt(worlds, 6, Before::first_scans_lone_side_radar));
   }
-  CHECK_FALSE(is_in_doubt(worlds, 5, Before::nothing));
+  CHECK_FALSE(is_in_doubt(worlds, 5, Before::first_scans));
   CHECK_FALSE(is_in_doubt(worlds, 5, Before::motion));
-  CHECK_FALSE(is_in_doubt(worlds, 6, Before::nothing_beside));
+  CHECK_FALSE(is_in_doubt(worlds, 6, Before::first_scans_lone_side_radar));
 }
 
 }  // namespace

@@ -22,10 +22,10 @@ namespace cremed {
 /// - motion: a rival, unless the vehicle can continue at the estimated speed, not at the rival's;
 /// - fault: each rival; or a speed of two places, if the estimated one has fewer than six (targets
 ///   abeam included), as a truck has;
-/// - nothing: as with motion; or a slower rival (traffic may pass a parked vehicle); or a speed of
-///   two places, if the estimated one has fewer than six (with those abeam), or fewer than it;
-/// - nothing_beside: as with nothing; or the estimated speed had fewer than six places in one of
-///   the last ten scans, those abeam not counted.
+/// - first_scans: as with motion; or a slower rival (traffic may pass a parked vehicle); or a speed
+///   of two places, if the estimated one has fewer than six (with those abeam), or fewer than it;
+/// - first_scans_lone_side_radar: as with first_scans; or the estimated speed had fewer than six
+///   places in one of the last ten scans, those abeam not counted.
 ///
 /// A doubt ends ten scans after the last such scan; a rival of three places and a tenth of those of
 /// the estimated speed maintains it.
@@ -33,10 +33,10 @@ class TwoWorlds {
  public:
   /// What is known of the motion before a scan.
   enum class Before : std::uint8_t {
-    nothing,  ///< The first scans.
-    /// The first scans of a lone radar that looks sideways: along the way, where Doppler shows the
-    /// speed, it may see nothing but a vehicle beside.
-    nothing_beside,
+    first_scans,
+    /// The only radar looks sideways: along the way, where Doppler shows the speed, it may see
+    /// nothing but a vehicle beside.
+    first_scans_lone_side_radar,
     fault,  ///< The odometry was lost: positions have to confirm the next start.
     motion,
   };
@@ -49,7 +49,8 @@ class TwoWorlds {
   bool check(const TargetSet& targets, const Eigen::Vector3d& velocity, double change_mps,
              Before before, Continues continues) {
     const SpeedVotes votes = rival_speed_.count(targets, velocity, change_mps);
-    const bool is_first_start = before == Before::nothing || before == Before::nothing_beside;
+    const bool is_first_start =
+        before == Before::first_scans || before == Before::first_scans_lone_side_radar;
     const bool is_possible = before == Before::fault || continues(votes.rival_mps) ||
                              !continues(velocity.x()) ||
                              (is_first_start && votes.is_rival_slower());
@@ -60,7 +61,7 @@ class TwoWorlds {
         (is_rival(votes) && is_possible);
     doubtful_scans_ = is_open ? kClearScans : doubtful_scans_ - (is_in_doubt() ? 1 : 0);
     const bool may_be_a_vehicle =
-        before == Before::nothing_beside && was_few(votes.own < kMinRoadPlaces);
+        before == Before::first_scans_lone_side_radar && was_few(votes.own < kMinRoadPlaces);
     return is_in_doubt() || may_be_a_vehicle;
   }
   [[nodiscard]] bool is_in_doubt() const { return doubtful_scans_ > 0; }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cremed/estimator/doubt/vehicle/motion_evidence.hpp"
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 
 namespace cremed {
 

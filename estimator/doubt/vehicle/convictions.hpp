@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 
 namespace cremed {
 

@@ -11,9 +11,9 @@
 
 #include <Eigen/Core>
 
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/doubt/vehicle/velocity_moments.hpp"
 #include "cremed/estimator/fusion/state/odometry.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {

@@ -108,12 +108,10 @@ void FaultHypotheses::clear() {
 
 bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us) {
   speed_doubted_us_[radar] = time_us;
-  RadarSet others = evidence_.epochs() == 0 ? 0U : evidence_.present() & ~at_fault();
-  for_each(others, [&](std::size_t i) {
+  const RadarSet present = evidence_.epochs() == 0 ? 0U : evidence_.present();
+  const RadarSet others = filter(present & ~at_fault(), [&](std::size_t i) {
     const auto& doubted_us = speed_doubted_us_[i];
-    if (doubted_us && seconds_between(*doubted_us, time_us) < kSharedFoundS) {
-      others &= ~set_of(i);
-    }
+    return !doubted_us || seconds_between(*doubted_us, time_us) >= kSharedFoundS;
   });
   if (std::popcount(others) < 2) {
     return false;
@@ -126,9 +124,7 @@ bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_u
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   begin_search(radar);
   evidence_.add_accusation(radar, time_us);
-  RadarSet heard = 0;
-  for_each(judged(), [&](std::size_t i) { heard |= state_.is_heard(i, time_us) ? set_of(i) : 0U; });
-  convictions_.accuse(radar, heard, time_us);
+  convictions_.accuse(radar, state_.heard(time_us) & judged(), time_us);
 }
 
 void FaultHypotheses::pause() {
@@ -413,10 +409,10 @@ void FaultHypotheses::convict_late_others() {
   if (std::popcount(evidence_.present()) < 3) {
     return;
   }
-  RadarSet early = 0;
-  for_each(evidence_.present() & at_fault() & ~convictions_.accused(), [&](std::size_t i) {
+  const RadarSet convicted = evidence_.present() & at_fault() & ~convictions_.accused();
+  const RadarSet early = filter(convicted, [&](std::size_t i) {
     const FaultCauseSearch::Finding found = causes_[i].find_others_late();
-    early |= found.is_clear && found.gain > kMinGain ? set_of(i) : 0U;
+    return found.is_clear && found.gain > kMinGain;
   });
   if (early == 0) {
     return;

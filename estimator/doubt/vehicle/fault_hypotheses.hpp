@@ -15,8 +15,8 @@
 #include "cremed/estimator/doubt/vehicle/convictions.hpp"
 #include "cremed/estimator/doubt/vehicle/fault_cause.hpp"
 #include "cremed/estimator/doubt/vehicle/motion_evidence.hpp"
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 

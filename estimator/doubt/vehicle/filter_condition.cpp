@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "cremed/estimator/scan/gate.hpp"
@@ -75,7 +76,8 @@ bool FilterCondition::is_known() const {
          state_.gaussian.std(kYawRate) <= options.settled_yaw_rate_std_radps &&
          used_scans_ >= options.settled_scans && doubts_ == 0 && !may_drive_in_traffic() &&
          faults_.is_verified() &&
-         consensus_.agreeing(used_us_) > consensus_.contradicting(used_us_);
+         std::popcount(consensus_.agreeing(used_us_)) >
+             std::popcount(consensus_.contradicting(used_us_));
 }
 
 bool FilterCondition::may_drive_in_traffic() const {
@@ -105,8 +107,8 @@ OdometryStatus FilterCondition::status(const Odometry& odometry) const {
     return OdometryStatus::lost;
   }
   if (!is_settled_) {
-    return consensus_.contradicting(state_.time_us()) > 0 ? OdometryStatus::ambiguous
-                                                          : OdometryStatus::initialising;
+    return consensus_.contradicting(state_.time_us()) != 0 ? OdometryStatus::ambiguous
+                                                           : OdometryStatus::initialising;
   }
   if (is_predicted) {
     return OdometryStatus::predicted;

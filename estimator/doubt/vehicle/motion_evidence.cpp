@@ -57,9 +57,6 @@ constexpr double kMaxTurnStdRadps = 3.0;
 MotionEvidence::MotionEvidence(const OdometryState& state)
     : state_(state), tracks_(state.radars()) {
   epochs_.fill(Epoch(state.radars()));
-  for (std::size_t i = 0; i < state.radars(); ++i) {
-    judged_ |= looks_across(state.mount(i)) ? 0U : set_of(i);
-  }
 }
 
 void MotionEvidence::clear() {
@@ -112,7 +109,7 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   if (track.is_after_step && (jumps_back || is_step(radar))) {
     track.is_after_step = false;
     track.jump.reset();
-    has_stepped_back_ = !is_after_step(judged_);
+    has_stepped_back_ = !is_after_step(judged());
     count_ = has_stepped_back_ ? 0 : count_;
   }
   newest_us_ = std::max(newest_us_, stamp_us);
@@ -132,23 +129,18 @@ void MotionEvidence::set_after_step(std::optional<double> step_mps) {
 }
 
 bool MotionEvidence::is_after_step(RadarSet set) const {
-  return any_of(set,
-                [&](std::size_t i) { return tracks_[i].is_after_step && is_heard(tracks_[i]); });
+  return any_of(set & heard(), [&](std::size_t i) { return tracks_[i].is_after_step; });
 }
 
 RadarSet MotionEvidence::take_jumped() {
-  RadarSet heard = 0;
-  RadarSet jumped = 0;
-  std::int64_t last_us = std::numeric_limits<std::int64_t>::min();
-  for_each(judged_, [&](std::size_t i) {
-    const Track& track = tracks_[i];
-    heard |= is_heard(track) ? set_of(i) : 0U;
-    jumped |= track.jump ? set_of(i) : 0U;
-    last_us = track.jump ? std::max(last_us, track.jump->stamp_us) : last_us;
-  });
+  const RadarSet jumped =
+      filter(judged(), [&](std::size_t i) { return tracks_[i].jump.has_value(); });
   if (jumped == 0) {
     return 0;
   }
+  std::int64_t last_us = std::numeric_limits<std::int64_t>::min();
+  for_each(jumped, [&](std::size_t i) { last_us = std::max(last_us, tracks_[i].jump->stamp_us); });
+  const RadarSet heard = this->heard() & judged();
   const RadarSet others = heard & ~jumped;
   if (any_of(others, [&](std::size_t i) {
         return seconds_between(last_us, tracks_[i].velocities[0].stamp_us) < kMaxSkewS;
@@ -165,10 +157,11 @@ RadarSet MotionEvidence::take_jumped() {
                                                                                             : 0U;
 }
 
-/// Whether the radar measured a velocity in the last scan periods.
-bool MotionEvidence::is_heard(const Track& track) const {
-  return track.count > 0 &&
-         seconds_between(track.velocities[1].stamp_us, newest_us_) <= kMaxScanPeriodS;
+RadarSet MotionEvidence::heard() const {
+  return filter(first_radars(tracks_.size()), [&](std::size_t i) {
+    return tracks_[i].count > 0 &&
+           seconds_between(tracks_[i].velocities[1].stamp_us, newest_us_) <= kMaxScanPeriodS;
+  });
 }
 
 /// The velocity changed by more than the vehicle's can between the two newest scans.
@@ -185,12 +178,12 @@ bool MotionEvidence::is_step(std::size_t radar) const {
 /// The latest time at which every radar that has scans can be interpolated.
 std::optional<std::int64_t> MotionEvidence::common_time() const {
   std::optional<std::int64_t> time_us;
-  for (const Track& track : tracks_) {
-    const std::int64_t last_us = track.velocities[1].stamp_us;
-    if (track.count == 2 && is_heard(track)) {
+  for_each(heard(), [&](std::size_t i) {
+    const std::int64_t last_us = tracks_[i].velocities[1].stamp_us;
+    if (tracks_[i].count == 2) {
       time_us = std::min(time_us.value_or(last_us), last_us);
     }
-  }
+  });
   return time_us;
 }
 
@@ -265,7 +258,7 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
 MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& velocity,
                                         Slip slip) const {
   MotionSums sums = by_doppler(radar, velocity);
-  if (!contains(judged_, radar)) {
+  if (!contains(judged(), radar)) {
     return sums;
   }
   const Track& track = tracks_[radar];
@@ -321,7 +314,7 @@ void MotionEvidence::add_slip(MotionSums& sum, Slip slip) const {
 double MotionEvidence::turn_std_radps(const Epoch& epoch) const {
   double speeds_mps = 0.0;
   double count = 0.0;
-  for_each(judged_, [&](std::size_t i) {
+  for_each(judged(), [&](std::size_t i) {
     speeds_mps += epoch[i].velocity ? epoch[i].velocity->mps.norm() : 0.0;
     count += epoch[i].velocity ? 1.0 : 0.0;
   });
@@ -453,9 +446,7 @@ MotionEvidence::SpeedDifference MotionEvidence::speed_difference(std::size_t rad
 }
 
 RadarSet MotionEvidence::present() const {
-  RadarSet present = 0;
-  for_each(judged_, [&](std::size_t i) { present |= velocity(i) ? set_of(i) : 0U; });
-  return present;
+  return filter(judged(), [&](std::size_t i) { return velocity(i).has_value(); });
 }
 
 bool MotionEvidence::is_supported(RadarSet set) const {

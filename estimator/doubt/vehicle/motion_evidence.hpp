@@ -15,8 +15,8 @@
 #include "cremed/estimator/cost/yaw_by_positions.hpp"
 #include "cremed/estimator/doubt/radar/speed_jump.hpp"
 #include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/motion/doppler_velocity.hpp"
 #include "cremed/estimator/motion/ego_motion_estimator.hpp"
 
@@ -88,9 +88,9 @@ class MotionEvidence {
   }
 
   /// The radars that do not look sideways.
-  [[nodiscard]] RadarSet judged() const { return judged_; }
+  [[nodiscard]] RadarSet judged() const { return state_.ahead(); }
   /// The radars that look sideways.
-  [[nodiscard]] RadarSet witnesses() const { return first_radars(tracks_.size()) & ~judged_; }
+  [[nodiscard]] RadarSet witnesses() const { return first_radars(tracks_.size()) & ~judged(); }
   [[nodiscard]] double disputed_scale() const { return disputed_scale_; }
 
   static constexpr std::size_t kEpochs = 7;  ///< A second.
@@ -202,7 +202,8 @@ class MotionEvidence {
     int count = 0;                        // Of velocities.
   };
 
-  [[nodiscard]] bool is_heard(const Track& track) const;
+  /// Radars with a velocity in the last scan periods.
+  [[nodiscard]] RadarSet heard() const;
   [[nodiscard]] bool is_step(std::size_t radar) const;
   [[nodiscard]] std::optional<std::int64_t> common_time() const;
   void observe(std::int64_t time_us);
@@ -223,7 +224,6 @@ class MotionEvidence {
   [[nodiscard]] const Epoch& newest_epoch() const { return epochs_[(count_ - 1) % kEpochs]; }
 
   const OdometryState& state_;
-  RadarSet judged_ = 0;
   std::vector<Track> tracks_;
   std::array<Epoch, kEpochs> epochs_;
   std::size_t count_ = 0;  // Of epochs.

@@ -3,10 +3,10 @@
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "cremed/estimator/cost/cost_options.hpp"
-#include "cremed/estimator/doubt/vehicle/radar_set.hpp"
 #include "cremed/estimator/scan/squared.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 
@@ -38,72 +38,51 @@ RadarConsensus::RadarConsensus(const OdometryState& state)
 
 void RadarConsensus::clear() { std::fill(trusts_.begin(), trusts_.end(), RadarTrust()); }
 
-int RadarConsensus::count(std::int64_t time_us, bool agree) const {
-  return static_cast<int>(std::count_if(
-      trusts_.begin(), trusts_.end(),
-      [&](const RadarTrust& trust) { return trust.votes(time_us) && trust.agrees == agree; }));
+RadarSet RadarConsensus::voting(std::int64_t time_us, bool agree) const {
+  return filter(first_radars(trusts_.size()), [&](std::size_t i) {
+    return trusts_[i].votes(time_us) && trusts_[i].agrees == agree;
+  });
 }
 
 std::optional<MotionSums> RadarConsensus::contradicting_majority(std::int64_t time_us) const {
+  const RadarSet radars = contradicting(time_us);
+  const int count = std::popcount(radars);
+  // Witnesses may see passing vehicles on both sides.
+  const bool are_all_witnesses = (radars & ~state_.witnesses()) == 0;
+  if (are_all_witnesses || count < 2 || count <= std::popcount(agreeing(time_us))) {
+    return std::nullopt;
+  }
   const OdometryOptions& options = state_.options();
   MotionSums joint;
   joint.add(Eigen::Vector3d::UnitY(), 0.0, squared(options.start_yaw_rate_std_radps));
   joint.add(Eigen::Vector3d::UnitZ(), 0.0, squared(options.slip_std_rad) + state_.skid_variance());
-  int radars = 0;
-  bool are_all_witnesses = true;  // Witnesses may see passing vehicles on both sides.
-  for (std::size_t i = 0; i < trusts_.size(); ++i) {
-    const RadarTrust& trust = trusts_[i];
-    if (trust.votes(time_us) && !trust.agrees) {
-      const DopplerVelocity& velocity = trust.velocity;
-      joint.add_velocity(
-          state_.mount(i), velocity.velocity_mps,
-          with_systematic_errors(velocity, options, seconds_between(trust.verdict_us, time_us)),
-          velocity.covariance);
-      ++radars;
-      are_all_witnesses = are_all_witnesses && state_.is_witness(i);
-    }
-  }
+  for_each(radars, [&](std::size_t i) {
+    const DopplerVelocity& velocity = trusts_[i].velocity;
+    const double age_s = seconds_between(trusts_[i].verdict_us, time_us);
+    joint.add_velocity(state_.mount(i), velocity.velocity_mps,
+                       with_systematic_errors(velocity, options, age_s), velocity.covariance);
+  });
   // Two measurements for each radar and two priors, less three unknowns.
-  const double freedom = 2.0 * radars - 1.0;
-  if (are_all_witnesses || radars < 2 || radars <= agreeing(time_us) ||
-      joint.chi_square() > kMaxDisagreement * freedom) {
-    return std::nullopt;
-  }
-  return joint;
-}
-
-bool RadarConsensus::is_lone(std::size_t radar, std::int64_t time_us) const {
-  for (std::size_t i = 0; i < trusts_.size(); ++i) {
-    if (i != radar && trusts_[i].votes(time_us) && !state_.is_witness(i)) {
-      return false;
-    }
-  }
-  return true;
+  const double freedom = 2.0 * count - 1.0;
+  return joint.chi_square() > kMaxDisagreement * freedom ? std::nullopt : std::optional(joint);
 }
 
 bool RadarConsensus::is_step(std::int64_t time_us) const {
   std::int64_t last_agreed_us = std::numeric_limits<std::int64_t>::min();
   std::int64_t first_us = std::numeric_limits<std::int64_t>::max();
-  for (const RadarTrust& trust : trusts_) {
-    if (trust.votes(time_us) && trust.agrees) {
-      last_agreed_us = std::max(last_agreed_us, trust.verdict_us);
-    } else if (trust.votes(time_us)) {
-      first_us = std::min(first_us, trust.verdict_us);
-    }
-  }
+  for_each(agreeing(time_us), [&](std::size_t i) {
+    last_agreed_us = std::max(last_agreed_us, trusts_[i].verdict_us);
+  });
+  for_each(contradicting(time_us),
+           [&](std::size_t i) { first_us = std::min(first_us, trusts_[i].verdict_us); });
   return last_agreed_us < first_us;
 }
 
 bool RadarConsensus::contradicts_positions(std::int64_t time_us) const {
-  int judged = 0;
-  int confirmed = 0;
-  for (std::size_t i = 0; i < trusts_.size(); ++i) {
-    const bool is_judged =
-        trusts_[i].votes(time_us) && !trusts_[i].agrees && !looks_across(state_.mount(i));
-    judged += is_judged ? 1 : 0;
-    confirmed += is_judged && trusts_[i].contradicts_positions ? 1 : 0;
-  }
-  return confirmed > 0 && 2 * confirmed >= judged;
+  const RadarSet judged = contradicting(time_us) & state_.ahead();
+  const RadarSet confirmed =
+      filter(judged, [&](std::size_t i) { return trusts_[i].contradicts_positions; });
+  return confirmed != 0 && 2 * std::popcount(confirmed) >= std::popcount(judged);
 }
 
 double RadarConsensus::longest_contradiction_s() const {
@@ -114,14 +93,12 @@ double RadarConsensus::longest_contradiction_s() const {
   return scans * kScanPeriodS;
 }
 
-std::uint32_t RadarConsensus::at_fault() const {
-  std::uint32_t radars = 0;
-  for (std::size_t i = 0; i < trusts_.size(); ++i) {
+RadarSet RadarConsensus::at_fault() const {
+  return filter(first_radars(trusts_.size()) & ~state_.ahead(), [&](std::size_t i) {
     const RadarTrust& trust = trusts_[i];
-    const bool lasts = seconds_between(trust.left_out_us, trust.verdict_us) >= RadarTrust::kFaultyS;
-    radars |= is_left_out(i) && lasts ? set_of(i) : 0U;
-  }
-  return radars;
+    return trust.is_left_out &&
+           seconds_between(trust.left_out_us, trust.verdict_us) >= RadarTrust::kFaultyS;
+  });
 }
 
 }  // namespace cremed

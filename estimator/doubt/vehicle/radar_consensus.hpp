@@ -10,6 +10,7 @@
 #include "cremed/estimator/doubt/vehicle/motion_sums.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_trust.hpp"
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 
 namespace cremed {
@@ -26,14 +27,19 @@ class RadarConsensus {
   [[nodiscard]] RadarTrust& operator[](std::size_t radar) { return trusts_[radar]; }
   [[nodiscard]] const RadarTrust& operator[](std::size_t radar) const { return trusts_[radar]; }
 
-  // Numbers of trusted radars, by their scans of the last 0.3 s.
-  [[nodiscard]] int agreeing(std::int64_t time_us) const { return count(time_us, true); }
-  [[nodiscard]] int contradicting(std::int64_t time_us) const { return count(time_us, false); }
+  // Trusted radars, by their scans of the last 0.3 s.
+  [[nodiscard]] RadarSet agreeing(std::int64_t time_us) const { return voting(time_us, true); }
+  [[nodiscard]] RadarSet contradicting(std::int64_t time_us) const {
+    return voting(time_us, false);
+  }
   /// The motion by the contradicting radars, if they are two or more, the majority, and agree with
   /// each other.
   [[nodiscard]] std::optional<MotionSums> contradicting_majority(std::int64_t time_us) const;
   /// Whether of the other radars only witnesses vote.
-  [[nodiscard]] bool is_lone(std::size_t radar, std::int64_t time_us) const;
+  [[nodiscard]] bool is_only_voter(std::size_t radar, std::int64_t time_us) const {
+    const RadarSet voting = agreeing(time_us) | contradicting(time_us);
+    return (voting & ~state_.witnesses() & ~set_of(radar)) == 0;
+  }
   /// All contradictions are later than the last agreement: all radars changed at once.
   [[nodiscard]] bool is_step(std::int64_t time_us) const;
   /// Whether half or more of the contradicting radars contradict their own positions.
@@ -45,11 +51,11 @@ class RadarConsensus {
   [[nodiscard]] bool is_left_out(std::size_t radar) const {
     return trusts_[radar].is_left_out && looks_across(state_.mount(radar));
   }
-  /// Radars that are left out for RadarTrust::kFaultyS and more, as a bit set.
-  [[nodiscard]] std::uint32_t at_fault() const;
+  /// Radars that are left out for RadarTrust::kFaultyS and more.
+  [[nodiscard]] RadarSet at_fault() const;
 
  private:
-  [[nodiscard]] int count(std::int64_t time_us, bool agree) const;
+  [[nodiscard]] RadarSet voting(std::int64_t time_us, bool agree) const;
 
   const OdometryState& state_;
   std::vector<RadarTrust> trusts_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -80,6 +81,10 @@ OdometryState::OdometryState(const OdometryOptions& options, std::vector<Pose2> 
     : gaussian(size_of(mounts.size(), options), options.vehicle.is_used()),
       options_(options),
       mounts_(std::move(mounts)),
+      ahead_(
+          filter(first_radars(radars()), [&](std::size_t i) { return !looks_across(mounts_[i]); })),
+      along_(filter(first_radars(radars()),
+                    [&](std::size_t i) { return sine_off_travel(mounts_[i]) < kMaxSineOfScale; })),
       heard_us_(mounts_.size()),
       is_turned_(mounts_.size()),
       mount_yaw_(prior_of(options, mounts_, learned, &LearnedErrors::mount_yaw_rad,
@@ -135,42 +140,17 @@ void OdometryState::hear(std::size_t radar, std::int64_t stamp_us) {
   heard_us_[radar] = std::max(heard_us_[radar], std::optional(stamp_us));
 }
 
-bool OdometryState::is_heard(std::size_t radar, std::int64_t at_us) const {
-  return !heard_us_[radar] || seconds_between(*heard_us_[radar], at_us) <= kGoneS;
-}
-
-template <typename IsSo>
-bool OdometryState::is_any_heard(IsSo is_so) const {
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    if (is_heard(i) && is_so(mounts_[i])) {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool OdometryState::is_any_ahead_heard() const {
-  return is_any_heard([](const Pose2& mount) { return !looks_across(mount); });
-}
-
-bool OdometryState::is_alone_ahead(std::size_t radar) const {
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    if (i != radar && is_heard(i) && !looks_across(mounts_[i])) {
-      return false;
-    }
-  }
-  return true;
+RadarSet OdometryState::heard(std::int64_t at_us) const {
+  return filter(first_radars(radars()), [&](std::size_t i) {
+    return !heard_us_[i] || seconds_between(*heard_us_[i], at_us) <= kGoneS;
+  });
 }
 
 /// Whether Doppler scales are learned: by several radars, one of which looks within 27 degrees of
 /// the direction of travel. Otherwise they are not told apart from the speed well enough.
 bool OdometryState::is_scale_observed() const {
-  int heard = 0;
-  for (std::size_t i = 0; i < mounts_.size(); ++i) {
-    heard += is_heard(i) ? 1 : 0;
-  }
-  return heard > 1 &&
-         is_any_heard([](const Pose2& mount) { return sine_off_travel(mount) < kMaxSineOfScale; });
+  const RadarSet heard = this->heard(time_us_);
+  return std::popcount(heard) > 1 && (heard & along_) != 0;
 }
 
 void OdometryState::update(const Innovation& innovation, bool is_of_positions) {

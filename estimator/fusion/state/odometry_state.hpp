@@ -16,6 +16,7 @@
 #include "cremed/estimator/fusion/state/gaussian_state.hpp"
 #include "cremed/estimator/fusion/state/learned_errors.hpp"
 #include "cremed/estimator/fusion/state/odometry_options.hpp"
+#include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/fusion/state/state_layout.hpp"
 #include "cremed/estimator/fusion/state/vehicle_motion.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
@@ -96,21 +97,25 @@ class OdometryState {
   [[nodiscard]] const Pose2& mount(std::size_t radar) const { return mounts_[radar]; }
   [[nodiscard]] std::span<const Pose2> mounts() const { return mounts_; }
   [[nodiscard]] std::size_t radars() const { return mounts_.size(); }
-  /// Whether a radar looks sideways while one is heard that does not: it is a witness. Reflections
-  /// on the objects that it passes move along with the vehicle: its positions shorten the way by 16
-  /// to 38 %, and are not used. Nor does its Doppler alone count as use of a scan
-  /// (FilterCondition): without the others 1.8 % of the rows were beyond 5 sigma (passing vehicles,
-  /// nuScenes).
-  [[nodiscard]] bool is_witness(std::size_t radar) const {
-    return looks_across(mounts_[radar]) && is_any_ahead_heard();
-  }
+  /// Radars that look ahead or back; the others look sideways (looks_across).
+  [[nodiscard]] RadarSet ahead() const { return ahead_; }
   /// Notes a scan of a radar, also of one that is left out. Radars that are silent for 0.5 s while
   /// others are heard are gone.
   void hear(std::size_t radar, std::int64_t stamp_us);
-  /// False once it is gone.
-  [[nodiscard]] bool is_heard(std::size_t radar, std::int64_t at_us) const;
-  /// Whether no other radar that looks ahead or back was heard in the last 0.5 s.
-  [[nodiscard]] bool is_alone_ahead(std::size_t radar) const;
+  /// Radars that are not gone.
+  [[nodiscard]] RadarSet heard(std::int64_t at_us) const;
+  /// Radars that look sideways, while one is heard that does not. Reflections on the objects that
+  /// they pass move along with the vehicle: their positions shorten the way by 16 to 38 %, and are
+  /// not used. Nor does their Doppler alone count as use of a scan (FilterCondition): without the
+  /// others 1.8 % of the rows were beyond 5 sigma (passing vehicles, nuScenes).
+  [[nodiscard]] RadarSet witnesses() const {
+    return (heard(time_us_) & ahead_) != 0 ? first_radars(radars()) & ~ahead_ : 0U;
+  }
+  [[nodiscard]] bool is_witness(std::size_t radar) const { return contains(witnesses(), radar); }
+  /// Whether no other radar that looks ahead or back is heard.
+  [[nodiscard]] bool is_alone_ahead(std::size_t radar) const {
+    return (heard(time_us_) & ahead_ & ~set_of(radar)) == 0;
+  }
   /// To be called when the clock of the stamps was set.
   void leave_clock() { std::fill(heard_us_.begin(), heard_us_.end(), std::nullopt); }
   /// Velocity of a radar in the axes of the vehicle, without slip.
@@ -146,11 +151,6 @@ class OdometryState {
  private:
   template <typename Visit>
   void for_each_error(Visit visit) const;
-  [[nodiscard]] bool is_heard(std::size_t radar) const { return is_heard(radar, time_us_); }
-  /// Whether a radar is heard whose mount is so.
-  template <typename IsSo>
-  [[nodiscard]] bool is_any_heard(IsSo is_so) const;
-  [[nodiscard]] bool is_any_ahead_heard() const;
   [[nodiscard]] bool is_scale_observed() const;
   void start(const StateError& error);
   void advance(const StateError& error, double dt_s);
@@ -171,6 +171,8 @@ class OdometryState {
   double skid_variance_ = 0.0;  // Of the change of the slip, beyond its process.
   std::array<FaultEvidence, kVehicleSignals> fault_evidence_;
   std::vector<Pose2> mounts_;
+  RadarSet ahead_;
+  RadarSet along_;  // Within 27 degrees of the direction of travel.
   std::vector<std::optional<std::int64_t>> heard_us_;  // By radar: its last scan.
   std::vector<bool> is_turned_;
   SharedPrior mount_yaw_;

@@ -23,11 +23,17 @@ void for_each(RadarSet set, Use use) {
   }
 }
 
+/// Those radars of a set that pass a test.
+template <typename Test>
+RadarSet filter(RadarSet set, Test test) {
+  RadarSet passing = 0;
+  for_each(set, [&](std::size_t radar) { passing |= test(radar) ? set_of(radar) : 0U; });
+  return passing;
+}
+
 template <typename Test>
 bool any_of(RadarSet set, Test test) {
-  bool is_any = false;
-  for_each(set, [&](std::size_t radar) { is_any = is_any || test(radar); });
-  return is_any;
+  return filter(set, test) != 0;
 }
 
 }  // namespace cremed

@@ -166,7 +166,7 @@ void PositionFusion::extend_map(std::size_t radar, std::int64_t stamp_us, double
   const std::size_t node = nodes_.newest();
   if (!maps_[radar]->has(node)) {
     maps_[radar]->insert(node, static_targets_, state_.mount(radar),
-                         relative_pose(state_.node_pose(node), state_.pose_before(age_s)));
+                         relative_pose(state_.node_pose(node), state_.pose_before(age_s).pose));
   }
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kStates = 10;
 constexpr int kFault = 4;
+const auto kFirst = Eigen::seqN(0, Eigen::fix<4>);
 
 /// A filter that has been through all operations, each with random numbers of the seed, and of
 /// whose measurements the first number errs by a fault.
@@ -27,18 +28,18 @@ class FaultyFilter {
 
   void step() {
     const Eigen::Matrix4d by_self = random_matrix<4, 4>();
-    state.transform<4>(by_self * state.mean().head<4>(), by_self,
-                       0.1 * Eigen::Matrix4d::Identity());
+    state.set_to(kFirst, Eigen::Vector4d(by_self * state.mean().head<4>()), kFirst, by_self,
+                 Eigen::Matrix4d(0.1 * Eigen::Matrix4d::Identity()));
     measure();
     const Eigen::Matrix<double, 3, 4> of_pose = random_matrix<3, 4>();
-    state.clone<4>(4, of_pose * state.mean().head<4>(), of_pose, Eigen::Matrix3d::Zero());
+    const auto clone = Eigen::seqN(4, Eigen::fix<3>);
+    state.set_to(clone, Eigen::Vector3d(of_pose * state.mean().head<4>()), kFirst, of_pose);
     measure();
-    state.copy(4, 7);
-    const Eigen::Matrix3d of_clone = random_matrix<3, 3>();
-    const Eigen::Matrix3d of_first = random_matrix<3, 3>();
-    state.transform_pose(4,
-                         of_clone * state.mean().segment<3>(4) + of_first * state.mean().head<3>(),
-                         of_clone, of_first);
+    state.set_to(Eigen::seqN(7, Eigen::fix<3>), Eigen::Vector3d(state.mean().segment<3>(4)), clone,
+                 Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+    const Eigen::Matrix<double, 3, 6> of_both = random_matrix<3, 6>();
+    const std::array both{0, 1, 2, 4, 5, 6};
+    state.set_to(clone, Eigen::Vector3d(of_both * state.mean()(both)), both, of_both);
     state.decay(8, 0.9, 0.01);
     measure();
     state.assume(3, 0.5);
@@ -114,7 +115,8 @@ Eigen::Vector2d normalised_errors(double offset, std::mt19937_64& random) {
   for (int i = 0; i < 50; ++i) {
     truth = step * truth + Eigen::Vector2d(0.0, 0.05 * normal(random));
     const Eigen::Matrix2d noise = Eigen::Vector2d(0.0, 0.0025).asDiagonal();
-    state.transform<2>(step * state.mean().head<2>(), step, noise);
+    const auto both = Eigen::seqN(0, Eigen::fix<2>);
+    state.set_to(both, Eigen::Vector2d(step * state.mean()), both, step, noise);
     LinearMeasurement measurement;
     measurement.residual = {truth.x() + 0.1 * normal(random) - state.mean(0),
                             truth.y() + offset + 0.02 * normal(random) - state.mean(1), 0.0};

@@ -111,8 +111,7 @@ TEST_CASE("a node is the pose at the scan, as uncertain as that") {
   CHECK(bench.move_and_add(0.05));
   CHECK(bench.move_and_add(0.5, 0.1));
   const std::size_t node = bench.nodes().newest();
-  OdometryState::PoseJacobian jacobian;
-  const Eigen::Vector3d pose = bench.state().pose_before(0.1, jacobian);
+  const auto [pose, jacobian] = bench.state().pose_before(0.1);
   CHECK(pose.x() == Approx(4.5).margin(0.1));
   CHECK(bench.state().node_pose(node) == pose);
   const Eigen::Matrix3d covariance =

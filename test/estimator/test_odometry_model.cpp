@@ -105,10 +105,10 @@ class MapScene {
     simulation::Random random(3);
     points_ = simulation::scatter(random, 60, 8.0, 60.0, numeric::radians(70.0), 5.0);
     for (Eigen::Vector2d& point : points_) {
-      const Eigen::Vector3d now = state.pose_before(kAgeS);
+      const Eigen::Vector3d now = state.pose_before(kAgeS).pose;
       point = composed_pose(now, {point.x(), point.y(), 0.0}).head<2>();
     }
-    pose_ = state.pose_before(kAgeS);
+    pose_ = state.pose_before(kAgeS).pose;
     scan_ = seen_from(pose_);
     for (std::size_t i = 0; i < kMapNodes; ++i) {
       scans_[i] = seen_from(state.node_pose(i));
@@ -221,7 +221,7 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
     check_close(y_and_yaw(change(kYawRate, 3e-3)), y_and_yaw(derivative(kYawRate)));
   }
   SECTION("a shift of the vehicle across and along its path") {
-    const double yaw = state.pose_before(0.03).z();
+    const double yaw = state.pose_before(0.03).pose.z();
     const auto across = [&](const auto& by) -> Eigen::Vector3d {
       return -std::sin(yaw) * by(kX) + std::cos(yaw) * by(kY);
     };
@@ -236,7 +236,7 @@ TEST_CASE("the Jacobian of the map measurement predicts the correction when pose
   }
   SECTION("a shift of a node across the path, and its turn about the present pose") {
     const auto k = GENERATE(std::size_t{0}, std::size_t{1}, std::size_t{2});
-    const double yaw = state.pose_before(0.03).z();
+    const double yaw = state.pose_before(0.03).pose.z();
     const auto of_node = [&](const auto& by) -> std::array<Eigen::Vector3d, 3> {
       const Eigen::Vector3d across =
           -std::sin(yaw) * by(node(k), 1e-3) + std::cos(yaw) * by(node(k) + 1, 1e-3);

@@ -35,7 +35,8 @@ bool MapNodes::is_due(std::int64_t stamp_us, double age_s) const {
   if (is_empty_) {
     return true;
   }
-  const Eigen::Vector3d moved = relative_pose(state_.node_pose(newest_), state_.pose_before(age_s));
+  const Eigen::Vector3d moved =
+      relative_pose(state_.node_pose(newest_), state_.pose_before(age_s).pose);
   return seconds_between(stamp_us_[newest_], stamp_us) >= options.node_period_s &&
          (moved.head<2>().norm() > options.node_way_m ||
           std::abs(moved.z()) > options.node_turn_rad);

@@ -33,7 +33,7 @@ void remove_x(LinearMeasurement& measurement) {
 }  // namespace
 
 TargetMap::NodePoses MapMeasurement::now_from_node() const {
-  const Eigen::Vector3d now = state.pose_before(age_s);
+  const Eigen::Vector3d now = state.pose_before(age_s).pose;
   TargetMap::NodePoses poses;
   for (std::size_t i = 0; i < kNodes; ++i) {
     poses[i] = relative_pose(now, state.node_pose(i));
@@ -43,11 +43,10 @@ TargetMap::NodePoses MapMeasurement::now_from_node() const {
 
 LinearMeasurement MapMeasurement::linearise(const MapMatch& match, bool has_x) const {
   const OdometryOptions& options = state.options();
-  OdometryState::PoseJacobian by_motion;
-  const Eigen::Vector3d now = state.pose_before(age_s, by_motion);
+  const auto [now, anchor_by_motion] = state.pose_before(age_s);
   Eigen::Matrix3d now_from_anchor = Eigen::Matrix3d::Identity();
   now_from_anchor.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-now.z()).toRotationMatrix();
-  by_motion = (now_from_anchor * by_motion).eval();
+  const auto by_motion = (now_from_anchor * anchor_by_motion).eval();
   LinearMeasurement result;
   result.residual = match.correction;
   result.residual.x() /= match.x_share;

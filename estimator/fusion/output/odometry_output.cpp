@@ -53,17 +53,19 @@ OdometryOutput::Anchor OdometryOutput::Anchor::moved(std::int64_t at_us,
                                                      const VehicleEstimate& vehicle) const {
   const Eigen::Vector3d motion = vehicle.mean.head<kPose>();
   const auto jacobian = composed_pose_jacobian(pose, motion);
+  const Eigen::Matrix3d by_pose = jacobian.leftCols<kPose>();
+  const Eigen::Matrix3d by_motion = jacobian.rightCols<kPose>();
   const double x_m = motion.x();
   const double y_m = motion.y();
   Eigen::Matrix3d motion_by_lasting;
   motion_by_lasting << x_m, -y_m, -0.5 * x_m * y_m,  //
       y_m, x_m, 0.5 * x_m * x_m,                     //
       0.0, 0.0, x_m;
-  return {
-      at_us, composed_pose(pose, motion),
-      symmetric(composed_covariance(pose, covariance, motion,
-                                    vehicle.covariance.topLeftCorner<kPose, kPose>())),
-      jacobian.leftCols<kPose>() * by_lasting + jacobian.rightCols<kPose>() * motion_by_lasting};
+  return {at_us, composed_pose(pose, motion),
+          symmetric(by_pose * covariance * by_pose.transpose() +
+                    by_motion * vehicle.covariance.topLeftCorner<kPose, kPose>() *
+                        by_motion.transpose()),
+          by_pose * by_lasting + by_motion * motion_by_lasting};
 }
 
 void OdometryOutput::restart(std::int64_t time_us, double gap_s, Gap gap) {

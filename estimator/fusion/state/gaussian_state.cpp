@@ -37,43 +37,6 @@ void GaussianState::decay(int i, double factor, double noise_variance) {
   covariance_(i, i) += noise_variance;
 }
 
-void GaussianState::copy(int from, int to) {
-  mean_.segment<3>(to) = mean_.segment<3>(from);
-  by_faults_.middleRows<3>(to) = by_faults_.middleRows<3>(from);
-  for (int k = 0; k < 3; ++k) {
-    covariance_.col(to + k) = covariance_.col(from + k);
-  }
-  for (int k = 0; k < 3; ++k) {
-    covariance_.row(to + k) = covariance_.row(from + k);
-  }
-}
-
-void GaussianState::transform_pose(int to, const Eigen::Vector3d& mean,
-                                   const Eigen::Matrix3d& by_self,
-                                   const Eigen::Matrix3d& by_first) {
-  const Eigen::Matrix3d own = covariance_.block<3, 3>(to, to);
-  const Eigen::Matrix3d cross = covariance_.block<3, 3>(to, 0);
-  const Eigen::Matrix3d first = covariance_.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d mixed = by_self * cross * by_first.transpose();
-  const Eigen::Matrix3d corner = by_self * own * by_self.transpose() + mixed + mixed.transpose() +
-                                 by_first * first * by_first.transpose();
-  for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
-    const Eigen::Vector3d column =
-        by_self * covariance_.col(j).segment<3>(to) + by_first * covariance_.col(j).head<3>();
-    covariance_.col(j).segment<3>(to) = column;
-  }
-  for (int k = 0; k < 3; ++k) {
-    covariance_.col(to + k) = covariance_.row(to + k).transpose();
-  }
-  covariance_.block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
-  for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
-    by_faults_.col(k).segment<3>(to) =
-        (by_self * by_faults_.col(k).segment<3>(to) + by_first * by_faults_.col(k).head<3>())
-            .eval();
-  }
-  mean_.segment<3>(to) = mean;
-}
-
 Innovation GaussianState::innovate(const LinearMeasurement& measurement) const {
   Innovation result;
   Innovation::Gain& gain = result.gain;

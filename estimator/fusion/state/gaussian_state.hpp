@@ -63,22 +63,13 @@ class GaussianState {
   /// x_i becomes factor x_i + noise.
   void decay(int i, double factor, double noise_variance);
 
-  /// Replaces the first states by a function of them with value `mean` and derivative `jacobian`,
-  /// plus noise.
-  template <int Size>
-  void transform(const Eigen::Matrix<double, Size, 1>& mean,
-                 const Eigen::Matrix<double, Size, Size>& jacobian,
-                 const Eigen::Matrix<double, Size, Size>& noise);
-
-  /// Sets three states from `to` on to a function of the first `Size`, plus noise.
-  template <int Size>
-  void clone(int to, const Eigen::Vector3d& mean, const Eigen::Matrix<double, 3, Size>& jacobian,
-             const Eigen::Matrix3d& noise);
-  /// Copies three states to three others.
-  void copy(int from, int to);
-  /// Replaces three states from `to` on by a function of themselves and of the first three.
-  void transform_pose(int to, const Eigen::Vector3d& mean, const Eigen::Matrix3d& by_self,
-                      const Eigen::Matrix3d& by_first);
+  /// Replaces the states `to` by a function of the states `of` with value `mean` and derivative
+  /// `by`, plus noise. `to`, `of`: indices as Eigen takes them.
+  template <typename To, typename Of, int Rows, int Columns>
+  void set_to(
+      const To& to, const Eigen::Vector<double, Rows>& mean, const Of& of,
+      const Eigen::Matrix<double, Rows, Columns>& by,
+      const Eigen::Matrix<double, Rows, Rows>& noise = Eigen::Matrix<double, Rows, Rows>::Zero());
 
   /// Derivative of the mean by the faults; no columns if there are none.
   using ByFaults = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
@@ -108,45 +99,23 @@ class GaussianState {
   ByFaults by_faults_;
 };
 
-template <int Size>
-void GaussianState::transform(const Eigen::Matrix<double, Size, 1>& mean,
-                              const Eigen::Matrix<double, Size, Size>& jacobian,
-                              const Eigen::Matrix<double, Size, Size>& noise) {
-  const Eigen::Matrix<double, Size, Size> corner =
-      jacobian * covariance_.template topLeftCorner<Size, Size>() * jacobian.transpose() + noise;
-  for (Eigen::Index j = Size; j < covariance_.cols(); ++j) {
-    const Eigen::Matrix<double, Size, 1> column =
-        jacobian * covariance_.col(j).template head<Size>();
-    covariance_.col(j).template head<Size>() = column;
-    covariance_.row(j).template head<Size>() = column.transpose();
-  }
-  covariance_.template topLeftCorner<Size, Size>() = 0.5 * (corner + corner.transpose());
-  for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
-    by_faults_.col(k).template head<Size>() =
-        (jacobian * by_faults_.col(k).template head<Size>()).eval();
-  }
-  mean_.template head<Size>() = mean;
-}
-
-template <int Size>
-void GaussianState::clone(int to, const Eigen::Vector3d& mean,
-                          const Eigen::Matrix<double, 3, Size>& jacobian,
-                          const Eigen::Matrix3d& noise) {
-  const Eigen::Matrix3d corner =
-      jacobian * covariance_.template topLeftCorner<Size, Size>() * jacobian.transpose() + noise;
+template <typename To, typename Of, int Rows, int Columns>
+void GaussianState::set_to(const To& to, const Eigen::Vector<double, Rows>& mean, const Of& of,
+                           const Eigen::Matrix<double, Rows, Columns>& by,
+                           const Eigen::Matrix<double, Rows, Rows>& noise) {
+  const Eigen::Matrix<double, Rows, Rows> corner =
+      by * covariance_(of, of) * by.transpose() + noise;
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {
-    const Eigen::Vector3d column = jacobian * covariance_.col(j).template head<Size>();
-    covariance_.col(j).template segment<3>(to) = column;
+    covariance_(to, j) = (by * covariance_(of, j)).eval();
   }
-  for (int k = 0; k < 3; ++k) {
-    covariance_.col(to + k) = covariance_.row(to + k).transpose();
+  for (int k = 0; k < Rows; ++k) {
+    covariance_.col(to[k]) = covariance_.row(to[k]).transpose();
   }
-  covariance_.template block<3, 3>(to, to) = 0.5 * (corner + corner.transpose());
+  covariance_(to, to) = 0.5 * (corner + corner.transpose());
   for (Eigen::Index k = 0; k < by_faults_.cols(); ++k) {
-    by_faults_.col(k).template segment<3>(to) =
-        (jacobian * by_faults_.col(k).template head<Size>()).eval();
+    by_faults_(to, k) = (by * by_faults_(of, k)).eval();
   }
-  mean_.template segment<3>(to) = mean;
+  mean_(to) = mean;
 }
 
 }  // namespace cremed

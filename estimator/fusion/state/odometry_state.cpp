@@ -49,6 +49,10 @@ int size_of(std::size_t radars, const OdometryOptions& options) {
   return size(static_cast<int>(radars)) + (options.vehicle.is_used() ? kVehicleStates : 0);
 }
 
+/// Indices of the states that MotionStep propagates, and of a pose.
+const auto kMotion = Eigen::seqN(kX, Eigen::fix<kMotionStates>);
+auto pose_at(int first) { return Eigen::seqN(first, Eigen::fix<kPose>); }
+
 int first_of(std::size_t radar) { return state_layout::radar(static_cast<int>(radar)); }
 
 std::vector<LearnedError> unlearned_of(const OdometryOptions& options,
@@ -273,7 +277,7 @@ void OdometryState::advance_to(std::int64_t time_us) {
     const MotionStep step =
         moved(gaussian.mean().head<kMotionStates>(), step_s, options_, skid_variance());
     const double before = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
-    gaussian.transform<kMotionStates>(step.state, step.jacobian, step.noise);
+    gaussian.set_to(kMotion, step.state, kMotion, step.jacobian, step.noise);
     const double after = variance_by_product(gaussian.covariance().topLeftCorner<kPose, kPose>());
     excess_m2ps2_ *= std::exp(-step_s / kExcessTimeS);
     advance_skid(step_s);
@@ -415,34 +419,31 @@ Eigen::Vector2d OdometryState::radar_velocity(std::size_t radar) const {
   return {gaussian.mean(kSpeed) - w * mounts_[radar].y_m, w * mounts_[radar].x_m};
 }
 
-Eigen::Vector3d OdometryState::pose_before(double age_s) const {
-  return moved(gaussian.mean().head<kMotionStates>(), -age_s, options_).state.head<kPose>();
-}
-
-Eigen::Vector3d OdometryState::pose_before(double age_s, PoseJacobian& jacobian) const {
+OdometryState::PastPose OdometryState::pose_before(double age_s) const {
   const MotionStep step = moved(gaussian.mean().head<kMotionStates>(), -age_s, options_);
-  jacobian = step.jacobian.topRows<kPose>();
-  return step.state.head<kPose>();
+  return {step.state.head<kPose>(), step.jacobian.topRows<kPose>()};
 }
 
 void OdometryState::clone_node(std::size_t node, double age_s) {
-  PoseJacobian jacobian;
-  const Eigen::Vector3d pose = pose_before(age_s, jacobian);
-  gaussian.clone<kMotionStates>(state_layout::node(node), pose, jacobian, Eigen::Matrix3d::Zero());
+  const PastPose past = pose_before(age_s);
+  gaussian.set_to(pose_at(state_layout::node(node)), past.pose, kMotion, past.by_motion);
 }
 
 Eigen::Vector3d OdometryState::node_pose(std::size_t node) const {
   return gaussian.mean().segment<kPose>(state_layout::node(node));
 }
 
-void OdometryState::clone_output() { gaussian.copy(kX, kOutput); }
+void OdometryState::clone_output() {
+  gaussian.set_to(pose_at(kOutput), gaussian.mean().head<kPose>().eval(), pose_at(kX),
+                  Eigen::Matrix3d::Identity().eval());
+}
 
 void OdometryState::renew_anchor() {
   const Eigen::Vector3d anchor = gaussian.mean().head<kPose>();
   const auto renew = [&](int pose) {
     const Eigen::Vector3d relative = relative_pose(anchor, gaussian.mean().segment<kPose>(pose));
-    const Eigen::Matrix<double, 3, 6> jacobian = relative_pose_jacobian(anchor, relative);
-    gaussian.transform_pose(pose, relative, jacobian.rightCols<3>(), jacobian.leftCols<3>());
+    gaussian.set_to(pose_at(pose), relative, std::array{kX, kY, kYaw, pose, pose + 1, pose + 2},
+                    relative_pose_jacobian(anchor, relative));
   };
   renew(kOutput);
   for (std::size_t i = 0; i < kNodes; ++i) {

@@ -27,8 +27,6 @@ namespace cremed {
 /// propagation, clones, and the anchor in whose frame poses are given.
 class OdometryState {
  public:
-  using PoseJacobian = Eigen::Matrix<double, state_layout::kPose, state_layout::kMotionStates>;
-
   /// `learned`: of a previous drive, by radar; may be shorter.
   OdometryState(const OdometryOptions& options, std::vector<Pose2> mounts,
                 const std::vector<std::optional<LearnedErrors>>& learned = {});
@@ -78,10 +76,12 @@ class OdometryState {
   /// are considered only (StateError::considered_by).
   void update(const Innovation& innovation, bool is_of_positions = false);
 
-  /// Pose at a scan that is `age_s` older than the state.
-  [[nodiscard]] Eigen::Vector3d pose_before(double age_s) const;
-  /// Pose at a scan that is `age_s` older, with its derivative by the motion states.
-  [[nodiscard]] Eigen::Vector3d pose_before(double age_s, PoseJacobian& jacobian) const;
+  struct PastPose {
+    Eigen::Vector3d pose;
+    Eigen::Matrix<double, state_layout::kPose, state_layout::kMotionStates> by_motion;
+  };
+  /// Pose at a scan that is `age_s` older than the state, and its derivative by the motion states.
+  [[nodiscard]] PastPose pose_before(double age_s) const;
   /// Clones the pose at a scan that is `age_s` older than the state as a node.
   void clone_node(std::size_t node, double age_s);
   [[nodiscard]] Eigen::Vector3d node_pose(std::size_t node) const;

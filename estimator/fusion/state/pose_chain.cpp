@@ -48,16 +48,4 @@ Eigen::Matrix<double, 3, 6> composed_pose_jacobian(const Eigen::Vector3d& a,
   return result;
 }
 
-Eigen::Matrix3d composed_covariance(const Eigen::Vector3d& a, const Eigen::Matrix3d& a_covariance,
-                                    const Eigen::Vector3d& relative,
-                                    const Eigen::Matrix3d& relative_covariance) {
-  const Eigen::Matrix3d by_a = composed_pose_jacobian(a, relative).leftCols<3>();
-  return by_a * a_covariance * by_a.transpose() + turned_covariance(a.z(), relative_covariance);
-}
-
-Eigen::Matrix3d turned_covariance(double yaw_rad, const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d turn = rotation(yaw_rad);
-  return turn * covariance * turn.transpose();
-}
-
 }  // namespace cremed

@@ -6,7 +6,7 @@
 
 namespace cremed {
 
-// Relative and composed poses in the plane, (x_m, y_m, yaw_rad), and their covariances.
+// Relative and composed poses in the plane, (x_m, y_m, yaw_rad), and their derivatives.
 
 /// Pose of b in the frame of a.
 Eigen::Vector3d relative_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
@@ -18,11 +18,5 @@ Eigen::Vector3d composed_pose(const Eigen::Vector3d& a, const Eigen::Vector3d& r
 /// Its derivatives by a (columns 0 to 2) and `relative`.
 Eigen::Matrix<double, 3, 6> composed_pose_jacobian(const Eigen::Vector3d& a,
                                                    const Eigen::Vector3d& relative);
-/// Covariance of composed_pose(), if a and `relative` are independent.
-Eigen::Matrix3d composed_covariance(const Eigen::Vector3d& a, const Eigen::Matrix3d& a_covariance,
-                                    const Eigen::Vector3d& relative,
-                                    const Eigen::Matrix3d& relative_covariance);
-/// Covariance of (x, y, yaw) in the axes of a pose with this yaw, turned into the reference frame.
-Eigen::Matrix3d turned_covariance(double yaw_rad, const Eigen::Matrix3d& covariance);
 
 }  // namespace cremed

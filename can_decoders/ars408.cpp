@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <span>
 
+#include "cremed/can_decoders/ars408_signals.hpp"
+
 namespace cremed {
 namespace {
 
@@ -119,11 +121,11 @@ ScanPart target_part(std::uint8_t message, Ars408Bytes bytes) {
 ScanPart scan_part(const Ars408MessageRow& row, Ars408Bytes bytes) {
   switch (row.message) {
     case Ars408Message::cluster_status: {
-      const auto status = decode_ars408_cluster_status(bytes);
+      const auto status = decode_ars408<Ars408ClusterStatus>(bytes);
       return header(status->counter, unsigned{status->near_count} + status->far_count);
     }
     case Ars408Message::object_status: {
-      const auto status = decode_ars408_object_status(bytes);
+      const auto status = decode_ars408<Ars408ObjectStatus>(bytes);
       return header(status->counter, status->count);
     }
     case Ars408Message::cluster_general:
@@ -178,7 +180,7 @@ ScanPart Ars408Decoder::decode(const CanFrame& frame) {
 }
 
 void Ars408Decoder::note_state(const CanFrame& frame, Ars408Bytes bytes) {
-  const auto state = decode_ars408_radar_state(bytes);
+  const auto state = decode_ars408<Ars408RadarState>(bytes);
   const std::int64_t gap_us = frame.stamp_us - last_state_us_.value_or(frame.stamp_us);
   const bool is_own = state && state->sensor_id == options_.sensor_id &&
                       (gap_us <= 0 || gap_us >= kArs408ShortestStateGapUs);
@@ -210,14 +212,14 @@ Detection Ars408Decoder::detection(const TargetPayload& target) const {
 }
 
 Detection Ars408Decoder::cluster(const TargetPayload& target) const {
-  const auto quality = decode_ars408_cluster_quality(target[1]);
-  return judged(*decode_ars408_cluster_general(target[0]), quality->rms,
+  const auto quality = decode_ars408<Ars408ClusterQuality>(target[1]);
+  return judged(*decode_ars408<Ars408Cluster>(target[0]), quality->rms,
                 keeps(options_.keep_invalid_states, quality->invalid_state), true);
 }
 
 Detection Ars408Decoder::object(const TargetPayload& target) const {
-  const auto quality = decode_ars408_object_quality(target[1]);
-  return judged(*decode_ars408_object_general(target[0]), quality->rms,
+  const auto quality = decode_ars408<Ars408ObjectQuality>(target[1]);
+  return judged(*decode_ars408<Ars408Object>(target[0]), quality->rms,
                 !is_deleted(quality->measurement_state),
                 quality->existence_code >= options_.min_existence_code);
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/can_decoders/radar_family.hpp"
 
 namespace cremed {
@@ -87,7 +88,7 @@ bool has_state(const BusTraffic& bus, const IdSet& ids, std::uint8_t sensor) {
   const IdTraffic& traffic = bus.ids[id];
   return ids[id] && traffic.length == traffic.payload.size() &&
          traffic.shortest_gap_us >= kArs408ShortestStateGapUs &&
-         decode_ars408_radar_state(traffic.payload)->sensor_id == sensor;
+         decode_ars408<Ars408RadarState>(traffic.payload)->sensor_id == sensor;
 }
 
 /// One periodic message with the right length is enough to recognise a sensor.

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "cremed/can_decoders/ars408_tables.hpp"
@@ -66,6 +65,8 @@ inline constexpr std::array<Ars408MessageRow, 14> kArs408Messages{{
 
 /// 0x600, header of a cluster list.
 struct Ars408ClusterStatus {
+  static constexpr auto kMessage = Ars408Message::cluster_status;
+
   std::uint8_t near_count = 0;
   std::uint8_t far_count = 0;
   std::uint16_t counter = 0;
@@ -74,12 +75,14 @@ struct Ars408ClusterStatus {
 
 /// 0x60A, header of an object list.
 struct Ars408ObjectStatus {
+  static constexpr auto kMessage = Ars408Message::object_status;
+
   std::uint8_t count = 0;
   std::uint16_t counter = 0;
   std::uint8_t interface_version = 0;
 };
 
-/// 0x701 and 0x60B: a target relative to the sensor, x forward, y left; negative vx is closing.
+/// Cluster or object: a target relative to the sensor, x forward, y left; negative vx is closing.
 struct Ars408General {
   std::uint8_t id = 0;
   double x_m = 0.0;
@@ -88,6 +91,16 @@ struct Ars408General {
   double vy_mps = 0.0;
   Ars408DynProp dyn_prop = Ars408DynProp::unknown;
   double rcs_dbm2 = 0.0;
+};
+
+/// 0x701.
+struct Ars408Cluster : Ars408General {
+  static constexpr auto kMessage = Ars408Message::cluster_general;
+};
+
+/// 0x60B.
+struct Ars408Object : Ars408General {
+  static constexpr auto kMessage = Ars408Message::object_general;
 };
 
 /// Codes of table R, for ars408_rms().
@@ -100,6 +113,8 @@ struct Ars408RmsCodes {
 
 /// 0x702.
 struct Ars408ClusterQuality {
+  static constexpr auto kMessage = Ars408Message::cluster_quality;
+
   std::uint8_t id = 0;
   Ars408RmsCodes rms;
   std::uint8_t false_alarm_code = 0;  ///< Pdh0, table P: high is bad.
@@ -109,6 +124,8 @@ struct Ars408ClusterQuality {
 
 /// 0x60C.
 struct Ars408ObjectQuality {
+  static constexpr auto kMessage = Ars408Message::object_quality;
+
   std::uint8_t id = 0;
   Ars408RmsCodes rms;
   std::uint8_t ax_rms_code = 0;           ///< Table R.
@@ -120,6 +137,8 @@ struct Ars408ObjectQuality {
 
 /// 0x201, once a second: settings and faults of the sensor.
 struct Ars408RadarState {
+  static constexpr auto kMessage = Ars408Message::radar_state;
+
   bool nvm_read = false;     ///< Configuration was read at start-up.
   bool nvm_written = false;  ///< Configuration was stored since the last 0x200.
   double max_distance_m = 0.0;
@@ -142,6 +161,8 @@ struct Ars408RadarState {
 
 /// 0x700.
 struct Ars408Version {
+  static constexpr auto kMessage = Ars408Message::version;
+
   std::uint8_t major_release = 0;
   std::uint8_t minor_release = 0;
   std::uint8_t patch_level = 0;
@@ -172,6 +193,8 @@ enum class Ars408Criterion : std::uint8_t {
 
 /// 0x204.
 struct Ars408FilterState {
+  static constexpr auto kMessage = Ars408Message::filter_state;
+
   bool for_objects = false;
   bool active = false;
   Ars408Criterion criterion = Ars408Criterion::target_count;
@@ -179,15 +202,6 @@ struct Ars408FilterState {
   double max = 0.0;
 };
 
-/// Each returns nothing if there are fewer bytes than kArs408Messages demands.
 using Ars408Bytes = std::span<const std::uint8_t>;
-std::optional<Ars408ClusterStatus> decode_ars408_cluster_status(Ars408Bytes bytes);
-std::optional<Ars408General> decode_ars408_cluster_general(Ars408Bytes bytes);
-std::optional<Ars408ClusterQuality> decode_ars408_cluster_quality(Ars408Bytes bytes);
-std::optional<Ars408ObjectStatus> decode_ars408_object_status(Ars408Bytes bytes);
-std::optional<Ars408General> decode_ars408_object_general(Ars408Bytes bytes);
-std::optional<Ars408ObjectQuality> decode_ars408_object_quality(Ars408Bytes bytes);
-std::optional<Ars408RadarState> decode_ars408_radar_state(Ars408Bytes bytes);
-std::optional<Ars408FilterState> decode_ars408_filter_state(Ars408Bytes bytes);
 
 }  // namespace cremed

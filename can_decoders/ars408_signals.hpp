@@ -34,10 +34,6 @@ void signals(const Signal& signal, Ars408ObjectStatus& m) {
   signal({28, 4}, m.interface_version);
 }
 
-/// Clusters and objects differ in y.
-struct Cluster : Ars408General {};
-struct Object : Ars408General {};
-
 template <typename Signal>
 void general_signals(const Signal& signal, Ars408General& m) {
   signal({0, 8}, m.id);
@@ -49,13 +45,13 @@ void general_signals(const Signal& signal, Ars408General& m) {
 }
 
 template <typename Signal>
-void signals(const Signal& signal, Cluster& m) {
+void signals(const Signal& signal, Ars408Cluster& m) {
   general_signals(signal, m);
   signal({24, 10}, {511.5, 5.0}, m.y_m);
 }
 
 template <typename Signal>
-void signals(const Signal& signal, Object& m) {
+void signals(const Signal& signal, Ars408Object& m) {
   general_signals(signal, m);
   signal({24, 11}, {1023.0, 5.0}, m.y_m);
 }
@@ -173,21 +169,6 @@ inline constexpr BitField kYawRate{8, 16};
 inline constexpr LinearScale kSpeedScale{0.0, 50.0};
 inline constexpr LinearScale kYawRateScale{32768.0, 100.0 * kDegPerRad};
 
-/// What the signals of `message` take from a payload; nothing if that is too short.
-template <typename Content>
-std::optional<Content> decoded(Ars408Message message, Ars408Bytes bytes) {
-  const bool is_whole = std::ranges::any_of(kArs408Messages, [&](const Ars408MessageRow& row) {
-    return row.message == message && bytes.size() >= row.length;
-  });
-  if (!is_whole) {
-    return std::nullopt;
-  }
-  const PayloadBits bits = PayloadBits::big_endian(bytes);
-  Content content;
-  signals(SignalReader(bits), content);
-  return content;
-}
-
 /// A frame to or from the sensor with this id, without stamp and interface.
 inline CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_t length,
                       const PayloadBits& bits) {
@@ -201,3 +182,21 @@ inline CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_
 }
 
 }  // namespace cremed::ars408_signals
+
+namespace cremed {
+
+/// Content of a payload; nothing if that has fewer bytes than kArs408Messages demands.
+template <typename Content>
+std::optional<Content> decode_ars408(Ars408Bytes bytes) {
+  const auto* row =
+      std::ranges::find(kArs408Messages, Content::kMessage, &Ars408MessageRow::message);
+  if (bytes.size() < row->length) {
+    return std::nullopt;
+  }
+  const PayloadBits bits = PayloadBits::big_endian(bytes);
+  Content content;
+  ars408_signals::signals(SignalReader(bits), content);
+  return content;
+}
+
+}  // namespace cremed

@@ -18,30 +18,7 @@ double at_least_half_step(double std, LinearScale scale) {
   return std::max(std, 0.5 / scale.steps_per_unit);
 }
 
-template <typename Content>
-std::optional<Content> decoded(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kLength) {
-    return std::nullopt;
-  }
-  const PayloadBits bits = PayloadBits::little_endian(bytes);
-  Content content;
-  signals(SignalReader(bits), content);
-  return content;
-}
-
 }  // namespace
-
-std::optional<BoschGprTargetA> decode_bosch_gpr_target_a(std::span<const std::uint8_t> bytes) {
-  return decoded<BoschGprTargetA>(bytes);
-}
-
-std::optional<BoschGprTargetB> decode_bosch_gpr_target_b(std::span<const std::uint8_t> bytes) {
-  return decoded<BoschGprTargetB>(bytes);
-}
-
-std::optional<BoschGprInfo> decode_bosch_gpr_info(std::span<const std::uint8_t> bytes) {
-  return decoded<BoschGprInfo>(bytes);
-}
 
 std::uint8_t crc8_j1850(std::span<const std::uint8_t> bytes) {
   unsigned crc = 0xFF;
@@ -120,7 +97,7 @@ ScanPart BoschGprDecoder::decode(const CanFrame& frame) {
   check_counter(counter, index);
   if (index == kInfoIndex) {
     ++counters_.state_frames;
-    info_ = decode_bosch_gpr_info(payload);
+    info_ = decode_bosch_gpr<BoschGprInfo>(payload);
     return {};
   }
   return {.kind = ScanPart::Kind::target,
@@ -148,8 +125,8 @@ RadarHealth BoschGprDecoder::health() const {
 }
 
 Detection BoschGprDecoder::detection(const TargetPayload& target) const {
-  const auto a = decode_bosch_gpr_target_a(target[0]);
-  const auto b = decode_bosch_gpr_target_b(target[1]);
+  const auto a = decode_bosch_gpr<BoschGprTargetA>(target[0]);
+  const auto b = decode_bosch_gpr<BoschGprTargetB>(target[1]);
   if (!a->measured) {
     return {};
   }

@@ -75,11 +75,6 @@ struct BoschGprInfo {
   std::uint8_t counter = 0;
 };
 
-/// Each returns nothing if there are fewer than eight bytes. Flag, id and checksum are not checked.
-std::optional<BoschGprTargetA> decode_bosch_gpr_target_a(std::span<const std::uint8_t> bytes);
-std::optional<BoschGprTargetB> decode_bosch_gpr_target_b(std::span<const std::uint8_t> bytes);
-std::optional<BoschGprInfo> decode_bosch_gpr_info(std::span<const std::uint8_t> bytes);
-
 /// SAE J1850: polynomial 0x1D, start 0xFF, result inverted; "123456789" gives 0x4B. The last byte
 /// of a message is the checksum of the bytes before it.
 std::uint8_t crc8_j1850(std::span<const std::uint8_t> bytes);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
+
 #include "cremed/can_decoders/bit_field.hpp"
 #include "cremed/can_decoders/bosch_gpr.hpp"
 
@@ -61,3 +65,20 @@ void signals(const Signal& signal, BoschGprInfo& m) {
 }
 
 }  // namespace cremed::bosch_gpr_signals
+
+namespace cremed {
+
+/// Content of a payload; nothing if that has fewer than eight bytes. Flag, id and checksum are not
+/// checked.
+template <typename Content>
+std::optional<Content> decode_bosch_gpr(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < bosch_gpr_signals::kLength) {
+    return std::nullopt;
+  }
+  const PayloadBits bits = PayloadBits::little_endian(bytes);
+  Content content;
+  bosch_gpr_signals::signals(SignalReader(bits), content);
+  return content;
+}
+
+}  // namespace cremed

@@ -48,20 +48,20 @@ inline void check_sensor(const CanFrame& frame, Ars408Subject subject) {
   }
 }
 
-template <class Message>
-void check_rows(std::optional<Message> (*decode)(Ars408Bytes),
-                const std::vector<Ars408Row<Message>>& rows) {
+template <class Content, class Message = Content>
+void check_rows(const std::vector<Ars408Row<Message>>& rows) {
   for (const auto& row : rows) {
     INFO(row.frame);
     const CanFrame frame = hex_frame(row.frame);
     const Ars408MessageRow& message = message_of(frame);
-    const auto decoded = decode(bytes_of(frame));
+    const std::optional<Message> decoded = decode_ars408<Content>(bytes_of(frame));
     REQUIRE(decoded.has_value());
     CHECK(differences(*decoded, row.expected) == "");
-    CHECK_FALSE(decode(bytes_of(frame).first(message.length - 1U)).has_value());
+    CHECK_FALSE(decode_ars408<Content>(bytes_of(frame).first(message.length - 1U)).has_value());
     auto longer = frame.data;
     std::fill(longer.begin() + 8, longer.end(), std::uint8_t{0xFF});
-    CHECK(differences(*decode(longer), row.expected) == "");
+    const std::optional<Message> of_longer = decode_ars408<Content>(longer);
+    CHECK(differences(of_longer.value(), row.expected) == "");
     check_sensor(frame, message.subject);
   }
 }

@@ -14,6 +14,8 @@
 #include <string>
 
 #include "cremed/can_decoders/ars408_commands.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "test/can_decoders/signal_values.hpp"
 
@@ -35,7 +37,7 @@ NamedValues told(Bytes bytes) {
 
 /// With azimuths in degrees.
 NamedValues filter_of(Bytes bytes) {
-  Ars408FilterState filter = decode_ars408_filter_state(bytes).value();
+  Ars408FilterState filter = decode_ars408<Ars408FilterState>(bytes).value();
   if (filter.criterion == Ars408Criterion::azimuth_rad) {
     filter.min *= kDegPerRad;
     filter.max *= kDegPerRad;
@@ -45,15 +47,15 @@ NamedValues filter_of(Bytes bytes) {
 
 NamedValues ars408_signals_of(std::uint32_t id, Bytes bytes) {
   static const std::map<Ars408Message, NamedValues (*)(Bytes)> kMessages = {
-      {Ars408Message::radar_state, told<decode_ars408_radar_state>},
+      {Ars408Message::radar_state, told<decode_ars408<Ars408RadarState>>},
       {Ars408Message::filter_state, filter_of},
-      {Ars408Message::cluster_status, told<decode_ars408_cluster_status>},
-      {Ars408Message::object_status, told<decode_ars408_object_status>},
-      {Ars408Message::object_general, told<decode_ars408_object_general>},
-      {Ars408Message::object_quality, told<decode_ars408_object_quality>},
-      {Ars408Message::version, told<test::decode_version>},
-      {Ars408Message::cluster_general, told<decode_ars408_cluster_general>},
-      {Ars408Message::cluster_quality, told<decode_ars408_cluster_quality>},
+      {Ars408Message::cluster_status, told<decode_ars408<Ars408ClusterStatus>>},
+      {Ars408Message::object_status, told<decode_ars408<Ars408ObjectStatus>>},
+      {Ars408Message::object_general, told<decode_ars408<Ars408Object>>},
+      {Ars408Message::object_quality, told<decode_ars408<Ars408ObjectQuality>>},
+      {Ars408Message::version, told<decode_ars408<Ars408Version>>},
+      {Ars408Message::cluster_general, told<decode_ars408<Ars408Cluster>>},
+      {Ars408Message::cluster_quality, told<decode_ars408<Ars408ClusterQuality>>},
   };
   return kMessages.at(Ars408Message{static_cast<std::uint16_t>(ars408_base_id(id))})(bytes);
 }
@@ -61,10 +63,10 @@ NamedValues ars408_signals_of(std::uint32_t id, Bytes bytes) {
 NamedValues gpr_signals_of(std::uint32_t id, Bytes bytes) {
   const BoschGprOptions options;
   if (id == options.info_id) {
-    return told<decode_bosch_gpr_info>(bytes);
+    return told<decode_bosch_gpr<BoschGprInfo>>(bytes);
   }
-  return (id - options.base_id) % 2 == 0 ? told<decode_bosch_gpr_target_a>(bytes)
-                                         : told<decode_bosch_gpr_target_b>(bytes);
+  return (id - options.base_id) % 2 == 0 ? told<decode_bosch_gpr<BoschGprTargetA>>(bytes)
+                                         : told<decode_bosch_gpr<BoschGprTargetB>>(bytes);
 }
 
 void print(const std::string& frame, const NamedValues& values) {

@@ -32,6 +32,10 @@ template <>
 inline constexpr auto kSignalNames<Ars408General> =
     std::array{"ID", "DistLong", "VrelLong", "VrelLat", "DynProp", "RCS", "DistLat"};
 template <>
+inline constexpr auto kSignalNames<Ars408Cluster> = kSignalNames<Ars408General>;
+template <>
+inline constexpr auto kSignalNames<Ars408Object> = kSignalNames<Ars408General>;
+template <>
 inline constexpr auto kSignalNames<Ars408ClusterQuality> =
     std::array{"ID",          "DistLong_rms", "DistLat_rms",  "VrelLong_rms",
                "VrelLat_rms", "Pdh0",         "InvalidState", "AmbigState"};
@@ -86,7 +90,7 @@ inline void collect(const MemberCollector& collector, const auto& message) {
   signals(collector, m);
 }
 inline void collect(const MemberCollector& collector, const Ars408General& m) {
-  collect(collector, ars408_signals::Cluster{m});  // An object's signals are in the same order.
+  collect(collector, Ars408Cluster{m});  // An object's signals are in the same order.
 }
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
@@ -121,11 +125,6 @@ std::string differences(const Message& decoded, const Message& expected) {
     }
   }
   return text.str();
-}
-
-/// Only the simulation writes 0x700; the product does not read it.
-inline std::optional<Ars408Version> decode_version(Ars408Bytes bytes) {
-  return ars408_signals::decoded<Ars408Version>(Ars408Message::version, bytes);
 }
 
 }  // namespace cremed::test

@@ -12,7 +12,7 @@ TEST_CASE("0x600 heads a list of clusters") {
       {"600#7D7DFFFF10", {125, 125, 65535, 1}},
       {"610#FF0A000110", {255, 10, 1, 1}},
   };
-  check_rows<Ars408ClusterStatus>(decode_ars408_cluster_status, rows);
+  check_rows<Ars408ClusterStatus>(rows);
 }
 
 TEST_CASE("0x701 holds a cluster's position, velocity and cross section") {
@@ -23,7 +23,7 @@ TEST_CASE("0x701 holds a cluster's position, velocity and cross section") {
       {"721#1155F9E172A0C291", {17, 50.2, -6.1, -13.5, 1.5, Ars408DynProp::oncoming, 8.5}},
       {"771#C86D625880200180", {200, 200.0, 17.7, 0.0, 0.0, Ars408DynProp::stationary, 0.0}},
   };
-  check_rows<Ars408General>(decode_ars408_cluster_general, rows);
+  check_rows<Ars408Cluster>(rows);
 }
 
 TEST_CASE("0x702 holds a cluster's quality") {
@@ -34,7 +34,7 @@ TEST_CASE("0x702 holds a cluster's quality") {
       {"702#0508888671", {5, {1, 2, 4, 8}, 6, Ars408InvalidState{14}, Ars408Ambiguity{1}}},
       {"702#FFFFFFFFFF", {255, {31, 31, 31, 31}, 7, Ars408InvalidState{31}, Ars408Ambiguity{7}}},
   };
-  check_rows<Ars408ClusterQuality>(decode_ars408_cluster_quality, rows);
+  check_rows<Ars408ClusterQuality>(rows);
 }
 
 TEST_CASE("0x60A heads a list of objects") {
@@ -43,7 +43,7 @@ TEST_CASE("0x60A heads a list of objects") {
       {"60A#09EE9910", {9, 61081, 1}}, {"60A#64FFFF10", {100, 65535, 1}},
       {"61A#00000010", {0, 0, 1}},
   };
-  check_rows<Ars408ObjectStatus>(decode_ars408_object_status, rows);
+  check_rows<Ars408ObjectStatus>(rows);
 }
 
 TEST_CASE("0x60B holds an object's position, velocity and cross section") {
@@ -54,7 +54,7 @@ TEST_CASE("0x60B holds an object's position, velocity and cross section") {
       {"60B#FFFFFFFFFFFFFFFF", {255, 1138.2, 204.8, 127.75, 63.75, Ars408DynProp::stopped, 63.5}},
       {"60B#0000000000000000", {0, -500.0, -204.6, -128.0, -64.0, Ars408DynProp::moving, -64.0}},
   };
-  check_rows<Ars408General>(decode_ars408_object_general, rows);
+  check_rows<Ars408Object>(rows);
 }
 
 TEST_CASE("0x60C holds an object's quality") {
@@ -64,7 +64,7 @@ TEST_CASE("0x60C holds an object's quality") {
       {"60C#090888880F00AC", {9, {1, 2, 4, 8}, 16, 3, 24, 5, Ars408MeasurementState{3}}},
       {"60C#FFFFFFFFFFFFFF", {255, {31, 31, 31, 31}, 31, 31, 31, 7, Ars408MeasurementState{7}}},
   };
-  check_rows<Ars408ObjectQuality>(decode_ars408_object_quality, rows);
+  check_rows<Ars408ObjectQuality>(rows);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "test/can_decoders/signal_values.hpp"
 
@@ -52,11 +53,11 @@ TEST_CASE("Message A holds the measurement") {
   for (const Row& row : rows) {
     INFO(row.frame);
     const CanFrame frame = hex_frame(row.frame);
-    const auto a = decode_bosch_gpr_target_a(bytes_of(frame));
+    const auto a = decode_bosch_gpr<BoschGprTargetA>(bytes_of(frame));
     REQUIRE(a.has_value());
     CHECK(differences(*a, row.expected) == "");
     CHECK(crc_ok(frame) == row.crc_ok);
-    CHECK_FALSE(decode_bosch_gpr_target_a(bytes_of(frame).first(7)).has_value());
+    CHECK_FALSE(decode_bosch_gpr<BoschGprTargetA>(bytes_of(frame).first(7)).has_value());
   }
 }
 
@@ -77,11 +78,11 @@ TEST_CASE("Message B holds the quality") {
   for (const Row& row : rows) {
     INFO(row.frame);
     const CanFrame frame = hex_frame(row.frame);
-    const auto b = decode_bosch_gpr_target_b(bytes_of(frame));
+    const auto b = decode_bosch_gpr<BoschGprTargetB>(bytes_of(frame));
     REQUIRE(b.has_value());
     CHECK(differences(*b, row.expected) == "");
     CHECK(crc_ok(frame) == row.crc_ok);
-    CHECK_FALSE(decode_bosch_gpr_target_b(bytes_of(frame).first(7)).has_value());
+    CHECK_FALSE(decode_bosch_gpr<BoschGprTargetB>(bytes_of(frame).first(7)).has_value());
   }
 }
 
@@ -111,10 +112,10 @@ TEST_CASE("The info message holds the sensor's health") {
   for (const Row& row : rows) {
     INFO(row.frame);
     const CanFrame frame = hex_frame(row.frame);
-    const auto info = decode_bosch_gpr_info(bytes_of(frame));
+    const auto info = decode_bosch_gpr<BoschGprInfo>(bytes_of(frame));
     REQUIRE(info.has_value());
     CHECK(differences(*info, row.expected) == "");
-    CHECK_FALSE(decode_bosch_gpr_info(bytes_of(frame).first(7)).has_value());
+    CHECK_FALSE(decode_bosch_gpr<BoschGprInfo>(bytes_of(frame).first(7)).has_value());
   }
 }
 

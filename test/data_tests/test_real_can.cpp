@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/can_decoders/scan_assembler.hpp"
 #include "daemon/source/candump.hpp"
 
@@ -78,11 +79,12 @@ std::vector<ObjectList> object_lists(const std::vector<CanFrame>& frames) {
     const Ars408Bytes bytes = std::span(frame.data).first(frame.length);
     if (frame.id == 0x60A) {
       lists.push_back(
-          {.stamp_us = frame.stamp_us, .status = decode_ars408_object_status(bytes).value()});
+          {.stamp_us = frame.stamp_us, .status = decode_ars408<Ars408ObjectStatus>(bytes).value()});
     } else if (frame.id == 0x60B) {
-      lists.at(lists.size() - 1).general.push_back(decode_ars408_object_general(bytes).value());
+      lists.at(lists.size() - 1).general.push_back(decode_ars408<Ars408Object>(bytes).value());
     } else if (frame.id == 0x60C) {
-      lists.at(lists.size() - 1).quality.push_back(decode_ars408_object_quality(bytes).value());
+      lists.at(lists.size() - 1)
+          .quality.push_back(decode_ars408<Ars408ObjectQuality>(bytes).value());
     }
   }
   return lists;
@@ -181,7 +183,7 @@ TEST_CASE("Two recorded cluster frames", "[real]") {
   for (const CanFrame& frame : frames) {
     assembler.add(decoder.decode(frame));
   }
-  const auto cluster = decode_ars408_cluster_general(frames[1].data).value();
+  const auto cluster = decode_ars408<Ars408Cluster>(frames[1].data).value();
   CHECK(cluster.x_m == Approx(2.4));
   CHECK(cluster.y_m == Approx(-0.7));
   CHECK(cluster.vx_mps == 0.0);

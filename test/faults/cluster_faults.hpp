@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "cremed/can_decoders/ars408.hpp"
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/estimator/scan/stamps.hpp"
 #include "test/faults/frame_faults.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
@@ -47,7 +47,7 @@ Frames with_changed_clusters(Frames frames, FaultTime time, const RadarSelection
         !is_message(frame, Ars408Message::cluster_general)) {
       continue;
     }
-    auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+    auto cluster = decode_ars408<Ars408Cluster>(std::span(frame.data).first(frame.length));
     if (!cluster) continue;
     if constexpr (std::is_invocable_v<Change, Ars408General&, double>) {
       change(*cluster, seconds_between(time.from_us, frame.stamp_us));
@@ -119,7 +119,7 @@ Frames with_targets(const Frames& frames, FaultTime time, IsSeen is_seen) {
       list = {result.size(), std::exchange(frame.data[0], 0), {}};
       frame.data[1] = 0;
     } else if (is_message(frame, Ars408Message::cluster_general)) {
-      const auto cluster = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+      const auto cluster = decode_ars408<Ars408Cluster>(std::span(frame.data).first(frame.length));
       if (!list.header || (cluster && time.has(frame) && !is_seen(*cluster, frame.interface))) {
         continue;
       }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "test/faults/cluster_faults.hpp"
 
 namespace cremed::test {
@@ -48,14 +49,14 @@ class TruckAhead {
   static constexpr double kHalfWidthM = 1.3;
 
   static bool is_hidden(const CanFrame& frame) {
-    const auto seen = decode_ars408_cluster_general(std::span(frame.data).first(frame.length));
+    const auto seen = decode_ars408<Ars408Cluster>(std::span(frame.data).first(frame.length));
     return seen && seen->x_m > kTailM && std::abs(seen->y_m) < kHalfWidthM / kTailM * seen->x_m;
   }
 
   /// The header of the list that begins there, with the number of its clusters.
   CanFrame begin(std::span<const CanFrame> frames) {
     const CanFrame& header = frames.front();
-    auto status = decode_ars408_cluster_status(std::span(header.data).first(header.length));
+    auto status = decode_ars408<Ars408ClusterStatus>(std::span(header.data).first(header.length));
     added_ = 0;
     is_in_list_ = time_.has(header) && status;
     if (!is_in_list_) return header;

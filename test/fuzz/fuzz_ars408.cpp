@@ -9,6 +9,7 @@
 #include <initializer_list>
 
 #include "cremed/can_decoders/ars408.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 namespace {
@@ -28,28 +29,28 @@ void check_general(const Ars408General& g, double max_y_m) {
 }
 
 void check_targets(Ars408Bytes bytes) {
-  if (const auto g = decode_ars408_cluster_general(bytes)) {
+  if (const auto g = decode_ars408<Ars408Cluster>(bytes)) {
     check_general(*g, 102.3);
   }
-  if (const auto g = decode_ars408_object_general(bytes)) {
+  if (const auto g = decode_ars408<Ars408Object>(bytes)) {
     check_general(*g, 204.8);
   }
-  if (const auto q = decode_ars408_cluster_quality(bytes)) {
+  if (const auto q = decode_ars408<Ars408ClusterQuality>(bytes)) {
     check(q->rms.x < 32 && q->rms.y < 32 && q->rms.vx < 32 && q->rms.vy < 32);
     check(static_cast<unsigned>(q->invalid_state) < 32);
   }
-  if (const auto q = decode_ars408_object_quality(bytes)) {
+  if (const auto q = decode_ars408<Ars408ObjectQuality>(bytes)) {
     check(ars408_rms(q->ax_rms_code).has_value() == (q->ax_rms_code < 31));
   }
-  check(decode_ars408_cluster_status(bytes).has_value() == (bytes.size() >= 5));
-  check(decode_ars408_object_status(bytes).has_value() == (bytes.size() >= 4));
+  check(decode_ars408<Ars408ClusterStatus>(bytes).has_value() == (bytes.size() >= 5));
+  check(decode_ars408<Ars408ObjectStatus>(bytes).has_value() == (bytes.size() >= 4));
 }
 
 void check_reports(Ars408Bytes bytes) {
-  if (const auto s = decode_ars408_radar_state(bytes)) {
+  if (const auto s = decode_ars408<Ars408RadarState>(bytes)) {
     check(s->max_distance_m >= 0.0 && s->max_distance_m <= 2046.0);
   }
-  if (const auto f = decode_ars408_filter_state(bytes)) {
+  if (const auto f = decode_ars408<Ars408FilterState>(bytes)) {
     check_finite({f->min, f->max});
   }
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 namespace {
@@ -16,9 +17,9 @@ using namespace cremed;
 using fuzz::check;
 
 void check_messages(std::span<const std::uint8_t> bytes) {
-  const auto a = decode_bosch_gpr_target_a(bytes);
-  const auto b = decode_bosch_gpr_target_b(bytes);
-  const auto info = decode_bosch_gpr_info(bytes);
+  const auto a = decode_bosch_gpr<BoschGprTargetA>(bytes);
+  const auto b = decode_bosch_gpr<BoschGprTargetB>(bytes);
+  const auto info = decode_bosch_gpr<BoschGprInfo>(bytes);
   check(a.has_value() == (bytes.size() >= 8));
   check(b.has_value() == a.has_value() && info.has_value() == a.has_value());
   if (!a) {

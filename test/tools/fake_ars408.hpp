@@ -18,7 +18,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "cremed/can_decoders/ars408_messages.hpp"
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/can_decoders/bit_field.hpp"
 #include "daemon/source/can_socket.hpp"
 #include "tools/simulate/ars408_encoder.hpp"
@@ -147,7 +147,7 @@ class FakeArs408s {
 
   /// Sets a filter if its valid bit is set, and always answers with the filter's state.
   void answer(const CanFrame& asked) {
-    const auto filter = decode_ars408_filter_state(std::span(asked.data).first(asked.length));
+    const auto filter = decode_ars408<Ars408FilterState>(std::span(asked.data).first(asked.length));
     const auto index = static_cast<std::size_t>(filter->criterion);
     const bool is_valid = (asked.data[0] & 2U) != 0;
     if (is_valid && manners_.obeys && manners_.filters_taken-- > 0) {

@@ -34,38 +34,43 @@ const std::array<Message, 8>& messages() {
   static const std::array<Message, 8> kAll{{
       {"0x201", 0x201, "201#C0FFFE03F7FE001C",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_radar_state(bytes_of(frame)));
+         return encode_ars408(sensor,
+                              *cremed::decode_ars408<cremed::Ars408RadarState>(bytes_of(frame)));
        }},
       {"0x600", 0x600, "600#FFFFFFFFF0",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_cluster_status(bytes_of(frame)));
+         return encode_ars408(sensor,
+                              *cremed::decode_ars408<cremed::Ars408ClusterStatus>(bytes_of(frame)));
        }},
       {"0x60A", 0x60A, "60A#FFFFFFF0",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_object_status(bytes_of(frame)));
+         return encode_ars408(sensor,
+                              *cremed::decode_ars408<cremed::Ars408ObjectStatus>(bytes_of(frame)));
        }},
       {"0x60B", 0x60B, "60B#FFFFFFFFFFFFE7FF",
        [](std::uint8_t sensor, const CanFrame& frame) {
          return encode_ars408_object(sensor,
-                                     *cremed::decode_ars408_object_general(bytes_of(frame)));
+                                     *cremed::decode_ars408<cremed::Ars408Object>(bytes_of(frame)));
        }},
       {"0x60C", 0x60C, "60C#FFFFFFFFFFE0FC",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_object_quality(bytes_of(frame)));
+         return encode_ars408(sensor,
+                              *cremed::decode_ars408<cremed::Ars408ObjectQuality>(bytes_of(frame)));
        }},
       {"0x700", 0x700, "700#FFFFFF03",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::ars408_signals::decoded<cremed::Ars408Version>(
-                                          cremed::Ars408Message::version, bytes_of(frame)));
+         return encode_ars408(sensor,
+                              *cremed::decode_ars408<cremed::Ars408Version>(bytes_of(frame)));
        }},
       {"0x701", 0x701, "701#FFFFFBFFFFFFE7FF",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408_cluster(sensor,
-                                      *cremed::decode_ars408_cluster_general(bytes_of(frame)));
+         return encode_ars408_cluster(
+             sensor, *cremed::decode_ars408<cremed::Ars408Cluster>(bytes_of(frame)));
        }},
       {"0x702", 0x702, "702#FFFFFFF7FF",
        [](std::uint8_t sensor, const CanFrame& frame) {
-         return encode_ars408(sensor, *cremed::decode_ars408_cluster_quality(bytes_of(frame)));
+         return encode_ars408(
+             sensor, *cremed::decode_ars408<cremed::Ars408ClusterQuality>(bytes_of(frame)));
        }},
   }};
   return kAll;
@@ -121,7 +126,7 @@ TEST_CASE("ARS408 values beyond the frame's range become its limits, others the 
       Row{{.x_m = 10.09, .y_m = 0.01, .vx_mps = -3.13, .vy_mps = 0.12, .rcs_dbm2 = 1.2},
           {.x_m = 10.0, .y_m = 0.1, .vx_mps = -3.25, .vy_mps = 0.0, .rcs_dbm2 = 1.0}});
   const CanFrame frame = encode_ars408_cluster(0, row.target);
-  const auto decoded = cremed::decode_ars408_cluster_general(bytes_of(frame));
+  const auto decoded = cremed::decode_ars408<cremed::Ars408Cluster>(bytes_of(frame));
   REQUIRE(decoded);
   CHECK(decoded->x_m == Approx(row.expected.x_m));
   CHECK(decoded->y_m == Approx(row.expected.y_m));

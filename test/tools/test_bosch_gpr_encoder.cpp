@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "cremed/can_decoders/bosch_gpr.hpp"
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "tools/simulate/bosch_gpr_encoder.hpp"
 
@@ -38,17 +39,17 @@ TEST_CASE("any GPR frame comes out of decoder and encoder as it went in") {
   std::mt19937_64 engine(48);
   for (int i = 0; i < 3000; ++i) {
     const CanFrame a = random_frame(engine, "200#FEFFFFFFFFFFDF00", "200#0100000000002000");
-    const auto target_a = cremed::decode_bosch_gpr_target_a(bytes_of(a));
+    const auto target_a = cremed::decode_bosch_gpr<cremed::BoschGprTargetA>(bytes_of(a));
     REQUIRE(encode_bosch_gpr(kBaseId, *target_a).data == a.data);
     REQUIRE(encode_bosch_gpr(kBaseId, *target_a).id == kBaseId + 2U * target_a->id);
 
     const CanFrame b = random_frame(engine, "201#FEFFFFFFFF07C000", "201#0000000000000000");
-    const auto target_b = cremed::decode_bosch_gpr_target_b(bytes_of(b));
+    const auto target_b = cremed::decode_bosch_gpr<cremed::BoschGprTargetB>(bytes_of(b));
     REQUIRE(encode_bosch_gpr(kBaseId, *target_b).data == b.data);
     REQUIRE(encode_bosch_gpr(kBaseId, *target_b).id == kBaseId + 2U * target_b->id + 1U);
 
     const CanFrame info = random_frame(engine, "100#FFFFFFFFFFFFC300", "100#0000000000000000");
-    const auto state = cremed::decode_bosch_gpr_info(bytes_of(info));
+    const auto state = cremed::decode_bosch_gpr<cremed::BoschGprInfo>(bytes_of(info));
     REQUIRE(cremed::encode_bosch_gpr_info(0x100, *state).data == info.data);
     REQUIRE(cremed::encode_bosch_gpr_info(0x123, *state).id == 0x123);
   }
@@ -96,7 +97,7 @@ TEST_CASE("GPR values beyond the frame's range become its limits, others the nea
   target.range_m = target.radial_velocity_mps = row.value;
   target.azimuth_rad = target.power_dbm2 = row.value;
   const CanFrame frame = encode_bosch_gpr(kBaseId, target);
-  const auto decoded = cremed::decode_bosch_gpr_target_a(bytes_of(frame));
+  const auto decoded = cremed::decode_bosch_gpr<cremed::BoschGprTargetA>(bytes_of(frame));
   CHECK(decoded->range_m == Approx(row.range_m));
   CHECK(decoded->radial_velocity_mps == Approx(row.speed_mps));
   CHECK(decoded->azimuth_rad == Approx(row.azimuth_rad));

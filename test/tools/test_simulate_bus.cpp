@@ -11,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cremed/can_decoders/bosch_gpr_signals.hpp"
 #include "test/can_decoders/hex_frame.hpp"
 #include "test/tools/simulated_drive.hpp"
 #include "tools/simulate/can_bus.hpp"
@@ -209,7 +210,8 @@ TEST_CASE("a GPR frame says how old its measurement is") {
   for (const CanFrame& frame : drive.frames) {
     if (frame.id == 0x200) scan_us = frame.stamp_us;
     if (frame.id < 0x200 || frame.id % 2 == 0) continue;
-    const auto target = cremed::decode_bosch_gpr_target_b(cremed::test::bytes_of(frame));
+    const auto target =
+        cremed::decode_bosch_gpr<cremed::BoschGprTargetB>(cremed::test::bytes_of(frame));
     const auto age_us = static_cast<double>(frame.stamp_us - scan_us);
     REQUIRE(1e6 * target->age_s == Approx(age_us).margin(51.0));
     ++count;

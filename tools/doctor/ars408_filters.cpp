@@ -40,7 +40,7 @@ std::optional<double> parse_number(std::string_view text) {
 
 /// The content of a 0x202 or 0x204.
 std::optional<Ars408FilterState> filter_in(const CanFrame& frame) {
-  return decode_ars408_filter_state(std::span(frame.data).first(frame.length));
+  return decode_ars408<Ars408FilterState>(std::span(frame.data).first(frame.length));
 }
 
 /// Rounds to steps of the frame; limits need no rounding.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cremed/can_decoders/ars408_signals.hpp"
 #include "cremed/can_decoders/bosch_gpr.hpp"
 #include "daemon/process/message_text.hpp"
 
@@ -107,7 +108,7 @@ void note_state(const CanFrame& frame, Ars408States& states) {
     return;
   }
   const std::size_t sensor = ars408_sensor_id(frame.id);
-  const auto state = decode_ars408_radar_state(std::span(frame.data).first(frame.length));
+  const auto state = decode_ars408<Ars408RadarState>(std::span(frame.data).first(frame.length));
   if (!state || state->sensor_id != sensor) {
     return;
   }

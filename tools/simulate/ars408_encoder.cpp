@@ -13,11 +13,10 @@ namespace {
 using namespace ars408_signals;
 
 template <typename Content>
-CanFrame encoded(Ars408Message message, std::uint8_t sensor_id, std::uint8_t length,
-                 Content content) {
+CanFrame encoded(std::uint8_t sensor_id, std::uint8_t length, Content content) {
   PayloadBits bits = PayloadBits::big_endian({});
   signals(SignalWriter(bits), content);
-  return frame(static_cast<std::uint32_t>(message), sensor_id, length, bits);
+  return frame(static_cast<std::uint32_t>(Content::kMessage), sensor_id, length, bits);
 }
 
 }  // namespace
@@ -33,35 +32,35 @@ std::uint8_t ars408_rms_code(double standard_deviation) {
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterStatus& status) {
-  return encoded(Ars408Message::cluster_status, sensor_id, 5, status);
+  return encoded(sensor_id, 5, status);
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ObjectStatus& status) {
-  return encoded(Ars408Message::object_status, sensor_id, 4, status);
+  return encoded(sensor_id, 4, status);
 }
 
 CanFrame encode_ars408_cluster(std::uint8_t sensor_id, const Ars408General& cluster) {
-  return encoded(Ars408Message::cluster_general, sensor_id, 8, Cluster{cluster});
+  return encoded(sensor_id, 8, Ars408Cluster{cluster});
 }
 
 CanFrame encode_ars408_object(std::uint8_t sensor_id, const Ars408General& object) {
-  return encoded(Ars408Message::object_general, sensor_id, 8, Object{object});
+  return encoded(sensor_id, 8, Ars408Object{object});
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ClusterQuality& quality) {
-  return encoded(Ars408Message::cluster_quality, sensor_id, 5, quality);
+  return encoded(sensor_id, 5, quality);
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408ObjectQuality& quality) {
-  return encoded(Ars408Message::object_quality, sensor_id, 7, quality);
+  return encoded(sensor_id, 7, quality);
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408RadarState& state) {
-  return encoded(Ars408Message::radar_state, sensor_id, 8, state);
+  return encoded(sensor_id, 8, state);
 }
 
 CanFrame encode_ars408(std::uint8_t sensor_id, const Ars408Version& version) {
-  return encoded(Ars408Message::version, sensor_id, 4, version);
+  return encoded(sensor_id, 4, version);
 }
 
 }  // namespace cremed

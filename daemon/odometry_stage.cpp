@@ -12,15 +12,12 @@ namespace {
 /// Used in place of the targets of a scan that repeats the previous one: it is no measurement.
 const TargetSet kNoTargets;
 
-std::vector<OdometryRadar> odometry_radars(
-    const Configuration& configuration, const std::vector<std::optional<LearnedErrors>>& learned) {
-  std::vector<OdometryRadar> radars;
+std::vector<Pose2> mounts(const Configuration& configuration) {
+  std::vector<Pose2> mounts;
   for (const RadarConfiguration& radar : configuration.radars) {
-    const std::size_t i = radars.size();
-    radars.push_back(
-        {radar.ego_motion.vehicle_from_radar, i < learned.size() ? learned[i] : std::nullopt});
+    mounts.push_back(radar.ego_motion.vehicle_from_radar);
   }
-  return radars;
+  return mounts;
 }
 
 /// With three degrees of freedom the vehicle may slip sideways: 14 degrees within a second.
@@ -51,7 +48,7 @@ OdometryStage::OdometryStage(const Configuration& configuration,
       is_predicted_(configuration.odometry.filter.rate_hz != 0),
       standstill_mps_(configuration.odometry.filter.standstill_mps) {
   if (configuration.odometry.enabled) {
-    filter_.emplace(odometry_options(configuration), odometry_radars(configuration, learned));
+    filter_.emplace(odometry_options(configuration), mounts(configuration), learned);
   }
 }
 

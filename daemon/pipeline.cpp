@@ -121,7 +121,7 @@ void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
   motion.covariance *= radar.self_check.covariance_factor();
   if (filter != nullptr) {
     filter->compare(radar.index, motion, radar.self_check.is_trusted(),
-                    radar.self_check.is_speed_open());
+                    radar.self_check.is_speed_undecided());
   }
   if (is_contradicted) {
     motion = withdrawn(motion);

@@ -56,7 +56,8 @@ class LoneMount {
   /// before the first start only: later it may as well skid.
   void note_impossible_slip(const Eigen::Vector3d& motion);
 
-  /// The turn that was noted, once; or one without which the vehicle turns or slips as none can.
+  /// Returns, once, the turn of the mount that was detected; or the one without which the vehicle
+  /// would turn or slip as none can.
   std::optional<Turn> take_turn(std::size_t radar);
 
   /// Learns the radar's yaw anew, and takes the slip as unknown.

@@ -25,7 +25,7 @@ void MajorityFollower::note_step(double change_mps, double possible_change_mps) 
 }
 
 bool MajorityFollower::note_jump(double change_mps) {
-  const bool is_back = step_ && takes_back(change_mps, step_->mps);
+  const bool is_back = step_ && reverses(change_mps, step_->mps);
   step_ = is_back ? std::nullopt : std::optional(Step{condition_.used_us(), change_mps});
   return !is_back;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cremed/estimator/fusion/measurement/doppler_measurement.hpp"
 #include "cremed/estimator/fusion/state/radar_set.hpp"
@@ -17,27 +18,11 @@ namespace {
 
 using namespace state_layout;
 
-std::vector<Pose2> mounts(std::span<const OdometryRadar> radars) {
-  std::vector<Pose2> result;
-  for (const OdometryRadar& radar : radars) {
-    result.push_back(radar.vehicle_from_radar);
-  }
-  return result;
-}
-
-std::vector<std::optional<LearnedErrors>> learned_before(std::span<const OdometryRadar> radars) {
-  std::vector<std::optional<LearnedErrors>> result;
-  for (const OdometryRadar& radar : radars) {
-    result.push_back(radar.learned);
-  }
-  return result;
-}
-
 }  // namespace
 
-OdometryFilter::OdometryFilter(const OdometryOptions& options,
-                               std::span<const OdometryRadar> radars)
-    : state_(options, mounts(radars), learned_before(radars)),
+OdometryFilter::OdometryFilter(const OdometryOptions& options, std::vector<Pose2> mounts,
+                               const std::vector<std::optional<LearnedErrors>>& learned)
+    : state_(options, std::move(mounts), learned),
       consensus_(state_),
       faults_(state_),
       condition_(state_, consensus_, faults_),
@@ -48,7 +33,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options,
       positions_(state_, consensus_, faults_, condition_),
       output_(state_),
       vehicle_(state_, output_) {
-  for (std::size_t i = 0; i < radars.size(); ++i) {
+  for (std::size_t i = 0; i < state_.radars(); ++i) {
     tracks_.push_back(std::make_unique<RadarTrack>(state_.options()));
   }
   state_.start();
@@ -125,9 +110,9 @@ std::optional<Odometry> OdometryFilter::predict_next(std::int64_t now_us) {
 }
 
 void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
-                             bool is_speed_open) {
-  faults_.add_motion(radar, motion);
-  faults_.note_speed_open(radar, is_speed_open);
+                             bool is_speed_undecided) {
+  faults_.evidence.add_motion(radar, motion);
+  faults_.note_speed_undecided(radar, is_speed_undecided);
   if (is_trusted && !faults_.is_at_fault(radar)) {
     vehicle_.compare(state_.mount(radar), motion);
   }
@@ -242,7 +227,7 @@ bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
 /// anchor.
 void OdometryFilter::allow_for_scale(double scale) {
-  for_each(faults_.judged(), [&](std::size_t i) { state_.widen_scale(i, scale); });
+  for_each(faults_.evidence.judged(), [&](std::size_t i) { state_.widen_scale(i, scale); });
   const double speed_mps = scale * state_.gaussian.mean(kSpeed);
   const double way_m = speed_mps * output_.anchor_age_s();
   state_.gaussian.add_variance(kSpeed, squared(speed_mps));
@@ -318,7 +303,7 @@ RadarSet OdometryFilter::left_out() const {
     return lone_mount_.is_left_out(i) || is_sideways(i);
   });
   return turned | consensus_.at_fault() |
-         (faults_.is_unknown() ? faults_.judged() : faults_.at_fault());
+         (faults_.is_unknown() ? faults_.evidence.judged() : faults_.at_fault());
 }
 
 // Doppler.
@@ -345,7 +330,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (seen == Seen::road) {
     faults_.add_velocity(radar, stamp_us, scan->velocity);
-    if (const auto jump = faults_.take_lone_jump()) {
+    if (const auto jump = faults_.evidence.take_lone_jump()) {
       reject_jump(radar, *jump);
     }
   }

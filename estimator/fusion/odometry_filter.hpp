@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,12 +29,6 @@
 #include "cremed/estimator/scan/target_set.hpp"
 
 namespace cremed {
-
-/// One radar of the vehicle.
-struct OdometryRadar {
-  Pose2 vehicle_from_radar;
-  std::optional<LearnedErrors> learned = std::nullopt;  ///< In a previous drive.
-};
 
 /// Extended Kalman filter of the vehicle's state from the scans of all its radars.
 ///
@@ -62,7 +55,9 @@ struct OdometryRadar {
 /// Work is bounded, and nothing allocates after construction.
 class OdometryFilter {
  public:
-  OdometryFilter(const OdometryOptions& options, std::span<const OdometryRadar> radars);
+  /// `mounts`: vehicle from radar. `learned`: in a previous drive, by radar; may be shorter.
+  OdometryFilter(const OdometryOptions& options, std::vector<Pose2> mounts,
+                 const std::vector<std::optional<LearnedErrors>>& learned = {});
   OdometryFilter(const OdometryFilter&) = delete;
   OdometryFilter& operator=(const OdometryFilter&) = delete;
 
@@ -79,9 +74,9 @@ class OdometryFilter {
 
   /// A radar's own motion, which is compared with other radars and with the signals of the
   /// vehicle's bus. To be called before update() with its scan.
-  /// `is_speed_open`: its own check has not decided about its speed yet.
+  /// `is_speed_undecided`: its own check has not decided about its speed yet.
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
-               bool is_speed_open = false);
+               bool is_speed_undecided = false);
 
   /// Notes that a radar's own check finds its speed wrong. True if that is chance: two others have
   /// the same speed.

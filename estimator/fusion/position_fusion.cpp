@@ -66,7 +66,7 @@ std::optional<PositionFusion::YawRate> PositionFusion::use(std::size_t radar,
   counters_[radar].moving += targets.size() - static_targets_.size();
   const bool are_few = static_targets_.size() < kTellingTargets;
   if (are_few) {
-    faults_.add_too_few_targets(radar, stamp_us);
+    faults_.evidence.add_too_few_targets(radar, stamp_us);
   }
   if ((are_few && looks_across(state_.mount(radar))) ||
       static_targets_.size() < static_cast<std::size_t>(state_.options().min_targets)) {
@@ -149,7 +149,7 @@ double PositionFusion::since_s(const MapMatch& match, int number) const {
 void PositionFusion::compare_speed(std::size_t radar, const MapMatch& match) {
   const double way_since_s = since_s(match, 0);
   if (!condition_.is_speed_unknown() && way_since_s > 0.0) {
-    faults_.add_speed_by_positions(
+    faults_.evidence.add_speed_by_positions(
         radar, state_.time_us(),
         state_.radar_velocity(radar).x() + match.correction.x() / (match.x_share * way_since_s),
         way_since_s, match.covariance(0, 0) / squared(match.x_share));

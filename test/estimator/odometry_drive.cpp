@@ -16,13 +16,10 @@ OdometryDrive::OdometryDrive(const std::vector<Pose2>& mounts, std::uint64_t see
                              const OdometryOptions& options,
                              const std::vector<std::optional<LearnedErrors>>& learned)
     : random_(seed) {
-  std::vector<OdometryRadar> radars;
   for (const Pose2& mount : mounts) {
     radars_.push_back({mount, mount});
-    const std::size_t i = radars.size();
-    radars.push_back({mount, i < learned.size() ? learned[i] : std::nullopt});
   }
-  filter_ = std::make_unique<OdometryFilter>(options, radars);
+  filter_ = std::make_unique<OdometryFilter>(options, mounts, learned);
   points_ = scatter(random_, 2500, 3.0, 250.0, numeric::radians(180.0), 0.5);
 }
 

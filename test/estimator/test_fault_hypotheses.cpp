@@ -125,15 +125,16 @@ class Comparison {
     motion.covariance.setZero();
     motion.covariance(2, 2) = std::pow(0.075 * 0.01, 2);
     motion.by_positions = {0.075 * measured.yaw_rate_radps, motion.covariance(2, 2)};
-    faults_.add_motion(radar, motion);
+    faults_.evidence.add_motion(radar, motion);
     DopplerVelocity velocity;
     velocity.velocity_mps = measured.velocity_mps;
     velocity.covariance = Eigen::Vector2d(0.001, 0.01).asDiagonal();
     faults_.add_velocity(radar, stamp_us, velocity);
     if (has_positions) {
-      faults_.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0, 0.0);
+      faults_.evidence.add_speed_by_positions(radar, stamp_us, measured.speed_by_positions_mps, 1.0,
+                                              0.0);
     } else {
-      faults_.add_too_few_targets(radar, stamp_us);
+      faults_.evidence.add_too_few_targets(radar, stamp_us);
     }
   }
 
@@ -512,7 +513,7 @@ TEST_CASE(
   CHECK(comparison.faults().at_fault() == 0U);
   CHECK(comparison.faults().is_unknown());
   CHECK_FALSE(comparison.faults().is_verified());
-  for_each(comparison.faults().judged(), [&](std::size_t i) {
+  for_each(comparison.faults().evidence.judged(), [&](std::size_t i) {
     CHECK(comparison.faults().cause(i).kind == FaultKind::mount_yaw);
     CHECK(comparison.faults().cause(i).value == Approx(yaw_rad).margin(0.015));
   });

@@ -59,8 +59,7 @@ class Stage {
   explicit Stage(std::uint64_t seed) : random_(seed) {
     options_.vehicle_from_radar = kFront;
     estimator_ = std::make_unique<EgoMotionEstimator>(options_);
-    const OdometryRadar radar{kFront};
-    filter_ = std::make_unique<OdometryFilter>(OdometryOptions(), std::span(&radar, 1));
+    filter_ = std::make_unique<OdometryFilter>(OdometryOptions(), std::vector{kFront});
   }
 
   Random& random() { return random_; }

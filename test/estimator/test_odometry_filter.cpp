@@ -842,8 +842,7 @@ TEST_CASE("late scans are used") {
   OdometryOptions options;
   OdometryDrive drive({kFront}, 10, options);
   drive.set_motion(9.0, 0.3);
-  const std::vector<OdometryRadar> radars{{kFront}, {kRearLeft}};
-  OdometryFilter filter(options, radars);
+  OdometryFilter filter(options, {kFront, kRearLeft});
   OdometryDrive rear({kRearLeft}, 10, options);
   rear.set_motion(9.0, 0.3);
   rear.pass(OdometryDrive::kPeriodUs - 50000);

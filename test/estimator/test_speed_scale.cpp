@@ -223,7 +223,8 @@ TEST_CASE("the noise of y and yaw by positions does not change the scale of spee
 /// off, the fewer of them the farther away.
 class HedgeDrive {
  public:
-  explicit HedgeDrive(std::uint64_t seed) : random_(seed), filter_(OdometryOptions(), radars()) {
+  explicit HedgeDrive(std::uint64_t seed)
+      : random_(seed), filter_(OdometryOptions(), {kMounts[0], kMounts[1]}) {
     for (double x_m = -100.0; x_m < 2000.0; x_m += simulation::uniform(random_, 0.0, 0.67)) {
       const double side = points_.size() % 2 == 0 ? 1.0 : -1.0;
       points_.emplace_back(x_m, side * simulation::uniform(random_, 4.5, 6.0));
@@ -241,10 +242,6 @@ class HedgeDrive {
 
  private:
   static constexpr std::array kMounts{simulation::kFront, simulation::kRearLeft};
-
-  static std::vector<OdometryRadar> radars() {
-    return {{kMounts[0], std::nullopt}, {kMounts[1], std::nullopt}};
-  }
 
   TargetSet see(const Pose2& mount) {
     std::normal_distribution<double> normal;

@@ -44,7 +44,7 @@ class SelfCheck {
     return speed_.is_contradicted() || scale_.is_wrong();
   }
   /// Whether positions contradict it is not known yet.
-  [[nodiscard]] bool is_speed_open() const { return scale_.is_open(); }
+  [[nodiscard]] bool is_speed_undecided() const { return scale_.is_open(); }
   /// Discards this finding: other radars confirm the speed by Doppler.
   void acquit_speed();
 
@@ -64,8 +64,8 @@ class SelfCheck {
 
   /// Factor on the covariance of the motions of a radar that looks sideways: the larger of
   /// doppler() and next(), at least 1. Such a radar registers reflections on passed objects, which
-  /// move along with the vehicle: its ANEES is 2 to 30 on nuScenes, half of that in a tenth of its
-  /// motions. 1 for other radars, which are doubted instead.
+  /// move along with the vehicle: its ANEES is 2 to 30 on nuScenes, half of it due to a tenth of
+  /// its motions. 1 for other radars, which are doubted instead.
   [[nodiscard]] double covariance_factor() const;
 
   /// Doubts by this radar's own estimates.

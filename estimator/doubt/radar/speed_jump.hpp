@@ -13,7 +13,7 @@
 namespace cremed {
 
 /// Whether a change of the speed undoes half of an earlier one or more.
-inline bool takes_back(double change_mps, double earlier_mps) {
+inline bool reverses(double change_mps, double earlier_mps) {
   return change_mps * earlier_mps < -0.5 * earlier_mps * earlier_mps;
 }
 

@@ -77,8 +77,8 @@ bool is_grave(const FaultCause& cause) {
 }  // namespace
 
 FaultHypotheses::FaultHypotheses(const OdometryState& state)
-    : state_(state),
-      evidence_(state),
+    : evidence(state),
+      state_(state),
       convictions_(state.radars()),
       speed_doubted_us_(state.radars()) {
   for (std::size_t i = 0; i < state.radars(); ++i) {
@@ -89,12 +89,12 @@ FaultHypotheses::FaultHypotheses(const OdometryState& state)
 FaultCause FaultHypotheses::cause(std::size_t radar) const {
   const FaultCause own = is_at_fault(radar) ? causes_[radar].cause(at_fault()) : FaultCause();
   const bool is_common = own.kind == FaultKind::unknown && common_turn_rad_ && is_unknown() &&
-                         contains(judged(), radar);
+                         contains(evidence.judged(), radar);
   return is_common ? FaultCause{FaultKind::mount_yaw, *common_turn_rad_} : own;
 }
 
 void FaultHypotheses::clear() {
-  evidence_.clear();
+  evidence.clear();
   convictions_.leave_clock();
   for (FaultCauseSearch& cause : causes_) {
     cause.forget();
@@ -108,7 +108,7 @@ void FaultHypotheses::clear() {
 
 bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us) {
   speed_doubted_us_[radar] = time_us;
-  const RadarSet present = evidence_.epochs() == 0 ? 0U : evidence_.present();
+  const RadarSet present = evidence.epochs() == 0 ? 0U : evidence.present();
   const RadarSet others = filter(present & ~at_fault(), [&](std::size_t i) {
     const auto& doubted_us = speed_doubted_us_[i];
     return !doubted_us || seconds_between(*doubted_us, time_us) >= kSharedFoundS;
@@ -116,19 +116,19 @@ bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_u
   if (std::popcount(others) < 2) {
     return false;
   }
-  const auto shared = evidence_.speed_difference(radar, others);
+  const auto shared = evidence.speed_difference(radar, others);
   return std::abs(shared.difference_mps) + 2.0 * shared.std_mps <
          kMaxShareShared * std::abs(shared.speed_mps);
 }
 
 void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
   begin_search(radar);
-  evidence_.add_accusation(radar, time_us);
-  convictions_.accuse(radar, state_.heard(time_us) & judged(), time_us);
+  evidence.add_accusation(radar, time_us);
+  convictions_.accuse(radar, state_.heard(time_us) & evidence.judged(), time_us);
 }
 
 void FaultHypotheses::pause() {
-  evidence_.forget_epochs();
+  evidence.forget_epochs();
   forget_skid();
   common_turn_rad_.reset();
   unknown_epochs_ = 0;
@@ -138,16 +138,16 @@ void FaultHypotheses::pause() {
 
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
                                    const DopplerVelocity& velocity) {
-  const bool is_due = evidence_.add_velocity(radar, stamp_us, velocity);
+  const bool is_due = evidence.add_velocity(radar, stamp_us, velocity);
   is_skidding_ = is_due ? is_skid() : is_skidding_;
   if (is_skidding_) {
-    evidence_.forget_jumps();
+    evidence.forget_jumps();
     unknown_epochs_ = 0;
     return;
   }
   // Their speed jumped, and that of other radars did not: it was not the vehicle.
-  convict(evidence_.take_jumped() & ~at_fault(), stamp_us);
-  if (is_due && evidence_.epochs() >= (was_paused_ ? MotionEvidence::kEpochs : kMinEpochs)) {
+  convict(evidence.take_jumped() & ~at_fault(), stamp_us);
+  if (is_due && evidence.epochs() >= (was_paused_ ? MotionEvidence::kEpochs : kMinEpochs)) {
     was_paused_ = false;
     judge();
   }
@@ -157,26 +157,26 @@ void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
 /// they agree on the slip. To be called with each epoch.
 bool FaultHypotheses::is_skid() {
   const bool seems_so = state_.skid_variance() > 0.0;
-  const RadarSet present = evidence_.present();
+  const RadarSet present = evidence.present();
   if (!slip_changed_us_ && (!seems_so || is_unknown())) {
     return false;
   }
   if (slip_changed_us_ && std::popcount(present) < 2) {
     return is_skidding_;  // One radar tells nothing new.
   }
-  const double decrease = evidence_.decrease_by_slip(present);
+  const double decrease = evidence.decrease_by_slip(present);
   if (!seems_so && decrease <= kDecreaseByUsualSlip) {
     pause();
     return false;
   }
-  const auto slip = evidence_.slip(present);
-  const bool is_steady = evidence_.epochs() == MotionEvidence::kEpochs &&
+  const auto slip = evidence.slip(present);
+  const bool is_steady = evidence.epochs() == MotionEvidence::kEpochs &&
                          slip.largest_rad - slip.least_rad < kMaxChangeOfSlipRad;
   if (!slip_changed_us_ || (!is_steady && !is_unknown())) {
-    slip_changed_us_ = evidence_.time_us();
+    slip_changed_us_ = evidence.time_us();
   }
-  return seconds_between(*slip_changed_us_, evidence_.time_us()) < kMaxSteadyS &&
-         (decrease > kDecreaseOfSkid || agree_on_slip(evidence_, present));
+  return seconds_between(*slip_changed_us_, evidence.time_us()) < kMaxSteadyS &&
+         (decrease > kDecreaseOfSkid || agree_on_slip(evidence, present));
 }
 
 void FaultHypotheses::forget_skid() {
@@ -192,15 +192,15 @@ void FaultHypotheses::convict(RadarSet set, std::int64_t time_us) {
 }
 
 std::optional<Eigen::Vector3d> FaultHypotheses::take_correction() {
-  if (evidence_.epochs() == 0 || !convictions_.take_new()) {
+  if (evidence.epochs() == 0 || !convictions_.take_new()) {
     return std::nullopt;
   }
-  const RadarSet believed = evidence_.present() & ~at_fault();
-  return believed == 0 ? std::nullopt : std::optional(evidence_.sum(believed).solution());
+  const RadarSet believed = evidence.present() & ~at_fault();
+  return believed == 0 ? std::nullopt : std::optional(evidence.sum(believed).solution());
 }
 
 bool FaultHypotheses::take_step_back() {
-  const bool has_stepped_back = evidence_.take_step_back();
+  const bool has_stepped_back = evidence.take_step_back();
   if (has_stepped_back) {
     convictions_.acquit(convictions_.accused());
     unknown_epochs_ = 0;
@@ -210,7 +210,7 @@ bool FaultHypotheses::take_step_back() {
 
 void FaultHypotheses::require_positions(std::optional<double> step_mps) {
   if (step_mps) {
-    evidence_.set_after_step(step_mps);
+    evidence.set_after_step(step_mps);
   }
   needs_positions_ = true;
   is_verified_ = false;
@@ -219,22 +219,22 @@ void FaultHypotheses::require_positions(std::optional<double> step_mps) {
 
 void FaultHypotheses::judge() {
   acquit_misjudged();
-  const ConsistentSet best = find_consistent_set(evidence_, at_fault(), slip_rule());
+  const ConsistentSet best = find_consistent_set(evidence, at_fault(), slip_rule());
   // Radars are not exchanged while driving.
-  is_start_open_ = best.is_exchange_possible && !is_verified_;
-  if (is_start_open_) {
+  is_exchange_open_ = best.is_exchange_possible && !is_verified_;
+  if (is_exchange_open_) {
     return;
   }
-  const bool is_known = judged() == 0 || (best.radars != 0 && best.rivals == 0);
+  const bool is_known = evidence.judged() == 0 || (best.radars != 0 && best.rivals == 0);
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
   common_turn_rad_.reset();
   if (best.agrees_on_slip && unknown_epochs_ >= MotionEvidence::kEpochs) {
-    const double turn_rad = -evidence_.slip(evidence_.present()).mean_rad;
+    const double turn_rad = -evidence.slip(evidence.present()).mean_rad;
     common_turn_rad_ =
         std::abs(turn_rad) > kMinNamedTurnRad ? std::optional(turn_rad) : std::nullopt;
   }
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
-    for_each(evidence_.present(), [&](std::size_t i) { begin_search(i); });
+    for_each(evidence.present(), [&](std::size_t i) { begin_search(i); });
     allow_for_scale();
     return;
   }
@@ -245,18 +245,18 @@ void FaultHypotheses::judge() {
   if (is_known) {
     convict_by_cause(search_causes(best.radars & ~at_fault()));
     convict_late_others();
-  } else if (std::popcount(evidence_.present()) == 2 && at_fault() == 0) {
-    convict_by_cause(search_causes(evidence_.present()));
+  } else if (std::popcount(evidence.present()) == 2 && at_fault() == 0) {
+    convict_by_cause(search_causes(evidence.present()));
   }
 }
 
 /// Acquits radars that their own positions confirm if all others are wrong by their own checks: the
 /// verdict of those others is wrong as well, however many they were.
 void FaultHypotheses::acquit_misjudged() {
-  const RadarSet misjudged = evidence_.present() & at_fault() & ~convictions_.accused();
-  const RadarSet others = evidence_.present() & ~misjudged;
+  const RadarSet misjudged = evidence.present() & at_fault() & ~convictions_.accused();
+  const RadarSet others = evidence.present() & ~misjudged;
   if (misjudged != 0 && others != 0 && (others & ~convictions_.accused()) == 0 &&
-      is_consistent(evidence_, misjudged, 0U)) {
+      is_consistent(evidence, misjudged, 0U)) {
     reverse(misjudged);
   }
 }
@@ -267,31 +267,31 @@ void FaultHypotheses::reverse(RadarSet misjudged) {
 }
 
 void FaultHypotheses::verify(const ConsistentSet& best, bool is_known) {
-  const bool is_heard = judged() == 0 || evidence_.present() != 0;
-  const bool is_supported = is_known && is_heard && evidence_.is_supported(best.radars) &&
+  const bool is_heard = evidence.judged() == 0 || evidence.present() != 0;
+  const bool is_supported = is_known && is_heard && evidence.is_supported(best.radars) &&
                             !(needs_positions_ && is_refuted(best.radars)) &&
-                            !is_speed_open(best.radars) &&
-                            !(evidence_.is_after_step(best.radars) && is_at_rest(best.radars));
+                            !is_speed_undecided(best.radars) &&
+                            !(evidence.is_after_step(best.radars) && is_at_rest(best.radars));
   supported_epochs_ = is_supported ? supported_epochs_ + 1 : 0;
   is_verified_ = (is_verified_ || supported_epochs_ >= kMinEpochs) && !is_unknown();
   if (is_verified_) {
-    evidence_.set_after_step(std::nullopt);
+    evidence.set_after_step(std::nullopt);
   }
 }
 
 /// The own check of the only radar that is heard does not know yet whether its speed is right.
-bool FaultHypotheses::is_speed_open(RadarSet set) const {
-  const RadarSet present = set & evidence_.present();
-  return std::has_single_bit(present) && (present & ~speed_open_) == 0;
+bool FaultHypotheses::is_speed_undecided(RadarSet set) const {
+  const RadarSet present = set & evidence.present();
+  return std::has_single_bit(present) && (present & ~speed_undecided_) == 0;
 }
 
 bool FaultHypotheses::is_at_rest(RadarSet set) const {
-  return std::abs(evidence_.sum(set).solution().x()) < state_.options().standstill_mps;
+  return std::abs(evidence.sum(set).solution().x()) < state_.options().standstill_mps;
 }
 
 /// `believed`: 0 if it is not known which are right.
 void FaultHypotheses::convict_others(RadarSet believed) {
-  const RadarSet present = evidence_.present();
+  const RadarSet present = evidence.present();
   const RadarSet misjudged = at_fault() & ~convictions_.accused();
   // If radars that are now found wrong convicted all the believed ones, that verdict is reversed.
   if (believed != 0 && (present & ~at_fault() & ~believed) != 0 &&
@@ -299,18 +299,18 @@ void FaultHypotheses::convict_others(RadarSet believed) {
     reverse(believed);
   }
   // Radars that are all at fault may agree because they have the same fault: they convict none.
-  const RadarSet others = (believed & ~at_fault()) != 0 ? judged() & ~believed : 0U;
-  convict(others, evidence_.time_us());
-  convictions_.release(evidence_.time_us());
+  const RadarSet others = (believed & ~at_fault()) != 0 ? evidence.judged() & ~believed : 0U;
+  convict(others, evidence.time_us());
+  convictions_.release(evidence.time_us());
 }
 
 /// Whether a radar that is wrong by itself agrees with the Doppler of the set: the set then has the
 /// same fault.
 bool FaultHypotheses::is_refuted(RadarSet set) const {
-  const MotionSums joint = evidence_.sum(set);
-  return any_of(evidence_.present(), [&](std::size_t radar) {
+  const MotionSums joint = evidence.sum(set);
+  return any_of(evidence.present(), [&](std::size_t radar) {
     MotionSums with = joint;
-    with.add(contains(set, radar) ? MotionSums() : evidence_.by_doppler(radar));
+    with.add(contains(set, radar) ? MotionSums() : evidence.by_doppler(radar));
     return is_wrong_by_itself(radar) && with.chi_square() - joint.chi_square() <= kMaxDecrease;
   });
 }
@@ -320,25 +320,25 @@ bool FaultHypotheses::is_refuted(RadarSet set) const {
 /// later.
 bool FaultHypotheses::is_wrong_by_itself(std::size_t radar) const {
   const bool is_accused_at_rest =
-      evidence_.is_accused(radar) &&
-      evidence_.velocity(radar)->mps.norm() < state_.options().standstill_mps;
-  return is_accused_at_rest || !is_consistent(evidence_, set_of(radar), at_fault());
+      evidence.is_accused(radar) &&
+      evidence.velocity(radar)->mps.norm() < state_.options().standstill_mps;
+  return is_accused_at_rest || !is_consistent(evidence, set_of(radar), at_fault());
 }
 
 /// If the only two radars differ by a few percent of the speed, they are used with each scale as
 /// uncertain as that, and judged anew.
 void FaultHypotheses::allow_for_scale() {
-  const RadarSet present = evidence_.present();
-  if (evidence_.disputed_scale() > 0.0 || std::popcount(present) != 2 ||
+  const RadarSet present = evidence.present();
+  if (evidence.disputed_scale() > 0.0 || std::popcount(present) != 2 ||
       (present & at_fault()) != 0) {
     return;
   }
   const RadarSet one = present & ~(present - 1U);
-  const double a_mps = evidence_.sum(one).solution().x();
-  const double b_mps = evidence_.sum(present & ~one).solution().x();
+  const double a_mps = evidence.sum(one).solution().x();
+  const double b_mps = evidence.sum(present & ~one).solution().x();
   const double scale = std::abs(2.0 * (a_mps - b_mps) / (a_mps + b_mps));
   if (scale <= kMaxDisputedScale) {
-    evidence_.allow_for_scale(scale);
+    evidence.allow_for_scale(scale);
     is_newly_disputed_ = true;
     unknown_epochs_ = 0;
   }
@@ -352,7 +352,7 @@ void FaultHypotheses::begin_search(std::size_t radar) {
     return;
   }
   const bool is_shown =
-      contains(judged(), radar) &&
+      contains(evidence.judged(), radar) &&
       std::max(causes_[radar].find().gain, causes_[radar].find_others_late().gain) >= kMinGain;
   if (!is_shown) {
     causes_[radar].clear();
@@ -363,19 +363,19 @@ void FaultHypotheses::begin_search(std::size_t radar) {
 /// compared: nothing new is known of the rest.
 RadarSet FaultHypotheses::search_causes(RadarSet believed) {
   RadarSet compared = 0;
-  believed &= evidence_.present();
-  if (std::popcount(evidence_.present()) > 2 &&
-      evidence_.sum(believed).chi_square() > kMaxChiSquareOfEpoch) {
+  believed &= evidence.present();
+  if (std::popcount(evidence.present()) > 2 &&
+      evidence.sum(believed).chi_square() > kMaxChiSquareOfEpoch) {
     return compared;
   }
   for (std::size_t i = 0; i < causes_.size(); ++i) {
     const RadarSet others = believed & ~set_of(i);
     if (others != 0) {
-      const MotionSums by_others = evidence_.sum(others);
-      causes_[i].add_motion(evidence_.time_us(), by_others.solution(),
+      const MotionSums by_others = evidence.sum(others);
+      causes_[i].add_motion(evidence.time_us(), by_others.solution(),
                             by_others.random_covariance());
-      if (evidence_.velocity(i)) {
-        causes_[i].add_velocity(evidence_.velocity(i)->mps, evidence_.velocity(i)->covariance);
+      if (evidence.velocity(i)) {
+        causes_[i].add_velocity(evidence.velocity(i)->mps, evidence.velocity(i)->covariance);
         compared |= set_of(i);
       }
     }
@@ -391,7 +391,7 @@ void FaultHypotheses::note_finding_of_two(std::size_t radar,
                                           const FaultCauseSearch::Finding& finding) {
   const FaultCause& cause = finding.cause;
   const double yaw_rad = state_.mount(radar).yaw_rad;
-  const bool is_in_line = any_of(evidence_.present() & ~set_of(radar), [&](std::size_t other) {
+  const bool is_in_line = any_of(evidence.present() & ~set_of(radar), [&](std::size_t other) {
     return std::abs(std::sin(yaw_rad - state_.mount(other).yaw_rad)) < kMinBetweenAxesRad;
   });
   const bool is_decisive =
@@ -406,10 +406,10 @@ void FaultHypotheses::note_finding_of_two(std::size_t radar,
 /// Two of three radars that are late alike convict the third when the vehicle brakes. Against them
 /// it seems to be early, which no radar is.
 void FaultHypotheses::convict_late_others() {
-  if (std::popcount(evidence_.present()) < 3) {
+  if (std::popcount(evidence.present()) < 3) {
     return;
   }
-  const RadarSet convicted = evidence_.present() & at_fault() & ~convictions_.accused();
+  const RadarSet convicted = evidence.present() & at_fault() & ~convictions_.accused();
   const RadarSet early = filter(convicted, [&](std::size_t i) {
     const FaultCauseSearch::Finding found = causes_[i].find_others_late();
     return found.is_clear && found.gain > kMinGain;
@@ -417,7 +417,7 @@ void FaultHypotheses::convict_late_others() {
   if (early == 0) {
     return;
   }
-  convict(evidence_.present() & ~at_fault(), evidence_.time_us());
+  convict(evidence.present() & ~at_fault(), evidence.time_us());
   for_each(early, [&](std::size_t i) { causes_[i].clear(); });
   reverse(early);
 }
@@ -428,11 +428,11 @@ void FaultHypotheses::convict_by_cause(RadarSet compared) {
   std::size_t guilty = 0;
   FaultCauseSearch::Finding best;
   double next = 0.5 * kMinGain;
-  for_each(judged() & compared, [&](std::size_t i) {
+  for_each(evidence.judged() & compared, [&](std::size_t i) {
     const FaultCauseSearch::Finding found = causes_[i].find();
     if (is_at_fault(i)) {
       if (found.gain > kMinGain && is_grave(found.cause)) {
-        convictions_.convict(i, evidence_.time_us());
+        convictions_.convict(i, evidence.time_us());
       }
     } else if (found.gain > best.gain) {
       next = std::max(next, best.gain);
@@ -445,15 +445,15 @@ void FaultHypotheses::convict_by_cause(RadarSet compared) {
   const bool is_found = best.gain > 2.0 * next && is_grave(best.cause);
   note_finding_of_two(guilty, is_found ? best : FaultCauseSearch::Finding());
   if (is_found &&
-      (std::popcount(evidence_.present() & ~at_fault()) > 2 || of_two_.epochs >= kEpochsOfTwo)) {
-    convictions_.convict(guilty, evidence_.time_us());
+      (std::popcount(evidence.present() & ~at_fault()) > 2 || of_two_.epochs >= kEpochsOfTwo)) {
+    convictions_.convict(guilty, evidence.time_us());
   }
-  const RadarSet aside = evidence_.witnesses();
+  const RadarSet aside = evidence.witnesses();
   for_each(aside, [&](std::size_t i) {
     if (any_of(aside, [&](std::size_t other) {
           return causes_[i].gain_at(other) > kMinGain && causes_[other].gain_at(i) > kMinGain;
         })) {
-      convictions_.convict(i, evidence_.time_us());
+      convictions_.convict(i, evidence.time_us());
     }
   });
 }

@@ -43,20 +43,6 @@ class FaultHypotheses {
   /// Notes that a radar's own check finds its speed wrong (SelfCheck). True if that is chance: at
   /// least two others have the same speed, and their own checks found nothing wrong for 5 s.
   bool refutes_speed_doubt(std::size_t radar, std::int64_t time_us);
-  /// Speed along x of the radar by its positions, over the last `since_s`. `variance_m2`: of the
-  /// way, by the noise of the targets.
-  void add_speed_by_positions(std::size_t radar, std::int64_t stamp_us, double speed_mps,
-                              double since_s, double variance_m2) {
-    evidence_.add_speed_by_positions(radar, stamp_us, speed_mps, since_s, variance_m2);
-  }
-  /// A scan has too few fixed targets to tell the speed.
-  void add_too_few_targets(std::size_t radar, std::int64_t stamp_us) {
-    evidence_.add_too_few_targets(radar, stamp_us);
-  }
-  /// A motion by one radar alone, for its yaw rate.
-  void add_motion(std::size_t radar, const EgoMotion& motion) {
-    evidence_.add_motion(radar, motion);
-  }
   /// What was measured until now is not compared any more: a skid has ended, or a mount was learned
   /// anew.
   void pause();
@@ -64,7 +50,7 @@ class FaultHypotheses {
   void forget_skid();
   /// MotionEvidence::motion_with_impossible_slip() if it is not known which radars are wrong.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const {
-    return is_unknown() ? evidence_.motion_with_impossible_slip() : std::nullopt;
+    return is_unknown() ? evidence.motion_with_impossible_slip() : std::nullopt;
   }
   /// The velocity of a scan by Doppler; judges the radars if that completes an epoch.
   void add_velocity(std::size_t radar, std::int64_t stamp_us, const DopplerVelocity& velocity);
@@ -74,15 +60,14 @@ class FaultHypotheses {
   /// The error that explains a radar at fault, or the one of all judged radars: their mounts are
   /// turned alike.
   [[nodiscard]] FaultCause cause(std::size_t radar) const;
-  [[nodiscard]] RadarSet judged() const { return evidence_.judged(); }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
   /// The radars in use were compared and are consistent, a single one with its positions, if it has
   /// targets for that.
   [[nodiscard]] bool is_verified() const {
-    return is_verified_ || (!needs_positions_ && !is_start_open_ && unknown_epochs_ == 0 &&
-                            evidence_.epochs() >= kMinEpochs &&
-                            (judged() == 0 || std::popcount(evidence_.present()) > 1));
+    return is_verified_ || (!needs_positions_ && !is_exchange_open_ && unknown_epochs_ == 0 &&
+                            evidence.epochs() >= kMinEpochs &&
+                            (evidence.judged() == 0 || std::popcount(evidence.present()) > 1));
   }
   /// The odometry was lost at least once: see require_positions().
   [[nodiscard]] bool needs_positions() const { return needs_positions_; }
@@ -95,23 +80,25 @@ class FaultHypotheses {
   /// (v, w, slip) by the believed radars, if a radar was found at fault since the last call: the
   /// state, which used it, may be wrong.
   std::optional<Eigen::Vector3d> take_correction();
-  /// Returned once if two radars, each confirmed by its own positions, differ by this share of the
-  /// speed: the Doppler scale of either may be wrong by it.
+  /// If two radars that are each confirmed by their own positions disagree about the speed: the
+  /// relative difference, by which either scale may be wrong. Returned once.
   std::optional<double> take_scale_in_dispute() {
-    return std::exchange(is_newly_disputed_, false) ? std::optional(evidence_.disputed_scale())
+    return std::exchange(is_newly_disputed_, false) ? std::optional(evidence.disputed_scale())
                                                     : std::nullopt;
   }
-  /// A jump of the speed by the only judged radar that is heard; returned once.
-  std::optional<SpeedJump::Jump> take_lone_jump() { return evidence_.take_lone_jump(); }
   /// Whether a radar's own check (SelfCheck) has not decided about its speed yet.
-  void note_speed_open(std::size_t radar, bool is_open) {
-    speed_open_ = (speed_open_ & ~set_of(radar)) | (is_open ? set_of(radar) : 0U);
+  void note_speed_undecided(std::size_t radar, bool is_undecided) {
+    speed_undecided_ = (speed_undecided_ & ~set_of(radar)) | (is_undecided ? set_of(radar) : 0U);
   }
   /// To be called if the filter was lost: all radars may be wrong alike, and are believed again
   /// only if their positions confirm them. `step_mps`: change of the speed of all radars, or of the
   /// only one ahead, if it stepped (MajorityFollower). Until they step back, scans at rest do not
   /// count as confirmation: targets that do not move always fit the map.
   void require_positions(std::optional<double> step_mps);
+
+  /// What the radars are compared by. Velocities go through add_velocity(), accusations through
+  /// accuse(); yaw rates and speeds by positions are added directly.
+  MotionEvidence evidence;
 
  private:
   /// So that one scan decides nothing.
@@ -121,7 +108,7 @@ class FaultHypotheses {
   /// A verdict stands: those found at fault do not make the others agree with them.
   [[nodiscard]] SlipRule slip_rule() const {
     return {is_unknown() ? kDecreaseByUsualSlip : kDecreaseByImpossibleSlip,
-            is_unknown() || (at_fault() & evidence_.present()) == 0};
+            is_unknown() || (at_fault() & evidence.present()) == 0};
   }
   void convict(RadarSet set, std::int64_t time_us);
   void judge();
@@ -131,7 +118,7 @@ class FaultHypotheses {
   void convict_others(RadarSet believed);
   [[nodiscard]] bool is_refuted(RadarSet set) const;
   [[nodiscard]] bool is_wrong_by_itself(std::size_t radar) const;
-  [[nodiscard]] bool is_speed_open(RadarSet set) const;
+  [[nodiscard]] bool is_speed_undecided(RadarSet set) const;
   [[nodiscard]] bool is_at_rest(RadarSet set) const;
   void allow_for_scale();
   void begin_search(std::size_t radar);
@@ -141,11 +128,10 @@ class FaultHypotheses {
   void note_finding_of_two(std::size_t radar, const FaultCauseSearch::Finding& finding);
 
   const OdometryState& state_;
-  MotionEvidence evidence_;
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
   std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By own checks, by radar.
-  RadarSet speed_open_ = 0;                                    // Likewise.
+  RadarSet speed_undecided_ = 0;                               // Likewise.
   /// Which of two radars seems to be at fault, and for how many epochs that has been the same.
   struct OfTwo {
     std::size_t radar = 0;
@@ -158,13 +144,13 @@ class FaultHypotheses {
   bool needs_positions_ = false;
   bool is_verified_ = false;
   /// At a start a radar with a wrong sign and two that are exchanged explain the data equally well.
-  bool is_start_open_ = false;
+  bool is_exchange_open_ = false;
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
   std::optional<double> common_turn_rad_;  // Of the mounts of all judged radars.
   bool is_skidding_ = false;
   std::optional<std::int64_t> slip_changed_us_;  // Of the vehicle that skids: last not steady.
-  bool was_paused_ = false;  // All epochs are needed, as many as are compared while driving on.
+  bool was_paused_ = false;  // After a pause a verdict needs the full number of epochs.
 };
 
 }  // namespace cremed

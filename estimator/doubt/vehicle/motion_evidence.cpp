@@ -104,8 +104,7 @@ bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
   if (const auto jump = track.jumps.add(stamp_us, velocity)) {
     track.jump = jump;
   }
-  const bool jumps_back =
-      track.jump && step_mps_ && takes_back(track.jump->change_mps(), *step_mps_);
+  const bool jumps_back = track.jump && step_mps_ && reverses(track.jump->change_mps(), *step_mps_);
   if (track.is_after_step && (jumps_back || is_step(radar))) {
     track.is_after_step = false;
     track.jump.reset();

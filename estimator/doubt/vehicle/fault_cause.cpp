@@ -37,8 +37,15 @@ constexpr Noise kNoise{{0.04, 0.003}, {0.08, 0.007}};
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
 /// An offset of theirs is in the noise.
-constexpr VelocityMoments::Errors kHealthy{0.004, 0.015, 0.1, 0.001};
+using Errors = VelocityMoments::Errors;
+constexpr Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
+/// Healthy, but for one error that may be of any size.
+constexpr Errors with_any(double Errors::*error) {
+  Errors errors = kHealthy;
+  errors.*error = kAny;
+  return errors;
+}
 /// Decay of the sums, seven times a second: they remember ten seconds.
 constexpr double kFade = 0.985;
 /// At rest the velocities e and m are noise, and a wrong sign can lower chi-square by chance, sigma
@@ -223,7 +230,7 @@ void FaultCauseSearch::try_mount_yaw(Candidates& candidates) const {
   VelocityMoments::Fit fit;
   for (int i = 0; i < 3; ++i) {
     fit = at_mount_[radar_].fit(turn(yaw_rad), mounts_[radar_].yaw_rad + yaw_rad,
-                                {kHealthy.scale, kAny, kHealthy.x_m, kHealthy.offset_mps});
+                                with_any(&Errors::yaw_rad));
     yaw_rad += fit.yaw_rad;
   }
   if (std::abs(yaw_rad) < kMaxMountYawRad) {
@@ -250,20 +257,17 @@ FaultCauseSearch::Finding FaultCauseSearch::find() const {
   result.add({FaultKind::unknown}, healthy);
   result.add({FaultKind::sign, -1.0}, own.fit(-one, yaw_rad, kHealthy).chi_square);
   result.add({FaultKind::upside_down}, own.fit(mirrored, yaw_rad, kHealthy).chi_square);
-  const auto scaled =
-      own.fit(one, yaw_rad, {kAny, kHealthy.yaw_rad, kHealthy.x_m, kHealthy.offset_mps});
+  const auto scaled = own.fit(one, yaw_rad, with_any(&Errors::scale));
   if (scaled.scale > kMinScale - 1.0 && scaled.scale < kMaxScale - 1.0) {
     result.add({FaultKind::scale, 1.0 + scaled.scale}, scaled.chi_square);
   }
-  const auto ahead =
-      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kAny, kHealthy.offset_mps});
+  const auto ahead = own.fit(one, yaw_rad, with_any(&Errors::x_m));
   if (std::abs(ahead.x_m) < kMaxMountM) {
     result.add({FaultKind::mount_x, ahead.x_m}, ahead.chi_square);
   }
   try_mount_yaw(result);
   try_late(result, own, lags_);
-  const auto shifted =
-      own.fit(one, yaw_rad, {kHealthy.scale, kHealthy.yaw_rad, kHealthy.x_m, kAny});
+  const auto shifted = own.fit(one, yaw_rad, with_any(&Errors::offset_mps));
   bool is_apart = shifted.chi_square > result.chi_square + kMinDifferenceToOffset;
   if (shifted.chi_square < result.chi_square && std::abs(shifted.offset_mps) < kMaxOffsetMps) {
     result.add({FaultKind::offset, shifted.offset_mps}, shifted.chi_square);

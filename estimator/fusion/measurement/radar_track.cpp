@@ -29,14 +29,13 @@ constexpr double kMaxAdaptedStdMps = 0.6;
 RadarTrack::RadarTrack(const OdometryOptions& options) : options_(options) { clear(); }
 
 void RadarTrack::clear() {
-  has_stamp_ = false;
+  stamp_us_.reset();
   doppler_std_mps_ = options_.doppler_std_mps;
   excess_.forget();
 }
 
 double RadarTrack::begin(std::int64_t stamp_us) {
-  since_last_s_ = has_stamp_ ? seconds_between(stamp_us_, stamp_us) : 0.0;
-  has_stamp_ = true;
+  since_last_s_ = stamp_us_ ? seconds_between(*stamp_us_, stamp_us) : 0.0;
   stamp_us_ = stamp_us;
   return since_last_s_;
 }

@@ -34,7 +34,7 @@ class RadarTrack {
   /// Begins a scan; returns the time since the previous one, or 0.
   double begin(std::int64_t stamp_us);
   [[nodiscard]] bool is_in_order(std::int64_t stamp_us) const {
-    return !has_stamp_ || stamp_us > stamp_us_;
+    return !stamp_us_ || stamp_us > *stamp_us_;
   }
 
   /// `expected`: velocity of the sensor, if known. Adapts the standard deviation of Doppler to the
@@ -45,8 +45,7 @@ class RadarTrack {
  private:
   const OdometryOptions& options_;
   DopplerVelocityEstimator doppler_;
-  bool has_stamp_ = false;
-  std::int64_t stamp_us_ = 0;
+  std::optional<std::int64_t> stamp_us_;  // Of the last scan.
   double since_last_s_ = 0.0;
   double doppler_std_mps_ = 0.0;
   DopplerExcess excess_;

@@ -373,10 +373,8 @@ std::string sharing_mount(const RadarConfiguration& radar,
   return joined_if(
       all,
       [&](const RadarConfiguration& other) {
-        const Pose2& theirs = other.ego_motion.vehicle_from_radar;
-        const Pose2& its = radar.ego_motion.vehicle_from_radar;
-        return other.name != radar.name && theirs.x_m == its.x_m && theirs.y_m == its.y_m &&
-               theirs.yaw_rad == its.yaw_rad;
+        return other.name != radar.name &&
+               other.ego_motion.vehicle_from_radar == radar.ego_motion.vehicle_from_radar;
       },
       &RadarConfiguration::name);
 }

@@ -89,12 +89,11 @@ constexpr std::array<BusText, 9> kBusTexts{{
 }  // namespace
 
 LiveReporter::LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-                           const LiveSource& source, const FreshnessGate& gate,
-                           const MotionFeedback& feedback, const LcmPublisher* publisher)
+                           const LiveSource& source, const MotionFeedback& feedback,
+                           const LcmPublisher* publisher)
     : configuration_(configuration),
       pipeline_(pipeline),
       source_(source),
-      gate_(gate),
       feedback_(feedback),
       publisher_(publisher),
       buses_(source.interfaces().size()),
@@ -261,7 +260,8 @@ std::string LiveReporter::report_feedback(std::size_t radar) {
 }
 
 void LiveReporter::report_stale() {
-  const std::uint64_t stale = gate_.failures() - std::exchange(stale_, gate_.failures());
+  const std::uint64_t stale =
+      pipeline_.stale_results() - std::exchange(stale_, pipeline_.stale_results());
   log_.update("results delay", stale != 0,
               "results older than live.max_latency_s are not sent: cremed did not run in time");
 }

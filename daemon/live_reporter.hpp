@@ -9,7 +9,6 @@
 
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/motion_feedback.hpp"
-#include "daemon/output/freshness_gate.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/report/condition_log.hpp"
@@ -24,7 +23,7 @@ class LiveReporter {
  public:
   /// All arguments but `configuration` must outlive it; `publisher` may be null.
   LiveReporter(const Configuration& configuration, const Pipeline& pipeline,
-               const LiveSource& source, const FreshnessGate& gate, const MotionFeedback& feedback,
+               const LiveSource& source, const MotionFeedback& feedback,
                const LcmPublisher* publisher);
 
   /// The interface of a radar with "auto" was found.
@@ -57,7 +56,6 @@ class LiveReporter {
   Configuration configuration_;
   const Pipeline& pipeline_;
   const LiveSource& source_;
-  const FreshnessGate& gate_;
   const MotionFeedback& feedback_;
   const LcmPublisher* publisher_;
   ConditionLog log_;

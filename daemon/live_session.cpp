@@ -37,12 +37,10 @@ LiveSession::LiveSession(const Configuration& configuration, const std::string& 
       source_(configuration, stop),
       publisher_(publisher_of(configuration, lcm_url)),
       feedback_(configuration, source_),
-      gate_(sinks(), std::llround(configuration.live.max_latency_s * 1e6), &realtime_us),
-      pipeline_(configuration, source_, {&gate_}, PipelineClock{&realtime_us, true},
+      pipeline_(configuration, source_, sinks(), PipelineClock{&realtime_us, true},
                 state_file.empty() ? std::vector<std::optional<LearnedErrors>>()
                                    : learned_file_.read_and_log()),
-      reporter_(configuration, pipeline_, source_, gate_, feedback_,
-                publisher_ ? &*publisher_ : nullptr),
+      reporter_(configuration, pipeline_, source_, feedback_, publisher_ ? &*publisher_ : nullptr),
       next_report_us_(monotonic_us() + kReportPeriodUs),
       next_save_us_(monotonic_us() + kSavePeriodUs) {
   if (!state_file.empty()) {

@@ -11,7 +11,6 @@
 #include "daemon/configuration/learned_file.hpp"
 #include "daemon/live_reporter.hpp"
 #include "daemon/motion_feedback.hpp"
-#include "daemon/output/freshness_gate.hpp"
 #include "daemon/output/lcm_publisher.hpp"
 #include "daemon/output/learned_writer.hpp"
 #include "daemon/pipeline.hpp"
@@ -53,7 +52,6 @@ class LiveSession {
   LiveSource source_;
   std::optional<LcmPublisher> publisher_;
   MotionFeedback feedback_;
-  FreshnessGate gate_;
   Pipeline pipeline_;
   LiveReporter reporter_;
   ConditionLog log_;

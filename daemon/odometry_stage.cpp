@@ -38,11 +38,11 @@ OdometryOptions odometry_options(const Configuration& configuration) {
 
 OdometryStage::OdometryStage(const Configuration& configuration,
                              const std::vector<std::optional<LearnedErrors>>& learned,
-                             const Radars& radars, const BusClocks& clocks,
-                             const std::vector<OdometrySink*>& sinks, PipelineClock clock)
+                             const Radars& radars, const BusClocks& clocks, OdometrySink& outputs,
+                             PipelineClock clock)
     : radars_(radars),
       clocks_(clocks),
-      sinks_(sinks),
+      outputs_(outputs),
       clock_(clock),
       queue_(configuration.radars.size()),
       is_predicted_(configuration.odometry.filter.rate_hz != 0),
@@ -121,30 +121,18 @@ void OdometryStage::use(const ScanQueue::Scan& scan) {
     each->count(odometry);
   }
   if (!is_predicted_) {
-    publish(odometry);
+    outputs_.on_odometry(odometry);
   }
   if (radars_.size() > 1) {
-    publish_fused(targets.size(), solve_us);
+    outputs_.on_fused(fused_motion(odometry, targets.size(), standstill_mps_),
+                      static_cast<std::int32_t>(solve_us));
   }
 }
 
 /// The filter predicts over max_gap_s at most.
 void OdometryStage::predict_to(std::int64_t now_us) {
   while (const auto odometry = filter_ ? filter_->predict_next(now_us) : std::nullopt) {
-    publish(*odometry);
-  }
-}
-
-void OdometryStage::publish(const Odometry& odometry) {
-  for (OdometrySink* sink : sinks_) {
-    sink->on_odometry(odometry);
-  }
-}
-
-void OdometryStage::publish_fused(std::size_t targets, std::int64_t solve_us) {
-  const EgoMotion fused = fused_motion(*odometry_, targets, standstill_mps_);
-  for (OdometrySink* sink : sinks_) {
-    sink->on_fused(fused, static_cast<std::int32_t>(solve_us));
+    outputs_.on_odometry(*odometry);
   }
 }
 

@@ -27,8 +27,8 @@ struct PipelineClock {
 
 /// From the scans of all radars to the odometry: the filter takes them in the order of their
 /// stamps. A complete scan waits in a queue for open scans that began earlier, on buses whose
-/// clocks agree. With odometry.rate_hz sinks receive the state predicted to the times of that rate
-/// instead of that at each scan.
+/// clocks agree. With odometry.rate_hz the outputs receive the state predicted to the times of that
+/// rate instead of that at each scan.
 ///
 /// Does nothing if odometry.enabled = false.
 class OdometryStage {
@@ -38,8 +38,7 @@ class OdometryStage {
   /// All but `configuration` must outlive the stage.
   OdometryStage(const Configuration& configuration,
                 const std::vector<std::optional<LearnedErrors>>& learned, const Radars& radars,
-                const BusClocks& clocks, const std::vector<OdometrySink*>& sinks,
-                PipelineClock clock);
+                const BusClocks& clocks, OdometrySink& outputs, PipelineClock clock);
 
   /// Null if odometry.enabled = false.
   OdometryFilter* filter() { return filter_ ? &*filter_ : nullptr; }
@@ -64,12 +63,10 @@ class OdometryStage {
   [[nodiscard]] bool is_trusted(const RadarChannel& radar) const;
   void use(const ScanQueue::Scan& scan);
   void predict_to(std::int64_t now_us);
-  void publish(const Odometry& odometry);
-  void publish_fused(std::size_t targets, std::int64_t solve_us);
 
   const Radars& radars_;
   const BusClocks& clocks_;
-  const std::vector<OdometrySink*>& sinks_;
+  OdometrySink& outputs_;
   PipelineClock clock_;
   std::optional<OdometryFilter> filter_;
   ScanQueue queue_;

@@ -3,21 +3,31 @@
 #include "daemon/pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cremed/estimator/doubt/vehicle/motion_witness.hpp"
 #include "daemon/configuration/interfaces.hpp"
 
 namespace cremed {
+namespace {
+
+/// Of results; a replay has no clock to judge it by.
+std::optional<std::int64_t> max_age_us(const Configuration& configuration, PipelineClock clock) {
+  return clock.is_stamp_clock ? std::optional(std::llround(configuration.live.max_latency_s * 1e6))
+                              : std::nullopt;
+}
+
+}  // namespace
 
 Pipeline::Pipeline(const Configuration& configuration, const FrameSource& source,
                    std::vector<OdometrySink*> sinks, PipelineClock clock,
                    const std::vector<std::optional<LearnedErrors>>& learned)
     : source_(source),
-      sinks_(std::move(sinks)),
       clock_(clock),
+      outputs_(std::move(sinks), max_age_us(configuration, clock), clock.now_us),
       vehicle_(configuration),
-      odometry_(configuration, learned, radars_, clocks_, sinks_, clock) {
+      odometry_(configuration, learned, radars_, clocks_, outputs_, clock) {
   const Interfaces interfaces = interfaces_of(configuration);
   for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
     radars_.push_back(
@@ -93,15 +103,11 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   const std::int64_t solve_us = clock_.now_us() - solve_begin_us;
   check(radar, motion);
   radar.count(motion);
-  for (OdometrySink* sink : sinks_) {
-    sink->on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
-  }
+  outputs_.on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
   hold(radar, motion);
   odometry_.use_ready();
   radar.note_duration(clock_.now_us() - begin_us, solve_us);
-  for (OdometrySink* sink : sinks_) {
-    sink->on_scan(radar.index, scan);
-  }
+  outputs_.on_scan(radar.index, scan);
 }
 
 /// Widens the motion of a radar that looks sideways, and withdraws a motion that contradicts the
@@ -194,11 +200,8 @@ void Pipeline::publish_status() {
     if (const OdometryFilter* filter = odometry_.filter()) {
       radar->note_report(filter->report(radar->index));
     }
-    const RadarStatus& status =
-        radar->status(clock_.is_stamp_clock ? clock_.now_us() : *time_us_, source_);
-    for (OdometrySink* sink : sinks_) {
-      sink->on_status(radar->index, status);
-    }
+    const std::int64_t now_us = clock_.is_stamp_clock ? clock_.now_us() : *time_us_;
+    outputs_.on_status(radar->index, radar->status(now_us, source_));
   }
 }
 

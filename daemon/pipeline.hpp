@@ -13,6 +13,7 @@
 #include "daemon/configuration/configuration.hpp"
 #include "daemon/odometry_stage.hpp"
 #include "daemon/output/odometry_sink.hpp"
+#include "daemon/output/outputs.hpp"
 #include "daemon/radar_channel.hpp"
 #include "daemon/report/status_timer.hpp"
 #include "daemon/report/vehicle_findings.hpp"
@@ -77,6 +78,8 @@ class Pipeline {
   }
 
   [[nodiscard]] const std::vector<std::unique_ptr<RadarChannel>>& radars() const { return radars_; }
+  /// Results that were older than live.max_latency_s by the clock of the stamps, and not sent.
+  [[nodiscard]] std::uint64_t stale_results() const { return outputs_.failures(); }
   /// The learned errors, by radar, for the next start; empty unless the odometry is ok or
   /// standing_still. Not for the hot path.
   [[nodiscard]] std::vector<std::optional<LearnedErrors>> learned() const;
@@ -102,8 +105,8 @@ class Pipeline {
   void publish_status();
 
   const FrameSource& source_;
-  std::vector<OdometrySink*> sinks_;
   PipelineClock clock_;
+  Outputs outputs_;
   std::vector<std::unique_ptr<RadarChannel>> radars_;
   VehicleListener vehicle_;
   BusClocks clocks_;

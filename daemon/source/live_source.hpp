@@ -42,8 +42,8 @@ class LiveSource final : public FrameSource {
   SourceEvent next(CanFrame& frame) override;
   [[nodiscard]] BusStatus bus(std::uint8_t interface) const override;
 
-  /// Hint that the next so many frames complete no scan: if they take longer than a short sleep,
-  /// they are read together after it instead of one wake-up each.
+  /// At least `frames` more frames are needed to complete a scan: if they take longer than a short
+  /// sleep, they are read together after it, instead of with a wake-up for each.
   void expect(std::size_t frames) { expected_frames_ = frames; }
 
   /// The interface of an "auto" entry (kAutoInterface) was found. Returns the index that its frames

@@ -73,10 +73,9 @@ class ReporterBench {
   DatagramPair bus_;
   Configuration configuration_;
   LiveSource source_{configuration_, &stop_};
-  FreshnessGate gate_{{}, 500'000, &realtime_us};
-  Pipeline pipeline_{configuration_, source_, {&gate_}, PipelineClock{&realtime_us, true}};
+  Pipeline pipeline_{configuration_, source_, {}, PipelineClock{&realtime_us, true}};
   MotionFeedback feedback_{configuration_, source_};
-  LiveReporter reporter_{configuration_, pipeline_, source_, gate_, feedback_, nullptr};
+  LiveReporter reporter_{configuration_, pipeline_, source_, feedback_, nullptr};
 };
 
 }  // namespace

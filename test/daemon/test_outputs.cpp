@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "daemon/output/freshness_gate.hpp"
+#include "daemon/output/outputs.hpp"
 
 using namespace cremed;
 
@@ -52,34 +52,34 @@ void send_all(OdometrySink& sink, std::int64_t utime_us) {
 
 TEST_CASE("All that is measured passes until it is too old, and is counted after") {
   SlowSink sink;
-  FreshnessGate gate({&sink}, kMaxAgeUs, &now_us);
+  Outputs outputs({&sink}, kMaxAgeUs, &now_us);
   time_us = 10'000'000;
-  send_all(gate, time_us - kMaxAgeUs);
+  send_all(outputs, time_us - kMaxAgeUs);
   CHECK(sink.taken == 4);
-  CHECK(gate.failures() == 0);
-  send_all(gate, time_us - kMaxAgeUs - 1);
+  CHECK(outputs.failures() == 0);
+  send_all(outputs, time_us - kMaxAgeUs - 1);
   CHECK(sink.taken == 4);
-  CHECK(gate.failures() == 4);
+  CHECK(outputs.failures() == 4);
 }
 
-TEST_CASE("Each receiver is judged when it is its turn") {
+TEST_CASE("Each sink is judged when it is its turn") {
   SlowSink slow(kMaxAgeUs + 1);
   SlowSink last;
-  FreshnessGate gate({&slow, &last}, kMaxAgeUs, &now_us);
+  Outputs outputs({&slow, &last}, kMaxAgeUs, &now_us);
   EgoMotion motion;
   motion.utime_us = time_us;
-  gate.on_motion(0, motion, 0);
+  outputs.on_motion(0, motion, 0);
   CHECK(slow.taken == 1);
   CHECK(last.taken == 0);
-  CHECK(gate.failures() == 1);
+  CHECK(outputs.failures() == 1);
 }
 
 TEST_CASE("A status always passes, and what is stamped after a clock that was set back") {
   SlowSink sink;
-  FreshnessGate gate({&sink}, kMaxAgeUs, &now_us);
+  Outputs outputs({&sink}, kMaxAgeUs, &now_us);
   RadarStatus status;
   status.utime_us = time_us - 10 * kMaxAgeUs;
-  gate.on_status(0, status);
-  send_all(gate, time_us + 10 * kMaxAgeUs);
+  outputs.on_status(0, status);
+  send_all(outputs, time_us + 10 * kMaxAgeUs);
   CHECK(sink.taken == 5);
 }

@@ -103,6 +103,7 @@ template <typename To, typename Of, int Rows, int Columns>
 void GaussianState::set_to(const To& to, const Eigen::Vector<double, Rows>& mean, const Of& of,
                            const Eigen::Matrix<double, Rows, Columns>& by,
                            const Eigen::Matrix<double, Rows, Rows>& noise) {
+  // Of the new states with each other: computed before any is replaced, and set after all.
   const Eigen::Matrix<double, Rows, Rows> corner =
       by * covariance_(of, of) * by.transpose() + noise;
   for (Eigen::Index j = 0; j < covariance_.cols(); ++j) {

@@ -188,6 +188,8 @@ namespace cremed {
 /// Content of a payload; nothing if that has fewer bytes than kArs408Messages demands.
 template <typename Content>
 std::optional<Content> decode_ars408(Ars408Bytes bytes) {
+  static_assert(std::ranges::find(kArs408Messages, Content::kMessage, &Ars408MessageRow::message) !=
+                std::ranges::end(kArs408Messages));
   const auto* row =
       std::ranges::find(kArs408Messages, Content::kMessage, &Ars408MessageRow::message);
   if (bytes.size() < row->length) {

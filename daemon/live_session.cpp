@@ -3,7 +3,6 @@
 #include "daemon/live_session.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <spdlog/spdlog.h>
 

@@ -20,8 +20,9 @@ namespace cremed {
 /// Clock for durations; one that stands still, if it is not set, measures none.
 struct PipelineClock {
   std::int64_t (*now_us)() = [] { return std::int64_t{0}; };
-  /// true: `now_us` is the clock of the stamps, and latency counts from the stamp of a scan's last
-  /// frame; false: from the call of on_frame().
+  /// true: `now_us` is the clock of the stamps, latency counts from the stamp of a scan's last
+  /// frame, and results that are too old are not sent (Outputs); false: from the call of
+  /// on_frame(), and all are sent.
   bool is_stamp_clock = false;
 };
 

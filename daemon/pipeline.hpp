@@ -41,9 +41,9 @@ struct ForwardSteps {
 /// With [vehicle], the odometry also gets the speed and yaw rate of the vehicle's bus, and uses at
 /// a scan what was measured before it.
 ///
-/// Time is that of the stamps; `clock` is for durations only (solve_us, latency). Frames in the
-/// order of their stamps therefore give the same results live and in a replay. After construction
-/// nothing allocates, locks or logs.
+/// Time is that of the stamps; `clock` is for durations (solve_us, latency) and, live, for what is
+/// too old to be sent (Outputs). Frames in the order of their stamps therefore give the same
+/// results live and in a replay. After construction nothing allocates, locks or logs.
 class Pipeline {
  public:
   /// `source` (for its counters) and `sinks` must outlive the pipeline. `learned`: errors learned

@@ -35,9 +35,9 @@ struct Noise {
 constexpr Noise kNoise{{0.04, 0.003}, {0.08, 0.007}};
 /// The same of a radar that looks sideways.
 constexpr Noise kNoiseOfSide{{0.3, 0.03}, {0.3, 0.03}};
+using Errors = VelocityMoments::Errors;
 /// Errors of healthy radars: on these drives scales differ by up to 0.35 %, mounts by a degree.
 /// An offset of theirs is in the noise.
-using Errors = VelocityMoments::Errors;
 constexpr Errors kHealthy{0.004, 0.015, 0.1, 0.001};
 constexpr double kAny = 10.0;
 /// Healthy, but for one error that may be of any size.

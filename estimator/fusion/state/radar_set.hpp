@@ -33,7 +33,12 @@ RadarSet filter(RadarSet set, Test test) {
 
 template <typename Test>
 bool any_of(RadarSet set, Test test) {
-  return filter(set, test) != 0;
+  for (; set != 0; set &= set - 1U) {
+    if (test(static_cast<std::size_t>(std::countr_zero(set)))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace cremed

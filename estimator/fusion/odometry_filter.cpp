@@ -28,7 +28,7 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options, std::vector<Pose2
       condition_(state_, consensus_, faults_),
       traffic_(state_, consensus_, faults_, condition_),
       side_slip_(state_),
-      lone_mount_(state_),
+      turned_mounts_(state_),
       majority_(state_, consensus_, condition_),
       positions_(state_, consensus_, faults_, condition_),
       output_(state_),
@@ -71,13 +71,16 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
     const auto yaw_rate = is_used ? positions_.use(radar, targets, stamp_us) : std::nullopt;
     if (is_mount_judged(radar)) {
       if (const auto motion = faults_.motion_with_impossible_slip()) {
-        lone_mount_.note_impossible_slip(*motion);
+        turned_mounts_.note_impossible_slip(*motion);
       } else if (is_used) {
-        lone_mount_.note_agreement(radar, stamp_us, yaw_rate);
+        turned_mounts_.note_agreement(radar, stamp_us, yaw_rate);
       }
       has_turned = learn_mount_if_turned(radar);
-    } else if (is_used && !state_.is_witness(radar) && !state_.is_alone_ahead(radar)) {
-      lone_mount_.join();
+    } else if (!state_.is_witness(radar) && !state_.is_alone_ahead(radar)) {
+      if (is_used) {
+        turned_mounts_.join();
+      }
+      has_turned = learn_common_turn();
     }
     if (is_sideways(radar)) {
       condition_.unsettle();
@@ -93,7 +96,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
   traffic_.parked.add_output(odometry);
   const bool settles = condition_.settle();
   if (settles) {
-    lone_mount_.settle();
+    turned_mounts_.settle();
   }
   if (settles || believed || is_signal_wrong || has_turned) {
     output_.end_anchor();
@@ -171,7 +174,7 @@ void OdometryFilter::restart(std::int64_t stamp_us, OdometryOutput::Gap gap) {
   traffic_.parked.clear();
   side_slip_.clear();
   faults_.forget_skid();
-  lone_mount_.restart();
+  turned_mounts_.restart();
   has_started_ = true;
   was_ok_ = false;
 }
@@ -192,36 +195,71 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// Whether LoneMount judges the radar: no other that looks ahead or back is heard, believed or not.
+/// Whether TurnedMounts judges the radar: no other that looks ahead or back is heard, believed or
+/// not.
 bool OdometryFilter::is_mount_judged(std::size_t radar) const {
   return !faults_.is_at_fault(radar) && !looks_across(state_.mount(radar)) &&
-         state_.is_alone_ahead(radar) && lone_mount_.judges(radar);
+         state_.is_alone_ahead(radar) && turned_mounts_.judges(radar);
 }
 
 /// A radar, the only one or one of those that look sideways, that moves as no vehicle does.
 bool OdometryFilter::is_sideways(std::size_t radar) const {
-  return state_.is_alone_ahead(radar) && lone_mount_.moves_sideways(radar);
+  return state_.is_alone_ahead(radar) && turned_mounts_.moves_sideways(radar);
 }
 
 /// The mount of the lone radar turned: the pose and the slip may have that error.
 bool OdometryFilter::learn_mount_if_turned(std::size_t radar) {
-  const auto turn = lone_mount_.take_turn(radar);
+  const auto turn = turned_mounts_.take_turn(radar);
   const bool has_turned = turn && !majority_.has_stepped();
   if (has_turned) {
     const double v = state_.gaussian.mean(kSpeed);
     const double w = turn->yaw_rate_radps;
     add_error_of_motion({v, w, -state_.gaussian.mean(kSlipPerAcceleration) * v * w});
-    lone_mount_.learn(radar, *turn);
+    turned_mounts_.learn(radar, *turn);
     if (turn->is_sudden) {
       positions_.clear();
       vehicle_.restart_errors();
       faults_.pause();
     }
   }
-  if (lone_mount_.is_too_far(radar)) {
+  if (turned_mounts_.is_too_far(radar)) {
     condition_.unsettle();
   }
   return has_turned;
+}
+
+/// Learns a turn that the mounts of all radars share; true if there was one. The pose since the
+/// anchor gets its error.
+bool OdometryFilter::learn_common_turn() {
+  const RadarSet used = state_.heard(state_.time_us()) & state_.ahead() & ~faults_.at_fault();
+  const auto& motion = faults_.common_motion();
+  const bool may_be_told = condition_.is_settled() && !faults_.is_unknown() &&
+                           !faults_.is_skidding() && !majority_.has_stepped();
+  if (std::popcount(used) < 2 || (!motion && !may_be_told)) {
+    return false;
+  }
+  const auto turn_rad = motion ? std::optional(turned_mounts_.common_turn_rad(used, *motion))
+                               : turned_mounts_.common_turn_rad();
+  if (!turn_rad) {
+    return false;
+  }
+  GaussianState& state = state_.gaussian;
+  const double v = state.mean(kSpeed);
+  if (!turned_mounts_.learn_common(used, *turn_rad)) {
+    if (!motion) {
+      condition_.unsettle();
+    }
+    return false;
+  }
+  state.add_variance(kY, squared(v * output_.anchor_age_s() * *turn_rad));
+  if (motion) {
+    state_.start_motion({v, motion->y()},
+                        Eigen::Vector2d(state.variance(kSpeed),
+                                        squared(state_.options().settled_yaw_rate_std_radps))
+                            .asDiagonal());
+  }
+  faults_.pause();
+  return true;
 }
 
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
@@ -300,7 +338,7 @@ void OdometryFilter::follow_if_far(const Eigen::Vector3d& believed, double possi
 /// is not known which are at fault, or the only one if its mount is too far off.
 RadarSet OdometryFilter::left_out() const {
   const RadarSet turned = filter(first_radars(state_.radars()), [&](std::size_t i) {
-    return lone_mount_.is_left_out(i) || is_sideways(i);
+    return turned_mounts_.is_left_out(i) || is_sideways(i);
   });
   return turned | consensus_.at_fault() |
          (faults_.is_unknown() ? faults_.evidence.judged() : faults_.at_fault());
@@ -317,7 +355,7 @@ bool OdometryFilter::use_doppler(std::size_t radar, const TargetSet& targets,
   if (!scan) {
     return false;
   }
-  lone_mount_.note_velocity(radar, scan->velocity.velocity_mps);
+  turned_mounts_.note_velocity(radar, scan->velocity.velocity_mps);
   if (consensus_[radar].is_trusted && !state_.is_witness(radar) && !traffic_.parked.is_parked()) {
     state_.add_excess(scan->excess_m2ps2);
   }
@@ -379,7 +417,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (!is_expected) {
     if (is_used && is_mount_judged(radar) && (condition_.is_settled() || state_.is_turned(radar))) {
-      lone_mount_.note_contradiction(radar, stamp_us, measurement, innovation);
+      turned_mounts_.note_contradiction(radar, stamp_us, measurement, innovation);
     }
     trust.contradicts_positions = positions_.confirm_state(radar, targets, age_s);
     answer_contradiction(radar, stamp_us, measurement.residual.x(), innovation);
@@ -392,7 +430,7 @@ bool OdometryFilter::take_doppler(std::size_t radar, const TargetSet& targets,
   }
   if (is_used) {
     state_.update(innovation);
-    if (lone_mount_.is_too_far(radar)) {
+    if (turned_mounts_.is_too_far(radar)) {
       return is_used;  // Only to see whether it turns back.
     }
     output_.add_radar(radar);
@@ -473,11 +511,11 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
 }
 
 FaultCause OdometryFilter::cause(std::size_t radar) const {
-  const FaultCause by_others = faults_.is_at_fault(radar) ? faults_.cause(radar) : FaultCause();
+  const FaultCause by_others = faults_.cause(radar);
   if (by_others.kind != FaultKind::unknown) {
     return by_others;
   }
-  return is_sideways(radar) ? lone_mount_.cause_of_sideways(radar) : lone_mount_.cause(radar);
+  return is_sideways(radar) ? turned_mounts_.cause_of_sideways(radar) : turned_mounts_.cause(radar);
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

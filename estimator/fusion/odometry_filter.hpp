@@ -13,7 +13,6 @@
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
-#include "cremed/estimator/fusion/lone_mount.hpp"
 #include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/measurement/side_slip.hpp"
@@ -24,6 +23,7 @@
 #include "cremed/estimator/fusion/state/odometry_state.hpp"
 #include "cremed/estimator/fusion/state/radar_set.hpp"
 #include "cremed/estimator/fusion/traffic_doubt.hpp"
+#include "cremed/estimator/fusion/turned_mounts.hpp"
 #include "cremed/estimator/fusion/vehicle_signals.hpp"
 #include "cremed/estimator/scan/pose2.hpp"
 #include "cremed/estimator/scan/target_set.hpp"
@@ -113,6 +113,7 @@ class OdometryFilter {
   void set_trusted(std::size_t radar, bool is_trusted);
   [[nodiscard]] bool is_mount_judged(std::size_t radar) const;
   [[nodiscard]] bool is_sideways(std::size_t radar) const;
+  bool learn_common_turn();
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
@@ -138,7 +139,7 @@ class OdometryFilter {
   FilterCondition condition_;
   TrafficDoubt traffic_;
   SideSlip side_slip_;
-  LoneMount lone_mount_;
+  TurnedMounts turned_mounts_;
   MajorityFollower majority_;
   PositionFusion positions_;
   OdometryOutput output_;

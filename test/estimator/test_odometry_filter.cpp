@@ -243,6 +243,7 @@ TEST_CASE("a skid is followed, with all radars, and one radar that is turned is 
     }
     CHECK(beyond <= 4);  // 2 %, while it begins.
     CHECK(drive.drive(2.0).status == OdometryStatus::ok);
+    CHECK(std::abs(drive.filter().report(0).mount_yaw_rad) < 0.01);
   }
   SECTION("silence within it") {
     for (int i = 0; i < 20; ++i) {
@@ -363,6 +364,58 @@ TEST_CASE("the learned mount of a lone radar stays learned for minutes") {
     CHECK(drive.filter().report(0).mount_yaw_rad == Approx(0.1).margin(0.015));
   }
   CHECK_FALSE(drive.filter().learned().at(0));
+}
+
+TEST_CASE("mounts that are all turned alike are learned and named") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront, kRearLeft},
+                               std::vector<Pose2>{kFront, kRearLeft, kRearRight});
+  const double turned_deg = GENERATE(-5.0, -3.0, 3.0, 5.0);
+  const double speed_mps = GENERATE(8.0, -4.0);
+  CAPTURE(mounts.size(), turned_deg, speed_mps);
+  OdometryDrive drive(mounts, 27);
+  drive.set_motion(speed_mps, 0.0);
+  for (std::size_t i = 0; i < mounts.size(); ++i) {
+    drive.radar(i).mount.yaw_rad += numeric::radians(turned_deg);
+  }
+  CHECK(judge(drive, 3.0).largest_nees < kCredibleNees);
+  const Judged judged = judge(drive, 8.0);
+  CHECK(judged.largest_nees < kCredibleNees);
+  CHECK(judged.usable_share > 0.95);
+  for (std::size_t i = 0; i < mounts.size(); ++i) {
+    const RadarReport report = drive.filter().report(i);
+    CHECK_FALSE(report.is_left_out);
+    // The vehicle may slip by 0.43 degrees (1 sigma) as well.
+    CHECK(report.mount_yaw_rad ==
+          Approx(numeric::radians(turned_deg)).margin(numeric::radians(1.3)));
+    CHECK(report.cause.kind == FaultKind::mount_yaw);
+  }
+}
+
+TEST_CASE("a radar at fault is not turned with the others") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 29);
+  drive.radar(2).world_mps = 3.0;
+  REQUIRE(drive.drive(3.0).left_out == 4U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    drive.radar(i).mount.yaw_rad += numeric::radians(1.5);
+  }
+  const Judged judged = judge(drive, 10.0);
+  CHECK(judged.largest_nees < kCredibleNees);
+  CHECK(judged.usable_share > 0.95);
+  CHECK(drive.filter().report(0).mount_yaw_rad == Approx(0.026).margin(0.016));
+  CHECK(std::abs(drive.filter().report(2).mount_yaw_rad) < 0.005);
+}
+
+TEST_CASE("mounts that are all turned too far to be learned are named, and none is used") {
+  OdometryDrive drive({kFront, kRearLeft, kRearRight}, 28);
+  for (std::size_t i = 0; i < 3; ++i) {
+    drive.radar(i).mount.yaw_rad += numeric::radians(9.0);
+  }
+  CHECK(judge(drive, 6.0).usable_share == 0.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FaultCause cause = drive.filter().report(i).cause;
+    CHECK(cause.kind == FaultKind::mount_yaw);
+    CHECK(cause.value == Approx(numeric::radians(9.0)).margin(numeric::radians(1.5)));
+  }
 }
 
 TEST_CASE("a lone radar that turns too far to be learned is left out until it turns back") {

@@ -37,7 +37,7 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"late 200 ms", "", "BU", "a bend that begins in the first second tells too little of it"},
     {"late 300 ms", "", "BOU", "likewise"},
     {"late 500 ms", "", "BU", "noticed when braking or turning only"},
-    {"all mounts 3 deg off", "B", "", "0103: at walking pace the slip is not known well enough"},
+    {"all mounts 1.5 deg off", "B", "", "0103: the slip tells it after seconds only"},
     {"all scale 0.95", "BO", "", "found by each radar's own check, after 1 to 12 s"},
     {"all scale 0.95 from 4 s", "BO", "", "likewise"},
     {"all scale 1.05", "BO", "", "likewise"},

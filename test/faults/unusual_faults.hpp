@@ -193,7 +193,7 @@ class UnusualFaults {
         added.put_in = put(with_scaled_doppler, every_radar, factor);
       }
     }
-    for (const double deg : {-5.0, -3.0, 3.0, 10.0}) {
+    for (const double deg : {-5.0, -2.0, 1.5, 3.0, 10.0}) {
       FaultCase& added = add_to_all(fault_kind("all mounts %g deg off", deg), FaultKind::mount_yaw);
       added.time.from_us = drive_.start_us();
       added.configure = [deg](FaultCase::Radars& radars) {

@@ -88,9 +88,14 @@ FaultHypotheses::FaultHypotheses(const OdometryState& state)
 
 FaultCause FaultHypotheses::cause(std::size_t radar) const {
   const FaultCause own = is_at_fault(radar) ? causes_[radar].cause(at_fault()) : FaultCause();
-  const bool is_common = own.kind == FaultKind::unknown && common_turn_rad_ && is_unknown() &&
-                         contains(evidence.judged(), radar);
-  return is_common ? FaultCause{FaultKind::mount_yaw, *common_turn_rad_} : own;
+  const bool may_be_common = own.kind == FaultKind::unknown && common_motion_ && is_unknown() &&
+                             contains(evidence.judged(), radar);
+  if (!may_be_common) {
+    return own;
+  }
+  const double turned_rad = state_.turned_rad(radar) - common_motion_->z();
+  return std::abs(turned_rad) > kMinNamedTurnRad ? FaultCause{FaultKind::mount_yaw, turned_rad}
+                                                 : own;
 }
 
 void FaultHypotheses::clear() {
@@ -101,7 +106,7 @@ void FaultHypotheses::clear() {
   }
   std::fill(speed_doubted_us_.begin(), speed_doubted_us_.end(), std::nullopt);
   forget_skid();
-  common_turn_rad_.reset();
+  common_motion_.reset();
   unknown_epochs_ = 0;
   was_paused_ = false;
 }
@@ -130,7 +135,7 @@ void FaultHypotheses::accuse(std::size_t radar, std::int64_t time_us) {
 void FaultHypotheses::pause() {
   evidence.forget_epochs();
   forget_skid();
-  common_turn_rad_.reset();
+  common_motion_.reset();
   unknown_epochs_ = 0;
   supported_epochs_ = 0;
   was_paused_ = true;
@@ -169,9 +174,9 @@ bool FaultHypotheses::is_skid() {
     pause();
     return false;
   }
-  const auto slip = evidence.slip(present);
+  const auto motion = evidence.motion_with_slip(present);
   const bool is_steady = evidence.epochs() == MotionEvidence::kEpochs &&
-                         slip.largest_rad - slip.least_rad < kMaxChangeOfSlipRad;
+                         motion.largest_slip_rad - motion.least_slip_rad < kMaxChangeOfSlipRad;
   if (!slip_changed_us_ || (!is_steady && !is_unknown())) {
     slip_changed_us_ = evidence.time_us();
   }
@@ -222,16 +227,14 @@ void FaultHypotheses::judge() {
   const ConsistentSet best = find_consistent_set(evidence, at_fault(), slip_rule());
   // Radars are not exchanged while driving.
   is_exchange_open_ = best.is_exchange_possible && !is_verified_;
+  common_motion_.reset();
   if (is_exchange_open_) {
     return;
   }
   const bool is_known = evidence.judged() == 0 || (best.radars != 0 && best.rivals == 0);
   unknown_epochs_ = is_known ? 0 : unknown_epochs_ + 1;
-  common_turn_rad_.reset();
   if (best.agrees_on_slip && unknown_epochs_ >= MotionEvidence::kEpochs) {
-    const double turn_rad = -evidence.slip(evidence.present()).mean_rad;
-    common_turn_rad_ =
-        std::abs(turn_rad) > kMinNamedTurnRad ? std::optional(turn_rad) : std::nullopt;
+    common_motion_ = evidence.motion_with_slip(evidence.present()).mean;
   }
   if (unknown_epochs_ == kMinEpochs && best.rivals > 0) {
     for_each(evidence.present(), [&](std::size_t i) { begin_search(i); });

@@ -60,6 +60,13 @@ class FaultHypotheses {
   /// The error that explains a radar at fault, or the one of all judged radars: their mounts are
   /// turned alike.
   [[nodiscard]] FaultCause cause(std::size_t radar) const;
+  /// Mean motion (v, w, slip) of a second in which all judged radars agreed on a slip that no
+  /// vehicle has: their mounts are turned alike.
+  [[nodiscard]] const std::optional<Eigen::Vector3d>& common_motion() const {
+    return common_motion_;
+  }
+  /// The vehicle seems to skid: the radars are not compared.
+  [[nodiscard]] bool is_skidding() const { return is_skidding_; }
   /// No set is consistent, or several are: which radars are at fault is not known.
   [[nodiscard]] bool is_unknown() const { return unknown_epochs_ >= kMinEpochs; }
   /// The radars in use were compared and are consistent, a single one with its positions, if it has
@@ -147,7 +154,7 @@ class FaultHypotheses {
   bool is_exchange_open_ = false;
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
-  std::optional<double> common_turn_rad_;  // Of the mounts of all judged radars.
+  std::optional<Eigen::Vector3d> common_motion_;
   bool is_skidding_ = false;
   std::optional<std::int64_t> slip_changed_us_;  // Of the vehicle that skids: last not steady.
   bool was_paused_ = false;  // After a pause a verdict needs the full number of epochs.

@@ -27,7 +27,7 @@ class FilterCondition {
   /// Records a scan that is not used because it is unknown which of its targets, or which radars,
   /// show the vehicle's motion: it shows two worlds (TwoWorlds), or radars contradict each other.
   void doubt();
-  /// The mount of the lone radar is too far off: the velocity is not known.
+  /// The mount of the lone radar, or all mounts, are too far off: the velocity is not known.
   void unsettle();
 
   /// Ends the start if the state is known; true if it ends now.

@@ -81,15 +81,18 @@ void MotionEvidence::add_speed_by_positions(std::size_t radar, std::int64_t stam
 
 void MotionEvidence::add_motion(std::size_t radar, const EgoMotion& motion) {
   const double dt_s = seconds_between(motion.utime_start_us, motion.utime_us);
-  if (!motion.has_estimate() || !(dt_s > 0.0) || state_.is_turned(radar)) {
+  if (!motion.has_estimate() || !(dt_s > 0.0)) {
     return;
   }
   auto& rates = tracks_[radar].yaw_rates;
   rates[0] = rates[1];
   const YawByPositions& yaw = motion.by_positions;
-  rates[1] = {motion.utime_start_us,    motion.utime_us,
-              motion.motion.z() / dt_s, motion.covariance(2, 2) / squared(dt_s),
-              yaw.rad / dt_s,           yaw.variance_rad2 / squared(dt_s)};
+  // Registered with the mount of the configuration: without sideways motion a turned one turns it.
+  const double yaw_rad =
+      state_.is_turned(radar) ? std::numeric_limits<double>::quiet_NaN() : motion.motion.z();
+  rates[1] = {motion.utime_start_us, motion.utime_us,
+              yaw_rad / dt_s,        motion.covariance(2, 2) / squared(dt_s),
+              yaw.rad / dt_s,        yaw.variance_rad2 / squared(dt_s)};
 }
 
 bool MotionEvidence::add_velocity(std::size_t radar, std::int64_t stamp_us,
@@ -233,7 +236,7 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   const LearnedErrors prior = unlearned_errors(options, mount);
   const int mount_yaw = state_.error(mount_of, state_layout::kMountYaw);
   const bool is_turned = state_.is_turned(mount_of);
-  const double turned_rad = is_turned ? state_.gaussian.mean(mount_yaw) : 0.0;
+  const double turned_rad = state_.turned_rad(mount_of);
   const double mount_std =
       (is_turned ? state_.gaussian.std(mount_yaw) : prior.mount_yaw_rad.std) + kMoreMountYawStdRad;
   // As uncertain as the filter has them, also of radars off the axis of travel, of which a scale of
@@ -350,15 +353,15 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
   return sum;
 }
 
-MotionEvidence::SlipOfEpochs MotionEvidence::slip(RadarSet set) const {
-  SlipOfEpochs result{0.0, std::numeric_limits<double>::infinity(),
-                      -std::numeric_limits<double>::infinity()};
+MotionEvidence::MotionWithSlip MotionEvidence::motion_with_slip(RadarSet set) const {
+  MotionWithSlip result{Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < epochs(); ++k) {
-    const double slip_rad =
-        sum(set, epochs_[k], {}, turn_std_radps(epochs_[k]), Slip::any).solution().z();
-    result.mean_rad += slip_rad / static_cast<double>(epochs());
-    result.least_rad = std::min(result.least_rad, slip_rad);
-    result.largest_rad = std::max(result.largest_rad, slip_rad);
+    const Eigen::Vector3d motion =
+        sum(set, epochs_[k], {}, turn_std_radps(epochs_[k]), Slip::any).solution();
+    result.mean += motion / static_cast<double>(epochs());
+    result.least_slip_rad = std::min(result.least_slip_rad, motion.z());
+    result.largest_slip_rad = std::max(result.largest_slip_rad, motion.z());
   }
   return result;
 }

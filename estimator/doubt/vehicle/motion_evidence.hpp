@@ -143,13 +143,13 @@ class MotionEvidence {
   [[nodiscard]] MotionSums sum(RadarSet set) const {
     return sum(set, newest_epoch(), {}, state_.options().start_yaw_rate_std_radps, Slip::usual);
   }
-  /// Slip over the epochs by a set of radars, if the vehicle may have any.
-  struct SlipOfEpochs {
-    double mean_rad = 0.0;
-    double least_rad = 0.0;
-    double largest_rad = 0.0;
+  /// Motions (v, w, slip) over the epochs by a set of radars, if the vehicle may have any slip.
+  struct MotionWithSlip {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    double least_slip_rad = 0.0;
+    double largest_slip_rad = 0.0;
   };
-  [[nodiscard]] SlipOfEpochs slip(RadarSet set) const;
+  [[nodiscard]] MotionWithSlip motion_with_slip(RadarSet set) const;
   /// Mean motion by the radars that are present, over the epochs that fit only if the slip may be
   /// larger than a vehicle's. That is how a lone radar with a turned mount looks.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const;

@@ -97,7 +97,7 @@ struct MapCounters {
 /// Diagnostics of one radar.
 struct RadarReport {
   bool is_left_out = false;  ///< It is not believed (`doubt/`).
-  FaultCause cause;  ///< If it is left out, or the odometry has learned its mount (LoneMount).
+  FaultCause cause;  ///< If it is left out, or the odometry has learned its mount (TurnedMounts).
   /// Time-averaged NIS per degree of freedom of the last minute: 1 if covariances are true; 0
   /// without measurements.
   double doppler_nis = 0.0;

@@ -259,6 +259,24 @@ void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad
   is_turned_[radar] = std::abs(yaw_rad) > kGateSigmas * options_.mount_yaw_std_rad;
 }
 
+void OdometryState::turn_mounts(RadarSet radars, double by_rad, double std_rad) {
+  gaussian.set(kSlip, 0.0, squared(options_.slip_std_rad));
+  for_each(radars, [&](std::size_t i) {
+    const int yaw = error(i, kMountYaw);
+    gaussian.set_mean(yaw, gaussian.mean(yaw) + by_rad);
+    for_each(radars, [&](std::size_t other) {
+      gaussian.add_covariance(yaw, error(other, kMountYaw), squared(std_rad));
+    });
+    is_turned_[i] = true;
+    for (const StateError& error : radar_errors_[i]) {
+      if (error.reset == StateError::Reset::scene) {
+        start(error);
+      }
+    }
+  });
+  forget_faults();
+}
+
 void OdometryState::turn_mount_back(std::size_t radar) {
   gaussian.set(error(radar, kMountYaw), 0.0, squared(options_.mount_yaw_std_rad));
   set_scale_variance(radar, squared(options_.doppler_scale_std));
@@ -374,6 +392,7 @@ void OdometryState::advance_skid(double dt_s) {
   is_skidding_ = is_skidding_ && skid_variance_ + squared(gaussian.mean(kSlip)) > least_skid() &&
                  skid_variance_ > std::exp(-kMaxSkids) * least_skid();
   skid_variance_ = is_skidding_ ? skid_variance_ : 0.0;
+  since_skid_s_ = is_skidding_ ? 0.0 : since_skid_s_ + dt_s;
 }
 
 double OdometryState::least_skid() const { return squared(kLeastSkid * options_.slip_std_rad); }

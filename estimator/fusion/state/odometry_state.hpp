@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,8 +48,15 @@ class OdometryState {
   void turn_mount(std::size_t radar, double yaw_rad, double std_rad);
   /// Its yaw error is that of a mount measured by hand again.
   void turn_mount_back(std::size_t radar);
-  /// Whether it is turned: by more than a mount measured by hand may be off.
+  /// Whether it is turned: with others, or by more than a mount measured by hand may be off.
   [[nodiscard]] bool is_turned(std::size_t radar) const { return is_turned_[radar]; }
+  /// Its error of yaw, if its mount turned; 0 otherwise.
+  [[nodiscard]] double turned_rad(std::size_t radar) const {
+    return is_turned(radar) ? gaussian.mean(error(radar, state_layout::kMountYaw)) : 0.0;
+  }
+  /// Several mounts turned, all by this angle and its standard deviation; the slip is unknown, and
+  /// the errors of their Doppler, which followed the turn.
+  void turn_mounts(RadarSet radars, double by_rad, double std_rad);
 
   /// Propagates the vehicle to `time_us`, if that is later.
   void advance_to(std::int64_t time_us);
@@ -66,6 +74,8 @@ class OdometryState {
   void add_skid(double slip_rad);
   /// Of the slip, beyond that of usual driving (rad^2).
   [[nodiscard]] double skid_variance() const;
+  /// Driving since the last skid, seconds.
+  [[nodiscard]] double since_skid_s() const { return since_skid_s_; }
 
   /// Resets the errors of a signal of the vehicle's bus to their prior.
   void start_signal(VehicleSignal signal);
@@ -168,6 +178,7 @@ class OdometryState {
   double excess_m2ps2_ = 0.0;      // The largest of the last scans.
   double mixture_variance_ = 0.0;  // Of the process of kMixture.
   bool is_skidding_ = false;
+  double since_skid_s_ = std::numeric_limits<double>::infinity();
   double skid_variance_ = 0.0;  // Of the change of the slip, beyond its process.
   std::array<FaultEvidence, kVehicleSignals> fault_evidence_;
   std::vector<Pose2> mounts_;

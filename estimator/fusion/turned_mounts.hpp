@@ -14,11 +14,11 @@
 
 namespace cremed {
 
-/// The mount yaw of a radar while no other that looks ahead or back is heard (with others
-/// FaultHypotheses finds a wrong one). If it is wrong, Doppler shows a lateral velocity that no
-/// vehicle has: as a slip, or as a turn that the positions of the targets contradict. The odometry
-/// then learns the yaw anew.
-class LoneMount {
+/// The mount yaw of a radar while no other that looks ahead or back is heard, and a turn that the
+/// mounts of all share; if others contradict a radar, FaultHypotheses finds which is wrong. With a
+/// wrong yaw Doppler shows a lateral velocity that no vehicle has: as a slip, or, by one radar, as
+/// a turn that the positions of the targets contradict. The odometry then learns the yaw anew.
+class TurnedMounts {
  public:
   /// A mount turned by `yaw_rad`.
   struct Turn {
@@ -29,7 +29,7 @@ class LoneMount {
   };
 
   /// `state` must outlive this object.
-  explicit LoneMount(OdometryState& state)
+  explicit TurnedMounts(OdometryState& state)
       : state_(state),
         way_(state.radars(), Eigen::Vector2d::Zero()),
         before_restart_rad_(state.radars()) {}
@@ -59,6 +59,14 @@ class LoneMount {
   /// Returns, once, the turn of the mount that was detected; or the one without which the vehicle
   /// would turn or slip as none can.
   std::optional<Turn> take_turn(std::size_t radar);
+
+  /// The turn that all mounts share, if the slip of the state is one that no vehicle has.
+  [[nodiscard]] std::optional<double> common_turn_rad() const;
+  /// The same by a motion (v, w, slip) of these radars, beyond what is learned of their mounts on
+  /// average. The motion is corrected for that of mounts that turned only.
+  [[nodiscard]] double common_turn_rad(RadarSet radars, const Eigen::Vector3d& motion) const;
+  /// Learns a turn that the mounts of these radars share; false if it is too large for that.
+  bool learn_common(RadarSet radars, double turn_rad);
 
   /// Learns the radar's yaw anew, and takes the slip as unknown.
   void learn(std::size_t radar, const Turn& turn);
@@ -100,6 +108,7 @@ class LoneMount {
     return state_.gaussian.mean(state_.error(radar, state_layout::kMountYaw));
   }
   [[nodiscard]] std::optional<Turn> impossible_motion(std::size_t radar) const;
+  [[nodiscard]] bool slips_by(double sigmas) const;
   [[nodiscard]] Turn by_yaw_rate(std::size_t radar, double radps, double std_radps) const;
   [[nodiscard]] bool may_be_upside_down(std::size_t radar, double error_rad) const;
   void forget_signs();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cremed/estimator/fusion/lone_mount.hpp"
+#include "cremed/estimator/fusion/turned_mounts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,9 @@ constexpr double kMinLeverM = 1.0;
 /// Of the slip, in standard deviations of its prior. Single healthy radars reach 1.6 (17 on the six
 /// drives); with a mount that is 3 degrees off it is 2.6 to 3.9.
 constexpr double kMaxSlipSigmas = 2.2;
+/// The same by several radars: healthy ones reach 1.4 (those drives, also backwards), with mounts
+/// that are all 1.5 degrees off 1.8 to 2.7.
+constexpr double kMaxSlipSigmasOfAll = 1.6;
 /// Scans in succession that show a turn. On those healthy drives one scan contradicts the state,
 /// 1.3 s after a start.
 constexpr int kMinSigns = 3;
@@ -33,10 +36,16 @@ constexpr double kMaxTimeBetweenS = 1.0;
 constexpr double kShareOfOne = 0.5;
 /// Doppler is rounded to 0.25 m/s: below it the direction is not known to 0.2 rad.
 constexpr double kMinDrivingMps = 1.0;
+/// For up to 0.6 s after a skid the slip of the state still exceeds the limit.
+constexpr double kAfterSkidS = 1.0;
 /// Of a mount that turned, 6 degrees: learned to 0.5 degrees within a second of driving.
 constexpr double kTurnedStdRad = 0.1;
+/// Of a common turn as the slip shows it, which its prior holds back.
+constexpr double kTurnedAlikeStdRad = 0.03;
 /// The error of the speed, 1 - cos of this, is 1.1 %.
 constexpr double kMaxLearnedRad = 0.15;
+/// Of a turn of all mounts alike, 7 degrees. 10 degrees seem to be 8 at first (1094).
+constexpr double kMaxCommonRad = 0.12;
 /// Speed of a radar across the vehicle over that along it: x of the mount over the radius of the
 /// turn. 1.6 at the front of a bus of 12 m at full lock (8.7 over 5.5 m), 1.1 at most on a car.
 constexpr double kMaxSidewaysShare = 1.6;
@@ -56,7 +65,7 @@ constexpr double kUpsideDownShare = 0.33;
 
 }  // namespace
 
-bool LoneMount::Signs::add(std::size_t of_radar, std::int64_t stamp_us) {
+bool TurnedMounts::Signs::add(std::size_t of_radar, std::int64_t stamp_us) {
   const bool goes_on = radar == of_radar && seconds_between(last_us, stamp_us) < kMaxTimeBetweenS;
   count = goes_on ? count + 1 : 1;
   radar = of_radar;
@@ -66,11 +75,11 @@ bool LoneMount::Signs::add(std::size_t of_radar, std::int64_t stamp_us) {
   return are_enough;
 }
 
-bool LoneMount::judges(std::size_t radar) const {
+bool TurnedMounts::judges(std::size_t radar) const {
   return std::abs(state_.mount(radar).x_m) > kMinLeverM;
 }
 
-void LoneMount::restart() {
+void TurnedMounts::restart() {
   forget_signs();
   for (std::size_t i = 0; i < before_restart_rad_.size(); ++i) {
     if (is_too_far(i)) {
@@ -80,24 +89,25 @@ void LoneMount::restart() {
   }
 }
 
-void LoneMount::settle() {
+void TurnedMounts::settle() {
   has_settled_ = true;
   std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0);
 }
 
-void LoneMount::join() {
+void TurnedMounts::join() {
   restart();
   std::fill(before_restart_rad_.begin(), before_restart_rad_.end(), 0.0);
 }
 
-void LoneMount::forget_signs() {
+void TurnedMounts::forget_signs() {
   by_doppler_ = Signs();
   by_positions_ = Signs();
   turn_.reset();
 }
 
-void LoneMount::note_contradiction(std::size_t radar, std::int64_t stamp_us,
-                                   const LinearMeasurement& doppler, const Innovation& innovation) {
+void TurnedMounts::note_contradiction(std::size_t radar, std::int64_t stamp_us,
+                                      const LinearMeasurement& doppler,
+                                      const Innovation& innovation) {
   const double max_nis = kShareOfOne * state_.options().max_doppler_nis;
   const double speed_mps = state_.radar_velocity(radar).x();
   const bool is_lateral = innovation.nis_of_numbers.x() < max_nis &&
@@ -111,8 +121,8 @@ void LoneMount::note_contradiction(std::size_t radar, std::int64_t stamp_us,
   }
 }
 
-void LoneMount::note_agreement(std::size_t radar, std::int64_t stamp_us,
-                               const std::optional<PositionFusion::YawRate>& by_positions) {
+void TurnedMounts::note_agreement(std::size_t radar, std::int64_t stamp_us,
+                                  const std::optional<PositionFusion::YawRate>& by_positions) {
   by_doppler_ = Signs();
   if (!by_positions) {
     return;
@@ -125,13 +135,13 @@ void LoneMount::note_agreement(std::size_t radar, std::int64_t stamp_us,
   }
 }
 
-void LoneMount::note_impossible_slip(const Eigen::Vector3d& motion) {
+void TurnedMounts::note_impossible_slip(const Eigen::Vector3d& motion) {
   if (!has_settled_) {
     turn_ = Turn{-motion.z(), motion.y(), state_.options().settled_yaw_rate_std_radps, true};
   }
 }
 
-std::optional<LoneMount::Turn> LoneMount::take_turn(std::size_t radar) {
+std::optional<TurnedMounts::Turn> TurnedMounts::take_turn(std::size_t radar) {
   const auto noted = std::exchange(turn_, std::nullopt);
   const auto turn = noted ? noted : impossible_motion(radar);
   const bool is_possible = turn && std::abs(error_rad(radar) + turn->yaw_rad) < kMaxTurnRad;
@@ -139,7 +149,7 @@ std::optional<LoneMount::Turn> LoneMount::take_turn(std::size_t radar) {
 }
 
 /// The turn without which the lateral acceleration is more than 1 g, or the slip impossible.
-std::optional<LoneMount::Turn> LoneMount::impossible_motion(std::size_t radar) const {
+std::optional<TurnedMounts::Turn> TurnedMounts::impossible_motion(std::size_t radar) const {
   const GaussianState& state = state_.gaussian;
   const OdometryOptions& options = state_.options();
   const double w = state.mean(kYawRate);
@@ -148,21 +158,51 @@ std::optional<LoneMount::Turn> LoneMount::impossible_motion(std::size_t radar) c
   if (speed_mps > kMinDrivingMps && speed_mps * least_radps > kMaxAccelerationMps2) {
     return by_yaw_rate(radar, 0.0, options.start_yaw_rate_std_radps);
   }
-  const double slip_rad = state.mean(kSlip);
-  const bool is_impossible = std::abs(slip_rad) > kMaxSlipSigmas * options.slip_std_rad;
-  return is_impossible && state_.skid_variance() == 0.0
-             ? std::optional(Turn{-slip_rad, w, state.std(kYawRate), false})
+  return slips_by(kMaxSlipSigmas)
+             ? std::optional(Turn{-state.mean(kSlip), w, state.std(kYawRate), false})
              : std::nullopt;
 }
 
+std::optional<double> TurnedMounts::common_turn_rad() const {
+  const GaussianState& state = state_.gaussian;
+  const bool is_told = std::abs(state.mean(kSlip)) > kGateSigmas * state.std(kSlip) &&
+                       state_.since_skid_s() > kAfterSkidS;
+  return is_told && slips_by(kMaxSlipSigmasOfAll) ? std::optional(-state.mean(kSlip))
+                                                  : std::nullopt;
+}
+
+double TurnedMounts::common_turn_rad(RadarSet radars, const Eigen::Vector3d& motion) const {
+  double learned_rad = 0.0;
+  for_each(radars, [&](std::size_t i) { learned_rad += error_rad(i) - state_.turned_rad(i); });
+  return -motion.z() - learned_rad / std::popcount(radars);
+}
+
+bool TurnedMounts::learn_common(RadarSet radars, double turn_rad) {
+  const bool is_too_large = any_of(radars, [&](std::size_t radar) {
+    const double turned_rad = error_rad(radar) + turn_rad;
+    return std::abs(turned_rad) > kMaxCommonRad || may_be_upside_down(radar, turned_rad);
+  });
+  if (!is_too_large) {
+    state_.turn_mounts(radars, turn_rad, kTurnedAlikeStdRad);
+  }
+  return !is_too_large;
+}
+
+/// Whether the slip is larger than this many standard deviations of its prior, without a skid.
+bool TurnedMounts::slips_by(double sigmas) const {
+  return std::abs(state_.gaussian.mean(kSlip)) > sigmas * state_.options().slip_std_rad &&
+         state_.skid_variance() == 0.0;
+}
+
 /// The turn with which the yaw rate is `radps`.
-LoneMount::Turn LoneMount::by_yaw_rate(std::size_t radar, double radps, double std_radps) const {
+TurnedMounts::Turn TurnedMounts::by_yaw_rate(std::size_t radar, double radps,
+                                             double std_radps) const {
   const double error_radps = state_.gaussian.mean(kYawRate) - radps;
   const double speed_mps = state_.radar_velocity(radar).x();
   return {-error_radps * state_.mount(radar).x_m / speed_mps, radps, std_radps, true};
 }
 
-void LoneMount::learn(std::size_t radar, const Turn& turn) {
+void TurnedMounts::learn(std::size_t radar, const Turn& turn) {
   GaussianState& state = state_.gaussian;
   state_.turn_mount(radar, error_rad(radar) + turn.yaw_rad, kTurnedStdRad);
   if (turn.is_sudden) {
@@ -172,23 +212,23 @@ void LoneMount::learn(std::size_t radar, const Turn& turn) {
   }
 }
 
-bool LoneMount::is_too_far(std::size_t radar) const {
+bool TurnedMounts::is_too_far(std::size_t radar) const {
   return state_.is_turned(radar) && (std::abs(error_rad(radar)) > kMaxLearnedRad ||
                                      may_be_upside_down(radar, error_rad(radar)));
 }
 
-bool LoneMount::moves_sideways(std::size_t radar) const {
+bool TurnedMounts::moves_sideways(std::size_t radar) const {
   const Eigen::Vector2d velocity_mps = state_.radar_velocity(radar);
   const double std_mps = std::abs(state_.mount(radar).x_m) * state_.gaussian.std(kYawRate);
   return judges(radar) && std::abs(velocity_mps.y()) - kGateSigmas * std_mps >
                               kMaxSidewaysShare * std::abs(velocity_mps.x()) + kMinSidewaysMps;
 }
 
-FaultCause LoneMount::cause_of_sideways(std::size_t radar) const {
+FaultCause TurnedMounts::cause_of_sideways(std::size_t radar) const {
   return {FaultKind::mount_yaw, -std::atan2(way_[radar].y(), way_[radar].x())};
 }
 
-FaultCause LoneMount::cause(std::size_t radar) const {
+FaultCause TurnedMounts::cause(std::size_t radar) const {
   const bool is_turned = state_.is_turned(radar);
   const double value_rad = is_turned ? error_rad(radar) : before_restart_rad_[radar];
   const bool is_known =
@@ -199,7 +239,7 @@ FaultCause LoneMount::cause(std::size_t radar) const {
 }
 
 /// Upside down the way ahead is as far to the other side of the radar's axis.
-bool LoneMount::may_be_upside_down(std::size_t radar, double error_rad) const {
+bool TurnedMounts::may_be_upside_down(std::size_t radar, double error_rad) const {
   const double if_so_rad = -2.0 * std::remainder(state_.mount(radar).yaw_rad, std::numbers::pi);
   return std::abs(if_so_rad) > kLeastUpsideDownRad &&
          std::abs(error_rad - if_so_rad) < kUpsideDownShare * std::abs(if_so_rad);

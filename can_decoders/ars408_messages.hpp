@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "cremed/can_decoders/ars408_tables.hpp"
@@ -203,5 +204,9 @@ struct Ars408FilterState {
 };
 
 using Ars408Bytes = std::span<const std::uint8_t>;
+
+/// Content of a payload; nothing if that has fewer bytes than kArs408Messages demands.
+template <typename Content>
+std::optional<Content> decode_ars408(Ars408Bytes bytes);
 
 }  // namespace cremed

@@ -185,7 +185,6 @@ inline CanFrame frame(std::uint32_t base_id, std::uint8_t sensor_id, std::uint8_
 
 namespace cremed {
 
-/// Content of a payload; nothing if that has fewer bytes than kArs408Messages demands.
 template <typename Content>
 std::optional<Content> decode_ars408(Ars408Bytes bytes) {
   static_assert(std::ranges::find(kArs408Messages, Content::kMessage, &Ars408MessageRow::message) !=

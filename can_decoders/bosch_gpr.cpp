@@ -147,4 +147,9 @@ Detection BoschGprDecoder::detection(const TargetPayload& target) const {
   return detection;
 }
 
+// For users of the library, which has no header of the signals.
+template std::optional<BoschGprTargetA> decode_bosch_gpr(std::span<const std::uint8_t> bytes);
+template std::optional<BoschGprTargetB> decode_bosch_gpr(std::span<const std::uint8_t> bytes);
+template std::optional<BoschGprInfo> decode_bosch_gpr(std::span<const std::uint8_t> bytes);
+
 }  // namespace cremed

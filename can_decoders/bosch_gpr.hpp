@@ -118,4 +118,9 @@ class BoschGprDecoder final : public RadarDecoder {
   std::array<std::uint8_t, kForeign> last_counters_;  ///< By index_of().
 };
 
+/// Content of a payload; nothing if that has fewer than eight bytes. Flag, id and checksum are not
+/// checked.
+template <typename Content>
+std::optional<Content> decode_bosch_gpr(std::span<const std::uint8_t> bytes);
+
 }  // namespace cremed

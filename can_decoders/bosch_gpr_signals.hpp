@@ -68,8 +68,6 @@ void signals(const Signal& signal, BoschGprInfo& m) {
 
 namespace cremed {
 
-/// Content of a payload; nothing if that has fewer than eight bytes. Flag, id and checksum are not
-/// checked.
 template <typename Content>
 std::optional<Content> decode_bosch_gpr(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < bosch_gpr_signals::kLength) {

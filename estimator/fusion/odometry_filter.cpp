@@ -195,8 +195,8 @@ void OdometryFilter::set_trusted(std::size_t radar, bool is_trusted) {
   trust.is_trusted = is_trusted;
 }
 
-/// Whether TurnedMounts judges the radar: no other that looks ahead or back is heard, believed or
-/// not.
+/// Whether TurnedMounts judges the radar: no other that looks ahead or back is heard, be it
+/// believed or not.
 bool OdometryFilter::is_mount_judged(std::size_t radar) const {
   return !faults_.is_at_fault(radar) && !looks_across(state_.mount(radar)) &&
          state_.is_alone_ahead(radar) && turned_mounts_.judges(radar);

@@ -87,7 +87,8 @@ void MotionEvidence::add_motion(std::size_t radar, const EgoMotion& motion) {
   auto& rates = tracks_[radar].yaw_rates;
   rates[0] = rates[1];
   const YawByPositions& yaw = motion.by_positions;
-  // Registered with the mount of the configuration: without sideways motion a turned one turns it.
+  // The registration used the mount of the configuration. If that is turned, its yaw rate is wrong;
+  // by positions alone it is not.
   const double yaw_rad =
       state_.is_turned(radar) ? std::numeric_limits<double>::quiet_NaN() : motion.motion.z();
   rates[1] = {motion.utime_start_us, motion.utime_us,

@@ -74,7 +74,7 @@ class OdometryState {
   void add_skid(double slip_rad);
   /// Of the slip, beyond that of usual driving (rad^2).
   [[nodiscard]] double skid_variance() const;
-  /// Driving since the last skid, seconds.
+  /// Infinite if there was none.
   [[nodiscard]] double since_skid_s() const { return since_skid_s_; }
 
   /// Resets the errors of a signal of the vehicle's bus to their prior.

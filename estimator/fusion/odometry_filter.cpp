@@ -238,26 +238,18 @@ bool OdometryFilter::learn_common_turn() {
   if (std::popcount(used) < 2 || (!motion && !may_be_told)) {
     return false;
   }
-  const auto turn_rad = motion ? std::optional(turned_mounts_.common_turn_rad(used, *motion))
-                               : turned_mounts_.common_turn_rad();
-  if (!turn_rad) {
+  const auto turn = turned_mounts_.common_turn(used, motion);
+  if (!turn) {
     return false;
   }
-  GaussianState& state = state_.gaussian;
-  const double v = state.mean(kSpeed);
-  if (!turned_mounts_.learn_common(used, *turn_rad)) {
+  if (!turned_mounts_.learn_common(used, *turn)) {
     if (!motion) {
       condition_.unsettle();
     }
     return false;
   }
-  state.add_variance(kY, squared(v * output_.anchor_age_s() * *turn_rad));
-  if (motion) {
-    state_.start_motion({v, motion->y()},
-                        Eigen::Vector2d(state.variance(kSpeed),
-                                        squared(state_.options().settled_yaw_rate_std_radps))
-                            .asDiagonal());
-  }
+  const double way_m = state_.gaussian.mean(kSpeed) * output_.anchor_age_s();
+  state_.gaussian.add_variance(kY, squared(way_m * turn->yaw_rad));
   faults_.pause();
   return true;
 }

@@ -158,40 +158,33 @@ std::optional<TurnedMounts::Turn> TurnedMounts::impossible_motion(std::size_t ra
   if (speed_mps > kMinDrivingMps && speed_mps * least_radps > kMaxAccelerationMps2) {
     return by_yaw_rate(radar, 0.0, options.start_yaw_rate_std_radps);
   }
-  return slips_by(kMaxSlipSigmas)
-             ? std::optional(Turn{-state.mean(kSlip), w, state.std(kYawRate), false})
-             : std::nullopt;
+  return slips_by(kMaxSlipSigmas) ? std::optional(by_slip()) : std::nullopt;
 }
 
-std::optional<double> TurnedMounts::common_turn_rad() const {
+std::optional<TurnedMounts::Turn> TurnedMounts::common_turn(
+    RadarSet radars, const std::optional<Eigen::Vector3d>& motion) const {
+  if (motion) {
+    double learned_rad = 0.0;
+    for_each(radars, [&](std::size_t i) { learned_rad += error_rad(i) - state_.turned_rad(i); });
+    return Turn{-motion->z() - learned_rad / std::popcount(radars), motion->y(),
+                state_.options().settled_yaw_rate_std_radps, true};
+  }
   const GaussianState& state = state_.gaussian;
   const bool is_told = std::abs(state.mean(kSlip)) > kGateSigmas * state.std(kSlip) &&
                        state_.since_skid_s() > kAfterSkidS;
-  return is_told && slips_by(kMaxSlipSigmasOfAll) ? std::optional(-state.mean(kSlip))
-                                                  : std::nullopt;
-}
-
-double TurnedMounts::common_turn_rad(RadarSet radars, const Eigen::Vector3d& motion) const {
-  double learned_rad = 0.0;
-  for_each(radars, [&](std::size_t i) { learned_rad += error_rad(i) - state_.turned_rad(i); });
-  return -motion.z() - learned_rad / std::popcount(radars);
-}
-
-bool TurnedMounts::learn_common(RadarSet radars, double turn_rad) {
-  const bool is_too_large = any_of(radars, [&](std::size_t radar) {
-    const double turned_rad = error_rad(radar) + turn_rad;
-    return std::abs(turned_rad) > kMaxCommonRad || may_be_upside_down(radar, turned_rad);
-  });
-  if (!is_too_large) {
-    state_.turn_mounts(radars, turn_rad, kTurnedAlikeStdRad);
-  }
-  return !is_too_large;
+  return is_told && slips_by(kMaxSlipSigmasOfAll) ? std::optional(by_slip()) : std::nullopt;
 }
 
 /// Whether the slip is larger than this many standard deviations of its prior, without a skid.
 bool TurnedMounts::slips_by(double sigmas) const {
   return std::abs(state_.gaussian.mean(kSlip)) > sigmas * state_.options().slip_std_rad &&
          state_.skid_variance() == 0.0;
+}
+
+/// The turn without which the vehicle does not slip.
+TurnedMounts::Turn TurnedMounts::by_slip() const {
+  const GaussianState& state = state_.gaussian;
+  return {-state.mean(kSlip), state.mean(kYawRate), state.std(kYawRate), false};
 }
 
 /// The turn with which the yaw rate is `radps`.
@@ -203,9 +196,25 @@ TurnedMounts::Turn TurnedMounts::by_yaw_rate(std::size_t radar, double radps,
 }
 
 void TurnedMounts::learn(std::size_t radar, const Turn& turn) {
-  GaussianState& state = state_.gaussian;
   state_.turn_mount(radar, error_rad(radar) + turn.yaw_rad, kTurnedStdRad);
+  start_motion_if_sudden(turn);
+}
+
+bool TurnedMounts::learn_common(RadarSet radars, const Turn& turn) {
+  const bool is_too_large = any_of(radars, [&](std::size_t radar) {
+    const double turned_rad = error_rad(radar) + turn.yaw_rad;
+    return std::abs(turned_rad) > kMaxCommonRad || may_be_upside_down(radar, turned_rad);
+  });
+  if (!is_too_large) {
+    state_.turn_mounts(radars, turn.yaw_rad, kTurnedAlikeStdRad);
+    start_motion_if_sudden(turn);
+  }
+  return !is_too_large;
+}
+
+void TurnedMounts::start_motion_if_sudden(const Turn& turn) {
   if (turn.is_sudden) {
+    const GaussianState& state = state_.gaussian;
     state_.start_motion(
         {state.mean(kSpeed), turn.yaw_rate_radps},
         Eigen::Vector2d(state.variance(kSpeed), squared(turn.yaw_rate_std_radps)).asDiagonal());

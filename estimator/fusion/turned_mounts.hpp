@@ -60,16 +60,17 @@ class TurnedMounts {
   /// would turn or slip as none can.
   std::optional<Turn> take_turn(std::size_t radar);
 
-  /// The turn that all mounts share, if the slip of the state is one that no vehicle has.
-  [[nodiscard]] std::optional<double> common_turn_rad() const;
-  /// The same by a motion (v, w, slip) of these radars, beyond what is learned of their mounts on
-  /// average. The motion is corrected for that of mounts that turned only.
-  [[nodiscard]] double common_turn_rad(RadarSet radars, const Eigen::Vector3d& motion) const;
-  /// Learns a turn that the mounts of these radars share; false if it is too large for that.
-  bool learn_common(RadarSet radars, double turn_rad);
+  /// The turn that the mounts of these radars share: that of `motion`, (v, w, slip) of these radars
+  /// with a slip that no vehicle has, or without it, if the slip of the state is such a one. The
+  /// motion is corrected for mounts that turned only: what is learned of others, on average, is
+  /// subtracted.
+  [[nodiscard]] std::optional<Turn> common_turn(RadarSet radars,
+                                                const std::optional<Eigen::Vector3d>& motion) const;
 
   /// Learns the radar's yaw anew, and takes the slip as unknown.
   void learn(std::size_t radar, const Turn& turn);
+  /// The same of a turn that the mounts of these radars share; false if it is too large for that.
+  bool learn_common(RadarSet radars, const Turn& turn);
 
   /// Turned so far that the linear model of the error does not hold, or upside down: the velocity
   /// is not known.
@@ -109,6 +110,8 @@ class TurnedMounts {
   }
   [[nodiscard]] std::optional<Turn> impossible_motion(std::size_t radar) const;
   [[nodiscard]] bool slips_by(double sigmas) const;
+  [[nodiscard]] Turn by_slip() const;
+  void start_motion_if_sudden(const Turn& turn);
   [[nodiscard]] Turn by_yaw_rate(std::size_t radar, double radps, double std_radps) const;
   [[nodiscard]] bool may_be_upside_down(std::size_t radar, double error_rad) const;
   void forget_signs();

@@ -240,11 +240,18 @@ void OdometryState::widen_errors(std::size_t radar) {
       // That of a mount that turned is larger.
       const double variance = std::max(gaussian.variance(error.state), squared(error.process.std));
       gaussian.set(error.state, gaussian.mean(error.state), variance);
-    } else if (error.reset == StateError::Reset::scene) {
+    }
+  }
+  start_scene_errors(radar);
+  forget_faults();
+}
+
+void OdometryState::start_scene_errors(std::size_t radar) {
+  for (const StateError& error : radar_errors_[radar]) {
+    if (error.reset == StateError::Reset::scene) {
       start(error);
     }
   }
-  forget_faults();
 }
 
 void OdometryState::widen_scale(std::size_t radar, double std) {
@@ -268,11 +275,7 @@ void OdometryState::turn_mounts(RadarSet radars, double by_rad, double std_rad) 
       gaussian.add_covariance(yaw, error(other, kMountYaw), squared(std_rad));
     });
     is_turned_[i] = true;
-    for (const StateError& error : radar_errors_[i]) {
-      if (error.reset == StateError::Reset::scene) {
-        start(error);
-      }
-    }
+    start_scene_errors(i);
   });
   forget_faults();
 }

@@ -6,10 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <vector>
 
-#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "cremed/estimator/scan/stamps.hpp"
@@ -44,13 +42,13 @@ void log_vehicle(const Configuration& configuration, const Pipeline& pipeline) {
 /// Logs the faults of the logs; false if one cannot be used.
 bool report_logs(const Replay& replay) {
   bool good = true;
-  for (const auto& log : replay.logs()) {
-    for (const std::string& fault : {log->reader().malformed(), log->reader().cut_off()}) {
+  for (const CandumpReader& log : replay.logs()) {
+    for (const std::string& fault : {log.malformed(), log.cut_off()}) {
       if (!fault.empty()) {
         spdlog::warn("{}", fault);
       }
     }
-    if (const std::string problem = log->reader().problem(); !problem.empty()) {
+    if (const std::string problem = log.problem(); !problem.empty()) {
       spdlog::error("{}", problem);
       good = false;
     }
@@ -70,22 +68,12 @@ void report_clock(const ForwardSteps& steps) {
   }
 }
 
-std::string other_interfaces(const Replay& replay) {
-  std::set<std::string> names;
-  for (const auto& log : replay.logs()) {
-    for (const std::string& name : log->other_interfaces()) {
-      names.insert(printable(name));
-    }
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// One of several logs may lack an interface; that is no fault.
 void report_absent_interfaces(const Configuration& configuration, const Replay& replay) {
-  const std::string others = other_interfaces(replay);
+  const std::string others = joined(replay.other_interfaces(), printable);
   const std::vector<std::string> names = interface_names(configuration);
   for (std::size_t i = 0; !others.empty() && i < names.size(); ++i) {
-    if (std::ranges::none_of(replay.logs(), [i](const auto& log) { return log->has_frames(i); })) {
+    if (!replay.has_frames(i)) {
       spdlog::error(
           "the input has no frame of interface {}; record that bus too, or set interface to one of "
           "these: {}",
@@ -98,7 +86,7 @@ void report_absent_interfaces(const Configuration& configuration, const Replay& 
 std::string doctor_command(const Replayed& replayed) {
   const std::string logs = joined(
       replayed.replay.logs(),
-      [](const auto& log) { return "--replay " + in_shell(log->reader().path()); }, " ");
+      [](const CandumpReader& log) { return "--replay " + in_shell(log.path()); }, " ");
   return concat(
       {"`cremed-doctor --config ", in_shell(replayed.configuration_path), " ", logs, "`"});
 }
@@ -205,9 +193,9 @@ bool report_replay(const Replayed& replayed) {
     if (replayed.is_stopped) {
       return report_logs(replayed.replay);
     }
-    for (const auto& log : replayed.replay.logs()) {
-      const std::string problem = log->reader().problem();
-      spdlog::error("{}", problem.empty() ? log->reader().no_frame() : problem);
+    for (const CandumpReader& log : replayed.replay.logs()) {
+      const std::string problem = log.problem();
+      spdlog::error("{}", problem.empty() ? log.no_frame() : problem);
     }
     return false;
   }

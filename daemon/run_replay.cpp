@@ -97,16 +97,6 @@ Sinks open_sinks(const CommandLine& command_line, const Configuration& configura
   return sinks;
 }
 
-std::unique_ptr<Replay> open_logs(const CommandLine& command_line,
-                                  const Configuration& configuration,
-                                  const volatile std::sig_atomic_t* stop) {
-  std::vector<std::unique_ptr<CandumpLog>> logs;
-  for (const std::string& path : command_line.replay) {
-    logs.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), stop));
-  }
-  return std::make_unique<Replay>(std::move(logs), command_line.speed, stop);
-}
-
 /// `prints`: rows go to standard output, which may be the terminal that would show the progress.
 void take_all(Replay& replay, Pipeline& pipeline, bool prints) {
   constexpr std::uint64_t kFramesPerStep = 2000;
@@ -176,7 +166,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
   refuse(command_line, configuration_path, configuration);
   const volatile std::sig_atomic_t* stop = handle_stop_signals();
   stop_at_hangup();
-  const std::unique_ptr<Replay> replay = open_logs(command_line, configuration, stop);
+  Replay replay(command_line.replay, interface_names(configuration), command_line.speed, stop);
   std::optional<LearnedFile> learned;
   if (!command_line.state_file.value_or("").empty()) {
     learned.emplace(*command_line.state_file, configuration);
@@ -190,21 +180,21 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
     all_sinks.push_back(sink.get());
   }
   Pipeline pipeline(
-      configuration, *replay, std::move(all_sinks),
+      configuration, replay, std::move(all_sinks),
       command_line.timing ? PipelineClock{&monotonic_us} : PipelineClock{},
       learned ? learned->read_and_log() : std::vector<std::optional<LearnedErrors>>());
 
   const std::int64_t begin_us = monotonic_us();
-  take_all(*replay, pipeline, configuration.output.csv == "-");
+  take_all(replay, pipeline, configuration.output.csv == "-");
   const int stopped_by = *stop;
   pipeline.finish();
   const double wall_s = seconds_between(begin_us, monotonic_us());
 
-  const double log_s = replay->traffic_s();
+  const double log_s = replay.traffic_s();
   spdlog::info("{} frames, {:.3f} s of traffic in {:.3f} s: {:.0f} times real time",
-               replay->counters().frames, log_s, wall_s, log_s / wall_s);
+               replay.counters().frames, log_s, wall_s, log_s / wall_s);
   const bool input_good =
-      report_replay({configuration_path, configuration, pipeline, *replay, tally, stopped_by != 0});
+      report_replay({configuration_path, configuration, pipeline, replay, tally, stopped_by != 0});
   if (command_line.timing) {
     log_durations(configuration, pipeline);
   }
@@ -213,7 +203,7 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
     replace_file(learned->path(), *text);
   }
   if (stopped_by != 0) {
-    report_interruption(*replay);
+    report_interruption(replay);
     return output_good ? kSignalStatus + stopped_by : 1;
   }
   return input_good && output_good ? 0 : 1;

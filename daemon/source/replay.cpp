@@ -16,6 +16,9 @@ namespace {
 /// More than fit on a full bus at 1 Mbit/s in kLongestDisorderUs, 111 us per frame of 8 bytes.
 constexpr std::size_t kLaneFrames = 8192;
 
+/// Limit for messages: a corrupt log may name any number.
+constexpr std::size_t kMaxOtherInterfaces = 32;
+
 /// A longer step of the log's clock means that it was set or the log paused.
 constexpr double kClockJumpS = 10.0;
 constexpr double kLongestWaitUs = 1e15;
@@ -24,17 +27,16 @@ constexpr std::int64_t kLongestSleepUs = 100'000;
 
 }  // namespace
 
-Replay::Replay(std::vector<std::unique_ptr<CandumpLog>> logs, double speed,
-               const volatile std::sig_atomic_t* stop)
-    : logs_(std::move(logs)),
+Replay::Replay(const std::vector<std::string>& paths, std::vector<std::string> interfaces,
+               double speed, const volatile std::sig_atomic_t* stop)
+    : logs_(paths.begin(), paths.end()),
+      interfaces_(std::move(interfaces)),
+      has_frames_(interfaces_.size()),
       readings_(logs_.size()),
-      merge_(logs_.size() * logs_.front()->interface_count(), kLaneFrames),
+      has_lost_(logs_.size() * interfaces_.size()),
+      merge_(has_lost_.size(), kLaneFrames),
       speed_(speed),
-      stop_(stop) {
-  for (Reading& reading : readings_) {
-    reading.has_lost.resize(logs_.front()->interface_count());
-  }
-}
+      stop_(stop) {}
 
 SourceEvent Replay::next(CanFrame& frame) {
   while (*stop_ == 0) {
@@ -72,7 +74,7 @@ std::optional<std::size_t> Replay::log_to_read() const {
 }
 
 bool Replay::any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const) const {
-  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+  for (std::size_t interface = 0; interface < interfaces_.size(); ++interface) {
     if ((merge_.*is)(lane(log, interface))) {
       return true;
     }
@@ -81,20 +83,44 @@ bool Replay::any_lane(std::size_t log, bool (StampMerge::*is)(std::size_t) const
 }
 
 void Replay::read(std::size_t log) {
-  Reading& reading = readings_[log];
-  ReceivedFrame received;
-  const SourceEvent event = logs_[log]->next(received.frame);
-  count();
-  if (event == SourceEvent::end) {
-    reading.is_at_end = true;
+  CandumpLine line;
+  if (!logs_[log].next(line)) {
+    readings_[log].is_at_end = true;
     set_read_until(log, std::numeric_limits<std::int64_t>::max());
-  } else if (event == SourceEvent::dropped) {
-    reading.has_lost[received.frame.interface] = true;
-  } else {
-    received.received_us = received.frame.stamp_us;
-    received.lost_before = reading.has_lost[received.frame.interface] ? 1 : 0;
-    reading.has_lost[received.frame.interface] = false;
-    add(log, received);
+  } else if (line.status == CandumpStatus::frame) {
+    receive(log, line);
+  } else if (line.status == CandumpStatus::dropped) {
+    note_loss(log, line);
+  } else if (line.status == CandumpStatus::malformed) {
+    ++counters_.malformed_lines;
+  }
+}
+
+void Replay::receive(std::size_t log, const CandumpLine& line) {
+  const auto interface = static_cast<std::size_t>(
+      std::ranges::find(interfaces_, line.interface_name) - interfaces_.begin());
+  if (interface == interfaces_.size()) {
+    ++counters_.other_interface_frames;
+    if (other_interfaces_.size() < kMaxOtherInterfaces) {
+      other_interfaces_.insert(std::string(line.interface_name));
+    }
+    return;
+  }
+  has_frames_[interface] = true;
+  ReceivedFrame received{.frame = line.frame, .received_us = line.frame.stamp_us};
+  received.frame.interface = static_cast<std::uint8_t>(interface);
+  received.lost_before = has_lost_[lane(log, interface)] ? 1 : 0;
+  has_lost_[lane(log, interface)] = false;
+  add(log, received);
+}
+
+/// What `candump any` lost may be of each interface.
+void Replay::note_loss(std::size_t log, const CandumpLine& line) {
+  counters_.lost_frames += line.dropped_frames;
+  for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+    if (line.interface_name == interfaces_[i] || line.interface_name == kAllInterfaces) {
+      has_lost_[lane(log, i)] = true;
+    }
   }
 }
 
@@ -122,7 +148,7 @@ void Replay::release_held() {
 }
 
 void Replay::set_read_until(std::size_t log, std::int64_t stamp_us) {
-  for (std::size_t interface = 0; interface < readings_[log].has_lost.size(); ++interface) {
+  for (std::size_t interface = 0; interface < interfaces_.size(); ++interface) {
     merge_.set_read_until(lane(log, interface), stamp_us);
   }
 }
@@ -144,23 +170,13 @@ std::optional<double> Replay::share_read() const {
   std::uint64_t all = 0;
   std::uint64_t read = 0;
   for (const auto& log : logs_) {
-    if (log->reader().lines().file_bytes() == 0) {
+    if (log.lines().file_bytes() == 0) {
       return std::nullopt;
     }
-    all += log->reader().lines().file_bytes();
-    read += log->reader().lines().read_bytes();
+    all += log.lines().file_bytes();
+    read += log.lines().read_bytes();
   }
   return std::min(1.0, static_cast<double>(read) / static_cast<double>(all));
-}
-
-/// Counters of the logs besides frames.
-void Replay::count() {
-  counters_.other_interface_frames = counters_.lost_frames = counters_.malformed_lines = 0;
-  for (const auto& log : logs_) {
-    counters_.other_interface_frames += log->counters().other_interface_frames;
-    counters_.lost_frames += log->counters().lost_frames;
-    counters_.malformed_lines += log->reader().malformed_lines();
-  }
 }
 
 /// The pace restarts where the log's clock was set, to skip the jump.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cremed authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csignal>
-#include <memory>
+#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -16,17 +16,12 @@ namespace {
 
 volatile std::sig_atomic_t no_stop = 0;
 
-std::unique_ptr<CandumpLog> open(const TemporaryFile& file) {
-  return std::make_unique<CandumpLog>(file.path(), std::vector<std::string>{"can0", "can1"},
-                                      &no_stop);
-}
-
 Replay replay_of(const std::vector<const TemporaryFile*>& files, double speed = 0.0) {
-  std::vector<std::unique_ptr<CandumpLog>> logs;
+  std::vector<std::string> paths;
   for (const TemporaryFile* file : files) {
-    logs.push_back(open(*file));
+    paths.push_back(file->path());
   }
-  return {std::move(logs), speed, &no_stop};
+  return {paths, {"can0", "can1"}, speed, &no_stop};
 }
 
 std::vector<std::uint32_t> ids(Replay& replay) {
@@ -52,17 +47,20 @@ TEST_CASE("Several logs are merged by time, the first interface first where stam
 }
 
 TEST_CASE("The share read is that of the bytes of all logs, and unknown of a pipe") {
-  const TemporaryFile a("(1.000000) can0 001#\n(3.000000) can0 003#\n(4.000000) can0 004#\n");
-  const TemporaryFile b("(9.000000) can1 009#\n");
+  const std::string line = "(1.000000) can0 001#\n";
+  std::string lines = line;
+  while (lines.size() < 2 * 65536) {
+    lines += "(1.100000) can1 002#\n";
+  }
+  const TemporaryFile a(lines);
+  const TemporaryFile b(line + line);
   Replay replay = replay_of({&a, &b});
   CHECK(replay.share_read() == 0.0);
   CanFrame frame;
-  CHECK(replay.logs()[0]->next(frame) == SourceEvent::frame);  // Its buffer holds all of the log.
-  CHECK(*replay.share_read() == Approx(0.75));
-  std::vector<std::unique_ptr<CandumpLog>> device;
-  device.push_back(
-      std::make_unique<CandumpLog>("/dev/null", std::vector<std::string>{"can0"}, &no_stop));
-  CHECK_FALSE(Replay(std::move(device), 0.0, &no_stop).share_read());
+  REQUIRE(replay.next(frame) == SourceEvent::frame);  // Of each log one buffer is read.
+  const auto all = static_cast<double>(lines.size() + 2 * line.size());
+  CHECK(*replay.share_read() == Approx((65536.0 + 2.0 * static_cast<double>(line.size())) / all));
+  CHECK_FALSE(Replay({"/dev/null"}, {"can0"}, 0.0, &no_stop).share_read());
 }
 
 TEST_CASE("A report of lost frames comes before the frame behind it") {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "daemon/configuration/interfaces.hpp"
 #include "daemon/pipeline.hpp"
 #include "daemon/process/message_text.hpp"
-#include "daemon/source/candump_log.hpp"
 #include "daemon/source/replay.hpp"
 
 namespace cremed {
@@ -71,7 +69,7 @@ class RecordingSink final : public OdometrySink {
 
 void check_logs(const Replay& replay) {
   for (const auto& log : replay.logs()) {
-    if (const std::string problem = log->reader().problem(); !problem.empty()) {
+    if (const std::string problem = log.problem(); !problem.empty()) {
       throw std::runtime_error(problem);
     }
   }
@@ -83,12 +81,7 @@ PlayedDrive play_drive(const Configuration& configuration, const std::vector<std
                        OdometrySink* other) {
   require_interface_names(configuration);
   const volatile std::sig_atomic_t stop = 0;
-  std::vector<std::unique_ptr<CandumpLog>> sources;
-  sources.reserve(logs.size());
-  for (const std::string& path : logs) {
-    sources.push_back(std::make_unique<CandumpLog>(path, interface_names(configuration), &stop));
-  }
-  Replay replay(std::move(sources), 0.0, &stop);
+  Replay replay(logs, interface_names(configuration), 0.0, &stop);
   RecordingSink recording(configuration);
   std::vector<OdometrySink*> sinks{&recording};
   if (other != nullptr) {

@@ -106,7 +106,7 @@ void Pipeline::use(RadarChannel& radar, const RadarScan& scan, std::int64_t begi
   outputs_.on_motion(radar.index, motion, static_cast<std::int32_t>(solve_us));
   hold(radar, motion);
   odometry_.use_ready();
-  radar.note_duration(clock_.now_us() - begin_us, solve_us);
+  radar.note_latency(clock_.now_us() - begin_us);
   outputs_.on_scan(radar.index, scan);
 }
 

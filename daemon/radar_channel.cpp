@@ -31,12 +31,6 @@ void RadarChannel::count(const Odometry& odometry) {
 
 void RadarChannel::note_report(const RadarReport& report) { status_.odometry = report; }
 
-void RadarChannel::note_duration(std::int64_t latency_us, std::int64_t solve_us) {
-  latency_.add(latency_us);
-  latencies.add(latency_us);
-  solve_times.add(solve_us);
-}
-
 void RadarChannel::begin_period() {
   status_.latency = {latency_.count(), latency_.quantile_us(0.5), latency_.quantile_us(0.99),
                      latency_.max_us()};

@@ -32,9 +32,8 @@ struct RadarChannel {
   void count(const Odometry& odometry);
   /// Copies the odometry filter's report into the status.
   void note_report(const RadarReport& report);
-  /// Notes the time from a scan's last frame to the end of its publication, and the part that
-  /// registration took.
-  void note_duration(std::int64_t latency_us, std::int64_t solve_us);
+  /// Notes the time from a scan's last frame to the end of its publication.
+  void note_latency(std::int64_t latency_us) { latency_.add(latency_us); }
   /// Takes the latencies since the last call into the status.
   void begin_period();
   /// The status with the present counters of all stages.
@@ -47,10 +46,8 @@ struct RadarChannel {
   EgoMotionEstimator estimator;
   SelfCheck self_check;
   ScanClock scan_clock;
-  bool is_ahead = false;         ///< Its stamps are ahead of those of all other buses (BusClocks).
-  bool is_behind = false;        ///< Its stamps are behind those of all other buses.
-  LatencyHistogram latencies;    ///< Since the start.
-  LatencyHistogram solve_times;  ///< Since the start.
+  bool is_ahead = false;   ///< Its stamps are ahead of those of all other buses (BusClocks).
+  bool is_behind = false;  ///< Its stamps are behind those of all other buses.
 
  private:
   LatencyHistogram latency_;  // Since begin_period().

@@ -113,20 +113,6 @@ void take_all(Replay& replay, Pipeline& pipeline, bool prints) {
   }
 }
 
-std::string quantiles(const LatencyHistogram& durations) {
-  return fmt::format("p50 {} us, p99 {} us, max {} us", durations.quantile_us(0.5),
-                     durations.quantile_us(0.99), durations.max_us());
-}
-
-void log_durations(const Configuration& configuration, const Pipeline& pipeline) {
-  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
-    const RadarChannel& radar = *pipeline.radars()[i];
-    spdlog::info("{}: {} scans, last frame to end of publication: {}; solver alone: {}",
-                 configuration.radars[i].name, radar.latencies.count(), quantiles(radar.latencies),
-                 quantiles(radar.solve_times));
-  }
-}
-
 /// As a shell gives it for a program that a signal ended.
 constexpr int kSignalStatus = 128;
 
@@ -195,9 +181,6 @@ int run_replay(const CommandLine& command_line, const std::string& configuration
                replay.counters().frames, log_s, wall_s, log_s / wall_s);
   const bool input_good =
       report_replay({configuration_path, configuration, pipeline, replay, tally, stopped_by != 0});
-  if (command_line.timing) {
-    log_durations(configuration, pipeline);
-  }
   const bool output_good = report_sinks(sinks);
   if (const auto text = learned ? learned->text(pipeline.learned()) : std::nullopt) {
     replace_file(learned->path(), *text);

@@ -4,6 +4,7 @@
 
 // A simulated drive through the whole pipeline, in memory.
 
+#include <algorithm>
 #include <cstdint>
 #include <sstream>
 #include <vector>
@@ -24,8 +25,9 @@ class RecordingSink final : public OdometrySink {
   void on_scan(std::size_t radar, const RadarScan& scan) override {
     if (!scans.empty()) scans[radar].push_back(scan);
   }
-  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t) override {
+  void on_motion(std::size_t radar, const EgoMotion& motion, std::int32_t solve_us) override {
     motions[radar].push_back(motion);
+    max_solve_us = std::max(max_solve_us, solve_us);
   }
   void on_odometry(const Odometry& odometry) override { odometries.push_back(odometry); }
   void on_fused(const EgoMotion& motion, std::int32_t) override { fused.push_back(motion); }
@@ -34,6 +36,7 @@ class RecordingSink final : public OdometrySink {
   }
 
   std::vector<std::vector<EgoMotion>> motions;
+  std::int32_t max_solve_us = 0;
   std::vector<Odometry> odometries;
   std::vector<EgoMotion> fused;
   std::vector<std::vector<RadarStatus>> statuses;

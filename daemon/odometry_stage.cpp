@@ -101,7 +101,8 @@ bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
 /// Not if positions contradict the speed. Other doubts by the radar's own check are decisive only
 /// if the comparison with the other radars is not: a mount may be off, which the odometry learns.
 bool OdometryStage::is_trusted(const RadarChannel& radar) const {
-  return (radar.self_check.doubts() & positions_contradict_speed) == 0 &&
+  return ((radar.self_check.doubts() & positions_contradict_speed) == 0 ||
+          filter_->has_learned_scale()) &&
          (radar.self_check.is_trusted() || !filter_->is_fault_unknown());
 }
 

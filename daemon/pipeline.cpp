@@ -120,7 +120,8 @@ void Pipeline::check(RadarChannel& radar, EgoMotion& motion) {
     radar.self_check.add(motion, radar.estimator.targets());
   }
   if (filter != nullptr && radar.self_check.contradicts_speed() &&
-      filter->refutes_speed_doubt(radar.index, motion.utime_us)) {
+      filter->refutes_speed_doubt(radar.index, motion.utime_us,
+                                  radar.self_check.speed_correction())) {
     radar.self_check.acquit_speed();
   }
   const bool is_contradicted = odometry() && contradicts(*odometry(), motion);

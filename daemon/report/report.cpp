@@ -385,10 +385,16 @@ bool has_common_mount(const RadarConfiguration& radar, const RadarStatus& status
   return (status.belief.doubts & kOfMount) != 0 && !sharing_mount(radar, all).empty();
 }
 
+/// The odometry uses the radar, and corrects for its error.
+bool is_learned(const RadarStatus& status) {
+  const FaultKind kind = status.odometry.cause.kind;
+  return !status.odometry.is_left_out && (kind == FaultKind::mount_yaw || kind == FaultKind::scale);
+}
+
 void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
                std::span<const RadarConfiguration> all, Findings& findings) {
   const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
-  if (is_left_out || status.odometry.cause.kind == FaultKind::mount_yaw) {
+  if (is_left_out || is_learned(status)) {
     findings.push_back(fault_finding(radar, status, all));
   }
 }
@@ -397,10 +403,9 @@ void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
 /// a value, and does not know all that its positions tell. Of a common mount common_mount() tells.
 Findings contradictions_of(const RadarConfiguration& radar, const RadarStatus& status,
                            std::span<const RadarConfiguration> all) {
-  const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
   const FaultKind kind = status.odometry.cause.kind;
   Findings findings;
-  if (!is_left_out || (kind != FaultKind::scale && kind != FaultKind::sign)) {
+  if (kind != FaultKind::scale && kind != FaultKind::sign) {
     add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
   }
   if (!has_common_mount(radar, status, all) && (findings.empty() || kind != FaultKind::unknown)) {
@@ -418,13 +423,12 @@ std::string configure_command(const RadarConfiguration& radar) {
 Finding fault_finding(const RadarConfiguration& radar, const RadarStatus& status,
                       std::span<const RadarConfiguration> all) {
   const CauseText text = cause_text(radar, status.odometry.cause, all);
-  const bool is_learned =
-      !status.odometry.is_left_out && status.odometry.cause.kind == FaultKind::mount_yaw;
   const std::string effect =
-      is_learned ? "; the odometry corrects for it"
-                 : concat({"; excluded from the odometry (normalised innovation squared of its "
-                           "Doppler ",
-                           decimal(status.odometry.doppler_nis), ", 1 expected)"});
+      is_learned(status)
+          ? "; the odometry corrects for it"
+          : concat({"; excluded from the odometry (normalised innovation squared of its "
+                    "Doppler ",
+                    decimal(status.odometry.doppler_nis), ", 1 expected)"});
   return {Severity::warning, text.what + effect, text.remedy};
 }
 

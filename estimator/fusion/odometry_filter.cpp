@@ -18,6 +18,11 @@ namespace {
 
 using namespace state_layout;
 
+/// An error of scale that all radars share is found within this time of driving.
+constexpr double kScaleFoundS = 1.0;
+/// As of one radar (FaultHypotheses).
+constexpr double kMinNamedScale = 0.02;
+
 }  // namespace
 
 OdometryFilter::OdometryFilter(const OdometryOptions& options, std::vector<Pose2> mounts,
@@ -39,8 +44,9 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options, std::vector<Pose2
   state_.start();
 }
 
-Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
+Odometry OdometryFilter::update(std::size_t radar, const TargetSet& measured, std::int64_t stamp_us,
                                 bool is_trusted) {
+  const TargetSet& targets = doppler_.corrected(measured);
   // 1. Which radars are believed.
   if (!is_trusted) {
     faults_.accuse(radar, stamp_us);
@@ -82,6 +88,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
       }
       has_turned = learn_common_turn();
     }
+    has_turned = learn_common_scale() || has_turned;
     if (is_sideways(radar)) {
       condition_.unsettle();
     }
@@ -117,7 +124,9 @@ void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is
   faults_.evidence.add_motion(radar, motion);
   faults_.note_speed_undecided(radar, is_speed_undecided);
   if (is_trusted && !faults_.is_at_fault(radar)) {
-    vehicle_.compare(state_.mount(radar), motion);
+    EgoMotion corrected = motion;
+    corrected.motion.head<2>() *= doppler_.factor();
+    vehicle_.compare(state_.mount(radar), corrected);
   }
 }
 
@@ -251,6 +260,23 @@ bool OdometryFilter::learn_common_turn() {
   const double way_m = state_.gaussian.mean(kSpeed) * output_.anchor_age_s();
   state_.gaussian.add_variance(kY, squared(way_m * turn->yaw_rad));
   faults_.pause();
+  return true;
+}
+
+/// Learns an error of scale that all radars in use share; true if there was one.
+bool OdometryFilter::learn_common_scale() {
+  const auto& scale = faults_.common_scale();
+  if (!scale || majority_.has_stepped() || traffic_.parked.is_in_doubt()) {
+    return false;
+  }
+  doppler_.learn(scale->factor);
+  const double error_mps = (scale->factor - 1.0) * state_.gaussian.mean(kSpeed);
+  state_.start_scale(error_mps);
+  state_.gaussian.add_variance(kX, squared(error_mps * output_.anchor_age_s()));
+  output_.add_error_of_way(error_mps * kScaleFoundS);
+  positions_.clear();
+  vehicle_.restart_errors();
+  faults_.note_scale_learned();
   return true;
 }
 
@@ -506,6 +532,11 @@ FaultCause OdometryFilter::cause(std::size_t radar) const {
   const FaultCause by_others = faults_.cause(radar);
   if (by_others.kind != FaultKind::unknown) {
     return by_others;
+  }
+  const double scale = doppler_.factor() / (1.0 + state_.gaussian.mean(kCommonScale));
+  if (has_learned_scale() && std::abs(scale - 1.0) > kMinNamedScale &&
+      contains(state_.ahead(), radar)) {
+    return {FaultKind::scale, scale};
   }
   return is_sideways(radar) ? turned_mounts_.cause_of_sideways(radar) : turned_mounts_.cause(radar);
 }

@@ -13,6 +13,7 @@
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
+#include "cremed/estimator/fusion/doppler_correction.hpp"
 #include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/measurement/side_slip.hpp"
@@ -63,7 +64,7 @@ class OdometryFilter {
 
   /// Updates with the usable targets of a scan. Returns the odometry at the latest stamp so far. A
   /// radar that is not trusted (SelfCheck) is compared with the filter, but not used.
-  Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
+  Odometry update(std::size_t radar, const TargetSet& measured, std::int64_t stamp_us,
                   bool is_trusted = true);
 
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
@@ -78,10 +79,9 @@ class OdometryFilter {
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
                bool is_speed_undecided = false);
 
-  /// Notes that a radar's own check finds its speed wrong. True if that is chance: two others have
-  /// the same speed.
-  bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us) {
-    return faults_.refutes_speed_doubt(radar, stamp_us);
+  /// See FaultHypotheses.
+  bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us, double factor) {
+    return faults_.refutes_speed_doubt(radar, stamp_us, factor);
   }
 
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
@@ -95,6 +95,9 @@ class OdometryFilter {
   /// A parked vehicle starts, or something departs beside it: meanwhile scans are no evidence for
   /// or against a radar.
   [[nodiscard]] bool is_start_in_doubt() const { return traffic_.parked.is_in_doubt(); }
+  /// The Doppler of all radars is corrected by a learned factor: that their own checks find its
+  /// scale wrong is known.
+  [[nodiscard]] bool has_learned_scale() const { return doppler_.is_learned(); }
   /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;
@@ -114,6 +117,7 @@ class OdometryFilter {
   [[nodiscard]] bool is_mount_judged(std::size_t radar) const;
   [[nodiscard]] bool is_sideways(std::size_t radar) const;
   bool learn_common_turn();
+  bool learn_common_scale();
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
@@ -133,6 +137,7 @@ class OdometryFilter {
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
+  DopplerCorrection doppler_;
   std::vector<std::unique_ptr<RadarTrack>> tracks_;
   RadarConsensus consensus_;
   FaultHypotheses faults_;

@@ -363,6 +363,18 @@ TEST_CASE("A mount that the odometry has learned is named with its value") {
   CHECK_THAT(findings[0].remedy, Catch::Contains("mount.yaw_rad = 0.1"));
 }
 
+TEST_CASE("A scale that the odometry has learned is named once, with its value") {
+  RadarStatus status = healthy();
+  status.odometry.cause = {FaultKind::scale, 1.0 / 0.95};
+  status.belief.doubts = GENERATE(0U, std::uint32_t{positions_contradict_speed});
+  status.belief.doppler_correction = 1.07;
+  const auto findings = radar_findings(front(), status, {});
+  REQUIRE(findings.size() == 1);
+  CHECK_THAT(findings[0].what,
+             Catch::Contains("5.0 % too small") && Catch::Contains("corrects for it"));
+  CHECK_THAT(findings[0].remedy, Catch::Contains("calibration.doppler_scale = 1.053"));
+}
+
 TEST_CASE("No key is advised that the radar does not have, and no value that it cannot have") {
   RadarConfiguration gpr = front();
   RadarStatus status = healthy();

@@ -67,8 +67,8 @@ class Comparison {
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
-  bool refutes_speed_doubt(std::size_t radar) {
-    return faults_.refutes_speed_doubt(radar, std::llround(time_s_ * 1e6));
+  bool refutes_speed_doubt(std::size_t radar, double scale = 1.0) {
+    return faults_.refutes_speed_doubt(radar, std::llround(time_s_ * 1e6), scale);
   }
   void lose(bool is_after_step = false) {
     faults_.require_positions(is_after_step ? std::optional(-8.0) : std::nullopt);
@@ -650,6 +650,82 @@ TEST_CASE("what all radars share is refuted by their positions") {
   CHECK(comparison.faults().is_unknown());
   comparison.drive(3.0);
   CHECK_FALSE(comparison.faults().is_unknown());
+}
+
+Comparison::Fault all_scaled(double scale) {
+  return [=](std::size_t /*radar*/, Comparison::Measured& measured) {
+    measured.velocity_mps *= scale;
+  };
+}
+
+TEST_CASE("a Doppler scale that all radars share is told within a second, not of a lone radar") {
+  const auto mounts = GENERATE(std::vector<Pose2>{kFront}, std::vector<Pose2>{kFront, kRearLeft},
+                               std::vector<Pose2>{kFront, kRearLeft, kRearRight}, kFive);
+  const double scale = GENERATE(0.9, 0.95, 1.05, 1.1);
+  CAPTURE(mounts.size(), scale);
+  Comparison comparison(mounts);
+  comparison.drive(3.0);
+  CHECK_FALSE(comparison.faults().common_scale());
+  for (int i = 0; i < 10 && !comparison.faults().common_scale(); ++i) {
+    comparison.drive(0.15, all_scaled(scale));
+  }
+  REQUIRE(comparison.faults().common_scale().has_value() == (mounts.size() > 1));
+  if (mounts.size() > 1) {
+    const double part = (comparison.faults().common_scale()->factor - 1.0) / (1.0 / scale - 1.0);
+    CHECK(part > 0.25);  // Some of these epochs are of before.
+    CHECK(part < 1.25);
+    comparison.faults().note_scale_learned();
+    CHECK(comparison.faults().at_fault() == 0);
+    CHECK_FALSE(comparison.faults().common_scale());
+  }
+}
+
+TEST_CASE("no scale is shared by healthy radars, creeping ones, or one that differs") {
+  Comparison comparison(GENERATE(std::vector<Pose2>{kFront, kRearLeft}, kFive));
+  Comparison::Fault fault;
+  SECTION("healthy, in bends") { comparison.corner(12.0, 0.35, 0.003); }
+  SECTION("braking") { comparison.brake(5.0, 2.0); }
+  SECTION("creeping") {
+    comparison.corner(2.0, 0.0, 0.0);
+    fault = all_scaled(0.9);
+  }
+  SECTION("one") { fault = scaled(1, 0.93); }
+  SECTION("opposite") {
+    fault = [](std::size_t radar, Comparison::Measured& measured) {
+      measured.velocity_mps *= radar == 0 ? 0.95 : 1.05;
+    };
+  }
+  for (int i = 0; i < 30; ++i) {
+    comparison.drive(0.15, fault);
+    CHECK_FALSE(comparison.faults().common_scale());
+  }
+}
+
+TEST_CASE("radars whose own checks tell the same scale share it, unless their motions differ") {
+  const double yaw_rad = GENERATE(0.0, 0.3);
+  constexpr double kScale = 0.9;
+  Comparison comparison({kFront, kRearLeft, kRearRight});
+  comparison.drive(3.0);
+  for (int i = 0; i < 8; ++i) {
+    // Too fast for their maps: no positions.
+    comparison.drive(
+        0.15,
+        [&](std::size_t radar, Comparison::Measured& measured) {
+          turned(0b110, yaw_rad)(radar, measured);
+          measured.velocity_mps *= kScale;
+        },
+        false);
+    for (const std::size_t radar : {1U, 2U}) {
+      comparison.refutes_speed_doubt(radar, 1.0 / kScale);
+      comparison.accuse(radar);
+    }
+  }
+  CHECK_FALSE(comparison.faults().common_scale());  // The front radar has not told it.
+  for (int i = 0; i < 3; ++i) {
+    const bool is_shared = comparison.refutes_speed_doubt(0, 1.0 / kScale);
+    CHECK((i == 0 || is_shared == (yaw_rad == 0.0)));
+    comparison.accuse(0);
+  }
 }
 
 TEST_CASE("a radar at fault returns after some seconds of agreement, each time later") {

@@ -43,6 +43,10 @@ class SelfCheck {
   [[nodiscard]] bool contradicts_speed() const {
     return speed_.is_contradicted() || scale_.is_wrong();
   }
+  /// Factor that corrects Doppler then; 1 if it is not known.
+  [[nodiscard]] double speed_correction() const {
+    return scale_.is_wrong() ? scale_.correction() : 1.0;
+  }
   /// Whether positions contradict it is not known yet.
   [[nodiscard]] bool is_speed_undecided() const { return scale_.is_open(); }
   /// Discards this finding: other radars confirm the speed by Doppler.

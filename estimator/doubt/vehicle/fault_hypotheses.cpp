@@ -40,8 +40,6 @@ constexpr double kMinBetweenAxesRad = 0.05;
 /// Radars whose speeds differ by less than this share have the same speed. A larger error of scale
 /// is found by the radar's own check (DopplerScale).
 constexpr double kMaxShareShared = 0.03;
-/// An error that all radars share (a scale) is found by the own check of each within this time.
-constexpr double kSharedFoundS = 5.0;
 
 /// Two degrees: more than the error of mounts measured by hand.
 constexpr double kMinNamedTurnRad = 0.035;
@@ -77,10 +75,7 @@ bool is_grave(const FaultCause& cause) {
 }  // namespace
 
 FaultHypotheses::FaultHypotheses(const OdometryState& state)
-    : evidence(state),
-      state_(state),
-      convictions_(state.radars()),
-      speed_doubted_us_(state.radars()) {
+    : evidence(state), state_(state), convictions_(state.radars()), scale_(state.radars()) {
   for (std::size_t i = 0; i < state.radars(); ++i) {
     causes_.emplace_back(state.mounts(), i);
   }
@@ -104,20 +99,28 @@ void FaultHypotheses::clear() {
   for (FaultCauseSearch& cause : causes_) {
     cause.forget();
   }
-  std::fill(speed_doubted_us_.begin(), speed_doubted_us_.end(), std::nullopt);
+  scale_.forget();
   forget_skid();
   common_motion_.reset();
+  common_scale_.reset();
   unknown_epochs_ = 0;
   was_paused_ = false;
 }
 
-bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us) {
-  speed_doubted_us_[radar] = time_us;
+/// Not while radars may be exchanged: their positions are wrong as well.
+std::optional<CommonScale::Finding> FaultHypotheses::find_common_scale() const {
+  return is_exchange_open_ ? std::nullopt
+                           : scale_.find(evidence, at_fault(), convictions_.accused());
+}
+
+bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us, double factor) {
+  scale_.note_doubt(radar, time_us, factor);
+  if (find_common_scale()) {
+    return true;
+  }
   const RadarSet present = evidence.epochs() == 0 ? 0U : evidence.present();
-  const RadarSet others = filter(present & ~at_fault(), [&](std::size_t i) {
-    const auto& doubted_us = speed_doubted_us_[i];
-    return !doubted_us || seconds_between(*doubted_us, time_us) >= kSharedFoundS;
-  });
+  const RadarSet others =
+      filter(present & ~at_fault(), [&](std::size_t i) { return !scale_.is_doubted(i, time_us); });
   if (std::popcount(others) < 2) {
     return false;
   }
@@ -136,9 +139,16 @@ void FaultHypotheses::pause() {
   evidence.forget_epochs();
   forget_skid();
   common_motion_.reset();
+  common_scale_.reset();
   unknown_epochs_ = 0;
   supported_epochs_ = 0;
   was_paused_ = true;
+}
+
+void FaultHypotheses::note_scale_learned() {
+  convictions_.acquit(common_scale_->radars);
+  evidence.clear();  // With the Doppler before.
+  pause();
 }
 
 void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
@@ -147,6 +157,7 @@ void FaultHypotheses::add_velocity(std::size_t radar, std::int64_t stamp_us,
   is_skidding_ = is_due ? is_skid() : is_skidding_;
   if (is_skidding_) {
     evidence.forget_jumps();
+    common_scale_.reset();
     unknown_epochs_ = 0;
     return;
   }
@@ -223,6 +234,7 @@ void FaultHypotheses::require_positions(std::optional<double> step_mps) {
 }
 
 void FaultHypotheses::judge() {
+  common_scale_ = find_common_scale();
   acquit_misjudged();
   const ConsistentSet best = find_consistent_set(evidence, at_fault(), slip_rule());
   // Radars are not exchanged while driving.

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "cremed/estimator/doubt/vehicle/common_scale.hpp"
 #include "cremed/estimator/doubt/vehicle/consistent_set.hpp"
 #include "cremed/estimator/doubt/vehicle/convictions.hpp"
 #include "cremed/estimator/doubt/vehicle/fault_cause.hpp"
@@ -40,9 +41,11 @@ class FaultHypotheses {
   void clear();
   /// A radar's own check found it wrong (SelfCheck).
   void accuse(std::size_t radar, std::int64_t time_us);
-  /// Notes that a radar's own check finds its speed wrong (SelfCheck). True if that is chance: at
-  /// least two others have the same speed, and their own checks found nothing wrong for 5 s.
-  bool refutes_speed_doubt(std::size_t radar, std::int64_t time_us);
+  /// Notes that a radar's own check finds its speed wrong (SelfCheck), and the factor on Doppler
+  /// that corrects it, or 1 if that is not known. True if it is not the error of this radar: at
+  /// least two others have the same speed, and their own checks found nothing wrong for 5 s; or all
+  /// share it (common_scale()).
+  bool refutes_speed_doubt(std::size_t radar, std::int64_t time_us, double factor);
   /// What was measured until now is not compared any more: a skid has ended, or a mount was learned
   /// anew.
   void pause();
@@ -65,6 +68,12 @@ class FaultHypotheses {
   [[nodiscard]] const std::optional<Eigen::Vector3d>& common_motion() const {
     return common_motion_;
   }
+  /// An error of the Doppler scale that all radars share.
+  [[nodiscard]] const std::optional<CommonScale::Finding>& common_scale() const {
+    return common_scale_;
+  }
+  /// To be called if common_scale() corrects Doppler from now on: its radars are believed again.
+  void note_scale_learned();
   /// The vehicle seems to skid: the radars are not compared.
   [[nodiscard]] bool is_skidding() const { return is_skidding_; }
   /// No set is consistent, or several are: which radars are at fault is not known.
@@ -112,6 +121,7 @@ class FaultHypotheses {
   static constexpr std::size_t kMinEpochs = 3;
 
   bool is_skid();
+  [[nodiscard]] std::optional<CommonScale::Finding> find_common_scale() const;
   /// A verdict stands: those found at fault do not make the others agree with them.
   [[nodiscard]] SlipRule slip_rule() const {
     return {is_unknown() ? kDecreaseByUsualSlip : kDecreaseByImpossibleSlip,
@@ -137,8 +147,8 @@ class FaultHypotheses {
   const OdometryState& state_;
   Convictions convictions_;
   std::vector<FaultCauseSearch> causes_;
-  std::vector<std::optional<std::int64_t>> speed_doubted_us_;  // By own checks, by radar.
-  RadarSet speed_undecided_ = 0;                               // Likewise.
+  CommonScale scale_;
+  RadarSet speed_undecided_ = 0;  // By own checks.
   /// Which of two radars seems to be at fault, and for how many epochs that has been the same.
   struct OfTwo {
     std::size_t radar = 0;
@@ -155,6 +165,7 @@ class FaultHypotheses {
   bool is_reversed_ = false;
   bool is_newly_disputed_ = false;
   std::optional<Eigen::Vector3d> common_motion_;
+  std::optional<CommonScale::Finding> common_scale_;
   bool is_skidding_ = false;
   std::optional<std::int64_t> slip_changed_us_;  // Of the vehicle that skids: last not steady.
   bool was_paused_ = false;  // After a pause a verdict needs the full number of epochs.

@@ -46,6 +46,15 @@ constexpr double kWitnessShare = 0.3;
 constexpr double kAnySlipRad = 0.3;
 /// Least number of epochs with an impossible slip: one may have a wrong registration.
 constexpr int kMinImpossible = 2;
+/// Limit of the difference of the speed by positions to that by Doppler: this share of the speed,
+/// and this much. Of the one of three or two radars that differs least, healthy ones reach 0.7 of
+/// it (means of 0.45 s of three, of 1 s of two), with scales of 0.95 and 1.05 at least 1.1 in the
+/// first second.
+constexpr double kMinScaleShare = 0.02;
+constexpr double kMinScaleMps = 0.04;
+/// Below it Doppler's rounding, slow cars among the static targets, and what a late radar did to
+/// the state shift the speed by 0.2 m/s and more (0103, 1094).
+constexpr double kMinScaledMps = 4.0;
 /// Lateral acceleration of turns, which bounds the yaw rate: slow vehicles turn faster than the
 /// prior at a start allows. With that prior alone a U-turn at full lock (0.85 rad/s) contradicts a
 /// lone radar by 8.
@@ -76,7 +85,7 @@ void MotionEvidence::add_speed_by_positions(std::size_t radar, std::int64_t stam
                            squared(kPositionM / since_s) + squared(kPositionMps) +
                            squared(state_.mixture_std());
   tracks_[radar].speed =
-      Speed{stamp_us, speed_mps, of_method + variance_m2 / squared(since_s), of_method};
+      Speed{stamp_us, speed_mps, of_method + variance_m2 / squared(since_s), of_method, since_s};
 }
 
 void MotionEvidence::add_motion(std::size_t radar, const EgoMotion& motion) {
@@ -198,8 +207,9 @@ void MotionEvidence::observe(std::int64_t time_us) {
   Epoch& epoch = epochs_[count_++ % kEpochs];
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const auto velocity = velocity_at(i, time_us);
-    epoch[i] = {velocity, {}, {}};
+    epoch[i] = {velocity, {}, {}, {}};
     if (velocity) {
+      epoch[i].speed_by_positions = speed_by_positions(i);
       epoch[i].all = measurements(i, *velocity, Slip::usual);
       epoch[i].all_by_positions = measurements(i, *velocity, Slip::usual_by_positions);
     }
@@ -258,6 +268,22 @@ MotionSums MotionEvidence::by_doppler(std::size_t mount_of, const Velocity& velo
   return sums;
 }
 
+/// At the time of the epoch.
+std::optional<MotionEvidence::Speed> MotionEvidence::speed_by_positions(std::size_t radar) const {
+  const Track& track = tracks_[radar];
+  const auto& [a, b] = track.velocities;
+  const double part = !track.speed ? 0.0
+                                   : seconds_between(track.speed->stamp_us, time_us_) /
+                                         seconds_between(a.stamp_us, b.stamp_us);
+  if (!track.speed || std::abs(part) > kMaxPeriodsOfPositions) {
+    return std::nullopt;
+  }
+  Speed speed = *track.speed;
+  speed.mps += part * (b.mps - a.mps).x();
+  speed.variance += squared(part) * (a.covariance + b.covariance)(0, 0);
+  return speed;
+}
+
 MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& velocity,
                                         Slip slip) const {
   MotionSums sums = by_doppler(radar, velocity);
@@ -266,13 +292,8 @@ MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& veloc
   }
   const Track& track = tracks_[radar];
   const Eigen::Vector3d along(1.0, -state_.mount(radar).y_m, 0.0);
-  const auto& [a, b] = track.velocities;
-  const double part = !track.speed ? 0.0
-                                   : seconds_between(track.speed->stamp_us, time_us_) /
-                                         seconds_between(a.stamp_us, b.stamp_us);
-  if (track.speed && std::abs(part) <= kMaxPeriodsOfPositions) {
-    sums.add(along, track.speed->mps + part * (b.mps - a.mps).x(),
-             track.speed->variance + squared(part) * (a.covariance + b.covariance)(0, 0),
+  if (const auto speed = speed_by_positions(radar)) {
+    sums.add(along, speed->mps, speed->variance,
              track.speed->variance - track.speed->variance_of_method);
   }
   for (const YawRate& rate : track.yaw_rates) {
@@ -351,6 +372,13 @@ MotionSums MotionEvidence::sum(RadarSet set, const Epoch& epoch, std::optional<P
     }
   });
   add_slip(sum, slip);
+  return sum;
+}
+
+MotionSums MotionEvidence::sum_by_doppler(RadarSet set) const {
+  MotionSums sum = prior(state_.options().start_yaw_rate_std_radps);
+  for_each(set, [&](std::size_t i) { sum.add(by_doppler(i)); });
+  add_slip(sum, Slip::usual);
   return sum;
 }
 
@@ -446,6 +474,28 @@ MotionEvidence::SpeedDifference MotionEvidence::speed_difference(std::size_t rad
     return {};
   }
   return {speeds_mps / count, differences_mps / count, std::sqrt(variances) / count};
+}
+
+std::optional<double> MotionEvidence::scale_by_positions(std::size_t radar, std::size_t newest,
+                                                         double min_since_s, double limits) const {
+  double by_doppler_mps = 0.0;
+  double by_positions_mps = 0.0;
+  std::size_t count = 0;
+  for (std::size_t age = 0; age < std::min(newest, epochs()); ++age) {
+    const Measured& measured = epochs_[(count_ - 1 - age) % kEpochs][radar];
+    if (measured.velocity && measured.speed_by_positions &&
+        measured.speed_by_positions->since_s >= min_since_s) {
+      by_doppler_mps += measured.velocity->mps.x();
+      by_positions_mps += measured.speed_by_positions->mps;
+      ++count;
+    }
+  }
+  const auto measured = static_cast<double>(count);
+  const double sum_mps = std::abs(by_doppler_mps);
+  const bool differs = 2 * count > newest && sum_mps > kMinScaledMps * measured &&
+                       std::abs(by_positions_mps - by_doppler_mps) >
+                           limits * (kMinScaleShare * sum_mps + kMinScaleMps * measured);
+  return differs ? std::optional(by_positions_mps / by_doppler_mps) : std::nullopt;
 }
 
 RadarSet MotionEvidence::present() const {

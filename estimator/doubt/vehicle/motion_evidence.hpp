@@ -139,10 +139,17 @@ class MotionEvidence {
     double std_mps = 0.0;  ///< By the noise of the targets.
   };
   [[nodiscard]] SpeedDifference speed_difference(std::size_t radar, RadarSet set) const;
+  /// The speed of a radar by its positions over that by its Doppler, means over the newest epochs.
+  /// None if they differ by less than so many `limits`, or if half of so many epochs have not both,
+  /// positions compared over `min_since_s` or more.
+  [[nodiscard]] std::optional<double> scale_by_positions(std::size_t radar, std::size_t newest,
+                                                         double min_since_s, double limits) const;
   /// All measurements of the radars in the set, with the prior.
   [[nodiscard]] MotionSums sum(RadarSet set) const {
     return sum(set, newest_epoch(), {}, state_.options().start_yaw_rate_std_radps, Slip::usual);
   }
+  /// Their Doppler only.
+  [[nodiscard]] MotionSums sum_by_doppler(RadarSet set) const;
   /// Motions (v, w, slip) over the epochs by a set of radars, if the vehicle may have any slip.
   struct MotionWithSlip {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -168,8 +175,16 @@ class MotionEvidence {
   }
 
  private:
+  struct Speed {
+    std::int64_t stamp_us = 0;
+    double mps = 0.0;
+    double variance = 0.0;
+    double variance_of_method = 0.0;  // Without the noise of the targets.
+    double since_s = 0.0;             // Time over which positions are compared.
+  };
   struct Measured {
     std::optional<Velocity> velocity;
+    std::optional<Speed> speed_by_positions;
     MotionSums all;               // With yaw rates by registration with Doppler.
     MotionSums all_by_positions;  // By positions alone.
   };
@@ -182,12 +197,6 @@ class MotionEvidence {
     double variance = 0.0;
     double by_positions_radps = 0.0;
     double variance_by_positions = 0.0;
-  };
-  struct Speed {
-    std::int64_t stamp_us = 0;
-    double mps = 0.0;
-    double variance = 0.0;
-    double variance_of_method = 0.0;  // Without the noise of the targets.
   };
   /// The newest scans of one radar.
   struct Track {
@@ -210,6 +219,7 @@ class MotionEvidence {
   [[nodiscard]] bool is_fresh(std::int64_t stamp_us) const;
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
+  [[nodiscard]] std::optional<Speed> speed_by_positions(std::size_t radar) const;
   [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity,
                                         Slip slip) const;
   [[nodiscard]] MotionSums prior(double yaw_rate_std_radps) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -57,6 +58,11 @@ class OdometryOutput {
   /// The pose since the start may be wrong by this before the anchor.
   void add_error(const Eigen::Vector3d& odom_error) {
     anchor_.covariance += odom_error * odom_error.transpose();
+  }
+  /// The same along the present direction.
+  void add_error_of_way(double way_m) {
+    const double yaw_rad = odom_pose_.z();
+    add_error({way_m * std::cos(yaw_rad), way_m * std::sin(yaw_rad), 0.0});
   }
   void add_radar(std::size_t radar) { radars_ |= 1U << radar; }
 

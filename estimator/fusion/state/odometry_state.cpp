@@ -41,6 +41,7 @@ constexpr double kGoneS = 0.5;
 /// 27 degrees. Four healthy radars at 43 degrees learned 1 % in 5 minutes of a simulated motorway,
 /// two at 45 learned 4.5 % in 20 minutes of starts and stops. The front radars of RadarScenes are
 /// at 25.
+constexpr double kLearnedScaleStd = 0.02;
 constexpr double kMaxSineOfScale = 0.45;
 constexpr int kMostRadars = 16;
 static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);
@@ -256,6 +257,19 @@ void OdometryState::start_scene_errors(std::size_t radar) {
 
 void OdometryState::widen_scale(std::size_t radar, double std) {
   gaussian.add_variance(error(radar, kDopplerScale), squared(std));
+}
+
+void OdometryState::start_scale(double error_mps) {
+  gaussian.set(kCommonScale, 0.0, squared(kLearnedScaleStd));
+  const Eigen::Vector2d motion(gaussian.mean(kSpeed) + error_mps, gaussian.mean(kYawRate));
+  start_motion(motion, Eigen::Vector2d(gaussian.variance(kSpeed) + squared(error_mps),
+                                       gaussian.variance(kYawRate))
+                           .asDiagonal());
+  for_each_error([&](const StateError& error) {
+    if (error.reset == StateError::Reset::scene) {
+      start(error);
+    }
+  });
 }
 
 void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad) {

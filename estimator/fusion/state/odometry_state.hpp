@@ -43,6 +43,9 @@ class OdometryState {
   void widen_errors(std::size_t radar);
   /// The Doppler scale of a radar may be off by `std`.
   void widen_scale(std::size_t radar, double std);
+  /// The Doppler of all radars had an error of scale that shifted the speed by `error_mps`: begins
+  /// motion, scale and passing errors anew.
+  void start_scale(double error_mps);
   /// The mount of a radar turned: its yaw error is `yaw_rad` with `std_rad`, and the slip unknown.
   /// From then on the error is taken to stay as it is, not to pass.
   void turn_mount(std::size_t radar, double yaw_rad, double std_rad);

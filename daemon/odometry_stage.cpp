@@ -102,7 +102,7 @@ bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
 /// if the comparison with the other radars is not: a mount may be off, which the odometry learns.
 bool OdometryStage::is_trusted(const RadarChannel& radar) const {
   return ((radar.self_check.doubts() & positions_contradict_speed) == 0 ||
-          filter_->has_learned_scale()) &&
+          filter_->corrects_speed(radar.self_check.speed_correction())) &&
          (radar.self_check.is_trusted() || !filter_->is_fault_unknown());
 }
 

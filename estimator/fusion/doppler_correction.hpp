@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "cremed/estimator/scan/target_set.hpp"
 
@@ -21,12 +22,20 @@ class DopplerCorrection {
 
   [[nodiscard]] double factor() const { return factor_; }
   [[nodiscard]] bool is_learned() const { return factor_ != 1.0; }
+  /// What is left of a factor by a radar's own check; none if that is near 1.
+  [[nodiscard]] std::optional<double> left_of(std::optional<double> factor) const {
+    const double left = factor.value_or(factor_) / factor_;
+    return std::abs(left - 1.0) > kOwnCheckShare ? std::optional(left) : std::nullopt;
+  }
   /// Valid until the next call.
   [[nodiscard]] const TargetSet& corrected(const TargetSet& targets);
 
  private:
   /// The sigma that is left to the filter.
   static constexpr double kMinShare = 0.02;
+
+  /// By which healthy radars differ from their positions (DopplerScale).
+  static constexpr double kOwnCheckShare = 0.03;
 
   double factor_ = 1.0;
   TargetSet corrected_;

@@ -20,7 +20,7 @@ using namespace state_layout;
 
 /// An error of scale that all radars share is found within this time of driving.
 constexpr double kScaleFoundS = 1.0;
-/// As of one radar (FaultHypotheses).
+/// An error of scale of a single radar is named from here on, too.
 constexpr double kMinNamedScale = 0.02;
 
 }  // namespace
@@ -534,7 +534,7 @@ FaultCause OdometryFilter::cause(std::size_t radar) const {
     return by_others;
   }
   const double scale = doppler_.factor() / (1.0 + state_.gaussian.mean(kCommonScale));
-  if (has_learned_scale() && std::abs(scale - 1.0) > kMinNamedScale &&
+  if (doppler_.is_learned() && std::abs(scale - 1.0) > kMinNamedScale &&
       contains(state_.ahead(), radar)) {
     return {FaultKind::scale, scale};
   }

@@ -79,9 +79,9 @@ class OdometryFilter {
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
                bool is_speed_undecided = false);
 
-  /// See FaultHypotheses.
-  bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us, double factor) {
-    return faults_.refutes_speed_doubt(radar, stamp_us, factor);
+  /// See FaultHypotheses. `factor`: on Doppler as measured.
+  bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us, std::optional<double> factor) {
+    return faults_.refutes_speed_doubt(radar, stamp_us, doppler_.left_of(factor));
   }
 
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
@@ -95,9 +95,11 @@ class OdometryFilter {
   /// A parked vehicle starts, or something departs beside it: meanwhile scans are no evidence for
   /// or against a radar.
   [[nodiscard]] bool is_start_in_doubt() const { return traffic_.parked.is_in_doubt(); }
-  /// The Doppler of all radars is corrected by a learned factor: that their own checks find its
-  /// scale wrong is known.
-  [[nodiscard]] bool has_learned_scale() const { return doppler_.is_learned(); }
+  /// The Doppler of all radars is corrected by a learned factor, which is the reason for which the
+  /// own check of a radar finds its speed wrong, by `factor` if that is known.
+  [[nodiscard]] bool corrects_speed(std::optional<double> factor) const {
+    return doppler_.is_learned() && (!factor || !doppler_.left_of(factor));
+  }
   /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;

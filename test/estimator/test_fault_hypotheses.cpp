@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -67,7 +68,7 @@ class Comparison {
   /// Of the stamps of a radar.
   void delay(std::size_t radar, double by_s) { delays_s_[radar] = by_s; }
   void accuse(std::size_t radar) { faults_.accuse(radar, std::llround(time_s_ * 1e6)); }
-  bool refutes_speed_doubt(std::size_t radar, double scale = 1.0) {
+  bool refutes_speed_doubt(std::size_t radar, std::optional<double> scale = {}) {
     return faults_.refutes_speed_doubt(radar, std::llround(time_s_ * 1e6), scale);
   }
   void lose(bool is_after_step = false) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "cremed/estimator/doubt/radar/doppler_scale.hpp"
 #include "cremed/estimator/doubt/radar/nis_mean.hpp"
@@ -43,9 +44,9 @@ class SelfCheck {
   [[nodiscard]] bool contradicts_speed() const {
     return speed_.is_contradicted() || scale_.is_wrong();
   }
-  /// Factor that corrects Doppler then; 1 if it is not known.
-  [[nodiscard]] double speed_correction() const {
-    return scale_.is_wrong() ? scale_.correction() : 1.0;
+  /// Factor that corrects Doppler then, if it is known.
+  [[nodiscard]] std::optional<double> speed_correction() const {
+    return scale_.is_wrong() ? std::optional(scale_.correction()) : std::nullopt;
   }
   /// Whether positions contradict it is not known yet.
   [[nodiscard]] bool is_speed_undecided() const { return scale_.is_open(); }

@@ -21,8 +21,8 @@ class CommonScale {
 
   /// To be called when the clock of the stamps was set.
   void forget();
-  /// A radar's own check finds its speed wrong. `factor`: corrects it; 1 if that is not known.
-  void note_doubt(std::size_t radar, std::int64_t time_us, double factor) {
+  /// A radar's own check finds its speed wrong. `factor`: corrects it, if that is known.
+  void note_doubt(std::size_t radar, std::int64_t time_us, std::optional<double> factor) {
     doubts_[radar] = {time_us, factor};
   }
   /// Whether it did within 5 s: an error that all share is found by each within that time.
@@ -41,7 +41,7 @@ class CommonScale {
  private:
   struct Doubt {
     std::optional<std::int64_t> last_us;
-    double factor = 1.0;
+    std::optional<double> factor;
   };
 
   std::vector<Doubt> doubts_;  // By radar.

@@ -113,7 +113,8 @@ std::optional<CommonScale::Finding> FaultHypotheses::find_common_scale() const {
                            : scale_.find(evidence, at_fault(), convictions_.accused());
 }
 
-bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us, double factor) {
+bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us,
+                                          std::optional<double> factor) {
   scale_.note_doubt(radar, time_us, factor);
   if (find_common_scale()) {
     return true;

@@ -200,11 +200,7 @@ void OdometryState::restart(std::int64_t time_us) {
   start_motion(Eigen::Vector2d::Zero(), Eigen::Vector2d(squared(options_.start_speed_std_mps),
                                                         squared(options_.start_yaw_rate_std_radps))
                                             .asDiagonal());
-  for_each_error([&](const StateError& error) {
-    if (error.reset == StateError::Reset::scene) {
-      start(error);
-    }
-  });
+  start_scene_errors();
 }
 
 /// Sets an error to its prior.
@@ -247,6 +243,14 @@ void OdometryState::widen_errors(std::size_t radar) {
   forget_faults();
 }
 
+void OdometryState::start_scene_errors() {
+  for_each_error([&](const StateError& error) {
+    if (error.reset == StateError::Reset::scene) {
+      start(error);
+    }
+  });
+}
+
 void OdometryState::start_scene_errors(std::size_t radar) {
   for (const StateError& error : radar_errors_[radar]) {
     if (error.reset == StateError::Reset::scene) {
@@ -265,11 +269,7 @@ void OdometryState::start_scale(double error_mps) {
   start_motion(motion, Eigen::Vector2d(gaussian.variance(kSpeed) + squared(error_mps),
                                        gaussian.variance(kYawRate))
                            .asDiagonal());
-  for_each_error([&](const StateError& error) {
-    if (error.reset == StateError::Reset::scene) {
-      start(error);
-    }
-  });
+  start_scene_errors();
 }
 
 void OdometryState::turn_mount(std::size_t radar, double yaw_rad, double std_rad) {

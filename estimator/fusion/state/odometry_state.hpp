@@ -166,6 +166,7 @@ class OdometryState {
   void for_each_error(Visit visit) const;
   [[nodiscard]] bool is_scale_observed() const;
   void start(const StateError& error);
+  void start_scene_errors();
   void start_scene_errors(std::size_t radar);
   void advance(const StateError& error, double dt_s);
   bool grow(int state, double& variance, double to);

@@ -3,6 +3,7 @@
 #include "daemon/odometry_stage.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "cremed/estimator/fusion/output/fused_motion.hpp"
 
@@ -101,9 +102,13 @@ bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
 /// Not if positions contradict the speed. Other doubts by the radar's own check are decisive only
 /// if the comparison with the other radars is not: a mount may be off, which the odometry learns.
 bool OdometryStage::is_trusted(const RadarChannel& radar) const {
-  return ((radar.self_check.doubts() & positions_contradict_speed) == 0 ||
-          filter_->corrects_speed(radar.self_check.speed_correction())) &&
-         (radar.self_check.is_trusted() || !filter_->is_fault_unknown());
+  const SelfCheck& check = radar.self_check;
+  const bool is_corrected =
+      !check.is_repeated() && filter_->corrects_speed(check.speed_correction());
+  const std::uint32_t doubts =
+      check.doubts() & ~(is_corrected ? std::uint32_t{positions_contradict_speed} : 0U);
+  return (doubts & positions_contradict_speed) == 0 &&
+         ((doubts & ~covariance_too_large) == 0 || !filter_->is_fault_unknown());
 }
 
 void OdometryStage::use(const ScanQueue::Scan& scan) {

@@ -529,16 +529,19 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
 }
 
 FaultCause OdometryFilter::cause(std::size_t radar) const {
-  const FaultCause by_others = faults_.cause(radar);
-  if (by_others.kind != FaultKind::unknown) {
-    return by_others;
+  FaultCause cause = faults_.cause(radar);
+  if (cause.kind == FaultKind::scale) {
+    cause.value *= doppler_.factor();
+  }
+  if (cause.kind == FaultKind::unknown) {
+    cause =
+        is_sideways(radar) ? turned_mounts_.cause_of_sideways(radar) : turned_mounts_.cause(radar);
   }
   const double scale = doppler_.factor() / (1.0 + state_.gaussian.mean(kCommonScale));
-  if (doppler_.is_learned() && std::abs(scale - 1.0) > kMinNamedScale &&
-      contains(state_.ahead(), radar)) {
-    return {FaultKind::scale, scale};
-  }
-  return is_sideways(radar) ? turned_mounts_.cause_of_sideways(radar) : turned_mounts_.cause(radar);
+  const bool is_scale = cause.kind == FaultKind::unknown && doppler_.is_learned() &&
+                        std::abs(scale - 1.0) > kMinNamedScale &&
+                        contains(state_.ahead() & ~left_out(), radar);
+  return is_scale ? FaultCause{FaultKind::scale, scale} : cause;
 }
 
 RadarReport OdometryFilter::report(std::size_t radar) const {

@@ -724,7 +724,7 @@ TEST_CASE("radars whose own checks tell the same scale share it, unless their mo
   CHECK_FALSE(comparison.faults().common_scale());  // The front radar has not told it.
   for (int i = 0; i < 3; ++i) {
     const bool is_shared = comparison.refutes_speed_doubt(0, 1.0 / kScale);
-    CHECK((i == 0 || is_shared == (yaw_rad == 0.0)));
+    CHECK(is_shared == (i > 0 && yaw_rad == 0.0));
     comparison.accuse(0);
   }
 }

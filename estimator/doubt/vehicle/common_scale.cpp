@@ -41,10 +41,9 @@ std::optional<double> factor_in_use(const MotionEvidence& evidence, std::size_t 
 /// Whether the Doppler of each radar agrees with the motion by the others: those with another fault
 /// (exchanged mounts) may seem to share a scale.
 bool agree(const MotionEvidence& evidence, RadarSet set) {
+  const double of_all = evidence.sum_by_doppler(set).chi_square();
   return !any_of(set, [&](std::size_t radar) {
-    return evidence.sum_by_doppler(set).chi_square() -
-               evidence.sum_by_doppler(set & ~set_of(radar)).chi_square() >
-           kMaxDecrease;
+    return of_all - evidence.sum_by_doppler(set & ~set_of(radar)).chi_square() > kMaxDecrease;
   });
 }
 

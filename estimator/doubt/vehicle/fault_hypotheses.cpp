@@ -102,7 +102,6 @@ void FaultHypotheses::clear() {
   scale_.forget();
   forget_skid();
   common_motion_.reset();
-  common_scale_.reset();
   unknown_epochs_ = 0;
   was_paused_ = false;
 }
@@ -116,7 +115,7 @@ std::optional<CommonScale::Finding> FaultHypotheses::find_common_scale() const {
 bool FaultHypotheses::refutes_speed_doubt(std::size_t radar, std::int64_t time_us,
                                           std::optional<double> factor) {
   scale_.note_doubt(radar, time_us, factor);
-  if (find_common_scale()) {
+  if (const auto shared = find_common_scale(); shared && contains(shared->radars, radar)) {
     return true;
   }
   const RadarSet present = evidence.epochs() == 0 ? 0U : evidence.present();
@@ -140,7 +139,6 @@ void FaultHypotheses::pause() {
   evidence.forget_epochs();
   forget_skid();
   common_motion_.reset();
-  common_scale_.reset();
   unknown_epochs_ = 0;
   supported_epochs_ = 0;
   was_paused_ = true;
@@ -149,6 +147,7 @@ void FaultHypotheses::pause() {
 void FaultHypotheses::note_scale_learned() {
   convictions_.acquit(common_scale_->radars);
   evidence.clear();  // With the Doppler before.
+  scale_.forget();
   pause();
 }
 
@@ -197,6 +196,7 @@ bool FaultHypotheses::is_skid() {
 }
 
 void FaultHypotheses::forget_skid() {
+  common_scale_.reset();
   slip_changed_us_.reset();
   is_skidding_ = false;
 }

@@ -38,10 +38,11 @@ constexpr double kMaxSkids = 5.0;
 /// Five cycles of the slowest radar, a Bosch GPR. After that nothing of a radar ahead holds the
 /// speed.
 constexpr double kGoneS = 0.5;
+/// Of a Doppler scale that all radars share, as their positions tell it.
+constexpr double kLearnedScaleStd = 0.02;
 /// 27 degrees. Four healthy radars at 43 degrees learned 1 % in 5 minutes of a simulated motorway,
 /// two at 45 learned 4.5 % in 20 minutes of starts and stops. The front radars of RadarScenes are
 /// at 25.
-constexpr double kLearnedScaleStd = 0.02;
 constexpr double kMaxSineOfScale = 0.45;
 constexpr int kMostRadars = 16;
 static_assert(size(kMostRadars) + kVehicleStates <= Innovation::kMaxStates);

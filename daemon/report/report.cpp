@@ -391,10 +391,13 @@ bool is_learned(const RadarStatus& status) {
   return !status.odometry.is_left_out && (kind == FaultKind::mount_yaw || kind == FaultKind::scale);
 }
 
+bool has_fault(const RadarStatus& status) {
+  return (status.belief.doubts & other_radars_contradict) != 0 || is_learned(status);
+}
+
 void add_fault(const RadarConfiguration& radar, const RadarStatus& status,
                std::span<const RadarConfiguration> all, Findings& findings) {
-  const bool is_left_out = (status.belief.doubts & other_radars_contradict) != 0;
-  if (is_left_out || is_learned(status)) {
+  if (has_fault(status)) {
     findings.push_back(fault_finding(radar, status, all));
   }
 }
@@ -405,7 +408,7 @@ Findings contradictions_of(const RadarConfiguration& radar, const RadarStatus& s
                            std::span<const RadarConfiguration> all) {
   const FaultKind kind = status.odometry.cause.kind;
   Findings findings;
-  if (kind != FaultKind::scale && kind != FaultKind::sign) {
+  if (!has_fault(status) || (kind != FaultKind::scale && kind != FaultKind::sign)) {
     add_wrong_speed(radar, status.belief, status.odometry.cause, findings);
   }
   if (!has_common_mount(radar, status, all) && (findings.empty() || kind != FaultKind::unknown)) {

@@ -12,6 +12,7 @@
 namespace cremed {
 namespace {
 
+/// An error that all radars share is found by the own check of each within this time.
 constexpr double kFoundByAllS = 5.0;
 /// With 0.85 and 1.15 the maps still find the targets again.
 constexpr double kMaxShareOfAll = 0.15;

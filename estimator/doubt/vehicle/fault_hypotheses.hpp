@@ -42,14 +42,14 @@ class FaultHypotheses {
   /// A radar's own check found it wrong (SelfCheck).
   void accuse(std::size_t radar, std::int64_t time_us);
   /// Notes that a radar's own check finds its speed wrong (SelfCheck), and the factor on Doppler
-  /// that corrects it, if that is known. True if it is not the error of this radar: at
-  /// least two others have the same speed, and their own checks found nothing wrong for 5 s; or all
-  /// share it (common_scale()).
+  /// that corrects it, if that is known. True if it is not the error of this radar: at least two
+  /// others have the same speed, and their own checks found nothing wrong for 5 s; or all share it
+  /// (common_scale()).
   bool refutes_speed_doubt(std::size_t radar, std::int64_t time_us, std::optional<double> factor);
   /// What was measured until now is not compared any more: a skid has ended, or a mount was learned
   /// anew.
   void pause();
-  /// The state begins anew.
+  /// The state begins anew: a skid that it saw, and a scale that Doppler had, are not judged.
   void forget_skid();
   /// MotionEvidence::motion_with_impossible_slip() if it is not known which radars are wrong.
   [[nodiscard]] std::optional<Eigen::Vector3d> motion_with_impossible_slip() const {

@@ -210,8 +210,8 @@ void MotionEvidence::observe(std::int64_t time_us) {
     epoch[i] = {velocity, {}, {}, {}};
     if (velocity) {
       epoch[i].speed_by_positions = speed_by_positions(i);
-      epoch[i].all = measurements(i, *velocity, Slip::usual);
-      epoch[i].all_by_positions = measurements(i, *velocity, Slip::usual_by_positions);
+      epoch[i].all = measurements(i, epoch[i], Slip::usual);
+      epoch[i].all_by_positions = measurements(i, epoch[i], Slip::usual_by_positions);
     }
   }
 }
@@ -284,15 +284,16 @@ std::optional<MotionEvidence::Speed> MotionEvidence::speed_by_positions(std::siz
   return speed;
 }
 
-MotionSums MotionEvidence::measurements(std::size_t radar, const Velocity& velocity,
+/// Of a radar with a velocity.
+MotionSums MotionEvidence::measurements(std::size_t radar, const Measured& measured,
                                         Slip slip) const {
-  MotionSums sums = by_doppler(radar, velocity);
+  MotionSums sums = by_doppler(radar, *measured.velocity);
   if (!contains(judged(), radar)) {
     return sums;
   }
   const Track& track = tracks_[radar];
   const Eigen::Vector3d along(1.0, -state_.mount(radar).y_m, 0.0);
-  if (const auto speed = speed_by_positions(radar)) {
+  if (const auto& speed = measured.speed_by_positions) {
     sums.add(along, speed->mps, speed->variance,
              track.speed->variance - track.speed->variance_of_method);
   }

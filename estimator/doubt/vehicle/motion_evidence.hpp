@@ -220,7 +220,7 @@ class MotionEvidence {
   [[nodiscard]] std::optional<Velocity> velocity_at(std::size_t radar, std::int64_t time_us) const;
   [[nodiscard]] MotionSums by_doppler(std::size_t mount, const Velocity& velocity) const;
   [[nodiscard]] std::optional<Speed> speed_by_positions(std::size_t radar) const;
-  [[nodiscard]] MotionSums measurements(std::size_t radar, const Velocity& velocity,
+  [[nodiscard]] MotionSums measurements(std::size_t radar, const Measured& measured,
                                         Slip slip) const;
   [[nodiscard]] MotionSums prior(double yaw_rate_std_radps) const;
   void add_slip(MotionSums& sum, Slip slip) const;

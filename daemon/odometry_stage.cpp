@@ -102,11 +102,7 @@ bool OdometryStage::is_awaiting(const ScanQueue::Scan& scan) const {
 /// Not if positions contradict the speed. Other doubts by the radar's own check are decisive only
 /// if the comparison with the other radars is not: a mount may be off, which the odometry learns.
 bool OdometryStage::is_trusted(const RadarChannel& radar) const {
-  const SelfCheck& check = radar.self_check;
-  const bool is_corrected =
-      !check.is_repeated() && filter_->corrects_speed(check.speed_correction());
-  const std::uint32_t doubts =
-      check.doubts() & ~(is_corrected ? std::uint32_t{positions_contradict_speed} : 0U);
+  const std::uint32_t doubts = radar.self_check.doubts();
   return (doubts & positions_contradict_speed) == 0 &&
          ((doubts & ~covariance_too_large) == 0 || !filter_->is_fault_unknown());
 }
@@ -119,6 +115,11 @@ void OdometryStage::use(const ScanQueue::Scan& scan) {
   const std::int64_t begin_us = clock_.now_us();
   const Odometry odometry = filter_->update(radar.index, targets, scan.stamp_us, is_trusted(radar));
   const std::int64_t solve_us = clock_.now_us() - begin_us;
+  if (const double factor = filter_->take_doppler_factor(); factor != 1.0) {
+    for (const auto& each : radars_) {
+      each->correct_doppler(factor);
+    }
+  }
   if (!odometry.is_new) {
     return;
   }

@@ -16,6 +16,12 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
       self_check(configuration.ego_motion),
       scan_clock(decoder->framing().counter_modulus) {}
 
+void RadarChannel::correct_doppler(double factor) {
+  doppler_factor_ *= factor;
+  estimator.correct_doppler(factor);
+  self_check.acquit_speed();
+}
+
 void RadarChannel::count(const EgoMotion& motion) {
   status_.last_motion_status = motion.status;
   ++status_.motions_by_status[static_cast<std::size_t>(motion.status)];
@@ -50,7 +56,7 @@ const RadarStatus& RadarChannel::status(std::int64_t utime_us, const FrameSource
   status_.belief.is_speed_checked = self_check.speed().is_checked();
   const DopplerScale& scale = self_check.scale();
   status_.belief.doppler_correction =
-      scale.is_wrong() ? std::optional(scale.correction()) : std::nullopt;
+      scale.is_wrong() ? std::optional(doppler_factor_ * scale.correction()) : std::nullopt;
   status_.belief.doubts =
       self_check.doubts() | (is_ahead ? std::uint32_t{stamps_run_ahead} : 0U) |
       (is_behind ? std::uint32_t{stamps_run_behind} : 0U) |

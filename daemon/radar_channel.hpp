@@ -26,6 +26,9 @@ struct RadarChannel {
   RadarChannel(const RadarChannel&) = delete;
   RadarChannel& operator=(const RadarChannel&) = delete;
 
+  /// Multiplies the Doppler of all scans from now on by a factor that was learned; its own check
+  /// of the speed begins anew.
+  void correct_doppler(double factor);
   /// Counts an estimate in the status.
   void count(const EgoMotion& motion);
   /// Counts whether a scan was used by the odometry.
@@ -50,7 +53,8 @@ struct RadarChannel {
   bool is_behind = false;  ///< Its stamps are behind those of all other buses.
 
  private:
-  LatencyHistogram latency_;  // Since begin_period().
+  double doppler_factor_ = 1.0;  // Learned in all.
+  LatencyHistogram latency_;     // Since begin_period().
   RadarStatus status_;
 };
 

@@ -20,8 +20,12 @@ using namespace state_layout;
 
 /// An error of scale that all radars share is found within this time of driving.
 constexpr double kScaleFoundS = 1.0;
-/// An error of scale of a single radar is named from here on, too.
-constexpr double kMinNamedScale = 0.02;
+/// A smaller one is left to the filter, which estimates it with this sigma, and not named.
+constexpr double kMinLearnedScale = 0.02;
+/// In all. CommonScale finds 15 % at once.
+constexpr double kMaxLearnedScale = 0.2;
+/// Of what is left of it, a third of what radars' own checks allow (DopplerScale).
+constexpr double kMaxScaleLeft = 0.01;
 
 }  // namespace
 
@@ -44,9 +48,8 @@ OdometryFilter::OdometryFilter(const OdometryOptions& options, std::vector<Pose2
   state_.start();
 }
 
-Odometry OdometryFilter::update(std::size_t radar, const TargetSet& measured, std::int64_t stamp_us,
+Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                                 bool is_trusted) {
-  const TargetSet& targets = doppler_.corrected(measured);
   // 1. Which radars are believed.
   if (!is_trusted) {
     faults_.accuse(radar, stamp_us);
@@ -89,6 +92,7 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& measured, st
       has_turned = learn_common_turn();
     }
     has_turned = learn_common_scale() || has_turned;
+    refine_common_scale();
     if (is_sideways(radar)) {
       condition_.unsettle();
     }
@@ -124,9 +128,7 @@ void OdometryFilter::compare(std::size_t radar, const EgoMotion& motion, bool is
   faults_.evidence.add_motion(radar, motion);
   faults_.note_speed_undecided(radar, is_speed_undecided);
   if (is_trusted && !faults_.is_at_fault(radar)) {
-    EgoMotion corrected = motion;
-    corrected.motion.head<2>() *= doppler_.factor();
-    vehicle_.compare(state_.mount(radar), corrected);
+    vehicle_.compare(state_.mount(radar), motion);
   }
 }
 
@@ -269,15 +271,39 @@ bool OdometryFilter::learn_common_scale() {
   if (!scale || majority_.has_stepped() || traffic_.parked.is_in_doubt()) {
     return false;
   }
-  doppler_.learn(scale->factor);
-  const double error_mps = (scale->factor - 1.0) * state_.gaussian.mean(kSpeed);
+  if (std::abs(doppler_factor_ * scale->factor - 1.0) > kMaxLearnedScale) {
+    return false;
+  }
+  const double left = correct_doppler(scale->factor);
+  const double error_mps = left * state_.gaussian.mean(kSpeed);
   state_.start_scale(error_mps);
   state_.gaussian.add_variance(kX, squared(error_mps * output_.anchor_age_s()));
-  output_.add_error_of_way(error_mps * kScaleFoundS);
+  output_.add_error_of_way(error_mps * std::max(kScaleFoundS - output_.anchor_age_s(), 0.0));
   positions_.clear();
   vehicle_.restart_errors();
   faults_.note_scale_learned();
   return true;
+}
+
+/// The mean factor is within two percent. What the filter estimates of the rest corrects the
+/// radars' own motions as well.
+void OdometryFilter::refine_common_scale() {
+  const double left = state_.gaussian.mean(kCommonScale);
+  if (doppler_factor_ != 1.0 && std::abs(left) > kMaxScaleLeft &&
+      std::abs(left) > kGateSigmas * state_.gaussian.std(kCommonScale)) {
+    state_.gaussian.set_mean(kCommonScale, correct_doppler(1.0 / (1.0 + left)));
+  }
+}
+
+/// Returns the error of scale (kCommonScale) that the Doppler of all radars has with a further
+/// factor. One near 1 in all is left out.
+double OdometryFilter::correct_doppler(double factor) {
+  double in_all = doppler_factor_ * factor;
+  in_all = std::abs(in_all - 1.0) < kMinLearnedScale ? 1.0 : in_all;
+  const double change = in_all / doppler_factor_;
+  new_doppler_factor_ *= change;
+  doppler_factor_ = in_all;
+  return (1.0 + state_.gaussian.mean(kCommonScale)) * change - 1.0;
 }
 
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
@@ -499,8 +525,9 @@ void OdometryFilter::answer_contradiction(std::size_t radar, std::int64_t stamp_
     return;
   }
   vehicle_.restart_errors();
-  if (std::abs(change->x()) > state_.options().static_doppler_mps) {
-    // The maps hold targets that seemed at rest at the wrong speed.
+  if (std::abs(change->x()) > state_.options().static_doppler_mps || doppler_factor_ != 1.0) {
+    // The maps hold targets that seemed at rest at the wrong speed; or all radars have their right
+    // scale again, which new maps tell.
     positions_.clear();
   }
 }
@@ -531,15 +558,15 @@ std::vector<std::optional<LearnedErrors>> OdometryFilter::learned() const {
 FaultCause OdometryFilter::cause(std::size_t radar) const {
   FaultCause cause = faults_.cause(radar);
   if (cause.kind == FaultKind::scale) {
-    cause.value *= doppler_.factor();
+    cause.value *= doppler_factor_;
   }
   if (cause.kind == FaultKind::unknown) {
     cause =
         is_sideways(radar) ? turned_mounts_.cause_of_sideways(radar) : turned_mounts_.cause(radar);
   }
-  const double scale = doppler_.factor() / (1.0 + state_.gaussian.mean(kCommonScale));
-  const bool is_scale = cause.kind == FaultKind::unknown && doppler_.is_learned() &&
-                        std::abs(scale - 1.0) > kMinNamedScale &&
+  const double scale = doppler_factor_ / (1.0 + state_.gaussian.mean(kCommonScale));
+  const bool is_scale = cause.kind == FaultKind::unknown && doppler_factor_ != 1.0 &&
+                        std::abs(scale - 1.0) > kMinLearnedScale &&
                         contains(state_.ahead() & ~left_out(), radar);
   return is_scale ? FaultCause{FaultKind::scale, scale} : cause;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,7 +14,6 @@
 #include "cremed/estimator/doubt/vehicle/fault_hypotheses.hpp"
 #include "cremed/estimator/doubt/vehicle/filter_condition.hpp"
 #include "cremed/estimator/doubt/vehicle/radar_consensus.hpp"
-#include "cremed/estimator/fusion/doppler_correction.hpp"
 #include "cremed/estimator/fusion/majority_follower.hpp"
 #include "cremed/estimator/fusion/measurement/radar_track.hpp"
 #include "cremed/estimator/fusion/measurement/side_slip.hpp"
@@ -64,8 +64,12 @@ class OdometryFilter {
 
   /// Updates with the usable targets of a scan. Returns the odometry at the latest stamp so far. A
   /// radar that is not trusted (SelfCheck) is compared with the filter, but not used.
-  Odometry update(std::size_t radar, const TargetSet& measured, std::int64_t stamp_us,
+  Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                   bool is_trusted = true);
+
+  /// Factor by which the Doppler of all radars is to be multiplied from now on, because they share
+  /// an error of scale; 1 if none was learned since the last call. To be called after update().
+  double take_doppler_factor() { return std::exchange(new_doppler_factor_, 1.0); }
 
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
   void add(const VehicleReading& reading) { vehicle_.add(reading); }
@@ -79,9 +83,9 @@ class OdometryFilter {
   void compare(std::size_t radar, const EgoMotion& motion, bool is_trusted,
                bool is_speed_undecided = false);
 
-  /// See FaultHypotheses. `factor`: on Doppler as measured.
+  /// See FaultHypotheses.
   bool refutes_speed_doubt(std::size_t radar, std::int64_t stamp_us, std::optional<double> factor) {
-    return faults_.refutes_speed_doubt(radar, stamp_us, doppler_.left_of(factor));
+    return faults_.refutes_speed_doubt(radar, stamp_us, factor);
   }
 
   /// With options.rate_hz: the next prediction due by `now_us`. None if none is due, before the
@@ -95,11 +99,6 @@ class OdometryFilter {
   /// A parked vehicle starts, or something departs beside it: meanwhile scans are no evidence for
   /// or against a radar.
   [[nodiscard]] bool is_start_in_doubt() const { return traffic_.parked.is_in_doubt(); }
-  /// The Doppler of all radars is corrected by a learned factor, which is the reason for which the
-  /// own check of a radar finds its speed wrong, by `factor` if that is known.
-  [[nodiscard]] bool corrects_speed(std::optional<double> factor) const {
-    return doppler_.is_learned() && (!factor || !doppler_.left_of(factor));
-  }
   /// Radars contradict each other, or their own positions, and it is not known which are wrong.
   [[nodiscard]] bool is_fault_unknown() const { return faults_.is_unknown(); }
   [[nodiscard]] RadarReport report(std::size_t radar) const;
@@ -120,6 +119,8 @@ class OdometryFilter {
   [[nodiscard]] bool is_sideways(std::size_t radar) const;
   bool learn_common_turn();
   bool learn_common_scale();
+  void refine_common_scale();
+  double correct_doppler(double factor);
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);
@@ -139,7 +140,6 @@ class OdometryFilter {
   [[nodiscard]] Odometry with_condition(Odometry odometry) const;
 
   OdometryState state_;
-  DopplerCorrection doppler_;
   std::vector<std::unique_ptr<RadarTrack>> tracks_;
   RadarConsensus consensus_;
   FaultHypotheses faults_;
@@ -151,6 +151,8 @@ class OdometryFilter {
   PositionFusion positions_;
   OdometryOutput output_;
   VehicleSignals vehicle_;
+  double doppler_factor_ = 1.0;  // Learned in all.
+  double new_doppler_factor_ = 1.0;
   bool has_started_ = false;
   bool was_ok_ = false;  // Since the start.
 };

@@ -70,6 +70,12 @@ void EgoMotionEstimator::forget_reference() {
   has_reference_ = has_velocity_ = has_started_ = false;
 }
 
+void EgoMotionEstimator::correct_doppler(double factor) {
+  options_.correction.doppler_scale *= factor;
+  targets_.scale_doppler(factor);
+  forget_reference();
+}
+
 /// ok if the scan is usable.
 MotionStatus EgoMotionEstimator::select_targets(const RadarScan& scan) {
   targets_.clear();

@@ -77,6 +77,9 @@ class EgoMotionEstimator {
 
   /// To be called when the clock of the stamps was set: the next scan has no reference.
   void forget_reference();
+  /// Multiplies the Doppler of targets() and of all further scans by a factor that was learned
+  /// while driving (OdometryFilter::take_doppler_factor()). The next scan has no reference.
+  void correct_doppler(double factor);
 
   /// The usable targets of the last scan, whatever its status; none with incomplete_scan.
   [[nodiscard]] const TargetSet& targets() const { return targets_; }

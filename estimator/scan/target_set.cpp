@@ -94,6 +94,11 @@ TargetSet& TargetSet::operator=(const TargetSet& other) {
   return *this;
 }
 
+void TargetSet::scale_doppler(double factor) {
+  std::for_each(targets_.begin(), targets_.begin() + static_cast<std::ptrdiff_t>(size_),
+                [&](Target& target) { target.doppler_mps *= factor; });
+}
+
 void TargetSet::add(const Target& target) {
   if (size_ < targets_.size()) {
     targets_[size_++] = target;

@@ -60,6 +60,8 @@ class TargetSet {
   void add(const Detection& detection, const Pose2& vehicle_from_radar);
   /// Adds a target of another set. A full set ignores it.
   void add(const Target& target);
+  /// Multiplies the Doppler of all targets.
+  void scale_doppler(double factor);
   /// Replaces the content by the corrected usable detections of a scan.
   void assign(const RadarScan& scan, const Pose2& vehicle_from_radar, const DetectionLimits& limits,
               SelectionCounters& counters, const DetectionCorrection& correction = {});

@@ -246,6 +246,40 @@ TEST_CASE("A speed that is 10 % too large is excluded and named", "[long]") {
   CHECK(errors_of(outcome, simulated).path < errors_of(run_without(simulated), simulated).path);
 }
 
+TEST_CASE("A Doppler scale that all radars share: their motions and the vehicle's speed are right",
+          "[long]") {
+  const Drive simulated = town("can0", 75.0);
+  Configuration configuration = with_vehicle(simulated);
+  const double wrong = GENERATE(0.94, 1.06);
+  for (RadarConfiguration& radar : configuration.radars) {
+    radar.ego_motion.correction.doppler_scale *= wrong;
+  }
+  const VehicleOutcome outcome = run(configuration, simulated.frames);
+  CAPTURE(wrong);
+  CHECK(signal_state(outcome.speed) == SignalState::ok);
+  CHECK(outcome.speed.odometry.times_left_out == 0);
+  CHECK(outcome.speed.odometry.measurements_used > 500);
+  const std::int64_t learned_us = begin_us(simulated) + 30'000'000;
+  check_credible(outcome, simulated, learned_us);
+  const TrueTrajectory truth = truth_of(simulated);
+  for (std::size_t i = 0; i < configuration.radars.size(); ++i) {
+    double way_m = 0.0;
+    double true_way_m = 0.0;
+    for (const EgoMotion& motion : outcome.sink.motions[i]) {
+      if (motion.has_estimate() && motion.utime_start_us > learned_us) {
+        way_m += motion.motion.x();
+        true_way_m += truth.motion(motion.utime_start_us, motion.utime_us)->x();
+      }
+    }
+    CHECK(true_way_m > 100.0);
+    CHECK(way_m == Approx(true_way_m).epsilon(0.02));
+    const RadarStatus& last = outcome.sink.statuses[i].back();
+    CHECK(last.belief.doubts == 0);
+    CHECK(last.odometry.cause.kind == FaultKind::scale);
+    CHECK(last.odometry.cause.value == Approx(1.0 / wrong).margin(0.015));
+  }
+}
+
 TEST_CASE("A yaw rate that is 10 % too large is excluded and named after the first turns",
           "[long]") {
   const Drive simulated = town();

@@ -142,6 +142,19 @@ TEST_CASE("Lateral radars drive on when those ahead are gone, and hand over to t
   CHECK(verdict_of(*fault, figures).failures().empty());  // Soon right again, after the 8 s too.
 }
 
+TEST_CASE("A Doppler scale that all radars share is learned, and forgotten when it ends") {
+  const std::string kind = GENERATE("all scale 0.95 for 8 s", "all scale 1.05 for 8 s");
+  const FaultDrive drive = simulated_fault_drive("bends", 24.0, car_with_two_behind().radars);
+  const std::vector<FaultCase> faults = UnusualFaults(drive).all();
+  const auto fault = std::find_if(faults.begin(), faults.end(),
+                                  [&](const FaultCase& each) { return each.kind == kind; });
+  REQUIRE(fault != faults.end());
+  const DriveFigures figures = judged(drive, *fault);
+  CAPTURE(kind, figures.beyond_share(), verdict_of(*fault, figures).failures());
+  CHECK(figures.status_share(OdometryStatus::ok) > 0.9);
+  CHECK(verdict_of(*fault, figures).failures().empty());
+}
+
 TEST_CASE("A counter that is one cycle off after a silence is no step of the clock") {
   const FaultDrive drive = simulated_fault_drive("bends", 14.0, car_with_two_behind().radars);
   const std::size_t radar = 0;

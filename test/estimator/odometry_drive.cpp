@@ -28,7 +28,9 @@ Odometry OdometryDrive::next() {
     pass(kPeriodUs / static_cast<std::int64_t>(radars_.size()));
     turn_ = (turn_ + 1) % radars_.size();
   } while (radars_[turn_].is_silent);
-  return filter_->update(turn_, see(turn_), stamp_us_);
+  const Odometry odometry = filter_->update(turn_, see(turn_), stamp_us_);
+  doppler_factor_ *= filter_->take_doppler_factor();
+  return odometry;
 }
 
 Odometry OdometryDrive::drive(double time_s) {
@@ -73,7 +75,7 @@ TargetSet OdometryDrive::see(std::size_t which) {
   }
   perturb(detections, random_);
   for (Detection& detection : detections) {
-    detection.doppler_mps *= radar.doppler_scale;
+    detection.doppler_mps *= radar.doppler_scale * doppler_factor_;
   }
   return targets(detections, radar.configured);
 }

@@ -70,6 +70,7 @@ class OdometryDrive {
   Points points_;
   std::vector<Radar> radars_;
   std::unique_ptr<OdometryFilter> filter_;
+  double doppler_factor_ = 1.0;  // Learned by the filter.
   std::size_t turn_ = 0;
   Eigen::Vector3d pose_ = Eigen::Vector3d::Zero();
   double speed_mps_ = 8.0;

@@ -181,17 +181,19 @@ class UnusualFaults {
     added.put_in = both(of_one, of_other);
   }
 
-  /// All radars have the same error: scales from the start or from 4 s, mounts in the
+  /// All radars have the same error: scales from the start, from 4 s or for 8 s, mounts in the
   /// configuration.
   void add_common() {
     for (const double factor : {0.95, 1.05}) {
-      for (const bool is_from_start : {true, false}) {
-        FaultCase& added =
-            add_to_all(fault_kind("all scale %g", factor) + (is_from_start ? "" : " from 4 s"),
-                       FaultKind::scale);
-        added.time.from_us = is_from_start ? drive_.start_us() : added.time.from_us;
-        added.put_in = put(with_scaled_doppler, every_radar, factor);
-      }
+      const std::string kind = fault_kind("all scale %g", factor);
+      const PutIn put_in = put(with_scaled_doppler, every_radar, factor);
+      add_to_all(kind + " from 4 s", FaultKind::scale).put_in = put_in;
+      FaultCase& from_start = add_to_all(kind, FaultKind::scale);
+      from_start.time.from_us = drive_.start_us();
+      from_start.put_in = put_in;
+      FaultCase& ended = add_to_all(kind + " for 8 s", FaultKind::scale);
+      ended.time.until_us = ended.time.from_us + 8'000'000;
+      ended.put_in = put_in;
     }
     for (const double deg : {-5.0, -2.0, 1.5, 3.0, 10.0}) {
       FaultCase& added = add_to_all(fault_kind("all mounts %g deg off", deg), FaultKind::mount_yaw);

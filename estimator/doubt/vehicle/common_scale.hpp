@@ -33,8 +33,8 @@ class CommonScale {
     RadarSet radars;  ///< That share the error.
   };
   /// Each judged radar that is heard needs a factor in the same direction: one in use by its map,
-  /// one that its own check `accused` by that check. One that was found at fault by the others
-  /// tells none, but its Doppler must agree with that of the rest.
+  /// one that is at fault by its own check, if that found it wrong within 5 s. One at fault that
+  /// its own check did not accuse tells none, but its Doppler must agree with that of the rest.
   [[nodiscard]] std::optional<Finding> find(const MotionEvidence& evidence, RadarSet at_fault,
                                             RadarSet accused) const;
 

@@ -19,7 +19,7 @@ RadarChannel::RadarChannel(const RadarConfiguration& configuration, std::size_t 
 void RadarChannel::correct_doppler(double factor) {
   doppler_factor_ *= factor;
   estimator.correct_doppler(factor);
-  self_check.acquit_speed();
+  self_check.begin_anew();
 }
 
 void RadarChannel::count(const EgoMotion& motion) {

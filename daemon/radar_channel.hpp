@@ -27,7 +27,7 @@ struct RadarChannel {
   RadarChannel& operator=(const RadarChannel&) = delete;
 
   /// Multiplies the Doppler of all scans from now on by a factor that was learned; its own check
-  /// of the speed begins anew.
+  /// begins anew.
   void correct_doppler(double factor);
   /// Counts an estimate in the status.
   void count(const EgoMotion& motion);

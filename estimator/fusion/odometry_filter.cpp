@@ -22,10 +22,6 @@ using namespace state_layout;
 constexpr double kScaleFoundS = 1.0;
 /// A smaller one is left to the filter, which estimates it with this sigma, and not named.
 constexpr double kMinLearnedScale = 0.02;
-/// In all. CommonScale finds 15 % at once.
-constexpr double kMaxLearnedScale = 0.2;
-/// Of what is left of it, a third of what radars' own checks allow (DopplerScale).
-constexpr double kMaxScaleLeft = 0.01;
 
 }  // namespace
 
@@ -92,7 +88,6 @@ Odometry OdometryFilter::update(std::size_t radar, const TargetSet& targets, std
       has_turned = learn_common_turn();
     }
     has_turned = learn_common_scale() || has_turned;
-    refine_common_scale();
     if (is_sideways(radar)) {
       condition_.unsettle();
     }
@@ -268,14 +263,16 @@ bool OdometryFilter::learn_common_turn() {
 /// Learns an error of scale that all radars in use share; true if there was one.
 bool OdometryFilter::learn_common_scale() {
   const auto& scale = faults_.common_scale();
-  if (!scale || majority_.has_stepped() || traffic_.parked.is_in_doubt()) {
+  if (!scale || new_doppler_factor_ != 1.0 || majority_.has_stepped() ||
+      traffic_.parked.is_in_doubt()) {
     return false;
   }
-  if (std::abs(doppler_factor_ * scale->factor - 1.0) > kMaxLearnedScale) {
-    return false;
-  }
-  const double left = correct_doppler(scale->factor);
-  const double error_mps = left * state_.gaussian.mean(kSpeed);
+  double in_all = doppler_factor_ * scale->factor;
+  in_all = std::abs(in_all - 1.0) < kMinLearnedScale ? 1.0 : in_all;
+  new_doppler_factor_ = in_all / doppler_factor_;
+  doppler_factor_ = in_all;
+  const double estimated = 1.0 + state_.gaussian.mean(kCommonScale);
+  const double error_mps = (estimated * new_doppler_factor_ - 1.0) * state_.gaussian.mean(kSpeed);
   state_.start_scale(error_mps);
   state_.gaussian.add_variance(kX, squared(error_mps * output_.anchor_age_s()));
   output_.add_error_of_way(error_mps * std::max(kScaleFoundS - output_.anchor_age_s(), 0.0));
@@ -283,27 +280,6 @@ bool OdometryFilter::learn_common_scale() {
   vehicle_.restart_errors();
   faults_.note_scale_learned();
   return true;
-}
-
-/// The mean factor is within two percent. What the filter estimates of the rest corrects the
-/// radars' own motions as well.
-void OdometryFilter::refine_common_scale() {
-  const double left = state_.gaussian.mean(kCommonScale);
-  if (doppler_factor_ != 1.0 && std::abs(left) > kMaxScaleLeft &&
-      std::abs(left) > kGateSigmas * state_.gaussian.std(kCommonScale)) {
-    state_.gaussian.set_mean(kCommonScale, correct_doppler(1.0 / (1.0 + left)));
-  }
-}
-
-/// Returns the error of scale (kCommonScale) that the Doppler of all radars has with a further
-/// factor. One near 1 in all is left out.
-double OdometryFilter::correct_doppler(double factor) {
-  double in_all = doppler_factor_ * factor;
-  in_all = std::abs(in_all - 1.0) < kMinLearnedScale ? 1.0 : in_all;
-  const double change = in_all / doppler_factor_;
-  new_doppler_factor_ *= change;
-  doppler_factor_ = in_all;
-  return (1.0 + state_.gaussian.mean(kCommonScale)) * change - 1.0;
 }
 
 /// Adds this error of scale to the Doppler of each judged radar, the speed, and the way since the
@@ -525,9 +501,11 @@ void OdometryFilter::answer_contradiction(std::size_t radar, std::int64_t stamp_
     return;
   }
   vehicle_.restart_errors();
-  if (std::abs(change->x()) > state_.options().static_doppler_mps || doppler_factor_ != 1.0) {
-    // The maps hold targets that seemed at rest at the wrong speed; or all radars have their right
-    // scale again, which new maps tell.
+  const double learned_mps = kMinLearnedScale * std::abs(state_.gaussian.mean(kSpeed));
+  if (std::abs(change->x()) > state_.options().static_doppler_mps ||
+      (doppler_factor_ != 1.0 && std::abs(change->x()) > learned_mps)) {
+    // The maps hold targets that seemed at rest at the wrong speed; or the learned error of scale
+    // has ended, which new maps tell.
     positions_.clear();
   }
 }

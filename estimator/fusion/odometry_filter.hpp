@@ -67,8 +67,9 @@ class OdometryFilter {
   Odometry update(std::size_t radar, const TargetSet& targets, std::int64_t stamp_us,
                   bool is_trusted = true);
 
-  /// Factor by which the Doppler of all radars is to be multiplied from now on, because they share
-  /// an error of scale; 1 if none was learned since the last call. To be called after update().
+  /// Factor by which the Doppler of all radars must be multiplied from now on, because they share
+  /// an error of scale; 1 if none was learned since the last call. The state expects it to be
+  /// applied: to be called after each update().
   double take_doppler_factor() { return std::exchange(new_doppler_factor_, 1.0); }
 
   /// A value of the vehicle's bus, to be used at the next scan. In the order of the stamps.
@@ -119,8 +120,6 @@ class OdometryFilter {
   [[nodiscard]] bool is_sideways(std::size_t radar) const;
   bool learn_common_turn();
   bool learn_common_scale();
-  void refine_common_scale();
-  double correct_doppler(double factor);
   bool learn_mount_if_turned(std::size_t radar);
   void allow_for_scale(double scale);
   void reject_jump(std::size_t radar, const SpeedJump::Jump& jump);

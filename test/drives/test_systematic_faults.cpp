@@ -153,6 +153,11 @@ TEST_CASE("A Doppler scale that all radars share is learned, and forgotten when 
   CAPTURE(kind, figures.beyond_share(), verdict_of(*fault, figures).failures());
   CHECK(figures.status_share(OdometryStatus::ok) > 0.9);
   CHECK(verdict_of(*fault, figures).failures().empty());
+  // Named in the status of each second, within two of the begin and until three after the end.
+  const int named =
+      figures.radars[kFrontOfThree].causes.at(static_cast<std::size_t>(FaultKind::scale));
+  CHECK(named >= 6);
+  CHECK(named <= 11);
 }
 
 TEST_CASE("A counter that is one cycle off after a silence is no step of the clock") {

@@ -159,6 +159,35 @@ TEST_CASE("Doppler at the end of an acceleration is not taken for the mean speed
   }
 }
 
+TEST_CASE("a learned factor corrects Doppler, that of the last scan too, and no motion spans it") {
+  constexpr double kScale = 0.9;
+  constexpr double kOffsetMps = 0.05;
+  Drive drive({8.0, 0.0, 0.1}, kFront);
+  const auto estimator = make_estimator(kFront, [](EgoMotionOptions& options) {
+    options.correction.doppler_offset_mps = kOffsetMps;
+  });
+  const auto next = [&] {
+    RadarScan scan = drive.next();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(scan.count); ++i) {
+      double& doppler_mps = scan.detections[i].doppler_mps;
+      doppler_mps = kScale * doppler_mps + kOffsetMps;
+    }
+    return scan;
+  };
+  estimator->update(next());
+  estimator->update(next());
+  const TargetSet before = estimator->targets();
+  estimator->correct_doppler(1.0 / kScale);
+  REQUIRE(estimator->targets().size() == before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK(estimator->targets()[i].doppler_mps == Approx(before[i].doppler_mps / kScale));
+  }
+  CHECK(estimator->update(next()).status == MotionStatus::no_reference);
+  for (int i = 0; i < 10; ++i) {
+    check_motion(estimator->update(next()), drive, 1.0);
+  }
+}
+
 TEST_CASE("an incomplete scan is used with the targets it has, and flagged") {
   const ScanStatus why = GENERATE(ScanStatus::missing_parts, ScanStatus::dropped_frames);
   Drive drive({8.0, 0.0, 0.1}, kFront);

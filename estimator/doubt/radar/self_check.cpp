@@ -65,6 +65,12 @@ void SelfCheck::acquit_speed() {
   scale_.acquit();
 }
 
+void SelfCheck::begin_anew() {
+  acquit_speed();
+  doppler_.clear();
+  next_.clear();
+}
+
 void SelfCheck::compare_with_last(const EgoMotion& motion) {
   if (last_.status != MotionStatus::ok || last_.utime_us != motion.utime_start_us) {
     return;

@@ -52,6 +52,8 @@ class SelfCheck {
   [[nodiscard]] bool is_speed_undecided() const { return scale_.is_open(); }
   /// Discards this finding: other radars confirm the speed by Doppler.
   void acquit_speed();
+  /// Discards all findings: its Doppler is corrected otherwise from now on.
+  void begin_anew();
 
   /// NIS of positions against Doppler (EgoMotion::doppler_nis).
   [[nodiscard]] const NisMean& doppler() const { return doppler_; }

@@ -14,8 +14,8 @@ namespace {
 
 /// An error that all radars share is found by the own check of each within this time.
 constexpr double kFoundByAllS = 5.0;
-/// With 0.85 and 1.15 the maps still find the targets again.
-constexpr double kMaxShareOfAll = 0.15;
+/// With 0.85 the maps still find the targets again; what was learned can be taken back.
+constexpr double kMinFactorOfAll = 0.85;
 /// Of three radars or more, epochs that suffice.
 constexpr std::size_t kNewest = 3;
 /// Of two radars a mean of a second is needed, since means of 0.45 s of a healthy pair reach 1.9
@@ -82,10 +82,11 @@ std::optional<CommonScale::Finding> CommonScale::find(const MotionEvidence& evid
   const RadarSet told = faster | slower;
   const RadarSet radars = told | (present & at_fault & ~accused);
   const int count = std::popcount(told);
+  const double factor = 1.0 + sum / std::max(count, 1);
   const bool is_common = count > 1 && (faster == 0 || slower == 0) &&
-                         (present & ~at_fault & ~told) == 0 &&
-                         std::abs(sum) < kMaxShareOfAll * count && agree(evidence, radars);
-  return is_common ? std::optional(Finding{1.0 + sum / count, radars}) : std::nullopt;
+                         (present & ~at_fault & ~told) == 0 && factor > kMinFactorOfAll &&
+                         factor < 1.0 / kMinFactorOfAll && agree(evidence, radars);
+  return is_common ? std::optional(Finding{factor, radars}) : std::nullopt;
 }
 
 }  // namespace cremed

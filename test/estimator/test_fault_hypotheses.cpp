@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
@@ -389,6 +390,31 @@ TEST_CASE("which of two radars on one axis is upside down is not known") {
   comparison.drive(20.0, turned_over(guilty));
   CHECK(comparison.faults().at_fault() == 0);
   CHECK(comparison.faults().is_unknown());
+}
+
+TEST_CASE("two rear radars that are turned alike are not exchanged, each other's mounts are") {
+  // As of the nuScenes car: one that is turned by twice this fits the mount of the other.
+  constexpr double kAxisRad = 0.09;
+  const Pose2 left{-0.6, 0.63, std::numbers::pi - kAxisRad};
+  const Pose2 right{-0.6, -0.63, -std::numbers::pi + kAxisRad};
+  const double yaw_rad = GENERATE(-0.17, 0.17);
+  Comparison comparison({kFront, left, right, kLeft, kRight});
+  comparison.drive(5.0, turned(0b00110, yaw_rad));
+  REQUIRE(comparison.faults().at_fault() == 0b00110U);
+  // The one that fits the other's mount may as well be upside down.
+  const std::size_t clear = yaw_rad > 0.0 ? 2 : 1;
+  CHECK(comparison.faults().cause(clear).kind == FaultKind::mount_yaw);
+  CHECK(comparison.faults().cause(clear).value == Approx(yaw_rad).margin(0.03));
+  CHECK(comparison.faults().cause(3 - clear).kind == FaultKind::unknown);
+  Comparison swapped({kFront, left, right, kLeft, kRight});
+  swapped.drive(5.0, [&](std::size_t radar, Comparison::Measured& measured) {
+    turned(0b00010, 2.0 * kAxisRad)(radar, measured);
+    turned(0b00100, -2.0 * kAxisRad)(radar, measured);
+  });
+  REQUIRE(swapped.faults().at_fault() == 0b00110U);
+  for (const std::size_t i : {1, 2}) {
+    CHECK(swapped.faults().cause(i).kind == FaultKind::exchanged);
+  }
 }
 
 TEST_CASE("two radars that look aside with each other's mounts are at fault") {

@@ -39,9 +39,8 @@ inline constexpr auto kNotYet = std::to_array<NotYet>({
     {"late 500 ms", "", "BU", "noticed when braking or turning only"},
     {"all mounts 1.5 deg off", "B", "", "0103: the slip tells it after seconds only"},
     {"all scale 0.95", "BO", "", "0103, 0796: for half a second, until it is learned"},
-    {"two turned -5 deg", "C", "", "0103, 0796: rear radars turned alike look as if exchanged"},
-    {"two turned 5 deg", "BC", "", "likewise; 0796: for half a second, until it is found"},
-    {"two turned 10 deg", "OC", "", "likewise"},
+    {"two turned 5 deg", "B", "", "0796: for half a second, until it is found"},
+    {"two turned 10 deg", "O", "", "likewise"},
 });
 
 }  // namespace cremed::test

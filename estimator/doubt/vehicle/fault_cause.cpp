@@ -316,17 +316,22 @@ double FaultCauseSearch::gain_at(std::size_t mount) const {
   return is_complete(lags_) && explains ? own - other : 0.0;
 }
 
-FaultCause FaultCauseSearch::cause(RadarSet at_fault) const {
+/// Unknown if it fits none of their mounts.
+FaultCause FaultCauseSearch::exchanged_with(RadarSet radars) const {
   FaultCause exchanged;
   double most = kMinDifference;
-  for_each(at_fault, [&](std::size_t other) {
+  for_each(radars, [&](std::size_t other) {
     if (const double gain = gain_at(other); gain > most) {
       most = gain;
       exchanged = {FaultKind::exchanged, 0.0, other};
     }
   });
-  if (exchanged.kind == FaultKind::exchanged) {
-    return exchanged;
+  return exchanged;
+}
+
+FaultCause FaultCauseSearch::cause(RadarSet movable) const {
+  if (const FaultCause cause = exchanged_with(movable); cause.kind == FaultKind::exchanged) {
+    return cause;
   }
   const Finding found = find();
   return found.is_clear ? found.cause : FaultCause();

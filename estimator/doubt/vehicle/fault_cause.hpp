@@ -34,7 +34,7 @@ namespace cremed {
 ///     exchanged      e at the mount of another radar
 ///
 /// A cause is named if no other one explains the data. But if they fit the mount of another radar
-/// at fault, it is exchanged, whatever else would explain them.
+/// that may not be at its own either, it is exchanged, whatever else would explain them.
 class FaultCauseSearch {
  public:
   /// `mounts` of all radars, which must outlive this object.
@@ -62,8 +62,12 @@ class FaultCauseSearch {
   [[nodiscard]] Finding find_others_late() const;
   /// By how much another radar's mount lowers chi-square; 0: it does not explain the data.
   [[nodiscard]] double gain_at(std::size_t mount) const;
-  /// The cause to be reported. `at_fault`: all radars at fault; only these may be exchanged.
-  [[nodiscard]] FaultCause cause(RadarSet at_fault) const;
+  /// Whether it is surely not exchanged with another one of these: another cause is clear.
+  [[nodiscard]] bool is_at_own_mount(RadarSet radars) const {
+    return exchanged_with(radars).kind == FaultKind::unknown && find().is_clear;
+  }
+  /// The cause to be reported. `movable`: the radars with which it may be exchanged.
+  [[nodiscard]] FaultCause cause(RadarSet movable) const;
 
  private:
   static constexpr std::size_t kLags = 6;
@@ -97,6 +101,7 @@ class FaultCauseSearch {
   /// `at_once`: without delay.
   void try_late(Candidates& candidates, const VelocityMoments& at_once, const Lags& lags) const;
   void try_mount_yaw(Candidates& candidates) const;
+  [[nodiscard]] FaultCause exchanged_with(RadarSet radars) const;
   [[nodiscard]] bool explains(double chi_square) const;
   [[nodiscard]] double gain(double healthy, double chi_square) const;
 

@@ -81,8 +81,12 @@ FaultHypotheses::FaultHypotheses(const OdometryState& state)
   }
 }
 
+/// Of two rear radars that are turned alike one may fit the mount of the other, which is at its
+/// own.
 FaultCause FaultHypotheses::cause(std::size_t radar) const {
-  const FaultCause own = is_at_fault(radar) ? causes_[radar].cause(at_fault()) : FaultCause();
+  const RadarSet movable =
+      filter(at_fault(), [&](std::size_t i) { return !causes_[i].is_at_own_mount(at_fault()); });
+  const FaultCause own = is_at_fault(radar) ? causes_[radar].cause(movable) : FaultCause();
   const bool may_be_common = own.kind == FaultKind::unknown && common_motion_ && is_unknown() &&
                              contains(evidence.judged(), radar);
   if (!may_be_common) {
